@@ -1,0 +1,33 @@
+# make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
+.PHONY: run test build calibrate sanitize bench format clean
+
+run: build
+	@build/release/bin/wearwell fit examples/joint/study.toml -o build/joint-results
+
+test: build
+	@ctest --preset release
+
+# Simulation-based calibration: slow, so apart from `make test`.
+calibrate: build
+	@ctest --preset calibration
+
+sanitize: setup
+	@cmake --preset asan-ubsan >/dev/null && cmake --build --preset asan-ubsan && ctest --preset asan-ubsan
+	@cmake --preset tsan >/dev/null && cmake --build --preset tsan && ctest --preset tsan
+
+bench: build
+	@bench/run
+
+build: setup
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release
+
+.PHONY: setup
+setup:
+	@setup/install
+
+format:
+	@git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+clean:
+	@rm -rf build

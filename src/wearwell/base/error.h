@@ -1,0 +1,18 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace wearwell {
+
+/// The request or the data is wrong: exit code 2. The message names the offender (file, row,
+/// column, value) and what is allowed.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The machine failed (disk, memory): exit code 3.
+struct MachineError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace wearwell
