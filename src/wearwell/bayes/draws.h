@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+namespace wearwell {
+
+/// What NUTS reports of one draw, as CmdStan's columns of the same names.
+struct NutsStep {
+  double accept_stat;  ///< mean acceptance probability over the trajectory
+  int treedepth;
+  int n_leapfrog;
+  bool divergent;
+  double energy;  ///< Hamiltonian of the draw
+};
+
+/// One chain's draws after warm-up.
+struct Chain {
+  Eigen::MatrixXd values;           ///< draws x parameters, natural, SI
+  std::vector<double> log_density;  ///< of each draw, where the sampler walked: with the Jacobian for NUTS and exact
+  std::vector<NutsStep> nuts;       ///< one a draw; empty for other methods
+  double accept_rate = 1;           ///< accepted proposals (Metropolis) or mean accept_stat (NUTS)
+  std::vector<std::string> notes;   ///< what warm-up adapted, one line each
+};
+
+using Draws = std::vector<Chain>;  ///< chains of equal length
+
+}  // namespace wearwell

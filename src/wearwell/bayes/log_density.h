@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+
+namespace wearwell {
+
+/// The most variables a density may have; fixes the size of scratch on the stack, so that no evaluation allocates.
+inline constexpr int max_dimension = 64;
+
+/// The logarithm of a density, up to a constant. -infinity outside the support and nowhere else; any other failure
+/// throws. Evaluations are thread-safe.
+class LogDensity {
+ public:
+  virtual ~LogDensity() = default;
+
+  /// Number of variables, 1..max_dimension.
+  virtual int dimension() const = 0;
+
+  virtual double value(std::span<const double> x) const = 0;
+
+  /// The value at `x`, and its derivatives in `gradient`. The gradient is unspecified where the value is -infinity.
+  virtual double value_and_gradient(std::span<const double> x, std::span<double> gradient) const = 0;
+};
+
+}  // namespace wearwell

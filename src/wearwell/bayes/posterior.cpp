@@ -1,0 +1,110 @@
+#include "wearwell/bayes/posterior.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/math/view.h"
+
+namespace wearwell {
+namespace {
+
+constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
+
+// A likelihood that overflowed is far outside of where any parameter can be.
+double in_support(double value) { return std::isnan(value) ? minus_infinity : value; }
+
+}  // namespace
+
+Posterior::Posterior(std::vector<Parameter> parameters, std::shared_ptr<const LogDensity> likelihood)
+    : parameters_(std::move(parameters)), likelihood_(std::move(likelihood)) {
+  if (dimension() != likelihood_->dimension()) {
+    throw std::logic_error("posterior: parameters and likelihood differ in number");
+  }
+  if (parameters_.empty() || dimension() > max_dimension) {
+    throw InputError(fmt::format("the model has {} parameters, 1 to {} are possible",
+                                 parameters_.size(), max_dimension));
+  }
+  for (const Parameter& p : parameters_) {
+    const Law& prior = p.prior;
+    if (!(prior.lower < p.start && p.start < prior.upper)) {
+      throw std::logic_error(fmt::format("posterior: start of {} is outside its support", p.name));
+    }
+    // From a bound, one unit of z is a factor of e in the distance to it.
+    const double scale = std::isfinite(prior.lower)   ? p.start - prior.lower
+                         : std::isfinite(prior.upper) ? prior.upper - p.start
+                                                      : p.scale;
+    transforms_.emplace_back(prior.lower, prior.upper, scale);
+  }
+  const Eigen::VectorXd z = start();
+  if (!std::isfinite(value(view(z)))) {
+    throw InputError("the posterior is zero at plausible parameter values: prior, data and law contradict each other");
+  }
+}
+
+double Posterior::value(std::span<const double> z) const {
+  std::array<double, max_dimension> x;
+  double sum = 0;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const Transform::Point point = transforms_[i].from_real(z[i]);
+    const Law& prior = parameters_[i].prior;
+    if (!(prior.lower < point.x && point.x < prior.upper)) return minus_infinity;
+    x[i] = point.x;
+    sum += log_density(prior, point.x).value + point.log_jacobian;
+  }
+  return in_support(sum + likelihood_->value(std::span(x.data(), parameters_.size())));
+}
+
+double Posterior::value_and_gradient(std::span<const double> z, std::span<double> gradient) const {
+  std::array<double, max_dimension> x, slope, rest;
+  double sum = 0;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const Transform::Point point = transforms_[i].from_real(z[i]);
+    const Law& prior = parameters_[i].prior;
+    if (!(prior.lower < point.x && point.x < prior.upper)) return minus_infinity;
+    x[i] = point.x;
+    slope[i] = point.slope;
+    const LogDensityAndSlope p = log_density(prior, point.x);
+    sum += p.value + point.log_jacobian;
+    rest[i] = p.slope * point.slope + point.log_jacobian_slope;
+  }
+  sum += likelihood_->value_and_gradient(std::span(x.data(), parameters_.size()), gradient);
+  for (std::size_t i = 0; i < parameters_.size(); ++i) gradient[i] = gradient[i] * slope[i] + rest[i];
+  return in_support(sum);
+}
+
+double Posterior::log_prior(std::span<const double> x) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    sum += log_density(parameters_[i].prior, x[i]).value;
+  }
+  return sum;
+}
+
+double Posterior::natural_value(std::span<const double> x) const {
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const Law& prior = parameters_[i].prior;
+    if (!(prior.lower < x[i] && x[i] < prior.upper)) return minus_infinity;
+  }
+  return in_support(log_prior(x) + likelihood_->value(x));
+}
+
+void Posterior::to_natural(std::span<const double> z, std::span<double> x) const {
+  for (std::size_t i = 0; i < parameters_.size(); ++i) x[i] = transforms_[i].from_real(z[i]).x;
+}
+
+Eigen::VectorXd Posterior::start() const {
+  Eigen::VectorXd z(dimension());
+  for (int i = 0; i < dimension(); ++i) z[i] = transforms_[i].to_real(parameters_[i].start);
+  return z;
+}
+
+Eigen::VectorXd Posterior::to_real(std::span<const double> x) const {
+  Eigen::VectorXd z(dimension());
+  for (int i = 0; i < dimension(); ++i) z[i] = transforms_[i].to_real(x[i]);
+  return z;
+}
+
+}  // namespace wearwell

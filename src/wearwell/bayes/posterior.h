@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <memory>
+#include <vector>
+
+#include "wearwell/bayes/log_density.h"
+#include "wearwell/bayes/parameter.h"
+#include "wearwell/prob/transform.h"
+
+namespace wearwell {
+
+/// Bayes' rule: log prior + log likelihood. As a LogDensity it lives on the whole real line of every parameter
+/// (z, with the Jacobian of the transform); the natural parameters are x.
+class Posterior final : public LogDensity {
+ public:
+  /// `likelihood` takes the natural parameters in the order of `parameters`. Throws InputError when a start value is
+  /// outside its support or when the posterior is not finite there.
+  Posterior(std::vector<Parameter> parameters, std::shared_ptr<const LogDensity> likelihood);
+
+  int dimension() const override { return static_cast<int>(parameters_.size()); }
+  double value(std::span<const double> z) const override;
+  double value_and_gradient(std::span<const double> z, std::span<double> gradient) const override;
+
+  const std::vector<Parameter>& parameters() const { return parameters_; }
+  const LogDensity& likelihood() const { return *likelihood_; }
+
+  double log_prior(std::span<const double> x) const;
+
+  /// log prior + log likelihood of natural parameters, -infinity outside the support.
+  double natural_value(std::span<const double> x) const;
+
+  /// Natural parameters of z.
+  void to_natural(std::span<const double> z, std::span<double> x) const;
+
+  /// z of the parameters' start values.
+  Eigen::VectorXd start() const;
+
+  /// z of natural parameters strictly inside the support.
+  Eigen::VectorXd to_real(std::span<const double> x) const;
+
+ private:
+  std::vector<Parameter> parameters_;
+  std::vector<Transform> transforms_;
+  std::shared_ptr<const LogDensity> likelihood_;
+};
+
+}  // namespace wearwell

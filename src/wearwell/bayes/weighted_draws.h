@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "wearwell/base/rng.h"
+
+namespace wearwell {
+
+/// A posterior as weighted points: the draws of a sampler, all of one weight, or the nodes of a quadrature. A node
+/// stands for a cell; `lower` and `upper` hold, for each axis of the integration, the points where the cell ends.
+struct WeightedDraws {
+  Eigen::MatrixXd values;               ///< points x parameters, natural, SI
+  Eigen::VectorXd weights;              ///< sum to 1
+  std::vector<Eigen::MatrixXd> lower;   ///< one per axis, like `values`; empty for draws
+  std::vector<Eigen::MatrixXd> upper;
+};
+
+/// The distribution of one number: points, each spread evenly over center +- half_width (0 for draws).
+class Distribution {
+ public:
+  Distribution(const WeightedDraws& draws, const std::function<double(const double* x)>& quantity);
+
+  double mean() const;
+  double sd() const;
+  double cdf(double x) const;
+
+  /// The x with cdf(x) = p. For draws, R's type 7 (linear between order statistics).
+  double quantile(double p) const;
+
+  const std::vector<double>& centers() const { return center_; }
+  const std::vector<double>& weights() const { return weight_; }
+
+ private:
+  // Sorted by center; points at infinity (a life that never ends) come last.
+  std::vector<double> center_, half_width_, weight_;
+  bool cells_ = false;
+};
+
+/// One draw: a point by its weight, then evenly within its cell.
+class WeightedSampler {
+ public:
+  explicit WeightedSampler(const WeightedDraws& draws);
+  Eigen::VectorXd operator()(Rng& rng) const;
+
+ private:
+  const WeightedDraws& draws_;
+  std::vector<double> cumulated_;
+};
+
+}  // namespace wearwell

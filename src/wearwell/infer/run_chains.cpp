@@ -1,0 +1,104 @@
+#include "wearwell/infer/run_chains.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/infer/metropolis.h"
+#include "wearwell/infer/nuts.h"
+#include "wearwell/infer/warmup.h"
+#include "wearwell/math/view.h"
+
+namespace wearwell {
+namespace {
+
+// As Stan does on its own scale: uniform on (-2, 2) in every direction, until inside the support.
+Eigen::VectorXd random_start(const LogDensity& whitened, Rng& rng) {
+  Eigen::VectorXd u(whitened.dimension());
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    for (double& each : u) each = rng.uniform(-2, 2);
+    if (std::isfinite(whitened.value(view(u)))) return u;
+  }
+  throw InputError("no start with a positive posterior density in 100 attempts");
+}
+
+template <class RunChain>
+Draws run_chains(const RunSettings& settings, const RunChain& run_chain) {
+  Draws draws(static_cast<std::size_t>(settings.chains));
+  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_for(0, settings.chains, [&](int c) {
+      Rng rng(settings.seed, settings.first_stream + static_cast<std::uint64_t>(c));
+      draws[static_cast<std::size_t>(c)] = run_chain(rng);
+    });
+  });
+  return draws;
+}
+
+Chain nuts_chain(const Posterior& posterior, const Whitening& whitening, const NutsSettings& options,
+                 const RunSettings& settings, Rng& rng) {
+  const WhitenedDensity density(posterior, whitening);
+  Nuts nuts(density, options.dense_metric, options.max_treedepth);
+  nuts.set_position(random_start(density, rng));
+
+  nuts.find_reasonable_step_size(rng);
+  WindowedWarmup warmup(settings.warmup, options.target_accept);
+  for (int i = 0; i < settings.warmup; ++i) warmup.adapt(i, nuts.step(rng), nuts, rng);
+  if (settings.warmup > 0) warmup.finish(nuts);
+
+  Chain chain;
+  chain.values.resize(settings.draws, posterior.dimension());
+  chain.nuts.reserve(static_cast<std::size_t>(settings.draws));
+  chain.log_density.reserve(static_cast<std::size_t>(settings.draws));
+  Eigen::VectorXd x(posterior.dimension());
+  double accept = 0;
+  for (int i = 0; i < settings.draws; ++i) {
+    chain.nuts.push_back(nuts.step(rng));
+    accept += chain.nuts.back().accept_stat;
+    posterior.to_natural(view(whitening(nuts.point().position)), view(x));
+    chain.values.row(i) = x;
+    chain.log_density.push_back(nuts.point().log_density);
+  }
+  chain.accept_rate = accept / settings.draws;
+  chain.notes.push_back(fmt::format("Step size = {:.6g}", nuts.step_size));
+  return chain;
+}
+
+}  // namespace
+
+Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const NutsSettings& nuts,
+               const RunSettings& settings) {
+  return run_chains(settings, [&](Rng& rng) {
+    return nuts_chain(posterior, whitening, nuts, settings, rng);
+  });
+}
+
+Draws run_metropolis(const Posterior& posterior, const Whitening& whitening,
+                     const MetropolisSettings& metropolis, const RunSettings& settings) {
+  Eigen::VectorXd half_width;
+  if (metropolis.half_width) {
+    half_width = *metropolis.half_width;
+  } else {
+    // The parameters' spread at the mode, to first order; warm-up finds the common factor.
+    Eigen::VectorXd variance = Eigen::VectorXd::Zero(posterior.dimension());
+    Eigen::VectorXd center(posterior.dimension()), moved(posterior.dimension());
+    posterior.to_natural(view(whitening.center), view(center));
+    for (int a = 0; a < posterior.dimension(); ++a) {
+      const Eigen::VectorXd z = whitening.center + whitening.scale.col(a);
+      posterior.to_natural(view(z), view(moved));
+      variance += (moved - center).cwiseAbs2();
+    }
+    half_width = variance.cwiseSqrt();
+  }
+  return run_chains(settings, [&](Rng& rng) {
+    const WhitenedDensity density(posterior, whitening);
+    Eigen::VectorXd start(posterior.dimension());
+    posterior.to_natural(view(whitening(random_start(density, rng))), view(start));
+    return metropolis_chain(posterior, start, half_width, !metropolis.half_width, settings, rng);
+  });
+}
+
+}  // namespace wearwell

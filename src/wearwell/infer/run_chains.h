@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+
+#include "wearwell/bayes/draws.h"
+#include "wearwell/bayes/posterior.h"
+#include "wearwell/infer/settings.h"
+#include "wearwell/infer/whitened.h"
+
+namespace wearwell {
+
+struct NutsSettings {
+  bool dense_metric = false;
+  double target_accept = 0.8;
+  int max_treedepth = 10;
+};
+
+/// Independent NUTS chains on the whitened real line, from starts spread over several posterior widths.
+Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const NutsSettings& nuts,
+               const RunSettings& settings);
+
+struct MetropolisSettings {
+  std::optional<Eigen::VectorXd> half_width;  ///< of the proposals, SI; tuned in warm-up when not given
+};
+
+/// Independent Metropolis-Hastings chains on the natural parameters, from starts as for NUTS.
+Draws run_metropolis(const Posterior& posterior, const Whitening& whitening,
+                     const MetropolisSettings& metropolis, const RunSettings& settings);
+
+}  // namespace wearwell

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+namespace wearwell {
+
+/// How many draws, from which random numbers, on how many threads.
+struct RunSettings {
+  int chains = 4;
+  int warmup = 1000;  ///< iterations per chain that adapt the sampler and are discarded
+  int draws = 1000;   ///< kept per chain
+  std::uint64_t seed = 1;
+  std::uint64_t first_stream = 0;  ///< of the seed; chain c uses stream first_stream + c
+  int threads = 0;                 ///< 0: as many as the machine has; results do not depend on it
+};
+
+}  // namespace wearwell

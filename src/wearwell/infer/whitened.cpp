@@ -1,0 +1,46 @@
+#include "wearwell/infer/whitened.h"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+
+namespace wearwell {
+namespace {
+
+using Scratch = std::array<double, max_dimension>;
+using ConstMap = Eigen::Map<const Eigen::VectorXd>;
+using Map = Eigen::Map<Eigen::VectorXd>;
+
+}  // namespace
+
+Whitening whitening_at(const Mode& mode) {
+  const Eigen::Index n = mode.position.size();
+  if (!mode.found) return {mode.position, Eigen::MatrixXd::Identity(n, n)};
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(mode.curvature);
+  const Eigen::VectorXd size = eigen.eigenvalues().unaryExpr(
+      [](double curvature) { return curvature > 0.01 ? 1 / std::sqrt(curvature) : 1.0; });
+  return {mode.position, eigen.eigenvectors() * size.asDiagonal()};
+}
+
+double WhitenedDensity::value(std::span<const double> u) const {
+  Scratch x;
+  const auto n = static_cast<Eigen::Index>(u.size());
+  Map(x.data(), n) = whitening_.center;
+  Map(x.data(), n).noalias() += whitening_.scale.lazyProduct(ConstMap(u.data(), n));
+  return density_.value(std::span(x.data(), u.size()));
+}
+
+double WhitenedDensity::value_and_gradient(std::span<const double> u,
+                                           std::span<double> gradient) const {
+  Scratch x, slope;
+  const auto n = static_cast<Eigen::Index>(u.size());
+  Map(x.data(), n) = whitening_.center;
+  Map(x.data(), n).noalias() += whitening_.scale.lazyProduct(ConstMap(u.data(), n));
+  const double value =
+      density_.value_and_gradient(std::span(x.data(), u.size()), std::span(slope.data(), u.size()));
+  Map(gradient.data(), n).noalias() =
+      whitening_.scale.transpose().lazyProduct(ConstMap(slope.data(), n));
+  return value;
+}
+
+}  // namespace wearwell
