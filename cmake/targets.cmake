@@ -25,7 +25,7 @@ function(wearwell_test name)
   list(TRANSFORM ARG_USES PREPEND wearwell_)
   add_executable(test_${name} ${ARG_SOURCES})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_link_libraries(test_${name} PRIVATE ${ARG_USES} ${ARG_LIBRARIES} GTest::gtest_main rapidcheck)
+  target_link_libraries(test_${name} PRIVATE ${ARG_USES} ${ARG_LIBRARIES} GTest::gmock_main rapidcheck)
   target_compile_definitions(test_${name} PRIVATE
     PROJECT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     WEARWELL_BINARY="$<TARGET_FILE:wearwell>")

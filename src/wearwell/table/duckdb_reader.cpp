@@ -1,0 +1,207 @@
+// The only file that sees duckdb.h.
+#include <duckdb.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/replace.hpp>
+#include <fstream>
+#include <limits>
+#include <set>
+
+#include "wearwell/base/error.h"
+#include "wearwell/table/table.h"
+
+namespace wearwell {
+namespace {
+
+class Database {
+ public:
+  Database() {
+    if (duckdb_open(nullptr, &database_) != DuckDBSuccess ||
+        duckdb_connect(database_, &connection_) != DuckDBSuccess) {
+      throw MachineError("cannot start DuckDB");
+    }
+  }
+  ~Database() {
+    duckdb_disconnect(&connection_);
+    duckdb_close(&database_);
+  }
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  duckdb_connection connection() const { return connection_; }
+
+ private:
+  duckdb_database database_ = nullptr;
+  duckdb_connection connection_ = nullptr;
+};
+
+// DuckDB's messages run over many lines with hints about its own options; the first says what is wrong.
+std::string first_line(const char* message) {
+  const std::string text = message ? message : "unknown error";
+  return text.substr(0, text.find('\n'));
+}
+
+class Result {
+ public:
+  Result(const Database& database, const std::string& query, const std::string& source) {
+    if (duckdb_query(database.connection(), query.c_str(), &result_) != DuckDBSuccess) {
+      const std::string message = first_line(duckdb_result_error(&result_));
+      duckdb_destroy_result(&result_);
+      throw InputError(fmt::format("{}: {}", source, message));
+    }
+  }
+  ~Result() { duckdb_destroy_result(&result_); }
+  Result(const Result&) = delete;
+  Result& operator=(const Result&) = delete;
+
+  idx_t columns() { return duckdb_column_count(&result_); }
+  std::string name(idx_t column) { return duckdb_column_name(&result_, column); }
+  duckdb_type type(idx_t column) { return duckdb_column_type(&result_, column); }
+  duckdb_data_chunk next() { return duckdb_fetch_chunk(result_); }
+
+ private:
+  duckdb_result result_;
+};
+
+bool is_number(duckdb_type type) {
+  switch (type) {
+    case DUCKDB_TYPE_TINYINT:
+    case DUCKDB_TYPE_SMALLINT:
+    case DUCKDB_TYPE_INTEGER:
+    case DUCKDB_TYPE_BIGINT:
+    case DUCKDB_TYPE_UTINYINT:
+    case DUCKDB_TYPE_USMALLINT:
+    case DUCKDB_TYPE_UINTEGER:
+    case DUCKDB_TYPE_UBIGINT:
+    case DUCKDB_TYPE_HUGEINT:
+    case DUCKDB_TYPE_UHUGEINT:
+    case DUCKDB_TYPE_FLOAT:
+    case DUCKDB_TYPE_DOUBLE:
+    case DUCKDB_TYPE_DECIMAL: return true;
+    default: return false;
+  }
+}
+
+std::string quoted(const std::string& name, char quote) {
+  const std::string one(1, quote);
+  return one + boost::algorithm::replace_all_copy(name, one, one + one) + one;
+}
+
+bool is_csv(const std::string& path) {
+  const std::string lower = boost::algorithm::to_lower_copy(path);
+  for (const char* ending : {".csv", ".tsv", ".txt", ".csv.gz", ".tsv.gz"}) {
+    if (boost::algorithm::ends_with(lower, ending)) return true;
+  }
+  return false;
+}
+
+// DuckDB would silently rename the second of two equal columns.
+void refuse_duplicate_names(const Database& database, const std::string& path,
+                            const std::string& source) {
+  Result header(database,
+                fmt::format("select * from read_csv({}, header = false, all_varchar = true) limit 1",
+                            quoted(path, '\'')),
+                source);
+  std::set<std::string> seen;
+  for (duckdb_data_chunk chunk = header.next(); chunk; chunk = header.next()) {
+    for (idx_t c = 0; c < header.columns() && duckdb_data_chunk_get_size(chunk) > 0; ++c) {
+      duckdb_vector vector = duckdb_data_chunk_get_vector(chunk, c);
+      uint64_t* valid = duckdb_vector_get_validity(vector);
+      if (valid && !duckdb_validity_row_is_valid(valid, 0)) continue;
+      auto* text = static_cast<duckdb_string_t*>(duckdb_vector_get_data(vector));
+      const std::string name(duckdb_string_t_data(text), duckdb_string_t_length(*text));
+      if (!seen.insert(name).second) {
+        duckdb_destroy_data_chunk(&chunk);
+        throw InputError(fmt::format("{} has two columns named '{}'", source, name));
+      }
+    }
+    duckdb_destroy_data_chunk(&chunk);
+  }
+}
+
+void check_readable(const std::filesystem::path& file, const std::string& source) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) {
+    throw InputError(fmt::format("no such file: {}", source));
+  }
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw InputError(fmt::format("{} is a folder, not a file", source));
+  }
+  std::ifstream stream(file);
+  if (!stream) throw InputError(fmt::format("{} cannot be read (permissions?)", source));
+  if (stream.peek() == std::ifstream::traits_type::eof()) {
+    throw InputError(fmt::format("{} is empty", source));
+  }
+}
+
+void append_numbers(duckdb_vector vector, idx_t count, std::vector<double>& out) {
+  const auto* data = static_cast<const double*>(duckdb_vector_get_data(vector));
+  uint64_t* valid = duckdb_vector_get_validity(vector);
+  for (idx_t i = 0; i < count; ++i) {
+    const bool present = !valid || duckdb_validity_row_is_valid(valid, i);
+    out.push_back(present ? data[i] : std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+void append_text(duckdb_vector vector, idx_t count, std::vector<std::string>& out) {
+  auto* data = static_cast<duckdb_string_t*>(duckdb_vector_get_data(vector));
+  uint64_t* valid = duckdb_vector_get_validity(vector);
+  for (idx_t i = 0; i < count; ++i) {
+    const bool present = !valid || duckdb_validity_row_is_valid(valid, i);
+    out.emplace_back();
+    if (present) out.back().assign(duckdb_string_t_data(&data[i]), duckdb_string_t_length(data[i]));
+  }
+}
+
+}  // namespace
+
+Table read_table(const std::filesystem::path& file, const std::optional<std::string>& sql) {
+  const std::string path = file.string();
+  Table table;
+  table.source = path;
+  check_readable(file, table.source);
+
+  const Database database;
+  if (is_csv(path)) refuse_duplicate_names(database, path, table.source);
+  const std::string literal = quoted(path, '\'');
+  const std::string reader =
+      is_csv(path) ? fmt::format("read_csv({}, header = true)", literal) : literal;
+  Result(database, fmt::format("create view data as select * from {}", reader), table.source);
+  const std::string query = sql ? *sql : "select * from data";
+  if (sql) table.source += " (through sql)";
+  Result(database, "create temp table result as " + query, table.source);
+
+  // All numbers as double, all else as text.
+  std::vector<std::string> selected;
+  {
+    Result header(database, "select * from result limit 0", table.source);
+    for (idx_t c = 0; c < header.columns(); ++c) {
+      table.columns.push_back({header.name(c), is_number(header.type(c)), {}, {}});
+      selected.push_back(fmt::format("cast({} as {})", quoted(header.name(c), '"'),
+                                     table.columns.back().is_number ? "double" : "varchar"));
+    }
+  }
+  Result rows(database, fmt::format("select {} from result", fmt::join(selected, ", ")),
+              table.source);
+  for (duckdb_data_chunk chunk = rows.next(); chunk; chunk = rows.next()) {
+    const idx_t count = duckdb_data_chunk_get_size(chunk);
+    for (idx_t c = 0; c < table.columns.size(); ++c) {
+      duckdb_vector vector = duckdb_data_chunk_get_vector(chunk, c);
+      Column& column = table.columns[c];
+      if (column.is_number) {
+        append_numbers(vector, count, column.numbers);
+      } else {
+        append_text(vector, count, column.text);
+      }
+    }
+    table.rows += count;
+    duckdb_destroy_data_chunk(&chunk);
+  }
+  if (table.rows == 0) throw InputError(fmt::format("{} has no rows", table.source));
+  return table;
+}
+
+}  // namespace wearwell
