@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace wearwell {
+
+/// The p-quantile of values in ascending order, interpolated between the two nearest: R's type 7
+/// (Hyndman and Fan 1996, definition 7). `sorted` is not empty, 0 <= p <= 1.
+inline double quantile(std::span<const double> sorted, double p) {
+  // Counted from 1, as R does: near a whole position the rounding decides which value is returned.
+  const double position = 1 + static_cast<double>(sorted.size() - 1) * p;
+  const double below = std::floor(position);
+  const auto i = static_cast<std::size_t>(below) - 1;
+  if (position == below) return sorted[i];
+  return std::lerp(sorted[i], sorted[i + 1], position - below);
+}
+
+/// The p-quantile of weighted draws (of importance sampling, say), `weights[i]` belonging to
+/// `sorted[i]`: the weighted type 7 of Akinshin (2023), arXiv:2304.07265. Each value counts by its
+/// share of a window of mass 1/n around p, where n = (sum w)^2 / sum w^2 is Kish's effective sample
+/// size; equal weights give type 7. Weights are not negative, their sum is positive, and their
+/// scale does not matter.
+inline double quantile(std::span<const double> sorted, std::span<const double> weights, double p) {
+  double sum = 0, squares = 0;
+  for (const double w : weights) {
+    sum += w;
+    squares += w * w;
+  }
+  const double n = sum * (sum / squares);
+  const double window = (n - 1) * p;  // from window/n to (window + 1)/n of the mass
+  double mass = 0, covered = 0, value = 0;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    mass += weights[i];
+    const double reached = std::clamp(mass / sum * n - window, 0.0, 1.0);
+    value += (reached - covered) * sorted[i];
+    covered = reached;
+  }
+  // Rounding may leave the window's end uncovered, by an amount that belongs to the last value.
+  return value + (1 - covered) * sorted.back();
+}
+
+}  // namespace wearwell
