@@ -13,7 +13,8 @@ namespace wearwell {
 class ScratchTest : public testing::Test {
  protected:
   ScratchTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "wearwell-test-XXXXXX").string();
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "wearwell-test-XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
   }
   ~ScratchTest() override {

@@ -13,7 +13,8 @@ using testing::HasSubstr;
 
 class TableTest : public ScratchTest {
  protected:
-  std::string refusal(const std::filesystem::path& file, const std::optional<std::string>& sql = {}) {
+  std::string refusal(const std::filesystem::path& file,
+                      const std::optional<std::string>& sql = {}) {
     return message_of<InputError>([&] { read_table(file, sql); });
   }
 };
@@ -64,7 +65,8 @@ TEST_F(TableTest, NamesRowColumnAndValue) {
     const Table table = read_table(write("a.csv", content));
     return message_of<InputError>([&] { si_numbers(table, "v", Unit{}); });
   };
-  EXPECT_THAT(message("n,v\n1,2.5\n2,abc\n"), HasSubstr("row 2, column 'v': 'abc' is not a number"));
+  EXPECT_THAT(message("n,v\n1,2.5\n2,abc\n"),
+              HasSubstr("row 2, column 'v': 'abc' is not a number"));
   EXPECT_THAT(message("n,v\n1,2.5\n2,\n3,1\n"), HasSubstr("row 2, column 'v': no value"));
   EXPECT_THAT(message("n,v\n1,nan\n2,3\n"), HasSubstr("row 1, column 'v': no value"));
   EXPECT_THAT(message("n,v\n1,inf\n2,3\n"), HasSubstr("row 1, column 'v': the value is infinite"));

@@ -18,10 +18,12 @@ struct NutsStep {
 /// One chain's draws after warm-up.
 struct Chain {
   Eigen::MatrixXd values;           ///< draws x parameters, natural, SI
-  std::vector<double> log_density;  ///< of each draw, where the sampler walked: with the Jacobian for NUTS and exact
+  std::vector<double> log_density;  ///< of each draw, where the sampler walked: with the Jacobian
+                                    ///< for NUTS and exact
   std::vector<NutsStep> nuts;       ///< one a draw; empty for other methods
   double accept_rate = 1;           ///< accepted proposals (Metropolis) or mean accept_stat (NUTS)
-  std::vector<std::string> notes;   ///< what warm-up adapted, one line each
+  double step_size = 0;             ///< NUTS, after warm-up
+  std::vector<std::string> notes;   ///< what else warm-up adapted, one line each
 };
 
 using Draws = std::vector<Chain>;  ///< chains of equal length

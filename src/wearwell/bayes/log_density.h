@@ -4,11 +4,12 @@
 
 namespace wearwell {
 
-/// The most variables a density may have; fixes the size of scratch on the stack, so that no evaluation allocates.
+/// The most variables a density may have; fixes the size of scratch on the stack, so that no
+/// evaluation allocates.
 inline constexpr int max_dimension = 64;
 
-/// The logarithm of a density, up to a constant. -infinity outside the support and nowhere else; any other failure
-/// throws. Evaluations are thread-safe.
+/// The logarithm of a density, up to a constant. -infinity outside the support and nowhere else;
+/// any other failure throws. Evaluations are thread-safe.
 class LogDensity {
  public:
   virtual ~LogDensity() = default;
@@ -18,8 +19,10 @@ class LogDensity {
 
   virtual double value(std::span<const double> x) const = 0;
 
-  /// The value at `x`, and its derivatives in `gradient`. The gradient is unspecified where the value is -infinity.
-  virtual double value_and_gradient(std::span<const double> x, std::span<double> gradient) const = 0;
+  /// The value at `x`, and its derivatives in `gradient`. The gradient is unspecified where the
+  /// value is -infinity.
+  virtual double value_and_gradient(std::span<const double> x,
+                                    std::span<double> gradient) const = 0;
 };
 
 }  // namespace wearwell

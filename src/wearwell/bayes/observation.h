@@ -9,21 +9,23 @@
 
 namespace wearwell {
 
-/// How a measurement scatters about its mean: normal, or lognormal with mean and standard deviation of the quantity
-/// itself (An et al. 2011, eqs. 7 and 8).
+/// How a measurement scatters about its mean: normal, or lognormal with mean and standard deviation
+/// of the quantity itself (An et al. 2011, eqs. 7 and 8).
 enum class ObservationFamily { normal, lognormal };
 
 /// Measurements of one quantity, all with the same standard deviation, in SI.
 class Observations {
  public:
   /// `y` must be positive for the lognormal family.
-  Observations(ObservationFamily family, std::vector<double> y) : family_(family), y_(std::move(y)) {
+  Observations(ObservationFamily family, std::vector<double> y)
+      : family_(family), y_(std::move(y)) {
     if (family_ == ObservationFamily::lognormal) {
       for (double& value : y_) value = std::log(value);
     }
   }
 
-  /// Sum of log densities where `mean(i)` is the mean of measurement i; -infinity where a lognormal mean is not positive.
+  /// Sum of log densities where `mean(i)` is the mean of measurement i; -infinity where a lognormal
+  /// mean is not positive.
   template <class T, class Mean>
   T log_likelihood(const Mean& mean, const T& sd) const {
     using std::log;

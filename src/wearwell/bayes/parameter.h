@@ -11,12 +11,14 @@ namespace wearwell {
 /// One unknown of a model, in SI.
 struct Parameter {
   std::string name;
-  Unit unit;         ///< in which it is reported: the one its prior is written in
-  std::string law;   ///< the prior's name as in the study file
+  std::string si;   ///< its SI unit
+  Unit unit;        ///< in which it is reported: the one its prior is written in
+  std::string law;  ///< the prior's name as in the study file
   Law prior;
   double start = 1;  ///< a plausible value inside the support, where searches start
   double scale = 1;  ///< the size of a plausible change, > 0
-  double natural_lower = -std::numeric_limits<double>::infinity();  ///< bound set by physics, not by belief
+  double natural_lower =
+      -std::numeric_limits<double>::infinity();  ///< bound set by physics, not by belief
   double natural_upper = std::numeric_limits<double>::infinity();
 };
 

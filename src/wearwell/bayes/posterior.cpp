@@ -14,11 +14,14 @@ namespace {
 constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 
 // A likelihood that overflowed is far outside of where any parameter can be.
-double in_support(double value) { return std::isnan(value) ? minus_infinity : value; }
+double in_support(double value) {
+  return std::isnan(value) ? minus_infinity : value;
+}
 
 }  // namespace
 
-Posterior::Posterior(std::vector<Parameter> parameters, std::shared_ptr<const LogDensity> likelihood)
+Posterior::Posterior(std::vector<Parameter> parameters,
+                     std::shared_ptr<const LogDensity> likelihood)
     : parameters_(std::move(parameters)), likelihood_(std::move(likelihood)) {
   if (dimension() != likelihood_->dimension()) {
     throw std::logic_error("posterior: parameters and likelihood differ in number");
@@ -40,7 +43,9 @@ Posterior::Posterior(std::vector<Parameter> parameters, std::shared_ptr<const Lo
   }
   const Eigen::VectorXd z = start();
   if (!std::isfinite(value(view(z)))) {
-    throw InputError("the posterior is zero at plausible parameter values: prior, data and law contradict each other");
+    throw InputError(
+        "the posterior is zero at plausible parameter values: prior, data and law contradict each "
+        "other");
   }
 }
 
@@ -71,7 +76,8 @@ double Posterior::value_and_gradient(std::span<const double> z, std::span<double
     rest[i] = p.slope * point.slope + point.log_jacobian_slope;
   }
   sum += likelihood_->value_and_gradient(std::span(x.data(), parameters_.size()), gradient);
-  for (std::size_t i = 0; i < parameters_.size(); ++i) gradient[i] = gradient[i] * slope[i] + rest[i];
+  for (std::size_t i = 0; i < parameters_.size(); ++i)
+    gradient[i] = gradient[i] * slope[i] + rest[i];
   return in_support(sum);
 }
 

@@ -10,12 +10,12 @@
 
 namespace wearwell {
 
-/// Bayes' rule: log prior + log likelihood. As a LogDensity it lives on the whole real line of every parameter
-/// (z, with the Jacobian of the transform); the natural parameters are x.
+/// Bayes' rule: log prior + log likelihood. As a LogDensity it lives on the whole real line of
+/// every parameter (z, with the Jacobian of the transform); the natural parameters are x.
 class Posterior final : public LogDensity {
  public:
-  /// `likelihood` takes the natural parameters in the order of `parameters`. Throws InputError when a start value is
-  /// outside its support or when the posterior is not finite there.
+  /// `likelihood` takes the natural parameters in the order of `parameters`. Throws InputError when
+  /// a start value is outside its support or when the posterior is not finite there.
   Posterior(std::vector<Parameter> parameters, std::shared_ptr<const LogDensity> likelihood);
 
   int dimension() const override { return static_cast<int>(parameters_.size()); }
@@ -24,6 +24,7 @@ class Posterior final : public LogDensity {
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const LogDensity& likelihood() const { return *likelihood_; }
+  const std::shared_ptr<const LogDensity>& shared_likelihood() const { return likelihood_; }
 
   double log_prior(std::span<const double> x) const;
 

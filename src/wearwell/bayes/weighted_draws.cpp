@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "wearwell/math/quantile.h"
+
 namespace wearwell {
 
 Distribution::Distribution(const WeightedDraws& draws,
@@ -69,12 +71,10 @@ double Distribution::cdf(double x) const {
 double Distribution::quantile(double p) const {
   const std::size_t n = center_.size();
   if (!cells_) {
-    const double at = p * static_cast<double>(n - 1);
-    const auto below = static_cast<std::size_t>(at);
-    if (below + 1 >= n) return center_.back();
-    const double fraction = at - static_cast<double>(below);
-    if (fraction == 0 || center_[below] == center_[below + 1]) return center_[below];
-    return center_[below] + fraction * (center_[below + 1] - center_[below]);
+    // Between an end that is never reached (infinity) and a neighbour there is nothing to
+    // interpolate.
+    const double q = wearwell::quantile(std::span<const double>(center_), p);
+    return std::isnan(q) ? center_.back() : q;
   }
   double cumulated = 0;
   std::size_t i = 0;
@@ -104,8 +104,9 @@ Eigen::VectorXd WeightedSampler::operator()(Rng& rng) const {
   Eigen::VectorXd x = draws_.values.row(i);
   for (std::size_t axis = 0; axis < draws_.lower.size(); ++axis) {
     const double t = rng.uniform();
-    x += ((1 - t) * draws_.lower[axis].row(i) + t * draws_.upper[axis].row(i) - draws_.values.row(i))
-             .transpose();
+    x +=
+        ((1 - t) * draws_.lower[axis].row(i) + t * draws_.upper[axis].row(i) - draws_.values.row(i))
+            .transpose();
   }
   return x;
 }

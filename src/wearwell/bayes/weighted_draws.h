@@ -9,16 +9,18 @@
 
 namespace wearwell {
 
-/// A posterior as weighted points: the draws of a sampler, all of one weight, or the nodes of a quadrature. A node
-/// stands for a cell; `lower` and `upper` hold, for each axis of the integration, the points where the cell ends.
+/// A posterior as weighted points: the draws of a sampler, all of one weight, or the nodes of a
+/// quadrature. A node stands for a cell; `lower` and `upper` hold, for each axis of the
+/// integration, the points where the cell ends.
 struct WeightedDraws {
-  Eigen::MatrixXd values;               ///< points x parameters, natural, SI
-  Eigen::VectorXd weights;              ///< sum to 1
-  std::vector<Eigen::MatrixXd> lower;   ///< one per axis, like `values`; empty for draws
+  Eigen::MatrixXd values;              ///< points x parameters, natural, SI
+  Eigen::VectorXd weights;             ///< sum to 1
+  std::vector<Eigen::MatrixXd> lower;  ///< one per axis, like `values`; empty for draws
   std::vector<Eigen::MatrixXd> upper;
 };
 
-/// The distribution of one number: points, each spread evenly over center +- half_width (0 for draws).
+/// The distribution of one number: points, each spread evenly over center +- half_width (0 for
+/// draws).
 class Distribution {
  public:
   Distribution(const WeightedDraws& draws, const std::function<double(const double* x)>& quantity);

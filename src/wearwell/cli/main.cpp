@@ -1,3 +1,47 @@
-int main() {
-  return 0;
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "wearwell/base/error.h"
+#include "wearwell/cli/fit.h"
+
+namespace {
+
+constexpr int bad_request = 2, machine_failed = 3;
+
+int complain(const std::string& message, int exit_code) {
+  fmt::print(stderr, "wearwell: {}\n", message);
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace wearwell;
+  int exit_code = 0;
+  CLI::App app(
+      "Wear and fatigue-life parameters from few noisy measurements, with honest uncertainty.",
+      "wearwell");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", WEARWELL_VERSION);
+  add_fit_command(app, exit_code);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return complain(fmt::format("{} (see wearwell --help)", error.what()), bad_request);
+  } catch (const InputError& error) {
+    return complain(error.what(), bad_request);
+  } catch (const MachineError& error) {
+    return complain(error.what(), machine_failed);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory", machine_failed);
+  } catch (const std::exception& error) {
+    return complain(fmt::format("internal error, please report it: {}", error.what()),
+                    machine_failed);
+  }
+  return exit_code;
 }

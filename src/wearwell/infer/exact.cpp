@@ -15,21 +15,25 @@ namespace {
 constexpr int max_d = max_exact_dimension;
 using Coordinates = std::array<double, max_d>;
 
-// Nodes per axis and the largest mass of one cell, by dimension: few enough evaluations, cells small enough that
-// spreading a node's mass evenly over its cell keeps quantiles within about 0.1 % of a standard deviation.
+// Nodes per axis and the largest mass of one cell, by dimension: few enough evaluations, cells
+// small enough that spreading a node's mass evenly over its cell keeps quantiles within about 0.1 %
+// of a standard deviation.
 constexpr std::array<int, max_d + 1> nodes_per_axis = {0, 10, 7, 5, 4};
-constexpr std::array<double, max_d + 1> max_cell_mass = {0, 1. / 60, 1. / 400, 1. / 2000, 1. / 4000};
+constexpr std::array<double, max_d + 1> max_cell_mass = {0, 1. / 60, 1. / 400, 1. / 2000,
+                                                         1. / 4000};
 
-// The whitened posterior is about one unit wide: a region 500 times wider holds no proper posterior.
+// The whitened posterior is about one unit wide: a region 500 times wider holds no proper
+// posterior.
 constexpr double max_reach = 500;
 
 struct Cell {
   Coordinates lower, upper;
   std::size_t first;  // of its values in the arena
   double mass;        // integral of the density
-  double control;     // integral of density x (1 + squared standardized parameters): mass and second moments in one
-  double error;       // estimated, of `control`
-  int axis;           // along which it resolves worst
+  double control;  // integral of density x (1 + squared standardized parameters): mass and second
+                   // moments in one
+  double error;    // estimated, of `control`
+  int axis;        // along which it resolves worst
 };
 
 class Integrator {
@@ -188,7 +192,8 @@ class Integrator {
     }
   }
 
-  // Halves the cells with the largest errors until the sum of errors is small and no cell holds much mass.
+  // Halves the cells with the largest errors until the sum of errors is small and no cell holds
+  // much mass.
   void refine() {
     sum();
     using Entry = std::pair<double, std::size_t>;
@@ -207,7 +212,8 @@ class Integrator {
       }
       queue.pop();
       halve(i);
-      for (const std::size_t half : {i, cells_.size() - 1}) queue.emplace(priority(cells_[half]), half);
+      for (const std::size_t half : {i, cells_.size() - 1})
+        queue.emplace(priority(cells_[half]), half);
     }
   }
 
@@ -326,8 +332,8 @@ class Integrator {
     bool proper = true;
     for (const Parameter& parameter : posterior_.parameters()) proper &= parameter.prior.proper;
     if (proper) {
-      exact.log_evidence = reference_ + std::log(mass_) +
-                           std::log(std::abs(whitening_.scale.determinant()));
+      exact.log_evidence =
+          reference_ + std::log(mass_) + std::log(std::abs(whitening_.scale.determinant()));
     }
     return exact;
   }
@@ -360,8 +366,8 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
   return Integrator(posterior, whitening, settings).run();
 }
 
-Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains, int draws,
-                        std::uint64_t seed, std::uint64_t first_stream) {
+Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,
+                        int draws, std::uint64_t seed, std::uint64_t first_stream) {
   const WeightedSampler sample(exact.nodes);
   Draws all;
   for (int c = 0; c < chains; ++c) {

@@ -11,7 +11,7 @@
 namespace wearwell {
 
 struct ExactSettings {
-  double tolerance = 1e-7;             ///< of mass and second moments, relative
+  double tolerance = 1e-7;     ///< of mass and second moments, relative
   bool second_moments = true;  ///< false: the posterior has none, so only its mass is integrated
   long max_evaluations = 20'000'000;
 };
@@ -22,23 +22,26 @@ inline constexpr int max_exact_dimension = 4;
 /// A posterior normalized by adaptive quadrature: no sampling, so no Monte Carlo error.
 struct ExactPosterior {
   WeightedDraws nodes;
-  Eigen::VectorXd mean;               ///< natural, SI; NaN where the moment does not exist
+  Eigen::VectorXd mean;  ///< natural, SI; NaN where the moment does not exist
   Eigen::VectorXd sd;
   Eigen::MatrixXd covariance;
-  std::optional<double> log_evidence; ///< log of the integral of likelihood x prior; only when every prior is proper
-  double error = 0;                   ///< estimated relative error of mass and second moments
+  std::optional<double>
+      log_evidence;  ///< log of the integral of likelihood x prior; only when every prior is proper
+  double error = 0;  ///< estimated relative error of mass and second moments
   long evaluations = 0;
-  std::string failure;  ///< empty when the mass converged; else what happened, and the nodes are not to be trusted
+  std::string failure;  ///< empty when the mass converged; else what happened, and the nodes are
+                        ///< not to be trusted
 };
 
-/// Integrates a posterior with up to `max_exact_dimension` parameters. Works on the whitened real line: boxes are
-/// halved along the axis that resolves worst until the estimated error of mass and second moments is below the
-/// tolerance, and the region grows where mass or second moments still lie at its edge.
+/// Integrates a posterior with up to `max_exact_dimension` parameters. Works on the whitened real
+/// line: boxes are halved along the axis that resolves worst until the estimated error of mass and
+/// second moments is below the tolerance, and the region grows where mass or second moments still
+/// lie at its edge.
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings = {});
 
 /// Independent draws from the exact posterior: `chains` x `draws`, a stream of random numbers each.
-Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains, int draws,
-                        std::uint64_t seed, std::uint64_t first_stream);
+Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,
+                        int draws, std::uint64_t seed, std::uint64_t first_stream);
 
 }  // namespace wearwell

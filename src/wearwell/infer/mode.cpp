@@ -48,8 +48,9 @@ Mode find_mode(const LogDensity& density, const Eigen::VectorXd& start) {
     mode.found = best.converged;
   }
   mode.curvature = curvature_at(density, mode.position);
-  mode.found = mode.found && mode.curvature.allFinite() &&
-               mode.curvature.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > least_curvature;
+  mode.found =
+      mode.found && mode.curvature.allFinite() &&
+      mode.curvature.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > least_curvature;
   if (!mode.found) mode.position = start;
   return mode;
 }

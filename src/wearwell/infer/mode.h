@@ -11,7 +11,8 @@ struct Mode {
   Eigen::VectorXd position;
   double log_density = 0;
   Eigen::MatrixXd curvature;  ///< minus the Hessian of the log density
-  bool found = false;  ///< false: the search ran away (no mode, as in a funnel or an improper posterior); then start
+  bool found = false;  ///< false: the search ran away (no mode, as in a funnel or an improper
+                       ///< posterior); then start
 };
 
 Mode find_mode(const LogDensity& density, const Eigen::VectorXd& start);

@@ -7,7 +7,8 @@
 namespace wearwell {
 namespace {
 
-// A trajectory whose energy error exceeds this has left the region where the integrator follows the posterior.
+// A trajectory whose energy error exceeds this has left the region where the integrator follows the
+// posterior.
 constexpr double max_energy_error = 1000;
 
 double log_sum_exp(double a, double b) {
@@ -56,7 +57,8 @@ SmallVector Metric::sample_momentum(Rng& rng) const {
   return inverse_factor_.lazyProduct(z);
 }
 
-// Part of a trajectory: its momenta at both ends in the order of the walk, their sum, and the point sampled from it.
+// Part of a trajectory: its momenta at both ends in the order of the walk, their sum, and the point
+// sampled from it.
 struct Nuts::Subtree {
   SmallVector momentum_begin, momentum_end, velocity_begin, velocity_end, momentum_sum;
   PhasePoint sample;
@@ -141,7 +143,8 @@ NutsStep Nuts::step(Rng& rng) {
 
   // The trajectory from its backward to its forward end.
   PhasePoint backward = point_, forward = point_;
-  SmallVector backward_velocity = metric.velocity(point_.momentum), forward_velocity = backward_velocity;
+  SmallVector backward_velocity = metric.velocity(point_.momentum),
+              forward_velocity = backward_velocity;
   SmallVector backward_momentum = point_.momentum, forward_momentum = point_.momentum;
   SmallVector momentum_sum = point_.momentum;
   PhasePoint sample = point_;
@@ -161,8 +164,9 @@ NutsStep Nuts::step(Rng& rng) {
     }
     log_weight = log_sum_exp(log_weight, tree.log_weight);
 
-    // The old trajectory and the new subtree meet between `inner` (old side) and tree.*_begin (new side). A backward
-    // subtree is walked against time, which leaves the signs of all products below as they are.
+    // The old trajectory and the new subtree meet between `inner` (old side) and tree.*_begin (new
+    // side). A backward subtree is walked against time, which leaves the signs of all products
+    // below as they are.
     const SmallVector old_sum = momentum_sum;
     const SmallVector inner_velocity = ahead ? forward_velocity : backward_velocity;
     const SmallVector inner_momentum = ahead ? forward_momentum : backward_momentum;
@@ -191,8 +195,8 @@ void Nuts::find_reasonable_step_size(Rng& rng) {
     PhasePoint z = start;
     z.momentum = metric.sample_momentum(rng);
     const double before = hamiltonian(z);
-    const double gain = leapfrog(z, step_size) ? before - hamiltonian(z)
-                                               : -std::numeric_limits<double>::infinity();
+    const double gain =
+        leapfrog(z, step_size) ? before - hamiltonian(z) : -std::numeric_limits<double>::infinity();
     const int now = gain > target ? 1 : -1;
     if (direction != 0 && now != direction) return;
     direction = now;

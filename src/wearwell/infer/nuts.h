@@ -11,7 +11,8 @@ namespace wearwell {
 /// A vector of at most max_dimension entries that never allocates.
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_dimension, 1>;
 
-/// The kinetic energy's inverse mass matrix: an estimate of the posterior covariance, diagonal or dense.
+/// The kinetic energy's inverse mass matrix: an estimate of the posterior covariance, diagonal or
+/// dense.
 class Metric {
  public:
   explicit Metric(int dimension, bool dense);
@@ -38,8 +39,9 @@ struct PhasePoint {
   double log_density = 0;
 };
 
-/// The no-U-turn sampler with multinomial sampling along the trajectory (Hoffman and Gelman 2014; Betancourt 2017,
-/// appendix A), with the extra U-turn checks between subtrees that Stan has had since 2.21.
+/// The no-U-turn sampler with multinomial sampling along the trajectory (Hoffman and Gelman 2014;
+/// Betancourt 2017, appendix A), with the extra U-turn checks between subtrees that Stan has had
+/// since 2.21.
 class Nuts {
  public:
   Nuts(const LogDensity& density, bool dense_metric, int max_treedepth);
@@ -50,7 +52,8 @@ class Nuts {
   /// One transition: moves the position and says how.
   NutsStep step(Rng& rng);
 
-  /// A step size with acceptance near 0.8 for a single leapfrog, found by doubling or halving (Stan's heuristic).
+  /// A step size with acceptance near 0.8 for a single leapfrog, found by doubling or halving
+  /// (Stan's heuristic).
   void find_reasonable_step_size(Rng& rng);
 
   const PhasePoint& point() const { return point_; }
@@ -63,7 +66,8 @@ class Nuts {
   struct Totals;
   bool leapfrog(PhasePoint& z, double epsilon) const;
   double hamiltonian(const PhasePoint& z) const;
-  bool build(int depth, double direction, PhasePoint& edge, Subtree& tree, Totals& totals, Rng& rng);
+  bool build(int depth, double direction, PhasePoint& edge, Subtree& tree, Totals& totals,
+             Rng& rng);
 
   const LogDensity& density_;
   int max_treedepth_;

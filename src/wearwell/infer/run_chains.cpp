@@ -1,8 +1,6 @@
 #include "wearwell/infer/run_chains.h"
 
-#include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <cmath>
 
@@ -28,18 +26,15 @@ Eigen::VectorXd random_start(const LogDensity& whitened, Rng& rng) {
 template <class RunChain>
 Draws run_chains(const RunSettings& settings, const RunChain& run_chain) {
   Draws draws(static_cast<std::size_t>(settings.chains));
-  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(0, settings.chains, [&](int c) {
-      Rng rng(settings.seed, settings.first_stream + static_cast<std::uint64_t>(c));
-      draws[static_cast<std::size_t>(c)] = run_chain(rng);
-    });
+  tbb::parallel_for(0, settings.chains, [&](int c) {
+    Rng rng(settings.seed, settings.first_stream + static_cast<std::uint64_t>(c));
+    draws[static_cast<std::size_t>(c)] = run_chain(rng);
   });
   return draws;
 }
 
-Chain nuts_chain(const Posterior& posterior, const Whitening& whitening, const NutsSettings& options,
-                 const RunSettings& settings, Rng& rng) {
+Chain nuts_chain(const Posterior& posterior, const Whitening& whitening,
+                 const NutsSettings& options, const RunSettings& settings, Rng& rng) {
   const WhitenedDensity density(posterior, whitening);
   Nuts nuts(density, options.dense_metric, options.max_treedepth);
   nuts.set_position(random_start(density, rng));
@@ -63,7 +58,7 @@ Chain nuts_chain(const Posterior& posterior, const Whitening& whitening, const N
     chain.log_density.push_back(nuts.point().log_density);
   }
   chain.accept_rate = accept / settings.draws;
-  chain.notes.push_back(fmt::format("Step size = {:.6g}", nuts.step_size));
+  chain.step_size = nuts.step_size;
   return chain;
 }
 
@@ -71,9 +66,8 @@ Chain nuts_chain(const Posterior& posterior, const Whitening& whitening, const N
 
 Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const NutsSettings& nuts,
                const RunSettings& settings) {
-  return run_chains(settings, [&](Rng& rng) {
-    return nuts_chain(posterior, whitening, nuts, settings, rng);
-  });
+  return run_chains(
+      settings, [&](Rng& rng) { return nuts_chain(posterior, whitening, nuts, settings, rng); });
 }
 
 Draws run_metropolis(const Posterior& posterior, const Whitening& whitening,

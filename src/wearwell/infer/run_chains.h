@@ -11,16 +11,19 @@ namespace wearwell {
 
 struct NutsSettings {
   bool dense_metric = false;
-  double target_accept = 0.8;
+  double target_accept =
+      0.9;  ///< of the mean transition; higher is slower and safer in skewed posteriors
   int max_treedepth = 10;
 };
 
-/// Independent NUTS chains on the whitened real line, from starts spread over several posterior widths.
+/// Independent NUTS chains on the whitened real line, from starts spread over several posterior
+/// widths.
 Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const NutsSettings& nuts,
                const RunSettings& settings);
 
 struct MetropolisSettings {
-  std::optional<Eigen::VectorXd> half_width;  ///< of the proposals, SI; tuned in warm-up when not given
+  std::optional<Eigen::VectorXd>
+      half_width;  ///< of the proposals, SI; tuned in warm-up when not given
 };
 
 /// Independent Metropolis-Hastings chains on the natural parameters, from starts as for NUTS.

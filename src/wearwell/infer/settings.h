@@ -4,14 +4,13 @@
 
 namespace wearwell {
 
-/// How many draws, from which random numbers, on how many threads.
+/// How many draws, and from which random numbers.
 struct RunSettings {
   int chains = 4;
   int warmup = 1000;  ///< iterations per chain that adapt the sampler and are discarded
   int draws = 1000;   ///< kept per chain
   std::uint64_t seed = 1;
   std::uint64_t first_stream = 0;  ///< of the seed; chain c uses stream first_stream + c
-  int threads = 0;                 ///< 0: as many as the machine has; results do not depend on it
 };
 
 }  // namespace wearwell

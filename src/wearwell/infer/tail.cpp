@@ -13,7 +13,8 @@ namespace {
 // A fitted index of 2.03 is read as 2: slopes are measured at a finite distance.
 constexpr double slack = 0.05;
 
-// The walk ends where doubles end to resolve the density: e^40 times the start, or e^20 away on a whole line.
+// The walk ends where doubles end to resolve the density: e^40 times the start, or e^20 away on a
+// whole line.
 constexpr double far_log = 40;
 constexpr int steps = 20;
 
@@ -55,8 +56,8 @@ class Slice final : public LogDensity {
 };
 
 struct Station {
-  Eigen::VectorXd rest;      // conditional mode of the other coordinates
-  double log_marginal = 0;   // of the held coordinate, by Laplace
+  Eigen::VectorXd rest;     // conditional mode of the other coordinates
+  double log_marginal = 0;  // of the held coordinate, by Laplace
 };
 
 Station visit(const Slice& slice, const Eigen::VectorXd& guess) {
@@ -68,7 +69,8 @@ Station visit(const Slice& slice, const Eigen::VectorXd& guess) {
     return -value;
   };
   const Minimum best = minimize(objective, guess, 500);
-  // A direction without curvature counts as one of unit width: it can only make a tail look heavier by a constant.
+  // A direction without curvature counts as one of unit width: it can only make a tail look heavier
+  // by a constant.
   const Eigen::VectorXd eigenvalues =
       curvature_at(slice, best.position).selfadjointView<Eigen::Lower>().eigenvalues();
   const double log_determinant =
@@ -78,9 +80,13 @@ Station visit(const Slice& slice, const Eigen::VectorXd& guess) {
 
 }  // namespace
 
-bool Tail::integrable() const { return towards_bound ? index < 1 - slack : index > 1 + slack; }
+bool Tail::integrable() const {
+  return towards_bound ? index < 1 - slack : index > 1 + slack;
+}
 
-bool Tail::has_moment(int order) const { return towards_bound || index > 1 + order + slack; }
+bool Tail::has_moment(int order) const {
+  return towards_bound || index > 1 + order + slack;
+}
 
 std::vector<Tail> tails(const Posterior& posterior, const Mode& mode) {
   std::vector<Tail> all;
@@ -92,24 +98,29 @@ std::vector<Tail> tails(const Posterior& posterior, const Mode& mode) {
     Eigen::VectorXd at_mode(d - 1);
     for (int j = 0; j < d - 1; ++j) at_mode[j] = mode.position[j + (j >= i)];
     for (const bool outward : {false, true}) {
-      // On a half-line z is minus the log of the closeness to the bound; below an upper bound it runs downwards.
-      const bool upward = std::isfinite(prior.upper) && !std::isfinite(prior.lower) ? !outward : outward;
+      // On a half-line z is minus the log of the closeness to the bound; below an upper bound it
+      // runs downwards.
+      const bool upward =
+          std::isfinite(prior.upper) && !std::isfinite(prior.lower) ? !outward : outward;
       Tail tail{i, upward, std::isfinite(upward ? prior.upper : prior.lower), 0};
 
-      // Log distance (from 0, or from the bound) and log marginal density of x there, station by station.
+      // Log distance (from 0, or from the bound) and log marginal density of x there, station by
+      // station.
       std::array<double, steps> log_distance, log_density;
       Eigen::VectorXd rest = at_mode, before = at_mode;
       int count = 0;
       for (int step = 0; step < steps; ++step) {
         const double way = far_log * (step + 1) / steps;
-        const double z = mode.position[i] +
-                         (outward ? 1 : -1) * (whole_line ? std::expm1(0.5 * way) : way);
+        const double z =
+            mode.position[i] + (outward ? 1 : -1) * (whole_line ? std::expm1(0.5 * way) : way);
         slice.at = z;
-        const Station station = visit(slice, whole_line ? rest : Eigen::VectorXd(2 * rest - before));
+        const Station station =
+            visit(slice, whole_line ? rest : Eigen::VectorXd(2 * rest - before));
         if (!std::isfinite(station.log_marginal)) break;
         before = rest;
         rest = station.rest;
-        // p(x) = p(z) / |dx/dz|; on half-lines and intervals log |dx/dz| changes as log distance does.
+        // p(x) = p(z) / |dx/dz|; on half-lines and intervals log |dx/dz| changes as log distance
+        // does.
         log_distance[count] = whole_line ? 0.5 * way : tail.towards_bound ? -way : way;
         log_density[count] = station.log_marginal - (whole_line ? 0 : log_distance[count]);
         ++count;

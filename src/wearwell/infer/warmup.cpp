@@ -22,7 +22,9 @@ double DualAveraging::update(double accept_stat) {
   return std::exp(log_step);
 }
 
-double DualAveraging::adapted() const { return std::exp(log_average_); }
+double DualAveraging::adapted() const {
+  return std::exp(log_average_);
+}
 
 WindowedWarmup::WindowedWarmup(int iterations, double target_accept)
     : initial_(75), last_(50), window_(25), iterations_(iterations), step_size_(target_accept) {
@@ -56,9 +58,9 @@ void WindowedWarmup::adapt(int iteration, const NutsStep& step, Nuts& nuts, Rng&
 
   // Shrunk towards a small multiple of the identity, as Stan does.
   const auto n = static_cast<double>(count_);
-  const Eigen::MatrixXd covariance = squares_ / (n - 1) * (n / (n + 5)) +
-                                     1e-3 * (5 / (n + 5)) *
-                                         Eigen::MatrixXd::Identity(x.size(), x.size());
+  const Eigen::MatrixXd covariance =
+      squares_ / (n - 1) * (n / (n + 5)) +
+      1e-3 * (5 / (n + 5)) * Eigen::MatrixXd::Identity(x.size(), x.size());
   if (nuts.metric.dense()) {
     nuts.metric.set_covariance(covariance);
   } else {

@@ -6,7 +6,8 @@
 
 namespace wearwell {
 
-/// Nesterov's dual averaging of the log step size towards a target acceptance (Hoffman and Gelman 2014, eq. 6).
+/// Nesterov's dual averaging of the log step size towards a target acceptance (Hoffman and Gelman
+/// 2014, eq. 6).
 class DualAveraging {
  public:
   explicit DualAveraging(double target_accept) : target_(target_accept) {}
@@ -26,7 +27,8 @@ class DualAveraging {
   int count_ = 0;
 };
 
-/// Stan's warm-up: a fast interval, slow windows that double and estimate the metric, and a last fast interval.
+/// Stan's warm-up: a fast interval, slow windows that double and estimate the metric, and a last
+/// fast interval.
 class WindowedWarmup {
  public:
   WindowedWarmup(int iterations, double target_accept);

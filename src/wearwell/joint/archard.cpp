@@ -19,14 +19,15 @@ class ArchardLikelihood final : public LogDensity {
   double value(std::span<const double> x) const override { return formula(x.data()); }
 
   double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
-    return wearwell::value_and_gradient<4>([this](const auto* p) { return formula(p); }, x, gradient);
+    return wearwell::value_and_gradient<4>([this](const auto* p) { return formula(p); }, x,
+                                           gradient);
   }
 
  private:
   template <class T>
   T formula(const T* x) const {
-    return observations_.log_likelihood([&](std::size_t i) { return law_.mean_volume(x, work_[i]); },
-                                        x[1]);
+    return observations_.log_likelihood(
+        [&](std::size_t i) { return law_.mean_volume(x, work_[i]); }, x[1]);
   }
 
   Archard law_;
@@ -45,7 +46,8 @@ double Archard::work_at(const double* x, double limit) const {
 }
 
 std::shared_ptr<const LogDensity> archard_likelihood(const Archard& law, ObservationFamily family,
-                                                     const Inspections& inspections, std::size_t count) {
+                                                     const Inspections& inspections,
+                                                     std::size_t count) {
   const auto first = [count](const std::vector<double>& all) {
     return std::vector(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
   };

@@ -13,8 +13,9 @@ namespace wearwell::joint {
 ///
 ///   V = V0 + k W (W / W_ref)^(exponent - 1)
 ///
-/// with W the friction work, the integral of force over slip. V0 (default 0) and the exponent (default 1, Archard) are
-/// parameters only when asked for. W_ref keeps k a wear coefficient whatever the exponent: k is the mean one up to W_ref.
+/// with W the friction work, the integral of force over slip. V0 (default 0) and the exponent
+/// (default 1, Archard) are parameters only when asked for. W_ref keeps k a wear coefficient
+/// whatever the exponent: k is the mean one up to W_ref.
 struct Archard {
   bool has_constant = false;
   bool has_exponent = false;
@@ -33,7 +34,8 @@ struct Archard {
     return volume;
   }
 
-  /// Friction work [J] at which the mean worn volume reaches `limit` [m^3]: 0 if it starts above, infinity if never.
+  /// Friction work [J] at which the mean worn volume reaches `limit` [m^3]: 0 if it starts above,
+  /// infinity if never.
   double work_at(const double* x, double limit) const;
 };
 
@@ -45,7 +47,8 @@ struct Inspections {
 
 /// The likelihood of (k, sigma, ...) of an Archard law for the first `count` inspections.
 std::shared_ptr<const LogDensity> archard_likelihood(const Archard& law, ObservationFamily family,
-                                                     const Inspections& inspections, std::size_t count);
+                                                     const Inspections& inspections,
+                                                     std::size_t count);
 
 /// Least-squares k (V0 = 0, exponent 1) and the standard deviation about it: where searches start.
 struct LeastSquares {

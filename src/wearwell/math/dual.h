@@ -7,12 +7,14 @@
 
 namespace wearwell {
 
-/// A value with its derivatives by N variables: a formula written once as a template over its scalar gives both.
+/// A value with its derivatives by N variables: a formula written once as a template over its
+/// scalar gives both.
 template <int N>
 using Dual = ceres::Jet<double, N>;
 
-/// The value of `f` at `x` and, in `gradient`, its derivatives. `f` takes `const T* x` for T = double and Dual<N>, an
-/// array of always MaxN entries, of which those beyond x.size() are 0. Nothing is allocated.
+/// The value of `f` at `x` and, in `gradient`, its derivatives. `f` takes `const T* x` for T =
+/// double and Dual<N>, an array of always MaxN entries, of which those beyond x.size() are 0.
+/// Nothing is allocated.
 template <int MaxN, int N = MaxN, class F>
 double value_and_gradient(const F& f, std::span<const double> x, std::span<double> gradient) {
   if constexpr (N == 0) {

@@ -12,8 +12,7 @@ struct Search {
   Minimum best;
 
   double operator()(unsigned n, const double* x, double* gradient) {
-    const std::span<double> slope =
-        gradient ? std::span<double>(gradient, n) : std::span<double>();
+    const std::span<double> slope = gradient ? std::span<double>(gradient, n) : std::span<double>();
     double value = objective(std::span(x, n), slope);
     if (std::isnan(value)) value = INFINITY;
     if (value < best.value) {
@@ -45,7 +44,8 @@ Minimum minimize(const Objective& objective, const Eigen::VectorXd& start, int m
   } catch (const nlopt::roundoff_limited&) {
     search.best.converged = true;  // no further progress is possible in double precision
   } catch (const std::runtime_error&) {
-    // NLopt's generic failure, such as a line search that met only infinities: the best point stands.
+    // NLopt's generic failure, such as a line search that met only infinities: the best point
+    // stands.
   }
   return search.best;
 }

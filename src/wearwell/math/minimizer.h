@@ -6,7 +6,8 @@
 
 namespace wearwell {
 
-/// Value at `x` and, when `gradient` is not empty, the gradient there. Infinity marks a point outside the domain.
+/// Value at `x` and, when `gradient` is not empty, the gradient there. Infinity marks a point
+/// outside the domain.
 using Objective = std::function<double(std::span<const double> x, std::span<double> gradient)>;
 
 struct Minimum {
@@ -15,7 +16,9 @@ struct Minimum {
   bool converged = false;  ///< false: stopped by the evaluation limit or without progress
 };
 
-/// A local minimum near `start`, by NLopt's L-BFGS; the best point seen, also when it did not converge.
-Minimum minimize(const Objective& objective, const Eigen::VectorXd& start, int max_evaluations = 1000);
+/// A local minimum near `start`, by NLopt's L-BFGS; the best point seen, also when it did not
+/// converge.
+Minimum minimize(const Objective& objective, const Eigen::VectorXd& start,
+                 int max_evaluations = 1000);
 
 }  // namespace wearwell

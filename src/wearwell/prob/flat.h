@@ -5,7 +5,8 @@ namespace wearwell {
 /// No knowledge: constant. Improper unless both ends are bounded, and then only a cut.
 struct Flat {};
 
-/// Knowledge that the quantity lies between two bounds, and no more. The bounds are those of the Law.
+/// Knowledge that the quantity lies between two bounds, and no more. The bounds are those of the
+/// Law.
 struct Uniform {};
 
 template <class T>

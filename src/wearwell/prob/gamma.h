@@ -4,7 +4,8 @@
 
 namespace wearwell {
 
-/// Density proportional to x^(shape-1) exp(-x/scale) on x > 0; shape 1 is the exponential law of mean `scale`.
+/// Density proportional to x^(shape-1) exp(-x/scale) on x > 0; shape 1 is the exponential law of
+/// mean `scale`.
 struct Gamma {
   double shape;  ///< > 0
   double scale;  ///< > 0

@@ -4,7 +4,8 @@
 
 namespace wearwell {
 
-/// Jeffreys' law for a scale: density proportional to 1/x on x > 0. Improper unless bounded away from 0 and infinity.
+/// Jeffreys' law for a scale: density proportional to 1/x on x > 0. Improper unless bounded away
+/// from 0 and infinity.
 struct Jeffreys {};
 
 template <class T>

@@ -32,9 +32,10 @@ void require_positive(const char* law, const char* parameter, double value) {
   }
 }
 
-// What a proper family is beside its kernel: its natural support, the logarithm of the kernel's integral over all of
-// it, and Boost's distribution for probabilities and quantiles. Location and scale are taken out of Boost's hands where
-// SI values as small as 1e-13 would meet its argument checks or underflow.
+// What a proper family is beside its kernel: its natural support, the logarithm of the kernel's
+// integral over all of it, and Boost's distribution for probabilities and quantiles. Location and
+// scale are taken out of Boost's hands where SI values as small as 1e-13 would meet its argument
+// checks or underflow.
 struct Properties {
   Support support;
   double log_integral;
@@ -70,9 +71,15 @@ Properties properties(const Beta& law) {
   require_positive("beta", "beta", law.beta);
   return {{0, 1}, std::log(boost::math::beta(law.alpha, law.beta))};
 }
-Properties properties(const Flat&) { return {{-infinity, infinity}, 0}; }
-Properties properties(const Uniform&) { return {{-infinity, infinity}, 0}; }
-Properties properties(const Jeffreys&) { return {{0, infinity}, 0}; }
+Properties properties(const Flat&) {
+  return {{-infinity, infinity}, 0};
+}
+Properties properties(const Uniform&) {
+  return {{-infinity, infinity}, 0};
+}
+Properties properties(const Jeffreys&) {
+  return {{0, infinity}, 0};
+}
 
 // P(X <= x), P(X > x) and their inverses for each proper family, on the family's natural support.
 template <class Distribution>
@@ -81,7 +88,9 @@ struct Standardized {
   double location = 0;
   double scale = 1;
 
-  double below(double x) const { return at(x, 0, 1, [&](double z) { return cdf(distribution, z); }); }
+  double below(double x) const {
+    return at(x, 0, 1, [&](double z) { return cdf(distribution, z); });
+  }
   double above(double x) const {
     return at(x, 1, 0, [&](double z) { return cdf(complement(distribution, z)); });
   }
@@ -133,7 +142,9 @@ double probability(const S& law, double lower, double upper) {
                                 : law.above(lower) - law.above(upper);
 }
 
-bool finite(const Law& law) { return std::isfinite(law.lower) && std::isfinite(law.upper); }
+bool finite(const Law& law) {
+  return std::isfinite(law.lower) && std::isfinite(law.upper);
+}
 
 struct Normalize {
   Law& law;
@@ -177,7 +188,9 @@ struct Quantile {
   }
   double operator()(const Flat&) const { return law.lower + p * (law.upper - law.lower); }
   double operator()(const Uniform&) const { return law.lower + p * (law.upper - law.lower); }
-  double operator()(const Jeffreys&) const { return law.lower * std::pow(law.upper / law.lower, p); }
+  double operator()(const Jeffreys&) const {
+    return law.lower * std::pow(law.upper / law.lower, p);
+  }
 };
 
 }  // namespace
@@ -189,7 +202,8 @@ Law make_law(const Family& family, double lower, double upper) {
   }
   Law law{family, std::max(lower, natural.support.lower), std::min(upper, natural.support.upper)};
   if (!(law.lower < law.upper)) {
-    throw InputError(fmt::format("bounds {} to {} (SI) lie outside the law's support", lower, upper));
+    throw InputError(
+        fmt::format("bounds {} to {} (SI) lie outside the law's support", lower, upper));
   }
   std::visit(Normalize{law, natural.log_integral}, family);
   return law;

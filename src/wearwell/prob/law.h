@@ -18,8 +18,8 @@ namespace wearwell {
 using Family =
     std::variant<Flat, Uniform, Normal, Lognormal, Gamma, InverseGamma, StudentT, Beta, Jeffreys>;
 
-/// A law of one quantity in SI: a family, truncated to [lower, upper]. Half-normal and half-Cauchy are the normal and
-/// Student laws truncated at 0; the exponential is the gamma of shape 1.
+/// A law of one quantity in SI: a family, truncated to [lower, upper]. Half-normal and half-Cauchy
+/// are the normal and Student laws truncated at 0; the exponential is the gamma of shape 1.
 struct Law {
   Family family;
   double lower = -std::numeric_limits<double>::infinity();  ///< of the support, after truncation
@@ -28,8 +28,9 @@ struct Law {
   double log_normalizer = 0;  ///< log of the kernel's integral over the support; 0 when improper
 };
 
-/// Truncates `family` to [lower, upper] and normalizes. Throws InputError when lower >= upper, when a parameter of the
-/// family is out of range, or when the family has no probability between the bounds.
+/// Truncates `family` to [lower, upper] and normalizes. Throws InputError when lower >= upper, when
+/// a parameter of the family is out of range, or when the family has no probability between the
+/// bounds.
 Law make_law(const Family& family, double lower, double upper);
 
 struct LogDensityAndSlope {

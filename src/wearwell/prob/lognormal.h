@@ -11,8 +11,8 @@ struct Lognormal {
 };
 
 /// The lognormal law whose quantity itself has mean `mean` > 0 and standard deviation `sd` > 0:
-/// zeta^2 = log(1 + sd^2/mean^2), eta = log mean - zeta^2/2. (Eq. 8 of the paper prints the last sign as +, which
-/// does not reproduce its own tables.)
+/// zeta^2 = log(1 + sd^2/mean^2), eta = log mean - zeta^2/2. (Eq. 8 of the paper prints the last
+/// sign as +, which does not reproduce its own tables.)
 template <class T>
 struct LognormalByMoments {
   T eta;
@@ -37,7 +37,8 @@ T log_kernel(const Lognormal& law, const T& x) {
   return -0.5 * z * z - log_x;
 }
 
-/// log of the density at x = exp(log_x) of the lognormal law with the given mean and standard deviation.
+/// log of the density at x = exp(log_x) of the lognormal law with the given mean and standard
+/// deviation.
 template <class T>
 T lognormal_log_density(double log_x, const T& mean, const T& sd) {
   using std::log;

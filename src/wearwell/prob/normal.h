@@ -15,8 +15,8 @@ T log_kernel(const Normal& law, const T& x) {
   return -0.5 * z * z;
 }
 
-/// log of the normal density of `x` with mean `mean` and standard deviation exp(log_sd) = 1 / inverse_sd: the
-/// logarithm and the division are shared by all observations of one likelihood.
+/// log of the normal density of `x` with mean `mean` and standard deviation exp(log_sd) = 1 /
+/// inverse_sd: the logarithm and the division are shared by all observations of one likelihood.
 template <class T>
 T normal_log_density(double x, const T& mean, const T& inverse_sd, const T& log_sd) {
   constexpr double half_log_two_pi = 0.91893853320467274178;

@@ -17,10 +17,14 @@ Transform::Transform(double lower, double upper, double scale)
 
 double Transform::to_real(double x) const {
   switch (kind_) {
-    case Kind::above: return std::log((x - lower_) / scale_);
-    case Kind::below: return std::log((upper_ - x) / scale_);
-    case Kind::between: return std::log((x - lower_) / (upper_ - x));
-    case Kind::whole_line: break;
+    case Kind::above:
+      return std::log((x - lower_) / scale_);
+    case Kind::below:
+      return std::log((upper_ - x) / scale_);
+    case Kind::between:
+      return std::log((x - lower_) / (upper_ - x));
+    case Kind::whole_line:
+      break;
   }
   return x / scale_;
 }
@@ -44,7 +48,8 @@ Transform::Point Transform::from_real(double z) const {
       const double slope = scale_ * near * far;
       return {x, slope, log_jacobian, z < 0 ? far - near : near - far};
     }
-    case Kind::whole_line: break;
+    case Kind::whole_line:
+      break;
   }
   return {scale_ * z, scale_, log_scale_, 0};
 }

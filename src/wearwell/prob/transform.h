@@ -2,8 +2,9 @@
 
 namespace wearwell {
 
-/// A smooth one-to-one way between a parameter on its support and the whole real line, where samplers and
-/// integrators work. `scale` is the parameter's own size: z moves by about 1 when the parameter changes by much.
+/// A smooth one-to-one way between a parameter on its support and the whole real line, where
+/// samplers and integrators work. `scale` is the parameter's own size: z moves by about 1 when the
+/// parameter changes by much.
 class Transform {
  public:
   /// Support (lower, upper), either may be infinite; scale > 0.
@@ -13,9 +14,9 @@ class Transform {
   double to_real(double x) const;
 
   struct Point {
-    double x;                   ///< on the support (on its very edge where z is too far out for doubles)
-    double slope;               ///< dx/dz
-    double log_jacobian;        ///< log |dx/dz|
+    double x;             ///< on the support (on its very edge where z is too far out for doubles)
+    double slope;         ///< dx/dz
+    double log_jacobian;  ///< log |dx/dz|
     double log_jacobian_slope;  ///< d/dz log |dx/dz|
   };
   Point from_real(double z) const;

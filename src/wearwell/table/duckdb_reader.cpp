@@ -38,7 +38,8 @@ class Database {
   duckdb_connection connection_ = nullptr;
 };
 
-// DuckDB's messages run over many lines with hints about its own options; the first says what is wrong.
+// DuckDB's messages run over many lines with hints about its own options; the first says what is
+// wrong.
 std::string first_line(const char* message) {
   const std::string text = message ? message : "unknown error";
   return text.substr(0, text.find('\n'));
@@ -80,8 +81,10 @@ bool is_number(duckdb_type type) {
     case DUCKDB_TYPE_UHUGEINT:
     case DUCKDB_TYPE_FLOAT:
     case DUCKDB_TYPE_DOUBLE:
-    case DUCKDB_TYPE_DECIMAL: return true;
-    default: return false;
+    case DUCKDB_TYPE_DECIMAL:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -101,10 +104,11 @@ bool is_csv(const std::string& path) {
 // DuckDB would silently rename the second of two equal columns.
 void refuse_duplicate_names(const Database& database, const std::string& path,
                             const std::string& source) {
-  Result header(database,
-                fmt::format("select * from read_csv({}, header = false, all_varchar = true) limit 1",
-                            quoted(path, '\'')),
-                source);
+  Result header(
+      database,
+      fmt::format("select * from read_csv({}, header = false, all_varchar = true) limit 1",
+                  quoted(path, '\'')),
+      source);
   std::set<std::string> seen;
   for (duckdb_data_chunk chunk = header.next(); chunk; chunk = header.next()) {
     for (idx_t c = 0; c < header.columns() && duckdb_data_chunk_get_size(chunk) > 0; ++c) {

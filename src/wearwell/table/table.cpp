@@ -41,9 +41,9 @@ std::vector<double> si_numbers(const Table& table, std::string_view name, const 
   }
   for (std::size_t i = 0; i < table.rows; ++i) {
     if (!std::isfinite(values[i])) {
-      throw InputError(fmt::format("{}: {}", place(table, name, i),
-                                   std::isnan(values[i]) ? "no value (empty or NaN)"
-                                                         : "the value is infinite"));
+      throw InputError(
+          fmt::format("{}: {}", place(table, name, i),
+                      std::isnan(values[i]) ? "no value (empty or NaN)" : "the value is infinite"));
     }
     values[i] = to_si(unit, values[i]);
   }

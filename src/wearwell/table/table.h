@@ -10,7 +10,8 @@
 
 namespace wearwell {
 
-/// One column as it was read: numbers (NaN where there is no value) or text (empty where there is no value).
+/// One column as it was read: numbers (NaN where there is no value) or text (empty where there is
+/// no value).
 struct Column {
   std::string name;
   bool is_number = false;
@@ -28,13 +29,13 @@ struct Table {
   const Column& column(std::string_view name) const;
 };
 
-/// Reads any file that DuckDB reads, by its ending: CSV or TSV with a header, Parquet, JSON. `sql`, when given, is one
-/// query over the view `data`. Throws InputError: no such file, unreadable, empty, no rows, two columns of one name,
-/// malformed.
+/// Reads any file that DuckDB reads, by its ending: CSV or TSV with a header, Parquet, JSON. `sql`,
+/// when given, is one query over the view `data`. Throws InputError: no such file, unreadable,
+/// empty, no rows, two columns of one name, malformed.
 Table read_table(const std::filesystem::path& file, const std::optional<std::string>& sql = {});
 
-/// A column's values in SI. Throws InputError naming file, row, column and value where one is missing, not a number or
-/// not finite.
+/// A column's values in SI. Throws InputError naming file, row, column and value where one is
+/// missing, not a number or not finite.
 std::vector<double> si_numbers(const Table& table, std::string_view column, const Unit& unit);
 
 /// "FILE, row 3, column 'volume'": where a value stands; `index` is 0-based.

@@ -1,0 +1,89 @@
+#include "wearwell/cli/fit.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "wearwell/report/csv.h"
+#include "wearwell/report/json.h"
+#include "wearwell/report/result_folder.h"
+#include "wearwell/report/terminal.h"
+#include "wearwell/study/run_study.h"
+
+namespace wearwell {
+namespace {
+
+struct FitOptions {
+  std::filesystem::path study, output;
+  SamplerChoice sampler;
+  int threads = 0;
+  bool json = false, quiet = false;
+};
+
+int run_fit(const FitOptions& options) {
+  const Study study = read_study(options.study);
+  ResultFolder folder(options.output.empty()
+                          ? std::filesystem::path(options.study.stem().string() + "-results")
+                          : options.output);
+  const StudyResult result = run_study(study, options.sampler, options.threads);
+
+  const std::string summary = to_json(result).dump(2) + "\n";
+  folder.write("summary.json", summary);
+  for (std::size_t c = 0; c < result.posterior_draws.size(); ++c) {
+    folder.write(fmt::format("draws_{}.csv", c + 1), draws_csv(result, c));
+  }
+  folder.write("predictions.csv", predictions_csv(result));
+  folder.copy(options.study, "study.toml");
+  folder.commit();
+
+  if (options.json) {
+    fmt::print("{}", summary);
+  } else if (!options.quiet) {
+    fmt::print("{}Results are in {}\n", terminal_summary(result, isatty(fileno(stdout)) != 0),
+               folder.path().string());
+  }
+  return result.trusted ? 0 : 1;
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<FitOptions>();
+  CLI::App* fit = app.add_subcommand(
+      "fit", "Estimate a study's parameters, predict, and say whether to trust it");
+  fit->add_option("STUDY", options->study, "Study file (TOML)")->required();
+  fit->add_option("-o,--output", options->output,
+                  "Folder for the results (default: STUDY-results here)");
+  fit->add_option("--method", options->sampler.method,
+                  "nuts (default), metropolis, or exact (up to 4 parameters)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Method>{
+          {"exact", Method::exact}, {"nuts", Method::nuts}, {"metropolis", Method::metropolis}}))
+      ->type_name("METHOD");
+  fit->add_option("--chains", options->sampler.chains, "Independent chains (default 4)")
+      ->check(CLI::Range(1, max_chains));
+  fit->add_option("--draws", options->sampler.draws,
+                  "Draws kept per chain (default 1000; metropolis 6000)")
+      ->check(CLI::Range(min_draws, max_iterations));
+  fit->add_option("--warmup", options->sampler.warmup,
+                  "Iterations discarded per chain (default 1000; metropolis 4000)")
+      ->check(CLI::Range(0, max_iterations));
+  fit->add_option("--seed", options->sampler.seed, "Seed of the random numbers (default 1)");
+  fit->add_option("--threads", options->threads,
+                  "Threads (default: all); results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* json = fit->add_flag("--json", options->json, "Print summary.json and nothing else");
+  fit->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
+  fit->footer(
+      "Examples:\n"
+      "  wearwell fit examples/joint/study.toml\n"
+      "  wearwell fit study.toml -o results --method exact --seed 7\n"
+      "  wearwell fit study.toml --json | jq .parameters.k.mean\n\n"
+      "Exit codes: 0 done and trusted; 1 done, but a check failed; 2 the request or the data is "
+      "wrong, nothing\n"
+      "written; 3 the machine failed.");
+  fit->callback([options, &exit_code] { exit_code = run_fit(*options); });
+}
+
+}  // namespace wearwell

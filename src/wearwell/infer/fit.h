@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/bayes/draws.h"
+#include "wearwell/bayes/posterior.h"
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/infer/diagnostics.h"
+#include "wearwell/infer/exact.h"
+#include "wearwell/infer/run_chains.h"
+#include "wearwell/infer/settings.h"
+#include "wearwell/infer/tail.h"
+
+namespace wearwell {
+
+enum class Method { exact, nuts, metropolis };
+
+struct FitSettings {
+  Method method = Method::nuts;
+  RunSettings run;
+  NutsSettings nuts;
+  MetropolisSettings metropolis;
+  ExactSettings exact;
+};
+
+/// A posterior as one method drew it, and beside it the exact one where quadrature can reach.
+struct Fit {
+  Method method;  ///< as asked for; NUTS where exact was asked for and cannot be
+  Whitening whitening;
+  std::vector<Tail> tails;
+  std::optional<ExactPosterior> exact;
+  std::string no_exact;  ///< why there is no exact posterior; empty when there is one
+  Draws draws;
+  WeightedDraws pooled;                  ///< all draws of all chains, of one weight
+  std::vector<Diagnostics> diagnostics;  ///< of the draws, one a parameter
+  int max_treedepth = 0;                 ///< that NUTS was allowed
+};
+
+/// Finds the mode, examines the tails, integrates exactly when there are at most
+/// `max_exact_dimension` parameters and the posterior is proper, and draws.
+Fit fit(const Posterior& posterior, const FitSettings& settings);
+
+}  // namespace wearwell

@@ -1,0 +1,85 @@
+#include "wearwell/predict/prediction.h"
+
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <numeric>
+
+namespace wearwell {
+namespace {
+
+// Weighted measurements: each draw gives one law; draws that together weigh nothing are left out.
+struct Mixture {
+  ObservationFamily family;
+  std::vector<double> weight, mean, sd;
+
+  double cdf(double y) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+      sum += weight[i] * observation_cdf(family, y, mean[i], sd[i]);
+    }
+    return sum;
+  }
+
+  double quantile(double p) const {
+    double center = std::inner_product(weight.begin(), weight.end(), mean.begin(), 0.0);
+    double width = std::inner_product(weight.begin(), weight.end(), sd.begin(), 0.0);
+    if (!std::isfinite(center) || !std::isfinite(width)) return std::nan("");
+    const auto excess = [&](double y) { return cdf(y) - p; };
+    double a = center - width, b = center + width;
+    while (excess(a) > 0 && std::isfinite(a)) a -= width *= 2;
+    while (excess(b) < 0 && std::isfinite(b)) b += width *= 2;
+    if (!std::isfinite(a) || !std::isfinite(b)) return std::nan("");
+    std::uintmax_t iterations = 100;
+    const auto close = [&](double l, double r) {
+      return r - l <= 1e-7 * (std::abs(l) + std::abs(r));
+    };
+    const auto [left, right] = boost::math::tools::toms748_solve(excess, a, b, close, iterations);
+    return 0.5 * (left + right);
+  }
+};
+
+Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function& sd,
+                ObservationFamily family) {
+  // The nodes of a quadrature reach far into tails that hold less than this of the mass.
+  constexpr double negligible = 1e-6;
+  const Eigen::Index n = draws.values.rows();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
+  std::iota(order.begin(), order.end(), 0);
+  if (!draws.lower.empty()) {
+    std::sort(order.begin(), order.end(),
+              [&](auto a, auto b) { return draws.weights[a] > draws.weights[b]; });
+  }
+  Mixture all{family, {}, {}, {}};
+  double total = 0;
+  for (const Eigen::Index i : order) {
+    if (total > 1 - negligible) break;
+    const Eigen::VectorXd x = draws.values.row(i);
+    all.weight.push_back(draws.weights[i]);
+    all.mean.push_back(mean(x.data()));
+    all.sd.push_back(sd(x.data()));
+    total += draws.weights[i];
+  }
+  for (double& weight : all.weight) weight /= total;
+  return all;
+}
+
+}  // namespace
+
+Prediction predict(const WeightedDraws& draws, const Function& mean, const Function& sd,
+                   ObservationFamily family) {
+  const Distribution truth(draws, mean);
+  const Mixture measurement = mixture(draws, mean, sd, family);
+  return {truth.mean(), truth.quantile(0.05), truth.quantile(0.95), measurement.quantile(0.05),
+          measurement.quantile(0.95)};
+}
+
+Life predict_life(const WeightedDraws& draws, const Function& life, double now, double risk) {
+  const Distribution lives(draws, life);
+  const double reached = lives.cdf(now);
+  const double wait = lives.quantile(reached + risk * (1 - reached)) - now;
+  return {lives.quantile(0.01), lives.quantile(0.1),  lives.quantile(0.5),
+          lives.quantile(0.05), lives.quantile(0.95), std::max(0.0, wait)};
+}
+
+}  // namespace wearwell

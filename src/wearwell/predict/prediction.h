@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+
+#include "wearwell/bayes/observation.h"
+#include "wearwell/bayes/weighted_draws.h"
+
+namespace wearwell {
+
+/// A number that depends on the parameters; `x` has one entry a parameter, natural, SI.
+using Function = std::function<double(const double* x)>;
+
+/// What a measurement will read: the law of the true mean, and of one measurement of it.
+struct Prediction {
+  double mean = 0;  ///< of the true mean
+  double ci05 = 0;  ///< credible interval of the true mean, 5 % to 95 %
+  double ci95 = 0;
+  double pi05 = 0;  ///< prediction interval of one measurement, 5 % to 95 %
+  double pi95 = 0;
+};
+
+/// `mean` and `sd` of the measurement as functions of the parameters. The prediction interval
+/// solves for the quantiles of the mixture over all draws, so it carries no noise of its own.
+Prediction predict(const WeightedDraws& draws, const Function& mean, const Function& sd,
+                   ObservationFamily family);
+
+/// When something is reached that every draw reaches at its own time.
+struct Life {
+  double b1 = 0;  ///< reached by then with probability 1 %
+  double b10 = 0;
+  double b50 = 0;
+  double q05 = 0;  ///< the 90 % interval
+  double q95 = 0;
+  double inspect_within = 0;  ///< from `now`: the longest wait with at most `risk` of reaching it,
+                              ///< given that it is not reached
+};
+
+/// `life` of the parameters, infinite where it is never reached; `now` in the same unit, `risk` in
+/// (0, 1).
+Life predict_life(const WeightedDraws& draws, const Function& life, double now, double risk);
+
+}  // namespace wearwell

@@ -1,0 +1,125 @@
+#include "wearwell/report/json.h"
+
+namespace wearwell {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const ParameterSummary& p) {
+  Json json = {{"unit", p.unit},         {"mean", p.mean}, {"sd", p.sd},   {"mcse", p.mcse},
+               {"q05", p.q05},           {"q50", p.q50},   {"q95", p.q95}, {"ess_bulk", p.ess_bulk},
+               {"ess_tail", p.ess_tail}, {"rhat", p.rhat}};
+  if (p.exact) {
+    json["exact"] = {{"mean", p.exact->mean},
+                     {"sd", p.exact->sd},
+                     {"q05", p.exact->q05},
+                     {"q50", p.exact->q50},
+                     {"q95", p.exact->q95}};
+  }
+  return json;
+}
+
+Json to_json(const std::vector<ParameterSummary>& parameters) {
+  Json json = Json::object();
+  for (const ParameterSummary& parameter : parameters) json[parameter.name] = to_json(parameter);
+  return json;
+}
+
+Json to_json(const Prediction& p) {
+  return {{"mean", p.mean}, {"ci05", p.ci05}, {"ci95", p.ci95}, {"pi05", p.pi05}, {"pi95", p.pi95}};
+}
+
+Json to_json(const std::vector<PredictionSummary>& predictions) {
+  Json json = Json::array();
+  for (const PredictionSummary& p : predictions) {
+    Json each = {{p.at_name, p.at}, {"quantity", p.quantity}, {"unit", p.unit}};
+    each.update(to_json(p.drawn));
+    if (p.measured) each["measured"] = *p.measured;
+    if (p.exact) each["exact"] = to_json(*p.exact);
+    json.push_back(std::move(each));
+  }
+  return json;
+}
+
+Json to_json(const Life& life) {
+  return {{"b1", life.b1},   {"b10", life.b10}, {"b50", life.b50},
+          {"q05", life.q05}, {"q95", life.q95}, {"inspect_within", life.inspect_within}};
+}
+
+Json to_json(const LifeSummary& life) {
+  Json json = {{"unit", life.unit},
+               {"limit", life.limit},
+               {"limit_unit", life.limit_unit},
+               {"now", life.now},
+               {"risk", life.risk}};
+  json.update(to_json(life.drawn));
+  if (life.exact) json["exact"] = to_json(*life.exact);
+  return json;
+}
+
+Json to_json(const std::vector<Check>& checks) {
+  static constexpr const char* verdicts[] = {"pass", "warn", "fail"};
+  Json json = Json::array();
+  for (const Check& check : checks) {
+    Json each = {{"name", check.name},
+                 {"verdict", verdicts[static_cast<int>(check.verdict)]},
+                 {"detail", check.detail}};
+    if (!check.advice.empty()) each["advice"] = check.advice;
+    json.push_back(std::move(each));
+  }
+  return json;
+}
+
+Json to_json(const StageSummary& stage) {
+  return {{"rows", stage.rows},
+          {"parameters", to_json(stage.parameters)},
+          {"predictions", to_json(stage.predictions)},
+          {"checks", to_json(stage.checks)},
+          {"trusted", stage.trusted}};
+}
+
+Json to_json(const PointwiseTable& table) {
+  Json rows = Json::array();
+  for (const PointwiseRow& row : table.rows) {
+    rows.push_back({{"cycles", row.cycles},
+                    {"force", row.force},
+                    {"slip", row.slip},
+                    {"volume", row.volume},
+                    {"k", row.k}});
+  }
+  return {{"units",
+           {{"force", table.force_unit},
+            {"slip", table.slip_unit},
+            {"volume", table.volume_unit},
+            {"k", table.k_unit}}},
+          {"rows", rows}};
+}
+
+}  // namespace
+
+Json to_json(const StudyResult& result) {
+  Json json = {{"wearwell", result.version},
+               {"title", result.title},
+               {"model", result.model},
+               {"equation", result.equation},
+               {"data", {{"file", result.data_file}, {"rows", result.data_rows}}},
+               {"sampler",
+                {{"method", result.method},
+                 {"chains", result.chains},
+                 {"warmup", result.warmup},
+                 {"draws", result.draws},
+                 {"seed", result.seed}}},
+               {"parameters", to_json(result.parameters)}};
+  Json stages = Json::array();
+  for (const StageSummary& stage : result.stages) stages.push_back(to_json(stage));
+  json["stages"] = stages;
+  json["predictions"] = to_json(result.predictions);
+  if (result.life) json["life"] = to_json(*result.life);
+  if (result.pointwise) json["pointwise"] = to_json(*result.pointwise);
+  if (result.log_evidence) json["log_evidence"] = *result.log_evidence;
+  json["checks"] = to_json(result.checks);
+  json["trusted"] = result.trusted;
+  return json;
+}
+
+}  // namespace wearwell

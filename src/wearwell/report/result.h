@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/bayes/draws.h"
+#include "wearwell/infer/trust.h"
+#include "wearwell/predict/prediction.h"
+
+namespace wearwell {
+
+/// What a study found, in the units that its user asked for: all that reports need. No physics, no
+/// statistics.
+
+struct ExactSummary {
+  double mean = 0, sd = 0, q05 = 0, q50 = 0, q95 = 0;
+};
+
+struct ParameterSummary {
+  std::string name;
+  std::string unit;
+  double mean = 0, sd = 0, mcse = 0, q05 = 0, q50 = 0, q95 = 0;
+  double ess_bulk = 0, ess_tail = 0, rhat = 0;
+  std::optional<ExactSummary> exact;
+};
+
+/// The worn volume (or whatever the study measures) at one point of its history.
+struct PredictionSummary {
+  std::string at_name;  ///< "cycles"
+  double at = 0;
+  std::string quantity;  ///< "volume"
+  std::string unit;
+  Prediction drawn;
+  std::optional<Prediction> exact;
+  std::optional<double> measured;  ///< when the data hold a measurement there
+};
+
+struct LifeSummary {
+  std::string unit;  ///< "cycles"
+  double limit = 0;  ///< what is reached
+  std::string limit_unit;
+  double now = 0;  ///< the last inspection
+  double risk = 0;
+  Life drawn;
+  std::optional<Life> exact;
+};
+
+/// The posterior after the first `rows` data sets.
+struct StageSummary {
+  std::size_t rows = 0;
+  std::vector<ParameterSummary> parameters;
+  std::vector<PredictionSummary> predictions;
+  std::vector<Check> checks;
+  bool trusted = true;
+};
+
+/// k = V/(F s) of one measurement, as Tables 2 and 3 of An et al. (2011).
+struct PointwiseRow {
+  double cycles = 0, force = 0, slip = 0, volume = 0, k = 0;
+};
+struct PointwiseTable {
+  std::string volume_unit, force_unit, slip_unit, k_unit;
+  std::vector<PointwiseRow> rows;
+};
+
+struct StudyResult {
+  std::string version;
+  std::string title, model, equation, data_file;
+  std::size_t data_rows = 0;
+  std::string method;  ///< "exact", "nuts" or "metropolis"
+  int chains = 0, warmup = 0, draws = 0;
+  std::uint64_t seed = 0;
+  std::vector<ParameterSummary> parameters;
+  std::vector<StageSummary> stages;
+  std::vector<PredictionSummary> predictions;
+  std::optional<LifeSummary> life;
+  std::optional<PointwiseTable> pointwise;
+  std::optional<double> log_evidence;  ///< natural logarithm, data in SI
+  std::vector<Check> checks;
+  bool trusted = true;
+
+  Draws posterior_draws;  ///< in the parameters' units
+};
+
+}  // namespace wearwell

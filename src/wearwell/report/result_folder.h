@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace wearwell {
+
+/// A folder of results that appears whole or not at all: files are written into a folder beside the
+/// target, which takes the target's place at `commit` and is removed when that never comes.
+class ResultFolder {
+ public:
+  /// Throws InputError when `target` is something else than an earlier result or an empty folder,
+  /// or cannot be written.
+  explicit ResultFolder(std::filesystem::path target);
+  ~ResultFolder();
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+
+  const std::filesystem::path& path() const { return target_; }
+
+  /// Throws MachineError when the disk refuses.
+  void write(const std::string& name, const std::string& content) const;
+  void copy(const std::filesystem::path& file, const std::string& name) const;
+
+  /// Throws MachineError; the earlier result stays then.
+  void commit();
+
+ private:
+  std::filesystem::path target_, staging_, made_parent_;
+};
+
+}  // namespace wearwell

@@ -1,0 +1,150 @@
+#include "wearwell/report/terminal.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace wearwell {
+namespace {
+
+// Rows of cells, the first row being the heading; the first column is aligned left, the others
+// right.
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> width;
+  for (const auto& row : rows) {
+    width.resize(std::max(width.size(), row.size()));
+    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
+  }
+  std::string out;
+  for (const auto& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      out += c == 0 ? fmt::format("  {:<{}}", row[c], width[c])
+                    : fmt::format("  {:>{}}", row[c], width[c]);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+std::string number(double x) {
+  return fmt::format("{:.4g}", x);
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+}
+
+std::string parameter_table(const std::vector<ParameterSummary>& parameters) {
+  std::vector<std::vector<std::string>> rows = {
+      {"", "mean", "MCSE", "sd", "5 %", "50 %", "95 %", "ESS", "R-hat", "exact mean", "exact sd"}};
+  for (const ParameterSummary& p : parameters) {
+    rows.push_back({with_unit(p.name, p.unit), number(p.mean), fmt::format("{:.2g}", p.mcse),
+                    number(p.sd), number(p.q05), number(p.q50), number(p.q95),
+                    fmt::format("{:.0f}", std::min(p.ess_bulk, p.ess_tail)),
+                    fmt::format("{:.3f}", p.rhat), p.exact ? number(p.exact->mean) : "-",
+                    p.exact ? number(p.exact->sd) : "-"});
+  }
+  return table(rows);
+}
+
+// The better of the two: quadrature where there is one.
+const Prediction& best(const PredictionSummary& p) {
+  return p.exact ? *p.exact : p.drawn;
+}
+
+std::string stage_table(const std::vector<StageSummary>& stages) {
+  std::vector<std::vector<std::string>> rows = {{"data sets"}};
+  for (const ParameterSummary& p : stages.front().parameters) {
+    rows[0].push_back(with_unit(p.name, p.unit));
+    rows[0].push_back("sd");
+  }
+  rows[0].push_back("trusted");
+  for (const StageSummary& stage : stages) {
+    rows.push_back({fmt::format("{}", stage.rows)});
+    for (const ParameterSummary& p : stage.parameters) {
+      rows.back().push_back(number(p.exact ? p.exact->mean : p.mean));
+      rows.back().push_back(number(p.exact ? p.exact->sd : p.sd));
+    }
+    rows.back().push_back(stage.trusted ? "yes" : "no");
+  }
+  return table(rows);
+}
+
+std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
+  const PredictionSummary& first = predictions.front();
+  std::vector<std::vector<std::string>> rows = {
+      {first.at_name, with_unit(first.quantity, first.unit), "mean wear 5 %..95 %",
+       "measurement 5 %..95 %", "measured"}};
+  for (const PredictionSummary& each : predictions) {
+    const Prediction& p = best(each);
+    rows.push_back({fmt::format("{}", each.at), number(p.mean),
+                    fmt::format("{:.4g} .. {:.4g}", p.ci05, p.ci95),
+                    fmt::format("{:.4g} .. {:.4g}", p.pi05, p.pi95),
+                    each.measured ? number(*each.measured) : "-"});
+  }
+  return table(rows);
+}
+
+std::string count(double x) {
+  return std::isfinite(x) ? fmt::format("{:.0f}", x) : "never";
+}
+
+std::string life_lines(const LifeSummary& summary) {
+  const Life& life = summary.exact ? *summary.exact : summary.drawn;
+  return fmt::format(
+      "  {0} to {1} {2}:  B1 {3}   B10 {4}   B50 {5}   (5 %..95 %: {6} .. {7})\n"
+      "  after {8} {0}, inspect again within {9} {0}: {10} % risk of reaching the limit before\n",
+      summary.unit, number(summary.limit), summary.limit_unit, count(life.b1), count(life.b10),
+      count(life.b50), count(life.q05), count(life.q95), summary.now, count(life.inspect_within),
+      number(100 * summary.risk));
+}
+
+std::string pointwise_table(const PointwiseTable& p) {
+  std::vector<std::vector<std::string>> rows = {
+      {"cycles", with_unit("F", p.force_unit), with_unit("s", p.slip_unit),
+       with_unit("V", p.volume_unit), with_unit("k = V/(F s)", p.k_unit)}};
+  for (const PointwiseRow& row : p.rows) {
+    rows.push_back({fmt::format("{}", row.cycles), number(row.force), number(row.slip),
+                    number(row.volume), number(row.k)});
+  }
+  return table(rows);
+}
+
+std::string painted(Verdict verdict, bool colour) {
+  static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
+  static constexpr const char* codes[] = {"32", "33", "31"};
+  const auto i = static_cast<int>(verdict);
+  return colour ? fmt::format("\033[{}m{}\033[0m", codes[i], words[i]) : words[i];
+}
+
+std::string check_lines(const std::vector<Check>& checks, bool colour) {
+  std::string out;
+  for (const Check& check : checks) {
+    out +=
+        fmt::format("  {}  {:<20} {}\n", painted(check.verdict, colour), check.name, check.detail);
+    if (!check.advice.empty()) out += fmt::format("  {:>4}  {:<20} -> {}\n", "", "", check.advice);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string terminal_summary(const StudyResult& result, bool colour) {
+  std::string out = fmt::format("{}\n  {}\n  {}: {} data sets\n", result.title, result.equation,
+                                result.data_file, result.data_rows);
+  out += "\nParameters\n" + parameter_table(result.parameters);
+  if (result.pointwise)
+    out += "\nWear coefficient of each measurement\n" + pointwise_table(*result.pointwise);
+  if (!result.stages.empty())
+    out += "\nData set by data set (mean, sd)\n" + stage_table(result.stages);
+  if (!result.predictions.empty()) out += "\nPredictions\n" + prediction_table(result.predictions);
+  if (result.life) out += "\nLife\n" + life_lines(*result.life);
+  out += "\nChecks\n" + check_lines(result.checks, colour);
+  out += result.trusted ? "\nTrusted: no check failed.\n"
+                        : "\nNOT TRUSTED: at least one check failed; the numbers above are not to "
+                          "be used as they stand.\n";
+  return out;
+}
+
+}  // namespace wearwell

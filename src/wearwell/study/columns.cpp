@@ -1,0 +1,45 @@
+#include "wearwell/study/columns.h"
+
+#include <fmt/format.h>
+
+#include "wearwell/base/error.h"
+
+namespace wearwell {
+
+std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::string& name,
+                                        const std::string& si) {
+  if (!columns.has(name)) return {};
+  if (columns.is_text(name)) {
+    if (si != "1") {
+      columns.fail(name, fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}",
+                                     name, *columns.text(name), si));
+    }
+    return ColumnChoice{*columns.text(name), Unit{"1", 1, 0}};
+  }
+  const TomlReader table = columns.required_table(name);
+  ColumnChoice choice{table.required_text("column"), Unit{"1", 1, 0}};
+  const auto unit = table.text("unit");
+  if (!unit && si != "1") table.fail("unit", fmt::format("is missing (one like \"{}\")", si));
+  if (unit) {
+    try {
+      choice.unit = read_unit(*unit, si);
+    } catch (const InputError& error) {
+      table.fail("unit", error.what());
+    }
+  }
+  return choice;
+}
+
+ColumnChoice required_column(const TomlReader& columns, const std::string& name,
+                             const std::string& si) {
+  const auto choice = read_column(columns, name, si);
+  if (!choice) {
+    columns.fail(name, si == "1"
+                           ? "is missing: which column holds it?"
+                           : fmt::format("is missing: {} = {{ column = \"...\", unit = \"{}\" }}",
+                                         name, si));
+  }
+  return *choice;
+}
+
+}  // namespace wearwell

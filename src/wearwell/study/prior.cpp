@@ -1,0 +1,146 @@
+#include "wearwell/study/prior.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+
+namespace wearwell {
+namespace {
+
+const std::vector<std::string> laws = {"flat",          "uniform",     "normal",      "lognormal",
+                                       "half-normal",   "half-cauchy", "exponential", "gamma",
+                                       "inverse-gamma", "student-t",   "beta",        "jeffreys"};
+
+// Reads one prior, and remembers the unit it was written in.
+class PriorReader {
+ public:
+  PriorReader(const TomlReader& table, const ParameterSpec& spec) : table_(table), spec_(spec) {
+    if (const auto unit = table_.text("unit")) {
+      try {
+        unit_ = read_unit(*unit, spec_.si);
+      } catch (const InputError& error) {
+        table_.fail("unit", error.what());
+      }
+    }
+  }
+
+  double dimensional(const char* key) { return keep(table_.required_quantity(key, spec_.si)); }
+  double plain(const char* key) { return table_.required_quantity(key, "1").si(); }
+  double bound(const char* key, double none) {
+    const auto value = table_.quantity(key, spec_.si);
+    return value ? keep(*value) : none;
+  }
+
+  Family family(const std::string& law) {
+    if (law == "flat") return Flat{};
+    if (law == "uniform") {
+      for (const char* end : {"lower", "upper"}) {
+        if (!table_.has(end)) table_.fail(end, "is missing: a uniform law has both bounds");
+      }
+      return Uniform{};
+    }
+    if (law == "normal") return Normal{dimensional("mean"), dimensional("sd")};
+    if (law == "lognormal") return lognormal();
+    if (law == "half-normal") return Normal{0, dimensional("scale")};
+    if (law == "half-cauchy") return StudentT{1, 0, dimensional("scale")};
+    if (law == "exponential") return Gamma{1, dimensional("mean")};
+    if (law == "gamma") return Gamma{plain("shape"), dimensional("scale")};
+    if (law == "inverse-gamma") return InverseGamma{plain("shape"), dimensional("scale")};
+    if (law == "student-t") {
+      return StudentT{plain("df"), dimensional("location"), dimensional("scale")};
+    }
+    if (law == "beta") return Beta{plain("alpha"), plain("beta")};
+    return Jeffreys{};
+  }
+
+  Unit unit() const {
+    if (unit_) return *unit_;
+    if (spec_.si == "1") return Unit{"1", 1, 0};
+    table_.fail(
+        "",
+        fmt::format("no quantity here has a unit; add unit = \"{}\", or any other of its dimension",
+                    spec_.si));
+  }
+
+ private:
+  Family lognormal() {
+    if (table_.has("median") || table_.has("log_sd")) {
+      return Lognormal{std::log(dimensional("median")), plain("log_sd")};
+    }
+    const double mean = dimensional("mean"), sd = dimensional("sd");
+    if (!(mean > 0)) table_.fail("mean", "must be positive for a lognormal law");
+    if (!(sd > 0)) table_.fail("sd", "must be positive");
+    const LognormalByMoments<double> law(mean, sd);
+    return Lognormal{law.eta, law.zeta};
+  }
+
+  double keep(const Quantity& quantity) {
+    if (quantity.unit.offset != 0) {
+      table_.fail("", fmt::format("unit '{}' has an offset; write the parameter in '{}'",
+                                  quantity.unit.text, spec_.si));
+    }
+    if (!unit_) unit_ = quantity.unit;
+    return quantity.si();
+  }
+
+  const TomlReader& table_;
+  const ParameterSpec& spec_;
+  std::optional<Unit> unit_;
+};
+
+// A value strictly inside the support, the guess where that is possible.
+double start_inside(const Law& law, double guess) {
+  if (law.lower < guess && guess < law.upper) return guess;
+  if (std::isfinite(law.lower) && std::isfinite(law.upper)) return 0.5 * (law.lower + law.upper);
+  if (law.proper) return quantile(law, 0.5);
+  const double step = std::max(std::abs(guess), std::abs(law.lower));
+  return std::isfinite(law.lower) ? law.lower + step : law.upper - step;
+}
+
+double spread(const Law& law, double start) {
+  if (law.proper) return 0.5 * (quantile(law, 0.84) - quantile(law, 0.16));
+  return start != 0 ? std::abs(start) : 1;
+}
+
+}  // namespace
+
+Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
+  const auto table = priors.table(spec.name);
+  if (!table) {
+    priors.fail(
+        "",
+        fmt::format(
+            "no prior for {}; write {} = {{ law = \"flat\", unit = \"{}\" }} if nothing is known",
+            spec.name, spec.name, spec.si));
+  }
+  const auto law = table->choice("law", laws);
+  if (!law) table->fail("law", "is missing");
+  PriorReader reader(*table, spec);
+  const Family family = reader.family(*law);
+  const double least = law->starts_with("half-") ? 0 : -std::numeric_limits<double>::infinity();
+  const double lower = std::max(least, reader.bound("lower", least));
+  const double upper = reader.bound("upper", std::numeric_limits<double>::infinity());
+
+  Parameter parameter{spec.name, spec.si, reader.unit(), *law, {}};
+  parameter.natural_lower = spec.natural_lower;
+  parameter.natural_upper = spec.natural_upper;
+  if (!(lower < upper)) {
+    table->fail("upper",
+                fmt::format("the lower bound {:.6g} is not below the upper bound {:.6g}",
+                            from_si(parameter.unit, lower), from_si(parameter.unit, upper)));
+  }
+  try {
+    parameter.prior =
+        make_law(family, std::max(lower, spec.natural_lower), std::min(upper, spec.natural_upper));
+  } catch (const InputError& error) {
+    table->fail("", error.what());
+  }
+  parameter.start = start_inside(parameter.prior, spec.guess);
+  parameter.scale = spread(parameter.prior, parameter.start);
+  return parameter;
+}
+
+}  // namespace wearwell

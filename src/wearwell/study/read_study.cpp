@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include "wearwell/base/error.h"
+#include "wearwell/study/joint_study.h"
+#include "wearwell/study/study.h"
+#include "wearwell/study/toml_reader.h"
+
+namespace wearwell {
+namespace {
+
+std::optional<int> whole(const TomlReader& table, const char* key, int least, int most) {
+  const auto value = table.integer(key, least, most);
+  return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
+}
+
+void read_sampler(const TomlReader& root, Study& study) {
+  const auto sampler = root.table("sampler");
+  if (!sampler) return;
+  if (const auto method = sampler->choice("method", {"exact", "nuts", "metropolis"})) {
+    study.sampler.method = *method == "exact"  ? Method::exact
+                           : *method == "nuts" ? Method::nuts
+                                               : Method::metropolis;
+  }
+  study.sampler.chains = whole(*sampler, "chains", 1, max_chains);
+  study.sampler.warmup = whole(*sampler, "warmup", 0, max_iterations);
+  study.sampler.draws = whole(*sampler, "draws", min_draws, max_iterations);
+  if (const auto seed = sampler->integer("seed", 0, std::numeric_limits<long long>::max())) {
+    study.sampler.seed = static_cast<std::uint64_t>(*seed);
+  }
+  study.nuts.max_treedepth =
+      whole(*sampler, "max_treedepth", 1, 20).value_or(study.nuts.max_treedepth);
+  if (const auto metric = sampler->choice("metric", {"diagonal", "dense"})) {
+    study.nuts.dense_metric = *metric == "dense";
+  }
+  if (const auto target = sampler->quantity("target_accept", "1")) {
+    if (!(target->si() > 0 && target->si() < 1)) {
+      sampler->fail("target_accept", "must lie between 0 and 1");
+    }
+    study.nuts.target_accept = target->si();
+  }
+  if (const auto half_width = sampler->table("half_width")) {
+    Eigen::VectorXd widths(static_cast<Eigen::Index>(study.parameters.size()));
+    for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+      const Parameter& parameter = study.parameters[i];
+      const Quantity width = half_width->required_quantity(parameter.name, parameter.si);
+      if (!(width.si() > 0)) half_width->fail(parameter.name, "must be positive");
+      widths[static_cast<Eigen::Index>(i)] = width.si();
+    }
+    study.metropolis.half_width = widths;
+  }
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& file) {
+  const TomlReader root = TomlReader::parse_file(file);
+  Study study;
+  study.title = root.text("title").value_or(file.stem().string());
+  const auto model = root.choice("model", {"archard-joint"});
+  if (!model) root.fail("model", "is missing: \"archard-joint\"");
+  study.model = *model;
+  const TomlReader data = root.required_table("data");
+  study.data_file = data.required_text("file");
+  if (const auto update = root.table("update")) {
+    study.stages = update->choice("stages", {"row"}).has_value();
+  }
+  read_joint_study(root, file.parent_path(), study);
+  read_sampler(root, study);
+  root.finish();
+  return study;
+}
+
+}  // namespace wearwell

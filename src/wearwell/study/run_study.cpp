@@ -1,0 +1,180 @@
+#include "wearwell/study/run_study.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include "wearwell/bayes/posterior.h"
+#include "wearwell/infer/fit.h"
+#include "wearwell/infer/trust.h"
+
+namespace wearwell {
+namespace {
+
+FitSettings fit_settings(const Study& study, const SamplerChoice& choice) {
+  const auto chosen = [](const auto& first, const auto& second, auto otherwise) {
+    return first ? *first : second ? *second : otherwise;
+  };
+  FitSettings settings;
+  settings.nuts = study.nuts;
+  settings.metropolis = study.metropolis;
+  settings.method = chosen(choice.method, study.sampler.method, Method::nuts);
+  const bool metropolis = settings.method == Method::metropolis;
+  RunSettings& run = settings.run;
+  run.chains = chosen(choice.chains, study.sampler.chains, 4);
+  run.warmup = chosen(choice.warmup, study.sampler.warmup, metropolis ? 4000 : 1000);
+  run.draws = chosen(choice.draws, study.sampler.draws, metropolis ? 6000 : 1000);
+  run.seed = chosen(choice.seed, study.sampler.seed, std::uint64_t{1});
+  return settings;
+}
+
+std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, const Fit& fit) {
+  std::vector<ParameterSummary> summaries;
+  for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
+    const Parameter& parameter = posterior.parameters()[i];
+    const Function value = [&, i](const double* x) { return from_si(parameter.unit, x[i]); };
+    const Distribution drawn(fit.pooled, value);
+    const Diagnostics& d = fit.diagnostics[i];
+    ParameterSummary summary{parameter.name,
+                             parameter.unit.text,
+                             drawn.mean(),
+                             drawn.sd(),
+                             d.mcse_mean / parameter.unit.scale,
+                             drawn.quantile(0.05),
+                             drawn.quantile(0.5),
+                             drawn.quantile(0.95),
+                             d.ess_bulk,
+                             d.ess_tail,
+                             d.rhat,
+                             {}};
+    if (fit.exact) {
+      const Distribution exact(fit.exact->nodes, value);
+      const auto at = static_cast<Eigen::Index>(i);
+      summary.exact = {from_si(parameter.unit, fit.exact->mean[at]),
+                       fit.exact->sd[at] / parameter.unit.scale, exact.quantile(0.05),
+                       exact.quantile(0.5), exact.quantile(0.95)};
+    }
+    summaries.push_back(std::move(summary));
+  }
+  return summaries;
+}
+
+Prediction in_unit(const Unit& unit, Prediction p) {
+  for (double* each : {&p.mean, &p.ci05, &p.ci95, &p.pi05, &p.pi95}) *each = from_si(unit, *each);
+  return p;
+}
+
+PredictionSummary summarize(const PredictionRequest& request, const Fit& fit) {
+  const auto predicted = [&](const WeightedDraws& draws) {
+    return in_unit(request.unit, predict(draws, request.mean, request.sd, request.family));
+  };
+  PredictionSummary summary{request.at_name,
+                            request.at,
+                            request.quantity,
+                            request.unit.text,
+                            predicted(fit.pooled),
+                            {},
+                            {}};
+  if (fit.exact) summary.exact = predicted(fit.exact->nodes);
+  if (request.measured) summary.measured = from_si(request.unit, *request.measured);
+  return summary;
+}
+
+std::vector<PredictionSummary> summarize(const std::vector<PredictionRequest>& requests,
+                                         const Fit& fit) {
+  std::vector<PredictionSummary> summaries;
+  for (const PredictionRequest& request : requests) summaries.push_back(summarize(request, fit));
+  return summaries;
+}
+
+LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
+  const auto life = [&](const WeightedDraws& draws) {
+    return predict_life(draws, request.life, request.now, request.risk);
+  };
+  LifeSummary summary{request.unit_name,
+                      request.limit.value,
+                      request.limit.unit.text,
+                      request.now,
+                      request.risk,
+                      life(fit.pooled),
+                      {}};
+  if (fit.exact) summary.exact = life(fit.exact->nodes);
+  return summary;
+}
+
+StageSummary run_stage(const Study& study, FitSettings settings, std::size_t rows) {
+  settings.run.first_stream = rows * max_chains;
+  const Posterior posterior(study.parameters, study.likelihood(rows));
+  const Fit stage = fit(posterior, settings);
+  std::vector<PredictionRequest> requests = study.stage_predictions(rows);
+  requests.insert(requests.end(), study.predictions.begin(), study.predictions.end());
+  StageSummary summary{rows, summarize_parameters(posterior, stage), summarize(requests, stage),
+                       trust_checks(posterior, stage), true};
+  summary.trusted = trusted(summary.checks);
+  return summary;
+}
+
+Draws in_units(const Study& study, Draws draws) {
+  for (Chain& chain : draws) {
+    for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+      const Unit& unit = study.parameters[i].unit;
+      auto column = chain.values.col(static_cast<Eigen::Index>(i));
+      column = column.unaryExpr([&](double x) { return from_si(unit, x); }).eval();
+    }
+  }
+  return draws;
+}
+
+const char* name(Method method) {
+  switch (method) {
+    case Method::exact:
+      return "exact";
+    case Method::metropolis:
+      return "metropolis";
+    case Method::nuts:
+      break;
+  }
+  return "nuts";
+}
+
+}  // namespace
+
+StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads) {
+  std::optional<tbb::global_control> limit;
+  if (threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  }
+  const FitSettings settings = fit_settings(study, choice);
+  const Posterior posterior(study.parameters, study.likelihood(study.data_rows));
+  Fit final = fit(posterior, settings);
+
+  StudyResult result{WEARWELL_VERSION,
+                     study.title,
+                     study.model,
+                     study.equation,
+                     study.data_file,
+                     study.data_rows,
+                     name(final.method),
+                     settings.run.chains,
+                     final.method == Method::exact ? 0 : settings.run.warmup,
+                     settings.run.draws,
+                     settings.run.seed,
+                     summarize_parameters(posterior, final),
+                     {},
+                     summarize(study.predictions, final),
+                     {},
+                     study.pointwise,
+                     final.exact ? final.exact->log_evidence : std::nullopt,
+                     trust_checks(posterior, final),
+                     true,
+                     in_units(study, std::move(final.draws))};
+  result.trusted = trusted(result.checks);
+  if (study.life) result.life = summarize(*study.life, final);
+  if (study.stages) {
+    result.stages.resize(study.data_rows);
+    tbb::parallel_for(std::size_t{0}, study.data_rows,
+                      [&](std::size_t i) { result.stages[i] = run_stage(study, settings, i + 1); });
+  }
+  return result;
+}
+
+}  // namespace wearwell

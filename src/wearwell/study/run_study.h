@@ -1,0 +1,14 @@
+#pragma once
+
+#include "wearwell/report/result.h"
+#include "wearwell/study/study.h"
+
+namespace wearwell {
+
+/// Fits, checks and predicts: the final posterior, and that of every stage when the study asks for
+/// them. What `choice` leaves open is as the study says, and then the method's default: 4 chains of
+/// 1000 draws after 1000 of warm-up, for Metropolis 6000 after 4000. Uses `threads` threads (0:
+/// all); the result does not depend on it.
+StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads);
+
+}  // namespace wearwell

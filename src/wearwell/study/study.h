@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/bayes/log_density.h"
+#include "wearwell/bayes/observation.h"
+#include "wearwell/bayes/parameter.h"
+#include "wearwell/infer/fit.h"
+#include "wearwell/predict/prediction.h"
+#include "wearwell/report/result.h"
+
+namespace wearwell {
+
+/// What is to be predicted of one measurement, past or to come.
+struct PredictionRequest {
+  std::string at_name;  ///< "cycles"
+  double at = 0;
+  std::string quantity;  ///< "volume"
+  Unit unit;
+  Function mean;  ///< of the parameters, SI
+  Function sd;
+  ObservationFamily family = ObservationFamily::normal;
+  std::optional<double> measured;  ///< SI
+};
+
+/// When a limit is reached.
+struct LifeRequest {
+  Unit unit;              ///< of the life
+  std::string unit_name;  ///< "cycles"
+  Quantity limit;
+  double now = 0;   ///< the last inspection
+  double risk = 0;  ///< tolerated at the next inspection
+  Function life;
+};
+
+inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
+inline constexpr int min_draws = 10;     ///< fewer have no diagnostics
+inline constexpr int max_iterations = 10'000'000;
+
+/// How to draw, as far as somebody said; the rest are the method's defaults.
+struct SamplerChoice {
+  std::optional<Method> method;
+  std::optional<int> chains, warmup, draws;
+  std::optional<std::uint64_t> seed;
+};
+
+/// A study as the engine sees it: whatever the trade, parameters with priors, a likelihood of the
+/// first data sets, and what to predict.
+struct Study {
+  std::string title, model, equation;
+  std::string data_file;
+  std::size_t data_rows = 0;  ///< data sets; the posterior can be updated after each
+  std::vector<Parameter> parameters;
+  std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
+  bool stages = false;  ///< the posterior after 1, 2, ... data sets as well
+  std::vector<PredictionRequest> predictions;
+  /// What to predict at the stage after `rows` data sets, beside `predictions`: that inspection and
+  /// the next.
+  std::function<std::vector<PredictionRequest>(std::size_t rows)> stage_predictions;
+  std::optional<LifeRequest> life;
+  std::optional<PointwiseTable> pointwise;
+  SamplerChoice sampler;  ///< as the study file says
+  NutsSettings nuts;
+  MetropolisSettings metropolis;
+};
+
+/// Reads a study file and its data; paths in it are relative to the file. Throws InputError with
+/// file:line:column and key, or with file, row and column of the data.
+Study read_study(const std::filesystem::path& file);
+
+}  // namespace wearwell
