@@ -59,9 +59,9 @@ const char* name(Quantity wanted) {
   return "";
 }
 
-/// The inputs of one bearing, checked against what one quantity needs.
+/// The inputs of one bearing, to be checked against what one quantity needs.
 struct Checked {
-  Quantity wanted;
+  const char* wanted;
   const Bearing& bearing;
 
   bool any(Inputs inputs) const {
@@ -81,8 +81,8 @@ struct Checked {
       const std::optional<double> value = bearing.*input;
       if (!value) {
         const std::string other = instead.size() == 0 ? "" : fmt::format(" (or {})", join(instead));
-        throw InputError(fmt::format("{} is missing: the {} needs {}{}", join({input}),
-                                     name(wanted), join(usual), other));
+        throw InputError(fmt::format("{} is missing: the {} needs {}{}", join({input}), wanted,
+                                     join(usual), other));
       }
       if (!(*value > 0) || std::isinf(*value))
         throw InputError(
@@ -93,25 +93,33 @@ struct Checked {
   void refuse(Inputs inputs) const {
     for (const Input input : inputs) {
       if (bearing.*input) {
-        throw InputError(fmt::format("{} is given, but the {} does not follow from it",
-                                     join({input}), name(wanted)));
+        throw InputError(
+            fmt::format("{} is given, but the {} does not follow from it", join({input}), wanted));
       }
     }
+  }
+
+  void need_geometry() const {
+    need({&Bearing::radius});
+    need({&Bearing::clearance});
+  }
+
+  void need_depth() const {
+    need({&Bearing::depth}, {&Bearing::scar_width});
+    if (bearing.scar_width && bearing.contact != Contact::stationary)
+      throw InputError("scar width is given, but only a stationary contact leaves a scar");
   }
 };
 
 void check(Quantity wanted, const Bearing& bearing) {
   using B = Bearing;
-  const Checked inputs{wanted, bearing};
-  inputs.need({&B::radius});
-  inputs.need({&B::clearance});
+  const Checked inputs{name(wanted), bearing};
+  inputs.need_geometry();
   if (wanted == Quantity::depth) {
     inputs.refuse({&B::depth, &B::scar_width});
   } else {
-    inputs.need({&B::depth}, {&B::scar_width});
+    inputs.need_depth();
   }
-  if (bearing.scar_width && bearing.contact != Contact::stationary)
-    throw InputError("scar width is given, but only a stationary contact leaves a scar");
   if (wanted == Quantity::rate) {
     inputs.refuse({&B::rate});
   } else {
@@ -143,23 +151,40 @@ double revolutions(const Bearing& b) {
   return b.revolutions ? *b.revolutions : *b.speed * *b.time;
 }
 
+/// Of a bearing whose depth is known, by whatever way.
+Solution from_depth(const Bearing& b) {
+  Solution s;
+  s.sigma = *b.clearance / *b.radius;
+  s.delta =
+      b.depth ? *b.depth / *b.radius : depth_from_scar(s.sigma, *b.scar_width / *b.radius).delta;
+  s.wear_number = s.value = wear_number(b.contact, s.sigma, s.delta);
+  return s;
+}
+
 }  // namespace
+
+Solution geometry(const Bearing& b) {
+  const Checked inputs{"wear number", b};
+  inputs.need_geometry();
+  inputs.need_depth();
+  inputs.refuse({&Bearing::rate, &Bearing::pressure, &Bearing::force, &Bearing::length,
+                 &Bearing::revolutions, &Bearing::speed, &Bearing::time});
+  return from_depth(b);
+}
 
 Solution solve(Quantity wanted, const Bearing& b) {
   check(wanted, b);
-  Solution s;
-  s.sigma = *b.clearance / *b.radius;
   if (wanted == Quantity::depth) {
+    Solution s;
+    s.sigma = *b.clearance / *b.radius;
     s.wear_number = *b.rate * pressure(b) * revolutions(b);
     s.delta = depth_for(b.contact, s.sigma, s.wear_number);
     s.value = s.delta * *b.radius;
     return s;
   }
-  s.delta =
-      b.depth ? *b.depth / *b.radius : depth_from_scar(s.sigma, *b.scar_width / *b.radius).delta;
-  s.wear_number = wear_number(b.contact, s.sigma, s.delta);
+  Solution s = from_depth(b);
   switch (wanted) {
-    case Quantity::depth:
+    case Quantity::depth:  // done above
     case Quantity::rate:
       s.value = s.wear_number / (pressure(b) * revolutions(b));
       break;

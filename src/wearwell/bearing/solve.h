@@ -45,6 +45,10 @@ struct Solution {
 /// that no depth reaches).
 Solution solve(Quantity wanted, const Bearing& bearing);
 
+/// sigma, delta and wear number of a bearing of which radius, clearance and depth (or scar width)
+/// are given, and nothing else; `value` is the wear number too. Throws InputError as `solve` does.
+Solution geometry(const Bearing& bearing);
+
 /// d ln(quantity) / d ln(input) for each input given: the percent by which the quantity changes
 /// when the input does by one.
 Bearing sensitivity(Quantity wanted, const Bearing& bearing);
