@@ -43,15 +43,20 @@ def grid():
         yield 10 ** rng.uniform(-8, -0.30103), 10 ** rng.uniform(-12, 0)
 
 
-print("sigma,delta,area,d_sigma,d_delta,alpha,beta,half_chord")
-for sigma, delta in grid():
-    s, d = mpf(sigma), mpf(delta)  # exactly the doubles that the csv names
-    row = [
-        area(s, d),
-        diff(lambda x: area(x, d), s, h=s * mpf(10) ** -40),
-        diff(lambda x: area(s, x), d, h=d * mpf(10) ** -40),
-        acos(cos_alpha(s, d)),
-        acos(cos_beta(s, d)),
-        sqrt(1 - cos_alpha(s, d) ** 2),
-    ]
-    print(",".join([repr(sigma), repr(delta)] + [nstr(x, 25, min_fixed=0, max_fixed=0) for x in row]))
+def main():
+    print("sigma,delta,area,d_sigma,d_delta,alpha,beta,half_chord")
+    for sigma, delta in grid():
+        s, d = mpf(sigma), mpf(delta)  # exactly the doubles that the csv names
+        row = [
+            area(s, d),
+            diff(lambda x: area(x, d), s, h=s * mpf(10) ** -40),
+            diff(lambda x: area(s, x), d, h=d * mpf(10) ** -40),
+            acos(cos_alpha(s, d)),
+            acos(cos_beta(s, d)),
+            sqrt(1 - cos_alpha(s, d) ** 2),
+        ]
+        print(",".join([repr(sigma), repr(delta)] + [nstr(x, 25, min_fixed=0, max_fixed=0) for x in row]))
+
+
+if __name__ == "__main__":
+    main()

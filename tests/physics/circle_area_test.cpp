@@ -45,6 +45,7 @@ TEST(Lune, MatchesGolden) {
     EXPECT_LT(relative(l.beta, v[6]), 1e-14);
     EXPECT_LT(relative(l.half_chord, v[7]), 1e-14);
     EXPECT_EQ(lune_area(v[0], v[1]), l.area);
+    EXPECT_EQ(lune_chord(v[0], v[1]), l.d_delta);
   }
   EXPECT_EQ(rows, 866);
 }

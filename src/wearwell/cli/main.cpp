@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "wearwell/base/error.h"
+#include "wearwell/cli/bearing.h"
 #include "wearwell/cli/fit.h"
 
 namespace {
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", WEARWELL_VERSION);
   add_fit_command(app, exit_code);
+  add_bearing_command(app);
 
   try {
     app.parse(argc, argv);

@@ -56,6 +56,10 @@ double area_of(const Triangle& t, double sigma, double delta) {
          2 * sigma * (2 + sigma) * less_atan(y);
 }
 
+double chord_of(const Triangle& t, double sigma, double delta) {
+  return t.tan_half_beta * t.p * t.q / (sigma + delta);
+}
+
 }  // namespace
 
 double lune_area(double sigma, double delta) {
@@ -63,6 +67,12 @@ double lune_area(double sigma, double delta) {
   if (delta <= 0) return 0;
   if (delta >= 2) return pi;
   return area_of(Triangle(sigma, delta), sigma, delta);
+}
+
+double lune_chord(double sigma, double delta) {
+  check(sigma, delta);
+  if (delta <= 0 || delta >= 2) return 0;
+  return chord_of(Triangle(sigma, delta), sigma, delta);
 }
 
 Lune lune(double sigma, double delta) {
@@ -74,8 +84,8 @@ Lune lune(double sigma, double delta) {
   Lune result;
   result.area = area_of(t, sigma, delta);
   result.d_sigma = -4 * (1 + sigma) * (y * y * y / (1 + y * y) - less_atan(y));
-  result.half_chord = y * t.p * t.q / (2 * (sigma + delta));
-  result.d_delta = 2 * result.half_chord;
+  result.d_delta = chord_of(t, sigma, delta);
+  result.half_chord = result.d_delta / 2;
   result.alpha = 2 * std::atan2(y * t.q, t.b);
   result.beta = 2 * std::atan(y);
   return result;

@@ -19,8 +19,9 @@ struct Lune {
 /// sigma or one that is no number.
 Lune lune(double sigma, double delta);
 
-/// The area of `lune` alone, in half the time.
+/// The area of `lune` alone, in half the time, and its chord alone: the derivative by delta.
 double lune_area(double sigma, double delta);
+double lune_chord(double sigma, double delta);
 
 /// Area of the pin outside the bushing, any one unit of length: 0 when the pin lies inside, its
 /// full area when it lies fully outside. Throws InputError unless 0 < pin_radius < bushing_radius

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "wearwell/base/rng.h"
+#include "wearwell/base/unit.h"
+
+namespace wearwell {
+
+/// A quantity with the uncertainty that its user gives it.
+struct Uncertain {
+  enum class Law { exact, normal, lognormal, uniform };
+  Law law = Law::exact;
+  double mean = 0;   ///< SI
+  double sd = 0;     ///< SI
+  Unit unit;         ///< of the mean, as written
+  std::string text;  ///< as written
+};
+
+/// Reads one of
+///   "0.1 mm"                           exact
+///   "0.100 +- 0.005 mm", "1 MPa +- 5 %"  normal: mean and standard deviation (% of the mean)
+///   "~ lognormal(0.1 mm, 0.005 mm)"    mean and standard deviation of the quantity itself
+///   "~ normal(0.1 mm, 0.005 mm)", "~ uniform(0.09 mm, 0.11 mm)"
+/// with the dimension of the SI unit `si`. A ± serves as +-. Throws InputError.
+Uncertain read_uncertain(std::string_view text, std::string_view si);
+
+double draw(const Uncertain& quantity, Rng& rng);
+
+}  // namespace wearwell

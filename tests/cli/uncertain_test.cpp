@@ -1,0 +1,83 @@
+#include "wearwell/cli/uncertain.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "wearwell/base/error.h"
+
+namespace wearwell {
+namespace {
+
+using Law = Uncertain::Law;
+
+void expect(const Uncertain& q, Law law, double mean, double sd) {
+  EXPECT_EQ(q.law, law);
+  EXPECT_NEAR(q.mean, mean, 1e-15 * std::abs(mean));
+  EXPECT_NEAR(q.sd, sd, 1e-14 * sd);
+}
+
+TEST(Uncertain, ReadsEveryForm) {
+  expect(read_uncertain("0.1 mm", "m"), Law::exact, 1e-4, 0);
+  expect(read_uncertain("0.100 +- 0.005 mm", "m"), Law::normal, 1e-4, 5e-6);
+  expect(read_uncertain("0.100±0.005 mm", "m"), Law::normal, 1e-4, 5e-6);
+  expect(read_uncertain("0.100 +/- 0.005 mm", "m"), Law::normal, 1e-4, 5e-6);
+  expect(read_uncertain("0.1 mm +- 5 um", "m"), Law::normal, 1e-4, 5e-6);
+  expect(read_uncertain("2 MPa +- 10 %", "Pa"), Law::normal, 2e6, 2e5);
+  expect(read_uncertain("1e5 +- 10 %", "1"), Law::normal, 1e5, 1e4);
+  expect(read_uncertain("1e5 +- 300", "1"), Law::normal, 1e5, 300);
+  expect(read_uncertain(" ~ lognormal(0.1 mm, 5 um) ", "m"), Law::lognormal, 1e-4, 5e-6);
+  expect(read_uncertain("~normal( 0.1 mm , 5 um )", "m"), Law::normal, 1e-4, 5e-6);
+  expect(read_uncertain("~ uniform(2 mm, 8 mm)", "m"), Law::uniform, 5e-3, 6e-3 / std::sqrt(12));
+  expect(read_uncertain("0.1 +- 0 mm", "m"), Law::exact, 1e-4, 0);
+  expect(read_uncertain("20 +- 2 degC", "K"), Law::normal, 293.15, 2);
+  EXPECT_EQ(read_uncertain(" 0.1 +- 0.01 mm ", "m").text, "0.1 +- 0.01 mm");
+}
+
+TEST(Uncertain, RefusesNonsense) {
+  for (const char* text :
+       {"", "0.1", "0.1 +- 0.005", "0.1 +- 5 %", "0.1 mm +-", "+- 5 mm", "0.1 mm +- -5 um",
+        "0.1 mm +- 5 N", "0.1 N +- 5 mm", "~", "~ lognormal", "~ lognormal(0.1 mm)",
+        "~ lognormal(0.1 mm, 5 um", "~ lognormal(-0.1 mm, 5 um)", "~ gamma(0.1 mm, 5 um)",
+        "~ normal(0.1 mm, 5 um) mm", "~ uniform(2 mm, 1 mm)", "~ normal(0.1 mm, -5 um)"}) {
+    EXPECT_THROW(read_uncertain(text, "m"), InputError) << text;
+  }
+}
+
+// Mean, standard deviation and median of each law; the median of a lognormal is
+// mean/sqrt(1 + (sd/mean)^2). Five standard errors allowed, with a share of the sample outside one
+// sd.
+TEST(Uncertain, DrawsItsLaw) {
+  constexpr int n = 200'000;
+  struct Case {
+    const char* text;
+    double mean, sd, median;
+  };
+  for (const Case& c :
+       {Case{"10 +- 2 m", 10, 2, 10}, Case{"~ lognormal(10 m, 5 m)", 10, 5, 10 / std::sqrt(1.25)},
+        Case{"~ uniform(4 m, 16 m)", 10, std::sqrt(12), 10}}) {
+    SCOPED_TRACE(c.text);
+    const Uncertain q = read_uncertain(c.text, "m");
+    Rng rng(3, 14);
+    std::vector<double> x(n);
+    double sum = 0, squares = 0;
+    for (double& value : x) {
+      value = draw(q, rng);
+      sum += value - c.mean;
+      squares += (value - c.mean) * (value - c.mean);
+    }
+    const double se = c.sd / std::sqrt(n);
+    EXPECT_NEAR(sum / n, 0, 5 * se);
+    EXPECT_NEAR(std::sqrt(squares / n), c.sd, 10 * se);
+    std::nth_element(x.begin(), x.begin() + n / 2, x.end());
+    EXPECT_NEAR(x[n / 2], c.median, 10 * se);
+  }
+  Rng rng(3, 14);
+  EXPECT_EQ(draw(read_uncertain("10 m", "m"), rng), 10);
+}
+
+}  // namespace
+}  // namespace wearwell
