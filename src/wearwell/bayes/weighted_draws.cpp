@@ -13,19 +13,13 @@ Distribution::Distribution(const WeightedDraws& draws,
                            const std::function<double(const double* x)>& quantity)
     : cells_(!draws.lower.empty()) {
   const Eigen::Index n = draws.values.rows();
-  // Row-major copies, so that a point is contiguous.
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Rows values = draws.values;
-  std::vector<Rows> lower(draws.lower.begin(), draws.lower.end());
-  std::vector<Rows> upper(draws.upper.begin(), draws.upper.end());
-
   std::vector<double> center(n), half_width(n, 0.0);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double at_node = quantity(values.row(i).data());
+    const double at_node = quantity(draws.values.row(i).data());
     double middle = at_node, variance = 0;
-    for (std::size_t axis = 0; axis < lower.size(); ++axis) {
-      const double a = quantity(lower[axis].row(i).data());
-      const double b = quantity(upper[axis].row(i).data());
+    for (std::size_t axis = 0; axis < draws.lower.size(); ++axis) {
+      const double a = quantity(draws.lower[axis].row(i).data());
+      const double b = quantity(draws.upper[axis].row(i).data());
       if (!std::isfinite(a) || !std::isfinite(b)) continue;
       middle += 0.5 * (a + b) - at_node;
       variance += 0.25 * (b - a) * (b - a);
@@ -76,9 +70,9 @@ double Distribution::quantile(double p) const {
     const double q = wearwell::quantile(std::span<const double>(center_), p);
     return std::isnan(q) ? center_.back() : q;
   }
-  double cumulated = 0;
+  double below = 0;
   std::size_t i = 0;
-  while (i + 1 < n && cumulated + weight_[i] < p) cumulated += weight_[i++];
+  while (i + 1 < n && below + weight_[i] < p) below += weight_[i++];
   if (!std::isfinite(center_[i])) return center_[i];
   double reach = 2 * half_width_[i] + 1e-12 * std::abs(center_[i]);
   double a = center_[i] - reach, b = center_[i] + reach;

@@ -9,14 +9,17 @@
 
 namespace wearwell {
 
+/// A matrix whose rows are contiguous: one row a point.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// A posterior as weighted points: the draws of a sampler, all of one weight, or the nodes of a
 /// quadrature. A node stands for a cell; `lower` and `upper` hold, for each axis of the
 /// integration, the points where the cell ends.
 struct WeightedDraws {
-  Eigen::MatrixXd values;              ///< points x parameters, natural, SI
+  Points values;              ///< points x parameters, natural, SI
   Eigen::VectorXd weights;             ///< sum to 1
-  std::vector<Eigen::MatrixXd> lower;  ///< one per axis, like `values`; empty for draws
-  std::vector<Eigen::MatrixXd> upper;
+  std::vector<Points> lower;  ///< one per axis, like `values`; empty for draws
+  std::vector<Points> upper;
 };
 
 /// The distribution of one number: points, each spread evenly over center +- half_width (0 for

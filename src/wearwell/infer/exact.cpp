@@ -19,12 +19,14 @@ using Coordinates = std::array<double, max_d>;
 // small enough that spreading a node's mass evenly over its cell keeps quantiles within about 0.1 %
 // of a standard deviation.
 constexpr std::array<int, max_d + 1> nodes_per_axis = {0, 10, 7, 5, 4};
-constexpr std::array<double, max_d + 1> max_cell_mass = {0, 1. / 60, 1. / 400, 1. / 2000,
-                                                         1. / 4000};
+constexpr std::array<double, max_d + 1> max_cell_mass = {0, 1. / 40, 1. / 80, 1. / 400, 1. / 1000};
 
 // The whitened posterior is about one unit wide: a region 500 times wider holds no proper
 // posterior.
 constexpr double max_reach = 500;
+
+// Nodes with less of the mass are left out of the result.
+constexpr double negligible_share = 1e-9;
 
 struct Cell {
   Coordinates lower, upper;
@@ -295,15 +297,15 @@ class Integrator {
       const double v = volume(cell);
       for (std::size_t i = 0; i < points_; ++i) {
         const double share = values_[cell.first + i] * node_weight(i) * v / mass_;
-        if (share > 1e-10) kept.emplace_back(&cell, i);
+        if (share > negligible_share) kept.emplace_back(&cell, i);
       }
     }
     const auto n = static_cast<Eigen::Index>(kept.size());
     WeightedDraws& nodes = exact.nodes;
     nodes.values.resize(n, d_);
     nodes.weights.resize(n);
-    nodes.lower.assign(d_, Eigen::MatrixXd(n, d_));
-    nodes.upper.assign(d_, Eigen::MatrixXd(n, d_));
+    nodes.lower.assign(d_, Points(n, d_));
+    nodes.upper.assign(d_, Points(n, d_));
     for (Eigen::Index row = 0; row < n; ++row) {
       const auto [cell, index] = kept[row];
       nodes.weights[row] =

@@ -11,7 +11,7 @@
 namespace wearwell {
 
 struct ExactSettings {
-  double tolerance = 1e-7;     ///< of mass and second moments, relative
+  double tolerance = 1e-5;     ///< of mass and second moments, relative
   bool second_moments = true;  ///< false: the posterior has none, so only its mass is integrated
   long max_evaluations = 20'000'000;
 };

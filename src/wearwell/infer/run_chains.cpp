@@ -33,14 +33,15 @@ Draws run_chains(const RunSettings& settings, const RunChain& run_chain) {
   return draws;
 }
 
+template <int N>
 Chain nuts_chain(const Posterior& posterior, const Whitening& whitening,
                  const NutsSettings& options, const RunSettings& settings, Rng& rng) {
   const WhitenedDensity density(posterior, whitening);
-  Nuts nuts(density, options.dense_metric, options.max_treedepth);
+  Nuts<N> nuts(density, options.dense_metric, options.max_treedepth);
   nuts.set_position(random_start(density, rng));
 
   nuts.find_reasonable_step_size(rng);
-  WindowedWarmup warmup(settings.warmup, options.target_accept);
+  WindowedWarmup<N> warmup(settings.warmup, options.target_accept);
   for (int i = 0; i < settings.warmup; ++i) warmup.adapt(i, nuts.step(rng), nuts, rng);
   if (settings.warmup > 0) warmup.finish(nuts);
 
@@ -66,8 +67,15 @@ Chain nuts_chain(const Posterior& posterior, const Whitening& whitening,
 
 Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const NutsSettings& nuts,
                const RunSettings& settings) {
-  return run_chains(
-      settings, [&](Rng& rng) { return nuts_chain(posterior, whitening, nuts, settings, rng); });
+  return run_chains(settings, [&](Rng& rng) {
+    switch (posterior.dimension()) {
+      case 1: return nuts_chain<1>(posterior, whitening, nuts, settings, rng);
+      case 2: return nuts_chain<2>(posterior, whitening, nuts, settings, rng);
+      case 3: return nuts_chain<3>(posterior, whitening, nuts, settings, rng);
+      case 4: return nuts_chain<4>(posterior, whitening, nuts, settings, rng);
+      default: return nuts_chain<Eigen::Dynamic>(posterior, whitening, nuts, settings, rng);
+    }
+  });
 }
 
 Draws run_metropolis(const Posterior& posterior, const Whitening& whitening,

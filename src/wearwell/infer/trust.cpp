@@ -156,16 +156,31 @@ Check prior_cut(const Posterior& posterior, const Fit& fit) {
                                         : fmt::format("{}", fmt::join(passed, "; ")));
 }
 
-// The density next to `bound` over the highest density, from bins of a twentieth of the central 90
-// %.
-double density_at_bound(const Distribution& distribution, double bound, bool lower) {
-  const double q05 = distribution.quantile(0.05), q95 = distribution.quantile(0.95);
-  const double width = (q95 - q05) / 20;
-  const auto mass = [&](double a) { return distribution.cdf(a + width) - distribution.cdf(a); };
-  double highest = 0;
-  for (int i = -20; i < 40; ++i) highest = std::max(highest, mass(q05 + i * width));
-  return mass(lower ? bound : bound - width) / highest;
-}
+// Densities relative to the highest one, from bins of a twentieth of the central 90 %.
+class RelativeDensity {
+ public:
+  explicit RelativeDensity(const Distribution& distribution)
+      : distribution_(distribution),
+        width_((distribution.quantile(0.95) - distribution.quantile(0.05)) / 20) {
+    const double first = distribution.quantile(0.05) - 20 * width_;
+    double below = distribution.cdf(first);
+    for (int i = 1; i <= 60; ++i) {
+      const double next = distribution.cdf(first + i * width_);
+      highest_ = std::max(highest_, next - below);
+      below = next;
+    }
+  }
+
+  double above(double x) const { return mass(x, x + width_) / highest_; }
+  double below(double x) const { return mass(x - width_, x) / highest_; }
+
+ private:
+  double mass(double a, double b) const { return distribution_.cdf(b) - distribution_.cdf(a); }
+
+  const Distribution& distribution_;
+  double width_;
+  double highest_ = 0;
+};
 
 Check bounds(const Posterior& posterior, const Fit& fit) {
   constexpr double worth_a_word = 0.3, piled_up = 0.6;
@@ -174,10 +189,11 @@ Check bounds(const Posterior& posterior, const Fit& fit) {
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
     const Parameter& parameter = posterior.parameters()[i];
     const Distribution marginal(draws, [i](const double* x) { return x[i]; });
+    const RelativeDensity density(marginal);
     for (const bool lower : {true, false}) {
       const double bound = lower ? parameter.prior.lower : parameter.prior.upper;
       if (!std::isfinite(bound)) continue;
-      const double ratio = density_at_bound(marginal, bound, lower);
+      const double ratio = lower ? density.above(bound) : density.below(bound);
       if (ratio < worth_a_word) continue;
       const bool natural = bound == (lower ? parameter.natural_lower : parameter.natural_upper);
       findings.add(

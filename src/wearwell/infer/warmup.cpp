@@ -26,7 +26,8 @@ double DualAveraging::adapted() const {
   return std::exp(log_average_);
 }
 
-WindowedWarmup::WindowedWarmup(int iterations, double target_accept)
+template <int N>
+WindowedWarmup<N>::WindowedWarmup(int iterations, double target_accept)
     : initial_(75), last_(50), window_(25), iterations_(iterations), step_size_(target_accept) {
   // Stan's proportions where the usual windows do not fit.
   if (iterations < initial_ + last_ + window_) {
@@ -37,7 +38,8 @@ WindowedWarmup::WindowedWarmup(int iterations, double target_accept)
   window_end_ = initial_ + window_;
 }
 
-void WindowedWarmup::adapt(int iteration, const NutsStep& step, Nuts& nuts, Rng& rng) {
+template <int N>
+void WindowedWarmup<N>::adapt(int iteration, const NutsStep& step, Nuts<N>& nuts, Rng& rng) {
   if (!started_) {
     step_size_.restart(nuts.step_size);
     started_ = true;
@@ -45,22 +47,22 @@ void WindowedWarmup::adapt(int iteration, const NutsStep& step, Nuts& nuts, Rng&
   nuts.step_size = step_size_.update(step.accept_stat);
   if (iteration < initial_ || iteration >= iterations_ - last_) return;
 
-  const Eigen::VectorXd x = nuts.point().position;
+  const SmallVector<N> x = nuts.point().position;
   if (count_ == 0) {
     mean_.setZero(x.size());
     squares_.setZero(x.size(), x.size());
   }
   ++count_;
-  const Eigen::VectorXd delta = x - mean_;
+  const SmallVector<N> delta = x - mean_;
   mean_ += delta / static_cast<double>(count_);
   squares_ += delta * (x - mean_).transpose();
   if (iteration + 1 < window_end_ || count_ < 2) return;
 
   // Shrunk towards a small multiple of the identity, as Stan does.
   const auto n = static_cast<double>(count_);
-  const Eigen::MatrixXd covariance =
+  const SmallMatrix<N> covariance =
       squares_ / (n - 1) * (n / (n + 5)) +
-      1e-3 * (5 / (n + 5)) * Eigen::MatrixXd::Identity(x.size(), x.size());
+      1e-3 * (5 / (n + 5)) * SmallMatrix<N>::Identity(x.size(), x.size());
   if (nuts.metric.dense()) {
     nuts.metric.set_covariance(covariance);
   } else {
@@ -76,5 +78,11 @@ void WindowedWarmup::adapt(int iteration, const NutsStep& step, Nuts& nuts, Rng&
   window_end_ += window_;
   if (window_end_ + 2 * window_ > slow_end) window_end_ = slow_end;
 }
+
+template class WindowedWarmup<1>;
+template class WindowedWarmup<2>;
+template class WindowedWarmup<3>;
+template class WindowedWarmup<4>;
+template class WindowedWarmup<Eigen::Dynamic>;
 
 }  // namespace wearwell

@@ -29,15 +29,16 @@ class DualAveraging {
 
 /// Stan's warm-up: a fast interval, slow windows that double and estimate the metric, and a last
 /// fast interval.
+template <int N>
 class WindowedWarmup {
  public:
   WindowedWarmup(int iterations, double target_accept);
 
   /// Adapts `nuts` after warm-up transition `iteration` (0-based).
-  void adapt(int iteration, const NutsStep& step, Nuts& nuts, Rng& rng);
+  void adapt(int iteration, const NutsStep& step, Nuts<N>& nuts, Rng& rng);
 
   /// Sets the averaged step size when warm-up is over.
-  void finish(Nuts& nuts) const { nuts.step_size = step_size_.adapted(); }
+  void finish(Nuts<N>& nuts) const { nuts.step_size = step_size_.adapted(); }
 
  private:
   int initial_, last_, window_, window_end_, iterations_;
@@ -45,8 +46,8 @@ class WindowedWarmup {
   bool started_ = false;
   // Welford's moments of the window.
   long count_ = 0;
-  Eigen::VectorXd mean_;
-  Eigen::MatrixXd squares_;
+  SmallVector<N> mean_;
+  SmallMatrix<N> squares_;
 };
 
 }  // namespace wearwell

@@ -44,7 +44,7 @@ Transform::Point Transform::from_real(double z) const {
       const double e = std::exp(-std::abs(z));
       const double near = e / (1 + e), far = 1 / (1 + e);
       const double x = z < 0 ? lower_ + scale_ * near : upper_ - scale_ * near;
-      const double log_jacobian = log_scale_ - std::abs(z) - 2 * std::log1p(e);
+      const double log_jacobian = log_scale_ - std::abs(z) - 2 * std::log(1 + e);
       const double slope = scale_ * near * far;
       return {x, slope, log_jacobian, z < 0 ? far - near : near - far};
     }
