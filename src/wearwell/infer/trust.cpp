@@ -59,27 +59,30 @@ Check proper_posterior(const Posterior& posterior, const Fit& fit) {
         "Bound {} or give it a proper prior (half-normal, uniform with an upper bound): the data "
         "alone do not hold it.",
         parameter.name);
+    const std::string power =
+        tail.towards_bound
+            ? fmt::format("its density grows like distance^{:.2f}", -tail.index)
+            : fmt::format("its density goes like {}^{:.2f} far out", parameter.name, -tail.index);
     if (!tail.integrable()) {
-      findings.add(
-          Verdict::fail,
-          fmt::format(
-              "the posterior is improper: {}, its density falls only like a power of {:.2f} "
-              "and has no finite integral, so every number depends on where it was cut",
-              where, -tail.index),
-          give_prior);
+      findings.add(Verdict::fail,
+                   fmt::format("the posterior is improper: {}, {}, which has no finite integral; "
+                               "every number depends "
+                               "on where it was cut",
+                               where, power),
+                   give_prior);
     } else if (!tail.has_moment(1)) {
       findings.add(
           Verdict::fail,
-          fmt::format("the mean of {} does not exist: {}, the density falls only like a power of "
-                      "{:.2f}, so the mean depends on where it was cut",
-                      parameter.name, where, -tail.index),
+          fmt::format(
+              "the mean of {} does not exist: {}, {}, so the mean depends on where it was cut",
+              parameter.name, where, power),
           give_prior);
     } else if (!tail.has_moment(2)) {
       findings.add(
           Verdict::warn,
-          fmt::format("the standard deviation of {} does not exist (power of {:.2f} {}); read its "
-                      "quantiles instead",
-                      parameter.name, -tail.index, where),
+          fmt::format(
+              "the standard deviation of {} does not exist: {}, {}; read its quantiles instead",
+              parameter.name, where, power),
           give_prior);
     }
   }
