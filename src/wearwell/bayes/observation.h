@@ -51,14 +51,22 @@ class Observations {
   std::vector<double> y_;  // log y for the lognormal family
 };
 
-/// P(measurement <= y) where its mean and standard deviation are known.
-inline double observation_cdf(ObservationFamily family, double y, double mean, double sd) {
-  if (family == ObservationFamily::normal) {
-    return 0.5 * std::erfc((mean - y) / (sd * std::sqrt(2.0)));
+/// The law of one measurement whose mean and standard deviation are known, ready for many
+/// evaluations: normal in y, or in log y for the lognormal family.
+struct ObservationLaw {
+  double location;
+  double scale;
+
+  ObservationLaw(ObservationFamily family, double mean, double sd) : location(mean), scale(sd) {
+    if (family == ObservationFamily::lognormal) {
+      const LognormalByMoments<double> law(mean, sd);
+      location = law.eta;
+      scale = law.zeta;
+    }
   }
-  if (y <= 0) return 0;
-  const LognormalByMoments<double> law(mean, sd);
-  return 0.5 * std::erfc((law.eta - std::log(y)) / (law.zeta * std::sqrt(2.0)));
-}
+
+  /// P(measurement <= y), where `t` is y, or log y for the lognormal family.
+  double cdf(double t) const { return 0.5 * std::erfc((location - t) / (scale * std::sqrt(2.0))); }
+};
 
 }  // namespace wearwell

@@ -11,22 +11,24 @@ namespace {
 // Weighted measurements: each draw gives one law; draws that together weigh nothing are left out.
 struct Mixture {
   ObservationFamily family;
-  std::vector<double> weight, mean, sd;
+  std::vector<double> weight;
+  std::vector<ObservationLaw> law;
+  double mean = 0, sd = 0;  // on the average over the draws
 
   double cdf(double y) const {
+    const bool lognormal = family == ObservationFamily::lognormal;
+    if (lognormal && y <= 0) return 0;
+    const double t = lognormal ? std::log(y) : y;
     double sum = 0;
-    for (std::size_t i = 0; i < weight.size(); ++i) {
-      sum += weight[i] * observation_cdf(family, y, mean[i], sd[i]);
-    }
+    for (std::size_t i = 0; i < weight.size(); ++i) sum += weight[i] * law[i].cdf(t);
     return sum;
   }
 
   double quantile(double p) const {
-    double center = std::inner_product(weight.begin(), weight.end(), mean.begin(), 0.0);
-    double width = std::inner_product(weight.begin(), weight.end(), sd.begin(), 0.0);
-    if (!std::isfinite(center) || !std::isfinite(width)) return std::nan("");
+    if (!std::isfinite(mean) || !std::isfinite(sd)) return std::nan("");
+    double width = sd;
     const auto excess = [&](double y) { return cdf(y) - p; };
-    double a = center - width, b = center + width;
+    double a = mean - width, b = mean + width;
     while (excess(a) > 0 && std::isfinite(a)) a -= width *= 2;
     while (excess(b) < 0 && std::isfinite(b)) b += width *= 2;
     if (!std::isfinite(a) || !std::isfinite(b)) return std::nan("");
@@ -50,15 +52,17 @@ Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function
     std::sort(order.begin(), order.end(),
               [&](auto a, auto b) { return draws.weights[a] > draws.weights[b]; });
   }
-  Mixture all{family, {}, {}, {}};
+  Mixture all{family, {}, {}};
   double total = 0;
   for (const Eigen::Index i : order) {
     if (total > 1 - negligible) break;
-    const Eigen::VectorXd x = draws.values.row(i);
-    all.weight.push_back(draws.weights[i]);
-    all.mean.push_back(mean(x.data()));
-    all.sd.push_back(sd(x.data()));
-    total += draws.weights[i];
+    const auto x = draws.values.row(i);
+    const double weight = draws.weights[i], m = mean(x.data()), s = sd(x.data());
+    all.weight.push_back(weight);
+    all.law.emplace_back(family, m, s);
+    all.mean += weight * m;
+    all.sd += weight * s;
+    total += weight;
   }
   for (double& weight : all.weight) weight /= total;
   return all;
