@@ -15,7 +15,8 @@ Chain metropolis_chain(const Posterior& posterior, const Eigen::VectorXd& start,
   const Eigen::Index d = start.size();
   Eigen::VectorXd x = start, proposal(d);
   double log_density = posterior.natural_value(view(x));
-  double log_factor = 0;
+  double log_factor = 0, log_factor_sum = 0;
+  const int averaged = settings.warmup / 2;
   long accepted = 0;
 
   Chain chain;
@@ -33,8 +34,12 @@ Chain metropolis_chain(const Posterior& posterior, const Eigen::VectorXd& start,
       log_density = proposed;
     }
     if (i < 0) {
-      // Robbins-Monro, with steps that fade over warm-up.
-      if (tune) log_factor += (accept - target) / std::sqrt(i + settings.warmup + 1.0);
+      // Robbins-Monro with steps that fade; the factor kept is the average over the second half of
+      // warm-up.
+      if (!tune) continue;
+      log_factor += (accept - target) / std::sqrt(i + settings.warmup + 1.0);
+      if (i >= -averaged) log_factor_sum += log_factor;
+      if (i == -1 && averaged > 0) log_factor = log_factor_sum / averaged;
       continue;
     }
     accepted += accept;

@@ -1,0 +1,176 @@
+#include "infer/test_posteriors.h"
+
+#include <fmt/format.h>
+
+#include "wearwell/joint/archard.h"
+
+namespace wearwell {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// A density from a formula of value and gradient.
+class Formula final : public LogDensity {
+ public:
+  using F = std::function<double(std::span<const double> x, std::span<double> gradient)>;
+  Formula(int dimension, F f) : dimension_(dimension), f_(std::move(f)) {}
+
+  int dimension() const override { return dimension_; }
+  double value(std::span<const double> x) const override {
+    std::vector<double> ignored(x.size());
+    return f_(x, ignored);
+  }
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    return f_(x, gradient);
+  }
+
+ private:
+  int dimension_;
+  F f_;
+};
+
+Parameter with_law(const std::string& name, const Family& family, double lower, double upper,
+                   double start) {
+  return {name, "1", Unit{"1", 1, 0}, "test", make_law(family, lower, upper), start, 1};
+}
+
+Posterior formula_posterior(std::vector<Parameter> parameters, Formula::F f) {
+  const auto dimension = static_cast<int>(parameters.size());
+  return Posterior(std::move(parameters), std::make_shared<Formula>(dimension, std::move(f)));
+}
+
+// Only the prior: for laws that test transforms.
+Posterior prior_only(const Parameter& parameter) {
+  return formula_posterior({parameter}, [](auto, std::span<double> gradient) {
+    gradient[0] = 0;
+    return 0.0;
+  });
+}
+
+Posterior multivariate_normal(const Eigen::VectorXd& mean, const Eigen::MatrixXd& covariance) {
+  std::vector<Parameter> parameters;
+  for (Eigen::Index i = 0; i < mean.size(); ++i) {
+    parameters.push_back(
+        flat_parameter(fmt::format("x{}", i + 1), 0.5, std::sqrt(covariance(i, i))));
+  }
+  const Eigen::MatrixXd precision = covariance.inverse();
+  return formula_posterior(parameters, [=](std::span<const double> x, std::span<double> gradient) {
+    const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(x.data(), mean.size()) - mean;
+    const Eigen::VectorXd slope = -precision * d;
+    Eigen::Map<Eigen::VectorXd>(gradient.data(), mean.size()) = slope;
+    return 0.5 * d.dot(slope);
+  });
+}
+
+KnownPosterior correlated(const std::string& name, int d, double correlation) {
+  Eigen::VectorXd mean(d), sd(d);
+  for (int i = 0; i < d; ++i) {
+    mean[i] = i - 1.0;
+    sd[i] = std::pow(10.0, i % 3);
+  }
+  Eigen::MatrixXd covariance(d, d);
+  for (int i = 0; i < d; ++i) {
+    for (int j = 0; j < d; ++j)
+      covariance(i, j) = sd[i] * sd[j] * std::pow(correlation, std::abs(i - j));
+  }
+  const std::vector<double> means(mean.begin(), mean.end());
+  return {name,
+          [=] { return multivariate_normal(mean, covariance); },
+          means,
+          {sd.begin(), sd.end()},
+          means};
+}
+
+// x1 ~ N(0, 1), x2 | x1 ~ N(x1^2/2, 1): E x2 = 1/2, var x2 = 1/2 + 1.
+Posterior banana() {
+  return formula_posterior({flat_parameter("x1", 0.1, 1), flat_parameter("x2", 0.1, 1)},
+                           [](std::span<const double> x, std::span<double> gradient) {
+                             const double z = x[1] - 0.5 * x[0] * x[0];
+                             gradient[0] = -x[0] + x[0] * z;
+                             gradient[1] = -z;
+                             return -0.5 * (x[0] * x[0] + z * z);
+                           });
+}
+
+// Half N(-2, 1), half N(2, 1).
+Posterior bimodal() {
+  return formula_posterior(
+      {flat_parameter("x", 0.3, 1)}, [](std::span<const double> x, std::span<double> gradient) {
+        const double right = 1 / (1 + std::exp(-4 * x[0]));  // weight of the right mode
+        gradient[0] = -x[0] - 2 + 4 * right;
+        const double far = std::abs(x[0]);
+        return -0.5 * std::pow(far - 2, 2) + std::log1p(std::exp(-4 * far));
+      });
+}
+
+}  // namespace
+
+Parameter flat_parameter(const std::string& name, double start, double scale) {
+  Parameter parameter = with_law(name, Flat{}, -infinity, infinity, start);
+  parameter.scale = scale;
+  return parameter;
+}
+
+Posterior joint_posterior(bool lognormal, bool tribometer, double upper, std::size_t rows) {
+  joint::Inspections inspections;
+  for (const double cycles : {1., 100., 1000., 5000., 10000., 20585.}) {
+    inspections.work.push_back(cycles * 5.966);
+  }
+  for (const double volume : {4.44, 5.105, 8.825, 24.175, 45.31, 92.73}) {
+    inspections.volume.push_back(volume * 1e-9);
+  }
+  const Unit rate{"mm^3/(N m)", 1e-9, 0}, volume{"mm^3", 1e-9, 0};
+  const Family k_prior = tribometer ? Family(Normal{5.05e-13, 0.74e-13}) : Family(Flat{});
+  const Family sigma_prior = std::isfinite(upper) ? Family(Uniform{}) : Family(Flat{});
+  std::vector<Parameter> parameters = {
+      {"k", "m^3/(N m)", rate, "", make_law(k_prior, 0, infinity), 8e-13, 1e-13, 0, infinity},
+      {"sigma", "m^3", volume, "", make_law(sigma_prior, 0, upper * 1e-9), 3e-9, 1e-9, 0,
+       infinity}};
+  const auto family = lognormal ? ObservationFamily::lognormal : ObservationFamily::normal;
+  return Posterior(std::move(parameters), joint::archard_likelihood({}, family, inspections, rows));
+}
+
+const std::vector<KnownPosterior>& known_posteriors() {
+  static const std::vector<KnownPosterior> list = {
+      correlated("Normal", 1, 0),
+      correlated("Correlated2", 2, 0.95),
+      correlated("Correlated5", 5, 0.7),
+      {"Banana", banana, {0, 0.5}, {1, std::sqrt(1.5)}, {}},
+      {"Bimodal", bimodal, {0}, {std::sqrt(5.0)}, {0}},
+      {"HalfBounded",
+       [] {
+         return prior_only(with_law("x", Gamma{2, 3}, 0, infinity, 4));
+       },
+       {6},
+       {std::sqrt(18.0)},
+       {5.03504097004998}},  // R: qgamma(0.5, 2, scale = 3)
+      // Normal(0, 1) on [0.5, 2]; R: (dnorm(.5) - dnorm(2))/(pnorm(2) - pnorm(.5)) and so on.
+      {"Truncated",
+       [] {
+         return prior_only(with_law("x", Normal{0, 1}, 0.5, 2, 1));
+       },
+       {1.04299333414245},
+       {0.387661606931559},
+       {0.971523471729424}},
+      {"StudentTail",
+       [] {
+         return prior_only(with_law("x", StudentT{5, 1, 2}, -infinity, infinity, 0));
+       },
+       {1},
+       {2 * std::sqrt(5.0 / 3)},
+       {1}},
+      {"JointNormal",
+       [] { return joint_posterior(false, false, 15, 5); },
+       {7.75918e-13, 5.63111e-9},
+       {0.920453e-13, 2.50923e-9},
+       {}},
+      {"JointLognormal",
+       [] { return joint_posterior(true, false, 7, 6); },
+       {7.6352e-13, 3.03436e-9},
+       {0.236842e-13, 1.35395e-9},
+       {}},
+  };
+  return list;
+}
+
+}  // namespace wearwell
