@@ -21,9 +21,9 @@ using Coordinates = std::array<double, max_d>;
 constexpr std::array<int, max_d + 1> nodes_per_axis = {0, 10, 7, 5, 4};
 constexpr std::array<double, max_d + 1> max_cell_mass = {0, 1. / 40, 1. / 80, 1. / 400, 1. / 1000};
 
-// The whitened posterior is about one unit wide: a region 500 times wider holds no proper
-// posterior.
-constexpr double max_reach = 500;
+// Growth ends where no proper posterior reaches: a factor of e^300 on a half-line, 10^12 typical
+// changes on a whole line.
+constexpr double farthest_on_half_line = 300, farthest_on_whole_line = 1e12;
 
 // Nodes with less of the mass are left out of the result.
 constexpr double negligible_share = 1e-9;
@@ -237,6 +237,16 @@ class Integrator {
     error_ += first.error + second.error - parent.error;
   }
 
+  bool too_far(int axis, double reach) const {
+    for (int i = 0; i < d_; ++i) {
+      const Law& prior = posterior_.parameters()[static_cast<std::size_t>(i)].prior;
+      const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
+      const double way = reach * std::abs(whitening_.scale(i, axis));
+      if (way > (whole_line ? farthest_on_whole_line : farthest_on_half_line)) return true;
+    }
+    return false;
+  }
+
   // Adds a slab at each face where the outermost cells still hold something. False when none does.
   bool grow() {
     sum();
@@ -249,11 +259,10 @@ class Integrator {
           mass += cell.mass;
           control += cell.control;
         }
-        const bool mass_there = mass > 1e-2 * settings_.tolerance * mass_;
+        const bool mass_there = mass > 0.1 * settings_.tolerance * mass_;
         const bool moments_there = moments_exist_ && control > settings_.tolerance * control_;
         if (!mass_there && !moments_there) continue;
-        const double reach = high ? upper_[a] : -lower_[a];
-        if (reach > max_reach) {
+        if (too_far(a, high ? upper_[a] : -lower_[a])) {
           if (mass_there) {
             failure_ = "its mass does not end: it is improper or far too wide";
             return false;

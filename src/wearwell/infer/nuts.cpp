@@ -144,7 +144,7 @@ bool Nuts<N>::build(int depth, double direction, PhasePoint<N>& edge, Subtree& t
   tree.velocity_end = far.velocity_end;
   return still_going<N>(tree.velocity_begin, tree.velocity_end, tree.momentum_sum) &&
          still_going<N>(tree.velocity_begin, far.velocity_begin,
-                     near.momentum_sum + far.momentum_begin) &&
+                        near.momentum_sum + far.momentum_begin) &&
          still_going<N>(near.velocity_end, tree.velocity_end, far.momentum_sum + near.momentum_end);
 }
 

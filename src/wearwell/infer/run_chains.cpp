@@ -69,11 +69,16 @@ Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const Nut
                const RunSettings& settings) {
   return run_chains(settings, [&](Rng& rng) {
     switch (posterior.dimension()) {
-      case 1: return nuts_chain<1>(posterior, whitening, nuts, settings, rng);
-      case 2: return nuts_chain<2>(posterior, whitening, nuts, settings, rng);
-      case 3: return nuts_chain<3>(posterior, whitening, nuts, settings, rng);
-      case 4: return nuts_chain<4>(posterior, whitening, nuts, settings, rng);
-      default: return nuts_chain<Eigen::Dynamic>(posterior, whitening, nuts, settings, rng);
+      case 1:
+        return nuts_chain<1>(posterior, whitening, nuts, settings, rng);
+      case 2:
+        return nuts_chain<2>(posterior, whitening, nuts, settings, rng);
+      case 3:
+        return nuts_chain<3>(posterior, whitening, nuts, settings, rng);
+      case 4:
+        return nuts_chain<4>(posterior, whitening, nuts, settings, rng);
+      default:
+        return nuts_chain<Eigen::Dynamic>(posterior, whitening, nuts, settings, rng);
     }
   });
 }

@@ -1,0 +1,357 @@
+// `wearwell fit` as its users run it: the paper's numbers, the traps, wrong input, the files it
+// leaves.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "support/run_command.h"
+#include "support/scratch.h"
+
+namespace wearwell {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string examples = PROJECT_SOURCE_DIR "/examples/joint/";
+
+std::string slurp(const fs::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+class FitCommand : public ScratchTest {
+ protected:
+  CommandResult fit(const std::string& arguments) {
+    return run_wearwell("fit " + arguments + " -o '" + results().string() + "'");
+  }
+  json fit_json(const std::string& arguments, int expected_exit_code) {
+    const CommandResult run = fit(arguments + " --json");
+    EXPECT_EQ(run.exit_code, expected_exit_code) << run.err;
+    return json::parse(run.out);
+  }
+  fs::path results() const { return folder() / "results"; }
+};
+
+const json& check(const json& summary, const std::string& name) {
+  for (const json& each : summary["checks"]) {
+    if (each["name"] == name) return each;
+  }
+  throw std::runtime_error("no check " + name);
+}
+
+// Table 5 of An et al. (2011): normal, first 5 sets, flat prior: exact mean k 7.76e-4, sd 0.92e-4,
+// sigma 5.63 +- 2.51.
+TEST_F(FitCommand, StudyReproducesTable5) {
+  const json summary = fit_json(examples + "study.toml", 0);
+  const json& k = summary["parameters"]["k"];
+  const json& sigma = summary["parameters"]["sigma"];
+  EXPECT_EQ(k["unit"], "mm^3/(N m)");
+  EXPECT_NEAR(k["exact"]["mean"], 7.76e-4, 0.005e-4);
+  EXPECT_NEAR(k["exact"]["sd"], 0.92e-4, 0.005e-4);
+  EXPECT_NEAR(sigma["exact"]["mean"], 5.63, 0.005);
+  EXPECT_NEAR(sigma["exact"]["sd"], 2.51, 0.005);
+  EXPECT_NEAR(k["mean"], k["exact"]["mean"], 4 * k["mcse"].get<double>());
+  EXPECT_NEAR(sigma["mean"], sigma["exact"]["mean"], 4 * sigma["mcse"].get<double>());
+  EXPECT_TRUE(summary["trusted"]);
+
+  const json& prediction = summary["predictions"][0];
+  EXPECT_EQ(prediction["cycles"], 20585);
+  EXPECT_NEAR(prediction["exact"]["pi05"], 74.83, 0.1);
+  EXPECT_NEAR(prediction["exact"]["pi95"], 115.71, 0.1);
+  EXPECT_NEAR(prediction["exact"]["ci05"], 77.33, 0.1);
+  EXPECT_NEAR(prediction["exact"]["ci95"], 113.18, 0.1);
+  EXPECT_LT(prediction["pi05"], 92.73);
+  EXPECT_GT(prediction["pi95"], 92.73);
+  EXPECT_EQ(summary["stages"].size(), 5u);
+  EXPECT_LT(summary["life"]["b1"], summary["life"]["b10"]);
+}
+
+TEST_F(FitCommand, MethodsAgree) {
+  const json exact = fit_json(examples + "study.toml --method exact", 0);
+  const json metropolis = fit_json(examples + "study.toml --method metropolis", 0);
+  for (const char* name : {"k", "sigma"}) {
+    const json& e = exact["parameters"][name];
+    const json& m = metropolis["parameters"][name];
+    EXPECT_NEAR(e["mean"], e["exact"]["mean"], 4 * e["mcse"].get<double>());
+    EXPECT_NEAR(m["mean"], e["exact"]["mean"], 4 * m["mcse"].get<double>());
+  }
+  EXPECT_EQ(metropolis["sampler"]["draws"], 6000);
+  EXPECT_EQ(metropolis["sampler"]["warmup"], 4000);
+}
+
+// Tables 6 and 7: every stage of the four examples against the grid of tests/golden/joint_grid.R.
+TEST_F(FitCommand, ExamplesMeetTheGridOfTables6And7) {
+  std::ifstream golden(PROJECT_SOURCE_DIR "/tests/golden/joint_grid.csv");
+  std::string line, family, prior, cell;
+  std::getline(golden, line);
+  json summary;
+  std::string loaded;
+  int compared = 0;
+  while (std::getline(golden, line)) {
+    std::stringstream row(line);
+    std::getline(row, family, ',');
+    std::getline(row, prior, ',');
+    std::vector<double> v;
+    while (std::getline(row, cell, ',')) v.push_back(std::stod(cell));
+    if (const std::string study = family + "_" + prior; study != loaded) {
+      summary = fit_json(examples + study + ".toml", prior == "flat" ? 0 : 1);
+      loaded = study;
+    }
+    const json& stage = summary["stages"][static_cast<std::size_t>(v[0]) - 1];
+    const json& k = stage["parameters"]["k"]["exact"];
+    const auto near = [&](double actual, double expected) {
+      EXPECT_NEAR(actual, expected, 0.002 * std::abs(expected)) << line;
+      ++compared;
+    };
+    near(k["mean"].get<double>() * 1e4, v[2]);
+    near(k["sd"].get<double>() * 1e4, v[3]);
+    near(stage["parameters"]["sigma"]["exact"]["mean"], v[4]);
+    near(stage["parameters"]["sigma"]["exact"]["sd"], v[5]);
+    for (const json& p : stage["predictions"]) {
+      if (p["cycles"] != v[1] || !p.contains("measured")) continue;
+      near(p["exact"]["ci05"], v[6]);
+      near(p["exact"]["ci95"], v[7]);
+      near(p["exact"]["pi05"], v[8]);
+      near(p["exact"]["pi95"], v[9]);
+      break;
+    }
+  }
+  EXPECT_EQ(compared, 20 * 8);
+}
+
+TEST_F(FitCommand, TribometerStudiesAreAPriorDataConflict) {
+  for (const char* study : {"normal_tribometer.toml", "lognormal_tribometer.toml"}) {
+    const json summary = fit_json(examples + study, 1);
+    EXPECT_EQ(check(summary, "prior-data-conflict")["verdict"], "fail");
+    EXPECT_FALSE(summary["trusted"]);
+  }
+}
+
+TEST_F(FitCommand, ImproperPosteriorsExitWithOneAndSayWhy) {
+  const json lognormal = fit_json(examples + "improper_lognormal.toml", 1);
+  EXPECT_EQ(check(lognormal, "proper-posterior")["verdict"], "fail");
+  EXPECT_THAT(check(lognormal, "proper-posterior")["detail"], HasSubstr("improper"));
+  const json normal = fit_json(examples + "improper_normal.toml", 1);
+  EXPECT_THAT(check(normal, "proper-posterior")["detail"],
+              HasSubstr("the mean of k does not exist"));
+
+  // With the bound that the advice asks for they are proper.
+  std::string text = slurp(examples + "improper_normal.toml");
+  text = std::regex_replace(text, std::regex("law = \"flat\", lower = \"0 mm\\^3\" "),
+                            "law = \"uniform\", lower = \"0 mm^3\", upper = \"15 mm^3\" ");
+  fs::copy(examples + "joint_wear.csv", folder() / "joint_wear.csv");
+  EXPECT_TRUE(fit_json(write("bounded.toml", text).string(), 0)["trusted"]);
+}
+
+TEST_F(FitCommand, SameBitsForOneAndTwoThreads) {
+  const fs::path one = folder() / "one", two = folder() / "two";
+  for (const auto& [where, threads] : {std::pair{one, 1}, std::pair{two, 2}}) {
+    const CommandResult run =
+        run_wearwell("fit " + examples + "study.toml --threads " + std::to_string(threads) +
+                     " --quiet -o " + where.string());
+    ASSERT_EQ(run.exit_code, 0);
+    EXPECT_EQ(run.out + run.err, "");
+  }
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(one)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension != ".json" && extension != ".csv") continue;
+    EXPECT_EQ(slurp(entry.path()), slurp(two / entry.path().filename())) << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 6);
+}
+
+TEST_F(FitCommand, LeavesTheFilesOfTheContract) {
+  ASSERT_EQ(fit(examples + "study.toml --draws 400 --chains 2").exit_code, 0);
+  const json summary = json::parse(slurp(results() / "summary.json"));
+  for (const char* key : {"unit", "mean", "sd", "mcse", "q05", "q50", "q95", "ess_bulk", "ess_tail",
+                          "rhat", "exact"}) {
+    EXPECT_TRUE(summary["parameters"]["k"].contains(key)) << key;
+  }
+  for (const char* key : {"mean", "ci05", "ci95", "pi05", "pi95"}) {
+    EXPECT_TRUE(summary["predictions"][0].contains(key)) << key;
+  }
+  for (const char* key : {"name", "verdict", "detail"})
+    EXPECT_TRUE(summary["checks"][0].contains(key)) << key;
+  EXPECT_EQ(slurp(results() / "study.toml"), slurp(examples + "study.toml"));
+  EXPECT_THAT(slurp(results() / "draws_2.csv"),
+              HasSubstr("\nlp__,accept_stat__,stepsize__,treedepth__,n_leapfrog__,divergent__,"
+                        "energy__,k,sigma\n"));
+  EXPECT_THAT(slurp(results() / "predictions.csv"), HasSubstr("20585,volume,mm^3"));
+}
+
+TEST_F(FitCommand, OptionalConstantAndExponent) {
+  std::string text = slurp(examples + "study.toml");
+  text = std::regex_replace(text, std::regex("\\[update\\][^\\[]*"), "");
+  text = std::regex_replace(
+      text, std::regex("\\[prior\\]\n"),
+      "[prior]\nV0 = { law = \"normal\", mean = \"0 mm^3\", sd = \"10 mm^3\" }\n");
+  fs::copy(examples + "joint_wear.csv", folder() / "joint_wear.csv");
+  const json constant = fit_json(write("constant.toml", text).string(), 0);
+  // The reference: a constant term cuts the scatter of the first five sets to 0.43 mm^3 and
+  // predicts 87.9 at the sixth.
+  EXPECT_NEAR(constant["predictions"][0]["exact"]["mean"], 87.9, 0.3);
+  EXPECT_LT(constant["parameters"]["sigma"]["exact"]["q05"], 0.6);
+  text = std::regex_replace(text, std::regex("\\[prior\\]\n"),
+                            "[prior]\nexponent = { law = \"normal\", mean = 1, sd = 0.1 }\n");
+  const json both = fit_json(write("both.toml", text).string(), 0);
+  EXPECT_EQ(both["parameters"].size(), 4u);
+  EXPECT_TRUE(both["parameters"]["exponent"].contains("exact"));
+}
+
+// Work from a column, from force and slip, and from a profile; volume from pin positions.
+TEST_F(FitCommand, OtherSourcesOfWorkAndVolume) {
+  const std::string head =
+      "model = \"archard-joint\"\n[likelihood]\nfamily = \"normal\"\n[prior]\n"
+      "k = { law = \"flat\", unit = \"mm^3/(N m)\" }\n"
+      "sigma = { law = \"half-normal\", scale = \"5 mm^3\" }\n";
+  write("a.csv", "cycles,w,f,s,v\n100,600,60,10,6.1\n200,1200,60,20,11.8\n400,2400,60,40,24.3\n");
+  const std::string volume = "volume = { column = \"v\", unit = \"mm^3\" }\ncycles = \"cycles\"\n";
+  const std::string work = head + "[data]\nfile = \"a.csv\"\n[data.columns]\n" + volume +
+                           "work = { column = \"w\", unit = \"J\" }\n[predict]\nwork_per_cycle = "
+                           "\"6 J\"\ncycles = 800\n";
+  const json by_work = fit_json(write("work.toml", work).string(), 0);
+  EXPECT_NEAR(by_work["predictions"][0]["exact"]["mean"], 48.4, 0.5);
+
+  const std::string slip =
+      head + "[data]\nfile = \"a.csv\"\n[data.columns]\n" + volume +
+      "force = { column = \"f\", unit = \"N\" }\nslip = { column = \"s\", unit = \"m\" }\n";
+  const json by_slip = fit_json(write("slip.toml", slip).string(), 0);
+  EXPECT_NEAR(by_slip["parameters"]["k"]["exact"]["mean"],
+              by_work["parameters"]["k"]["exact"]["mean"], 1e-9);
+  EXPECT_NEAR(by_slip["pointwise"]["rows"][2]["k"], 24.3 / (60 * 40), 1e-12);
+
+  write("profile.csv", "f,ds\n50,0.05\n70,0.05\n");
+  const std::string profile = head + "[data]\nfile = \"a.csv\"\n[data.columns]\n" + volume +
+                              "[conditions.profile]\nfile = \"profile.csv\"\nrule = \"rectangle\"\n"
+                              "columns.force = { column = \"f\", unit = \"N\" }\n"
+                              "columns.slip_increment = { column = \"ds\", unit = \"m\" }\n";
+  const json by_profile = fit_json(write("profile.toml", profile).string(), 0);
+  EXPECT_NEAR(by_profile["parameters"]["k"]["exact"]["mean"],
+              by_work["parameters"]["k"]["exact"]["mean"], 1e-9);
+
+  write("pin.csv", "cycles,x,y\n100,10,0\n100,0,10\n200,16,0\n200,0,16\n400,25,0\n400,0,25\n");
+  const std::string pin =
+      head +
+      "[data]\nfile = \"pin.csv\"\n[data.columns]\ncycles = \"cycles\"\n"
+      "dx = { column = \"x\", unit = \"um\" }\ndy = { column = \"y\", unit = \"um\" }\n"
+      "[conditions]\nwork_per_cycle = \"6 J\"\npin_radius = \"9.5 mm\"\n"
+      "bushing_radius = \"9.505 mm\"\nlength = \"20 mm\"\n";
+  const json by_pin = fit_json(write("pin.toml", pin).string(), 0);
+  EXPECT_GT(by_pin["parameters"]["k"]["exact"]["mean"], 0);
+}
+
+class BadInput : public FitCommand {
+ protected:
+  // A study that works, with one text replaced.
+  std::string study(const std::string& what, const std::string& with) {
+    std::string text = slurp(examples + "study.toml");
+    const auto at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    text.replace(at, what.size(), with);
+    fs::copy(examples + "joint_wear.csv", folder() / "joint_wear.csv",
+             fs::copy_options::overwrite_existing);
+    return write("study.toml", text).string();
+  }
+  std::string csv_study(const std::string& csv, const std::string& family = "normal") {
+    write("a.csv", csv);
+    return write("study.toml",
+                 "model = \"archard-joint\"\n[data]\nfile = \"a.csv\"\n[data.columns]\ncycles = "
+                 "\"cycles\"\n"
+                 "volume = { column = \"volume\", unit = \"mm^3\" }\n[conditions]\nwork_per_cycle "
+                 "= \"6 N m\"\n"
+                 "[likelihood]\nfamily = \"" +
+                     family +
+                     "\"\n[prior]\nk = { law = \"flat\", unit = \"mm^3/J\" }\n"
+                     "sigma = { law = \"uniform\", lower = \"0 mm^3\", upper = \"15 mm^3\" }\n")
+        .string();
+  }
+  // Exit code 2, one line that names the place, nothing written.
+  void expect_refused(const std::string& arguments, const std::string& message) {
+    const CommandResult run = fit(arguments);
+    EXPECT_EQ(run.exit_code, 2) << run.out;
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, HasSubstr(message));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_FALSE(fs::exists(results()));
+    for (const auto& entry : fs::directory_iterator(folder())) {
+      EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::StartsWith(".")))
+          << "left behind";
+    }
+  }
+};
+
+TEST_F(BadInput, Files) {
+  expect_refused((folder() / "none.toml").string(), "no such file");
+  expect_refused(folder().string(), "is a folder");
+  expect_refused(write("empty.toml", "").string(), "empty.toml is empty");
+  expect_refused(write("broken.toml", "model = \n").string(), "broken.toml:1:");
+  expect_refused(study("joint_wear.csv", "none.csv"), "no such file");
+  expect_refused(csv_study(""), "a.csv is empty");
+  expect_refused(csv_study("cycles,volume\n"), "a.csv has no rows");
+  expect_refused(csv_study("cycles,volume\n100,5\n"), "has 1 inspection");
+}
+
+TEST_F(BadInput, Columns) {
+  expect_refused(csv_study("cycles,volum\n1,2\n3,4\n"),
+                 "has no column 'volume' (nearest: 'volum')");
+  expect_refused(csv_study("cycles,volume\n1,2\n3,x4\n"),
+                 "row 2, column 'volume': 'x4' is not a number");
+  expect_refused(csv_study("cycles,volume\n1,2\n3,nan\n"), "row 2, column 'volume': no value");
+  expect_refused(csv_study("cycles,volume\n1,2\n3,\n"), "row 2, column 'volume': no value");
+  expect_refused(csv_study("cycles,volume\n-1,2\n3,4\n"),
+                 "row 1, column 'cycles': -1 must be 0 or more");
+  expect_refused(csv_study("cycles,volume,volume\n1,2,3\n3,4,5\n"), "two columns named 'volume'");
+  expect_refused(csv_study("cycles,volume\n1,2\n3,-4\n", "lognormal"),
+                 "row 2, column 'volume': -4 must be positive for the lognormal likelihood");
+}
+
+TEST_F(BadInput, UnitsAndKeys) {
+  expect_refused(study("unit = \"mm^3\"", "unit = \"mm^2\""),
+                 "volume.unit: unit 'mm^2' has the wrong dimension");
+  expect_refused(study("5.966 N m", "5.966 N"),
+                 "conditions.work_per_cycle: unit 'N' has the wrong dimension");
+  expect_refused(study("\"5.966 N m\"", "5.966"), "has no unit");
+  expect_refused(
+      study("lower = \"0 mm^3/(N m)\"", "lowr = \"0 mm^3/(N m)\", unit = \"mm^3/(N m)\""),
+      "prior.k.lowr: unknown key; did you mean 'lower'?");
+  expect_refused(study("lower = \"0 mm^3\"", "lower = \"20 mm^3\""),
+                 "prior.sigma.upper: the lower bound 20 is not below the upper bound 15");
+  expect_refused(study("\"uniform\"", "\"unifrom\""), "nearest: 'uniform'");
+  expect_refused(study("family = \"normal\"", "family = \"weibull\""), "normal, lognormal");
+  expect_refused(study("archard-joint", "archard"), "nearest: 'archard-joint'");
+  expect_refused(study("risk   = \"1 %\"", "risk = 2"), "predict.risk: must lie between 0 and 1");
+}
+
+TEST_F(BadInput, ContradictionsAndOptions) {
+  expect_refused(study("cycles = \"cycles\"",
+                       "cycles = \"cycles\"\nwork = { column = \"volume\", unit = \"J\" }"),
+                 "the work is given twice");
+  expect_refused(examples + "study.toml --json --quiet", "--quiet");
+  expect_refused(examples + "study.toml --method gibbs", "gibbs");
+  expect_refused(examples + "study.toml --draws 1", "draws");
+  expect_refused("", "STUDY");
+}
+
+TEST_F(BadInput, OutputFolder) {
+  const auto refused = [](const std::string& output, const std::string& message) {
+    const CommandResult run = run_wearwell("fit " + examples + "study.toml -o '" + output + "'");
+    EXPECT_EQ(run.exit_code, 2) << output;
+    EXPECT_THAT(run.err, HasSubstr(message));
+  };
+  refused("/proc/results", "cannot write to /proc");
+  refused(write("file", "x").string(), "not a folder");
+  fs::create_directory(folder() / "full");
+  write("full/precious.txt", "mine");
+  refused((folder() / "full").string(), "will not replace");
+  EXPECT_EQ(slurp(folder() / "full/precious.txt"), "mine");
+}
+
+}  // namespace
+}  // namespace wearwell
