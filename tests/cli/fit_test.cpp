@@ -1,5 +1,6 @@
 // `wearwell fit` as its users run it: the paper's numbers, the traps, wrong input, the files it
 // leaves.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -122,6 +123,38 @@ TEST_F(FitCommand, ExamplesMeetTheGridOfTables6And7) {
     }
   }
   EXPECT_EQ(compared, 20 * 8);
+}
+
+// Every row of the two tables in docs/joint.md ends with what the examples give.
+TEST_F(FitCommand, TablesOfTheTutorialAreTrue) {
+  const std::string tutorial = slurp(PROJECT_SOURCE_DIR "/docs/joint.md");
+  const auto expect_row = [&](const std::string& beginning, const std::string& end) {
+    const auto at = tutorial.find("\n" + beginning);
+    ASSERT_NE(at, std::string::npos) << beginning;
+    EXPECT_THAT(tutorial.substr(at + 1, tutorial.find('\n', at + 1) - at - 1),
+                testing::EndsWith("| " + end + " |"));
+  };
+  for (const std::string likelihood : {"normal", "lognormal"}) {
+    for (const std::string prior : {"flat", "tribometer"}) {
+      const json summary =
+          fit_json(examples + likelihood + "_" + prior + ".toml", prior == "flat" ? 0 : 1);
+      for (std::size_t n = 3; n <= 6; ++n) {
+        const json& stage = summary["stages"][n - 1];
+        const json& k = stage["parameters"]["k"]["exact"];
+        expect_row(fmt::format("| {} | {} | {} |", likelihood, prior, n),
+                   fmt::format("{:.2f}/{:.2f}", k["mean"].get<double>() * 1e4,
+                               k["sd"].get<double>() * 1e4));
+        if (prior != "flat") continue;
+        const json& p = stage["predictions"][0];
+        for (const std::string interval : {"ci", "pi"}) {
+          expect_row(fmt::format("| {} | {} | {} | {} |", n, p["measured"].get<double>(),
+                                 likelihood, interval == "ci" ? "CI" : "PI"),
+                     fmt::format("{:.2f}..{:.2f}", p["exact"][interval + "05"].get<double>(),
+                                 p["exact"][interval + "95"].get<double>()));
+        }
+      }
+    }
+  }
 }
 
 TEST_F(FitCommand, TribometerStudiesAreAPriorDataConflict) {

@@ -1,4 +1,4 @@
-// Every command of a tutorial, with what it says the command prints.
+// Every command of README and the tutorials, with what they say the command prints.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -40,15 +40,29 @@ std::vector<Step> steps(const std::string& file) {
   return result;
 }
 
-TEST(Tutorial, BearingPrintsWhatItShows) {
+class Tutorial : public testing::TestWithParam<std::string> {};
+
+// In a folder of its own that holds the project's examples, with the program in the path.
+TEST_P(Tutorial, PrintsWhatItShows) {
   const std::string bin = std::filesystem::path(WEARWELL_BINARY).parent_path();
-  const std::vector<Step> all = steps(PROJECT_SOURCE_DIR "/docs/bearing.md");
-  EXPECT_GE(all.size(), 8u);
+  std::string folder = std::filesystem::temp_directory_path() / "wearwell-tutorial-XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  std::filesystem::create_directory_symlink(PROJECT_SOURCE_DIR "/examples", folder + "/examples");
+  const std::vector<Step> all = steps(PROJECT_SOURCE_DIR "/" + GetParam());
+  EXPECT_GE(all.size(), 1u);
   for (const Step& step : all) {
-    const CommandResult run = run_command("exec 2>&1; PATH='" + bin + "':$PATH\n" + step.command);
+    const CommandResult run =
+        run_command("exec 2>&1; cd '" + folder + "'; PATH='" + bin + "':$PATH\n" + step.command);
     EXPECT_EQ(run.out, step.printed) << step.command;
   }
+  std::filesystem::remove_all(folder);
 }
+
+INSTANTIATE_TEST_SUITE_P(, Tutorial,
+                         testing::Values("README.md", "docs/bearing.md", "docs/joint.md"),
+                         [](const auto& each) {
+                           return std::filesystem::path(each.param).stem().string();
+                         });
 
 }  // namespace
 }  // namespace wearwell
