@@ -111,7 +111,7 @@ TEST(Trust, AWeakPriorOnScatterIsNoConflict) {
   const Posterior flat = joint_posterior(false, false, INFINITY, 4);
   std::vector<Parameter> parameters = flat.parameters();
   parameters[1].prior = make_law(Normal{0, 5e-9}, 0, INFINITY);
-  EXPECT_NE(check(checks_of(Posterior(parameters, flat.shared_likelihood())), "prior-data-conflict")
+  EXPECT_NE(check(checks_of(Posterior(parameters, flat.likelihood())), "prior-data-conflict")
                 .verdict,
             Verdict::fail);
 }
@@ -126,7 +126,7 @@ TEST(Trust, DependenceOnTheCut) {
 
   std::vector<Parameter> parameters = uniform.parameters();
   parameters[1].prior = make_law(Flat{}, 0, 7e-9);
-  const auto cut = checks_of(Posterior(parameters, uniform.shared_likelihood()));
+  const auto cut = checks_of(Posterior(parameters, uniform.likelihood()));
   EXPECT_EQ(check(cut, "prior-cut").verdict, Verdict::fail);
   EXPECT_EQ(check(cut, "bounds").verdict, Verdict::fail);
   EXPECT_FALSE(trusted(cut));

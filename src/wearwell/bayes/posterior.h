@@ -23,8 +23,7 @@ class Posterior final : public LogDensity {
   double value_and_gradient(std::span<const double> z, std::span<double> gradient) const override;
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
-  const LogDensity& likelihood() const { return *likelihood_; }
-  const std::shared_ptr<const LogDensity>& shared_likelihood() const { return likelihood_; }
+  const std::shared_ptr<const LogDensity>& likelihood() const { return likelihood_; }
 
   double log_prior(std::span<const double> x) const;
 

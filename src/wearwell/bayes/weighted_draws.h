@@ -35,9 +35,6 @@ class Distribution {
   /// The x with cdf(x) = p. For draws, R's type 7 (linear between order statistics).
   double quantile(double p) const;
 
-  const std::vector<double>& centers() const { return center_; }
-  const std::vector<double>& weights() const { return weight_; }
-
  private:
   // Sorted by center; points at infinity (a life that never ends) come last.
   std::vector<double> center_, half_width_, weight_;

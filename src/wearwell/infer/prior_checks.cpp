@@ -1,0 +1,260 @@
+#include "wearwell/infer/prior_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/infer/power_scaling.h"
+#include "wearwell/math/view.h"
+
+namespace wearwell {
+namespace {
+
+std::string in_unit(const Parameter& parameter, double si) {
+  const std::string unit = parameter.unit.text == "1" ? "" : " " + parameter.unit.text;
+  return fmt::format("{:.4g}{}", from_si(parameter.unit, si), unit);
+}
+
+Verdict dependence_on(const Parameter& parameter) {
+  return std::holds_alternative<Flat>(parameter.prior.family) ? Verdict::fail : Verdict::warn;
+}
+
+}  // namespace
+
+Check proper_posterior(const Posterior& posterior, const Fit& fit) {
+  Findings findings("proper-posterior");
+  for (const Tail& tail : fit.tails) {
+    const Parameter& parameter = posterior.parameters()[static_cast<std::size_t>(tail.parameter)];
+    const std::string where =
+        fmt::format("{} towards {}", parameter.name,
+                    tail.towards_bound ? (tail.upward ? "its upper bound" : "its lower bound")
+                    : tail.upward      ? "large values"
+                                       : "minus infinity");
+    const std::string give_prior = fmt::format(
+        "Bound {} or give it a proper prior (half-normal, uniform with an upper bound): the data "
+        "alone do not hold it.",
+        parameter.name);
+    const std::string power =
+        tail.towards_bound
+            ? fmt::format("its density grows like distance^{:.2f}", -tail.index)
+            : fmt::format("its density goes like {}^{:.2f} far out", parameter.name, -tail.index);
+    if (!tail.integrable()) {
+      findings.add(Verdict::fail,
+                   fmt::format("the posterior is improper: {}, {}, which has no finite integral; "
+                               "every number depends "
+                               "on where it was cut",
+                               where, power),
+                   give_prior);
+    } else if (!tail.has_moment(1)) {
+      findings.add(
+          Verdict::fail,
+          fmt::format(
+              "the mean of {} does not exist: {}, {}, so the mean depends on where it was cut",
+              parameter.name, where, power),
+          give_prior);
+    } else if (!tail.has_moment(2)) {
+      findings.add(
+          Verdict::warn,
+          fmt::format(
+              "the standard deviation of {} does not exist: {}, {}; read its quantiles instead",
+              parameter.name, where, power),
+          give_prior);
+    }
+  }
+  return findings.result("every tail of every parameter falls fast enough for means and variances");
+}
+
+namespace {
+
+// The same posterior with the bounds of one parameter moved away from its mean to twice the
+// distance; bounds set by physics stay.
+Posterior with_cut_moved(const Posterior& posterior, std::size_t index, double mean) {
+  std::vector<Parameter> parameters = posterior.parameters();
+  Parameter& moved = parameters[index];
+  const Law& prior = moved.prior;
+  moved.prior =
+      make_law(prior.family, std::max(moved.natural_lower, mean + 2 * (prior.lower - mean)),
+               std::min(moved.natural_upper, mean + 2 * (prior.upper - mean)));
+  return Posterior(std::move(parameters), posterior.likelihood());
+}
+
+bool has_cut(const Parameter& parameter) {
+  const Law& prior = parameter.prior;
+  const bool flat =
+      std::holds_alternative<Flat>(prior.family) || std::holds_alternative<Uniform>(prior.family);
+  return flat && ((std::isfinite(prior.lower) && prior.lower != parameter.natural_lower) ||
+                  (std::isfinite(prior.upper) && prior.upper != parameter.natural_upper));
+}
+
+}  // namespace
+
+Check prior_cut(const Posterior& posterior, const Fit& fit) {
+  constexpr double tolerated = 0.25;  // standard deviations
+  Findings findings("prior-cut");
+  std::vector<std::string> passed;
+  for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
+    const Parameter& parameter = posterior.parameters()[i];
+    if (!has_cut(parameter)) continue;
+    if (!fit.exact) {
+      findings.add(Verdict::warn,
+                   fmt::format("the dependence on the bounds of {} was not examined ({})",
+                               parameter.name, fit.no_exact),
+                   "Fit again with other bounds and compare.");
+      continue;
+    }
+    const std::string advice = fmt::format(
+        "Say what is known of {}: a bound or a law that means something. More data make the bound "
+        "matter less.",
+        parameter.name);
+    const Posterior wider =
+        with_cut_moved(posterior, i, fit.exact->mean[static_cast<Eigen::Index>(i)]);
+    const ExactPosterior exact = integrate(wider, fit.whitening);
+    if (!exact.failure.empty()) {
+      findings.add(
+          dependence_on(parameter),
+          fmt::format("with the bounds of {} at twice the distance the posterior cannot be "
+                      "integrated ({})",
+                      parameter.name, exact.failure),
+          advice);
+      continue;
+    }
+    const Eigen::VectorXd shift =
+        (exact.mean - fit.exact->mean).cwiseAbs().cwiseQuotient(fit.exact->sd);
+    Eigen::Index worst = 0;
+    const double largest = shift.maxCoeff(&worst);
+    const Parameter& moved = posterior.parameters()[static_cast<std::size_t>(worst)];
+    const std::string detail = fmt::format(
+        "with the bounds of {} at twice the distance, the mean of {} goes from {} to {} ({:.2f} "
+        "standard deviations)",
+        parameter.name, moved.name, in_unit(moved, fit.exact->mean[worst]),
+        in_unit(moved, exact.mean[worst]), largest);
+    if (largest > tolerated || std::isnan(largest)) {
+      findings.add(dependence_on(parameter), detail, advice);
+    } else {
+      passed.push_back(detail);
+    }
+  }
+  return findings.result(passed.empty() ? "no flat or uniform prior was cut"
+                                        : fmt::format("{}", fmt::join(passed, "; ")));
+}
+
+namespace {
+
+// Densities relative to the highest one, from bins of a twentieth of the central 90 %.
+class RelativeDensity {
+ public:
+  explicit RelativeDensity(const Distribution& distribution)
+      : distribution_(distribution),
+        width_((distribution.quantile(0.95) - distribution.quantile(0.05)) / 20) {
+    const double first = distribution.quantile(0.05) - 20 * width_;
+    double below = distribution.cdf(first);
+    for (int i = 1; i <= 60; ++i) {
+      const double next = distribution.cdf(first + i * width_);
+      highest_ = std::max(highest_, next - below);
+      below = next;
+    }
+  }
+
+  double above(double x) const { return mass(x, x + width_) / highest_; }
+  double below(double x) const { return mass(x - width_, x) / highest_; }
+
+ private:
+  double mass(double a, double b) const { return distribution_.cdf(b) - distribution_.cdf(a); }
+
+  const Distribution& distribution_;
+  double width_;
+  double highest_ = 0;
+};
+
+}  // namespace
+
+Check bounds(const Posterior& posterior, const Fit& fit) {
+  constexpr double worth_a_word = 0.3, piled_up = 0.6;
+  Findings findings("bounds");
+  const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
+  for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
+    const Parameter& parameter = posterior.parameters()[i];
+    const Distribution marginal(draws, [i](const double* x) { return x[i]; });
+    const RelativeDensity density(marginal);
+    for (const bool lower : {true, false}) {
+      const double bound = lower ? parameter.prior.lower : parameter.prior.upper;
+      if (!std::isfinite(bound)) continue;
+      const double ratio = lower ? density.above(bound) : density.below(bound);
+      if (ratio < worth_a_word) continue;
+      const bool natural = bound == (lower ? parameter.natural_lower : parameter.natural_upper);
+      findings.add(
+          ratio >= piled_up && !natural ? dependence_on(parameter) : Verdict::warn,
+          fmt::format("the density of {} at its {}{} bound {} is {:.0f} % of its highest",
+                      parameter.name, natural ? "physical " : "", lower ? "lower" : "upper",
+                      in_unit(parameter, bound), 100 * std::min(1.0, ratio)),
+          natural
+              ? fmt::format("The data do not tell {} from its bound.", parameter.name)
+              : fmt::format("The answer rests on the bound of {}. If the bound is not knowledge, "
+                            "move it.",
+                            parameter.name));
+    }
+  }
+  return findings.result("no parameter piles up at a bound");
+}
+
+namespace {
+
+// Do a stronger prior and a stronger likelihood move the mean of `draws` in opposite directions?
+// The derivative of a mean by the logarithm of a power is the covariance with the scaled component.
+bool pulled_apart(const Eigen::VectorXd& draws, const std::vector<double>& log_prior,
+                  const std::vector<double>& log_likelihood) {
+  const Eigen::ArrayXd centered = draws.array() - draws.mean();
+  const auto covariance = [&](const std::vector<double>& component) {
+    return (centered * Eigen::Map<const Eigen::ArrayXd>(component.data(), draws.size())).sum();
+  };
+  return covariance(log_prior) * covariance(log_likelihood) < 0;
+}
+
+}  // namespace
+
+Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
+  Findings findings("prior-data-conflict");
+  const Eigen::MatrixXd& values = fit.pooled.values;
+  std::vector<double> log_prior, log_likelihood;
+  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+    const Eigen::VectorXd x = values.row(row);
+    log_prior.push_back(posterior.log_prior(view(x)));
+    log_likelihood.push_back(posterior.likelihood()->value(view(x)));
+  }
+  std::vector<std::string> passed;
+  for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
+    const Parameter& parameter = posterior.parameters()[i];
+    const Eigen::VectorXd draws = values.col(static_cast<Eigen::Index>(i));
+    const PowerScaling sensitivity = power_scaling(view(draws), log_prior, log_likelihood);
+    const std::string numbers =
+        fmt::format("{}: sensitivity to the prior {:.3f}, to the likelihood {:.3f}", parameter.name,
+                    sensitivity.prior, sensitivity.likelihood);
+    switch (verdict(sensitivity)) {
+      case PowerScalingVerdict::prior_data_conflict:
+        if (pulled_apart(draws, log_prior, log_likelihood)) {
+          findings.add(
+              Verdict::fail, numbers,
+              fmt::format(
+                  "Prior and data disagree about {}: each pulls its own way. Ask whether the prior "
+                  "describes this component and these conditions.",
+                  parameter.name));
+          break;
+        }
+        [[fallthrough]];  // both matter, and agree: few data, or a prior that says much
+      case PowerScalingVerdict::strong_prior_or_weak_likelihood:
+        findings.add(
+            Verdict::warn, numbers,
+            fmt::format("What is said of {} comes from the prior as well as from the data.",
+                        parameter.name));
+        break;
+      case PowerScalingVerdict::unknown:
+        findings.add(Verdict::warn, fmt::format("{}: unknown", parameter.name),
+                     "The draws are not finite or do not vary.");
+        break;
+      case PowerScalingVerdict::none:
+        passed.push_back(numbers);
+    }
+  }
+  return findings.result(fmt::format("{}", fmt::join(passed, "; ")));
+}
+
+}  // namespace wearwell

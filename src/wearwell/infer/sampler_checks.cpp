@@ -1,0 +1,122 @@
+#include "wearwell/infer/sampler_checks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/infer/diagnostics.h"
+
+namespace wearwell {
+
+Check convergence(const Posterior& posterior, const Fit& fit, bool agrees_with_exact) {
+  constexpr double largest_rhat = 1.01,
+                   tolerable_rhat = 1.05;  // the latter where quadrature agrees
+  const double least_ess = 100.0 * static_cast<double>(fit.draws.size());
+  Findings findings("convergence");
+  double rhat = 0, ess = INFINITY;
+  for (std::size_t i = 0; i < fit.diagnostics.size(); ++i) {
+    const Diagnostics& d = fit.diagnostics[i];
+    const double least = std::min(d.ess_bulk, d.ess_tail);
+    rhat = std::max(rhat, d.rhat);
+    ess = std::min(ess, least);
+    if (!(d.rhat <= largest_rhat) || !(least >= least_ess)) {
+      const bool tolerable =
+          agrees_with_exact && d.rhat <= tolerable_rhat && least >= 0.25 * least_ess;
+      findings.add(
+          tolerable ? Verdict::warn : Verdict::fail,
+          fmt::format(
+              "{}: R-hat {:.3f} (at most {}), effective draws {:.0f} in bulk and {:.0f} in the "
+              "tails (at least {:.0f})",
+              posterior.parameters()[i].name, d.rhat, largest_rhat, d.ess_bulk, d.ess_tail,
+              least_ess),
+          "Draw more (--draws, --warmup), or use --method nuts or exact.");
+    }
+  }
+  return findings.result(
+      fmt::format("R-hat at most {:.4f}, at least {:.0f} effective draws", rhat, ess));
+}
+
+Check divergences(const Fit& fit, bool agrees_with_exact) {
+  const int max_treedepth = fit.max_treedepth;
+  constexpr double tolerated = 0.005;
+  Findings findings("divergences");
+  long divergent = 0, deepest = 0, total = 0;
+  for (const Chain& chain : fit.draws) {
+    for (const NutsStep& step : chain.nuts) {
+      divergent += step.divergent;
+      deepest += step.treedepth >= max_treedepth;
+      ++total;
+    }
+  }
+  const auto share = static_cast<double>(divergent) / static_cast<double>(total);
+  if (divergent > 0) {
+    findings.add(share > tolerated && !agrees_with_exact ? Verdict::fail : Verdict::warn,
+                 fmt::format("{} of {} transitions diverged{}", divergent, total,
+                             agrees_with_exact ? ", but quadrature agrees" : ""),
+                 "The sampler may have missed a narrow region: raise [sampler] target_accept, or "
+                 "compare with --method exact.");
+  }
+  if (deepest > 0) {
+    findings.add(Verdict::warn,
+                 fmt::format("{} of {} transitions reached the tree depth limit {}", deepest, total,
+                             max_treedepth),
+                 "The sampler is slow here: raise [sampler] max_treedepth or use a dense metric.");
+  }
+  return findings.result(fmt::format("none in {} transitions", total));
+}
+
+Check energy(const Fit& fit) {
+  constexpr double least = 0.3;
+  Findings findings("energy");
+  double lowest = INFINITY;
+  for (const Chain& chain : fit.draws) {
+    std::vector<double> energies;
+    for (const NutsStep& step : chain.nuts) energies.push_back(step.energy);
+    const double fraction = e_bfmi(energies);
+    lowest = std::isnan(fraction) ? fraction : std::min(lowest, fraction);
+  }
+  const std::string detail =
+      fmt::format("E-BFMI at least {:.2f} (more than {} is good)", lowest, least);
+  if (!(lowest > least)) {
+    findings.add(Verdict::warn, detail,
+                 "The posterior has heavy tails for the sampler: draw more, or bound the scatter.");
+  }
+  return findings.result(detail);
+}
+
+Check exact_agreement(const Posterior& posterior, const Fit& fit) {
+  constexpr double tolerated = 4;  // Monte Carlo standard errors
+  Findings findings("exact-agreement");
+  if (!fit.exact) {
+    findings.add(Verdict::warn, fmt::format("no exact posterior to compare with: {}", fit.no_exact),
+                 "Rely on the other checks.");
+    return findings.result("");
+  }
+  double worst = 0;
+  for (std::size_t i = 0; i < fit.diagnostics.size(); ++i) {
+    const auto value = [i](const double* x) { return x[i]; };
+    const Distribution exact(fit.exact->nodes, value), drawn(fit.pooled, value);
+    const Diagnostics& d = fit.diagnostics[i];
+    std::vector<std::pair<std::string, double>> distances = {
+        {"5 % quantile", (drawn.quantile(0.05) - exact.quantile(0.05)) / d.mcse_q05},
+        {"median", (drawn.quantile(0.5) - exact.quantile(0.5)) / d.mcse_q50},
+        {"95 % quantile", (drawn.quantile(0.95) - exact.quantile(0.95)) / d.mcse_q95}};
+    // A mean without variance has no Monte Carlo standard error to speak of.
+    if (std::isfinite(fit.exact->sd[static_cast<Eigen::Index>(i)])) {
+      distances.emplace_back("mean", (drawn.mean() - exact.mean()) / d.mcse_mean);
+    }
+    for (const auto& [what, distance] : distances) {
+      worst = std::max(worst, std::abs(distance));
+      if (!(std::abs(distance) <= tolerated)) {
+        findings.add(
+            Verdict::fail,
+            fmt::format("the {} of {} is {:.1f} Monte Carlo standard errors from the exact one",
+                        what, posterior.parameters()[i].name, distance),
+            "Believe the exact numbers, and draw more.");
+      }
+    }
+  }
+  return findings.result(
+      fmt::format("within {:.1f} Monte Carlo standard errors of quadrature", worst));
+}
+
+}  // namespace wearwell
