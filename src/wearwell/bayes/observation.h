@@ -57,6 +57,8 @@ inline double observation_cdf(ObservationFamily family, double y, double mean, d
     return 0.5 * std::erfc((mean - y) / (sd * std::sqrt(2.0)));
   }
   if (y <= 0) return 0;
+  // A lognormal quantity vanishes with its mean: the median is mean^2/sqrt(mean^2 + sd^2).
+  if (!(mean > 1e-150 * sd)) return 1;
   const LognormalByMoments<double> law(mean, sd);
   return 0.5 * std::erfc((law.eta - std::log(y)) / (law.zeta * std::sqrt(2.0)));
 }

@@ -17,7 +17,7 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 /// integration, the points where the cell ends.
 struct WeightedDraws {
   Points values;              ///< points x parameters, natural, SI
-  Eigen::VectorXd weights;             ///< sum to 1
+  Eigen::VectorXd weights;    ///< sum to 1
   std::vector<Points> lower;  ///< one per axis, like `values`; empty for draws
   std::vector<Points> upper;
 };
