@@ -96,16 +96,17 @@ RC_GTEST_PROP(Posterior, GradientIsTheDifferenceQuotient, ()) {
   const double value = posterior.value_and_gradient(view(z), view(gradient));
   RC_ASSERT(value == posterior.value(view(z)) ||
             std::abs(value - posterior.value(view(z))) < 1e-12 * std::abs(value));
-  if (!std::isfinite(value)) return;  // a lognormal mean below 0
+  // A lognormal mean at 0 is a singularity; differences near it say nothing.
+  posterior.to_natural(view(z), view(x));
+  if (n == 3 && family == ObservationFamily::lognormal && x[0] + x[2] < 0.2) return;
+  RC_ASSERT(std::isfinite(value));
   const double h = 1e-4;
   for (int i = 0; i < n; ++i) {
     Eigen::VectorXd left = z, right = z;
     left[i] -= h;
     right[i] += h;
-    const double a = posterior.value(view(left)), b = posterior.value(view(right));
-    if (!std::isfinite(a) || !std::isfinite(b)) continue;
+    const double quotient = (posterior.value(view(right)) - posterior.value(view(left))) / (2 * h);
     // The neglected third derivative, and the rounding of the values.
-    const double quotient = (b - a) / (2 * h);
     RC_ASSERT(std::abs(quotient - gradient[i]) <
               1e-5 * (1 + std::abs(value) + std::abs(gradient[i])));
   }
