@@ -88,7 +88,7 @@ double Distribution::quantile(double p) const {
   while (b < highest && excess(b) < 0) b = std::min(highest, b + (reach *= 2));
   if (excess(a) >= 0) return a;
   if (excess(b) <= 0) return b;
-  std::uintmax_t iterations = 60;
+  std::uintmax_t iterations = 200;  // a corner of the cdf can cost 100
   const auto [left, right] = boost::math::tools::toms748_solve(
       excess, a, b, boost::math::tools::eps_tolerance<double>(40), iterations);
   return 0.5 * (left + right);
