@@ -59,6 +59,11 @@ struct ObservationLaw {
 
   ObservationLaw(ObservationFamily family, double mean, double sd) : location(mean), scale(sd) {
     if (family == ObservationFamily::lognormal) {
+      // A lognormal quantity vanishes with its mean: the median is mean^2/sqrt(mean^2 + sd^2).
+      if (!(mean > 1e-150 * sd)) {
+        location = -std::numeric_limits<double>::infinity();
+        return;
+      }
       const LognormalByMoments<double> law(mean, sd);
       location = law.eta;
       scale = law.zeta;

@@ -12,29 +12,29 @@ namespace wearwell {
 Distribution::Distribution(const WeightedDraws& draws,
                            const std::function<double(const double* x)>& quantity)
     : cells_(!draws.lower.empty()) {
-  const Eigen::Index n = draws.values.rows();
-  std::vector<double> center(n), half_width(n, 0.0);
-  for (Eigen::Index i = 0; i < n; ++i) {
+  struct Point {
+    double center, half_width, weight;
+  };
+  std::vector<Point> points;
+  for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
+    if (draws.weights[i] == 0) continue;  // 0 times an infinite life is no number
     const double at_node = quantity(draws.values.row(i).data());
     double middle = at_node, variance = 0;
-    for (std::size_t axis = 0; axis < draws.lower.size(); ++axis) {
+    for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
       const double a = quantity(draws.lower[axis].row(i).data());
       const double b = quantity(draws.upper[axis].row(i).data());
       if (!std::isfinite(a) || !std::isfinite(b)) continue;
       middle += 0.5 * (a + b) - at_node;
       variance += 0.25 * (b - a) * (b - a);
     }
-    center[i] = middle;
-    half_width[i] = std::sqrt(variance);
+    points.push_back({middle, std::sqrt(variance), draws.weights[i]});
   }
-
-  std::vector<Eigen::Index> order(n);
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return center[a] < center[b]; });
-  for (const Eigen::Index i : order) {
-    center_.push_back(center[i]);
-    half_width_.push_back(half_width[i]);
-    weight_.push_back(draws.weights[i]);
+  std::sort(points.begin(), points.end(),
+            [](const Point& a, const Point& b) { return a.center < b.center; });
+  for (const Point& point : points) {
+    center_.push_back(point.center);
+    half_width_.push_back(point.half_width);
+    weight_.push_back(point.weight);
   }
 }
 
@@ -56,8 +56,8 @@ double Distribution::sd() const {
 double Distribution::cdf(double x) const {
   double sum = 0;
   for (std::size_t i = 0; i < center_.size(); ++i) {
-    const double d = x - center_[i], h = half_width_[i];
-    sum += d >= h ? weight_[i] : d <= -h ? 0 : weight_[i] * 0.5 * (1 + d / h);
+    const double c = center_[i], h = half_width_[i];
+    sum += x >= c + h ? weight_[i] : x <= c - h ? 0 : weight_[i] * 0.5 * (1 + (x - c) / h);
   }
   return sum;
 }
@@ -74,13 +74,21 @@ double Distribution::quantile(double p) const {
   std::size_t i = 0;
   while (i + 1 < n && below + weight_[i] < p) below += weight_[i++];
   if (!std::isfinite(center_[i])) return center_[i];
-  double reach = 2 * half_width_[i] + 1e-12 * std::abs(center_[i]);
-  double a = center_[i] - reach, b = center_[i] + reach;
+  // The root lies between the outermost ends of finite cells, whatever rounding makes of their
+  // total weight; from around cell i outward.
+  double lowest = center_[i], highest = center_[i];
+  for (std::size_t j = 0; j < n && std::isfinite(center_[j]); ++j) {
+    lowest = std::min(lowest, center_[j] - half_width_[j]);
+    highest = std::max(highest, center_[j] + half_width_[j]);
+  }
   const auto excess = [&](double x) { return cdf(x) - p; };
-  while (excess(a) > 0) a -= reach *= 2;
-  while (excess(b) < 0 && std::isfinite(b)) b += reach *= 2;
-  if (!std::isfinite(b)) return b;
-  std::uintmax_t iterations = 60;
+  double reach = std::max(2 * half_width_[i], 1e-12 * (highest - lowest));
+  double a = std::max(lowest, center_[i] - reach), b = std::min(highest, center_[i] + reach);
+  while (a > lowest && excess(a) > 0) a = std::max(lowest, a - (reach *= 2));
+  while (b < highest && excess(b) < 0) b = std::min(highest, b + (reach *= 2));
+  if (excess(a) >= 0) return a;
+  if (excess(b) <= 0) return b;
+  std::uintmax_t iterations = 200;  // a corner of the cdf can cost 100
   const auto [left, right] = boost::math::tools::toms748_solve(
       excess, a, b, boost::math::tools::eps_tolerance<double>(40), iterations);
   return 0.5 * (left + right);

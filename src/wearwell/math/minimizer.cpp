@@ -1,6 +1,7 @@
 #include "wearwell/math/minimizer.h"
 
 #include <cmath>
+#include <exception>
 #include <nlopt.hpp>
 #include <vector>
 
@@ -10,10 +11,17 @@ namespace {
 struct Search {
   const Objective& objective;
   Minimum best;
+  std::exception_ptr failure = nullptr;  // NLopt would turn it into an error of its own
 
   double operator()(unsigned n, const double* x, double* gradient) {
     const std::span<double> slope = gradient ? std::span<double>(gradient, n) : std::span<double>();
-    double value = objective(std::span(x, n), slope);
+    double value = 0;
+    try {
+      value = objective(std::span(x, n), slope);
+    } catch (...) {
+      failure = std::current_exception();
+      throw nlopt::forced_stop();
+    }
     if (std::isnan(value)) value = INFINITY;
     if (value < best.value) {
       best.value = value;
@@ -47,6 +55,8 @@ Minimum minimize(const Objective& objective, const Eigen::VectorXd& start, int m
     // NLopt's generic failure, such as a line search that met only infinities: the best point
     // stands.
   }
+  if (search.failure) std::rethrow_exception(search.failure);
+  if (!std::isfinite(search.best.value)) search.best.converged = false;
   return search.best;
 }
 

@@ -17,7 +17,7 @@ struct Minimum {
 };
 
 /// A local minimum near `start`, by NLopt's L-BFGS; the best point seen, also when it did not
-/// converge.
+/// converge. What the objective throws reaches the caller.
 Minimum minimize(const Objective& objective, const Eigen::VectorXd& start,
                  int max_evaluations = 1000);
 

@@ -32,6 +32,12 @@ void require_positive(const char* law, const char* parameter, double value) {
   }
 }
 
+void require_finite(const char* law, const char* parameter, double value) {
+  if (!std::isfinite(value)) {
+    throw InputError(fmt::format("{} law: {} is {}, it must be finite", law, parameter, value));
+  }
+}
+
 // What a proper family is beside its kernel: its natural support, the logarithm of the kernel's
 // integral over all of it, and Boost's distribution for probabilities and quantiles. Location and
 // scale are taken out of Boost's hands where SI values as small as 1e-13 would meet its argument
@@ -42,10 +48,12 @@ struct Properties {
 };
 
 Properties properties(const Normal& law) {
+  require_finite("normal", "mean", law.mean);
   require_positive("normal", "sd", law.sd);
   return {{-infinity, infinity}, 0.5 * log_two_pi + std::log(law.sd)};
 }
 Properties properties(const Lognormal& law) {
+  require_finite("lognormal", "log of the median", law.eta);
   require_positive("lognormal", "log_sd", law.zeta);
   return {{0, infinity}, 0.5 * log_two_pi + std::log(law.zeta)};
 }
@@ -61,6 +69,7 @@ Properties properties(const InverseGamma& law) {
 }
 Properties properties(const StudentT& law) {
   require_positive("student-t", "df", law.df);
+  require_finite("student-t", "location", law.location);
   require_positive("student-t", "scale", law.scale);
   return {{-infinity, infinity},
           std::log(boost::math::beta(0.5, 0.5 * law.df)) + 0.5 * std::log(law.df) +
@@ -69,7 +78,10 @@ Properties properties(const StudentT& law) {
 Properties properties(const Beta& law) {
   require_positive("beta", "alpha", law.alpha);
   require_positive("beta", "beta", law.beta);
-  return {{0, 1}, std::log(boost::math::beta(law.alpha, law.beta))};
+  // Of gammas: the beta function itself underflows from alpha = beta = 515 on.
+  return {{0, 1},
+          boost::math::lgamma(law.alpha) + boost::math::lgamma(law.beta) -
+              boost::math::lgamma(law.alpha + law.beta)};
 }
 Properties properties(const Flat&) {
   return {{-infinity, infinity}, 0};

@@ -24,6 +24,7 @@ class PriorReader {
       } catch (const InputError& error) {
         table_.fail("unit", error.what());
       }
+      refuse_offset(*unit_);
     }
   }
 
@@ -52,6 +53,9 @@ class PriorReader {
     if (law == "student-t") {
       return StudentT{plain("df"), dimensional("location"), dimensional("scale")};
     }
+    if (law == "beta" && spec_.si != "1") {
+      table_.fail("law", "a beta law lies between 0 and 1: it is only for a plain number");
+    }
     if (law == "beta") return Beta{plain("alpha"), plain("beta")};
     return Jeffreys{};
   }
@@ -68,7 +72,9 @@ class PriorReader {
  private:
   Family lognormal() {
     if (table_.has("median") || table_.has("log_sd")) {
-      return Lognormal{std::log(dimensional("median")), plain("log_sd")};
+      const double median = dimensional("median");
+      if (!(median > 0)) table_.fail("median", "must be positive for a lognormal law");
+      return Lognormal{std::log(median), plain("log_sd")};
     }
     const double mean = dimensional("mean"), sd = dimensional("sd");
     if (!(mean > 0)) table_.fail("mean", "must be positive for a lognormal law");
@@ -77,11 +83,15 @@ class PriorReader {
     return Lognormal{law.eta, law.zeta};
   }
 
-  double keep(const Quantity& quantity) {
-    if (quantity.unit.offset != 0) {
-      table_.fail("", fmt::format("unit '{}' has an offset; write the parameter in '{}'",
-                                  quantity.unit.text, spec_.si));
+  void refuse_offset(const Unit& unit) const {
+    if (unit.offset != 0) {
+      table_.fail("", fmt::format("unit '{}' has an offset; write the parameter in '{}'", unit.text,
+                                  spec_.si));
     }
+  }
+
+  double keep(const Quantity& quantity) {
+    refuse_offset(quantity.unit);
     if (!unit_) unit_ = quantity.unit;
     return quantity.si();
   }
@@ -96,8 +106,10 @@ double start_inside(const Law& law, double guess) {
   if (law.lower < guess && guess < law.upper) return guess;
   if (std::isfinite(law.lower) && std::isfinite(law.upper)) return 0.5 * (law.lower + law.upper);
   if (law.proper) return quantile(law, 0.5);
-  const double step = std::max(std::abs(guess), std::abs(law.lower));
-  return std::isfinite(law.lower) ? law.lower + step : law.upper - step;
+  const bool from_lower = std::isfinite(law.lower);
+  const double bound = from_lower ? law.lower : law.upper;
+  const double step = std::max(std::abs(guess), std::abs(bound));
+  return from_lower ? bound + step : bound - step;
 }
 
 double spread(const Law& law, double start) {

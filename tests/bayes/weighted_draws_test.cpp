@@ -1,0 +1,215 @@
+#include "wearwell/bayes/weighted_draws.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/between.h"
+
+namespace wearwell {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double itself(const double* x) {
+  return x[0];
+}
+
+WeightedDraws draws_of(const std::vector<double>& x) {
+  const auto n = static_cast<Eigen::Index>(x.size());
+  WeightedDraws draws{
+      Points(n, 1), Eigen::VectorXd::Constant(n, 1 / static_cast<double>(n)), {}, {}};
+  for (Eigen::Index i = 0; i < n; ++i) draws.values(i, 0) = x[static_cast<std::size_t>(i)];
+  return draws;
+}
+
+struct Cell {
+  double lower, node, upper, weight;
+};
+
+WeightedDraws cells_of(const std::vector<Cell>& cells) {
+  const auto n = static_cast<Eigen::Index>(cells.size());
+  WeightedDraws draws{Points(n, 1), Eigen::VectorXd(n), {Points(n, 1)}, {Points(n, 1)}};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Cell& cell = cells[static_cast<std::size_t>(i)];
+    draws.values(i, 0) = cell.node;
+    draws.lower[0](i, 0) = cell.lower;
+    draws.upper[0](i, 0) = cell.upper;
+    draws.weights[i] = cell.weight;
+  }
+  return draws;
+}
+
+// R 4.2.2: x <- c(1, 2, 4, 8, 16, 32); mean(x); sd(x); quantile(x, c(.05, .3, .95)); ecdf(x)(c(0,
+// 3, 4, 32))
+TEST(Distribution, OfDrawsIsRs) {
+  const Distribution d(draws_of({8, 1, 32, 2, 16, 4}), itself);
+  EXPECT_DOUBLE_EQ(d.mean(), 10.5);
+  EXPECT_DOUBLE_EQ(d.sd(), 11.861703081766969);
+  EXPECT_DOUBLE_EQ(d.quantile(0.05), 1.25);
+  EXPECT_DOUBLE_EQ(d.quantile(0.3), 3);
+  EXPECT_DOUBLE_EQ(d.quantile(0.95), 28);
+  EXPECT_EQ(d.cdf(0), 0);
+  EXPECT_DOUBLE_EQ(d.cdf(3), 1. / 3);
+  EXPECT_DOUBLE_EQ(d.cdf(4), 0.5);
+  EXPECT_DOUBLE_EQ(d.cdf(32), 1);
+}
+
+TEST(Distribution, InfiniteDraws) {
+  const Distribution d(draws_of({2, infinity, 1, infinity, 3}), itself);
+  EXPECT_DOUBLE_EQ(d.quantile(0.125), 1.5);
+  EXPECT_DOUBLE_EQ(d.quantile(0.5), 3);
+  EXPECT_EQ(d.quantile(0.6), infinity);
+  EXPECT_EQ(d.quantile(0.9), infinity);
+  EXPECT_EQ(d.mean(), infinity);
+  EXPECT_DOUBLE_EQ(d.cdf(1e300), 0.6);
+  EXPECT_DOUBLE_EQ(d.cdf(infinity), 1);
+}
+
+// By hand: [-1, 0] holds 1/4 and [0, 1] holds 3/4, wherever in them the nodes lie.
+TEST(Distribution, OfCellsIsPiecewiseUniform) {
+  const Distribution d(cells_of({{0, 0.2, 1, 0.75}, {-1, -0.9, 0, 0.25}}), itself);
+  EXPECT_DOUBLE_EQ(d.mean(), 0.25);
+  EXPECT_DOUBLE_EQ(d.sd(), std::sqrt(1. / 3 - 1. / 16));
+  EXPECT_DOUBLE_EQ(d.cdf(-0.5), 0.125);
+  EXPECT_DOUBLE_EQ(d.cdf(0.5), 0.625);
+  EXPECT_NEAR(d.quantile(0.625), 0.5, 1e-11);
+  EXPECT_NEAR(d.quantile(0.25), 0, 1e-11);
+  EXPECT_NEAR(d.quantile(0.125), -0.5, 1e-11);
+}
+
+// Two axes: a node moves by either, and the variances of the two add.
+TEST(Distribution, AxesAddTheirVariances) {
+  WeightedDraws one{Points(1, 2), Eigen::VectorXd::Ones(1), {}, {}};
+  one.values << 5, 7;
+  for (const auto& [a, b] : {std::pair(3., 0.), std::pair(0., 4.)}) {
+    one.lower.push_back(one.values - Eigen::RowVector2d(a, b));
+    one.upper.push_back(one.values + Eigen::RowVector2d(a, b));
+  }
+  const Distribution d(one, [](const double* x) { return x[0] + x[1]; });
+  EXPECT_DOUBLE_EQ(d.mean(), 12);
+  EXPECT_DOUBLE_EQ(d.sd(), std::sqrt((3 * 3 + 4 * 4) / 3.));
+}
+
+std::vector<Cell> any_cells() {
+  const auto n = *rc::gen::inRange<std::size_t>(1, 30);
+  std::vector<Cell> cells;
+  double total = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double lower = *between(1e-3, 10) - 5, upper = lower + *between(1e-3, 3);
+    cells.push_back(
+        {lower, lower + (upper - lower) * *between(0.1, 0.9), upper, *between(1e-6, 1)});
+    total += cells.back().weight;
+  }
+  for (Cell& cell : cells) cell.weight /= total;
+  return cells;
+}
+
+RC_GTEST_PROP(Distribution, QuantileInvertsCdf, ()) {
+  const std::vector<Cell> cells = any_cells();
+  const Distribution d(cells_of(cells), itself);
+  const double p = *between(1e-6, 1 - 1e-6);
+  RC_ASSERT(std::abs(d.cdf(d.quantile(p)) - p) < 1e-7);
+}
+
+RC_GTEST_PROP(Distribution, QuantileOfOneIsTheUpperEnd, ()) {
+  const std::vector<Cell> cells = any_cells();
+  double upper = -infinity;
+  for (const Cell& cell : cells) upper = std::max(upper, cell.upper);
+  const Distribution d(cells_of(cells), itself);
+  RC_ASSERT(std::abs(d.quantile(1) - upper) < 1e-7);
+}
+
+// A limit that some nodes have passed already has a life of 0 there: an atom.
+TEST(Distribution, AtomAtZero) {
+  const auto life = [](const double* x) { return std::max(0.0, x[0]); };
+  const Distribution d(cells_of({{-2, -1.5, -1, 0.5}, {-1, -0.5, 0, 0.25}, {0, 0.5, 1, 0.25}}),
+                       life);
+  EXPECT_NEAR(d.quantile(0.5), 0, 1e-12);
+  EXPECT_NEAR(d.quantile(0.7), 0, 1e-12);
+  EXPECT_NEAR(d.quantile(0.875), 0.5, 1e-12);
+  const Distribution all(cells_of({{-2, -1.5, -1, 1}}), life);
+  EXPECT_EQ(all.quantile(0.1), 0);
+  EXPECT_EQ(all.quantile(0.99), 0);
+}
+
+TEST(Distribution, CellsThatAreInfinite) {
+  const auto life = [](const double* x) { return x[0] <= 1 ? infinity : x[0]; };
+  const Distribution d(cells_of({{0, 0.5, 1, 0.25}, {2, 3, 4, 0.5}, {4, 5, 6, 0.25}}), life);
+  EXPECT_NEAR(d.quantile(0.25), 3, 1e-11);
+  EXPECT_NEAR(d.quantile(0.7499), 6, 1e-2);
+  EXPECT_EQ(d.quantile(0.76), infinity);
+  EXPECT_DOUBLE_EQ(d.cdf(1e9), 0.75);
+  EXPECT_DOUBLE_EQ(d.cdf(infinity), 1);
+}
+
+// The quantity may be infinite at the node alone.
+TEST(Distribution, InfiniteNodeBetweenFiniteEnds) {
+  const auto pole = [](const double* x) { return x[0] == 0.5 ? infinity : 1 / (x[0] - 0.5); };
+  const Distribution d(cells_of({{0, 0.5, 1, 0.25}, {2, 3, 4, 0.75}}), pole);
+  EXPECT_EQ(d.quantile(0.9), infinity);
+  EXPECT_DOUBLE_EQ(d.cdf(1), 0.75);
+}
+
+// A node without weight does not count, whatever the quantity is there.
+TEST(Distribution, WeightlessNodes) {
+  const auto life = [](const double* x) { return x[0] < 1 ? infinity : x[0]; };
+  const Distribution d(cells_of({{0, 0.5, 1, 0}, {2, 3, 4, 1}}), life);
+  EXPECT_DOUBLE_EQ(d.mean(), 3);
+  EXPECT_DOUBLE_EQ(d.sd(), std::sqrt(1. / 3));
+  EXPECT_NEAR(d.quantile(0.75), 3.5, 1e-11);
+}
+
+TEST(WeightedSampler, HasTheMomentsOfItsCells) {
+  WeightedDraws draws{Points(3, 2), Eigen::Vector3d(0.2, 0.3, 0.5), {}, {}};
+  draws.values << 0, 1, 4, 2, -3, 5;
+  const Eigen::RowVector2d first(0.5, 0.25), second(-0.3, 0.9);  // half a cell along each axis
+  for (const auto& half : {first, second}) {
+    draws.lower.push_back(draws.values.rowwise() - half);
+    draws.upper.push_back(draws.values.rowwise() + half);
+  }
+  const Eigen::Vector2d mean = draws.values.transpose() * draws.weights;
+  Eigen::Matrix2d covariance =
+      (first.transpose() * first + second.transpose() * second) / 3;  // of a uniform: h^2/3
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Eigen::Vector2d d = draws.values.row(i).transpose() - mean;
+    covariance += draws.weights[i] * d * d.transpose();
+  }
+
+  constexpr int n = 400'000;
+  Rng rng(11, 3);
+  const WeightedSampler sample(draws);
+  Eigen::Vector2d sum(0, 0);
+  Eigen::Matrix2d products = Eigen::Matrix2d::Zero(), their_squares = products;
+  for (int i = 0; i < n; ++i) {
+    const Eigen::Vector2d d = sample(rng) - mean;
+    sum += d;
+    const Eigen::Matrix2d product = d * d.transpose();
+    products += product;
+    their_squares += product.cwiseAbs2();
+  }
+  for (int r = 0; r < 2; ++r) {
+    EXPECT_NEAR(sum[r] / n, 0, 5 * std::sqrt(covariance(r, r) / n));
+    for (int c = 0; c < 2; ++c) {
+      EXPECT_NEAR(products(r, c) / n, covariance(r, c), 5 * std::sqrt(their_squares(r, c)) / n);
+    }
+  }
+}
+
+TEST(WeightedSampler, ChoosesPointsByWeight) {
+  WeightedDraws draws = draws_of({0, 1, 2});
+  draws.weights << 0, 0.3, 0.7;
+  Rng rng(5, 0);
+  const WeightedSampler sample(draws);
+  constexpr int n = 100'000;
+  int count[3] = {};
+  for (int i = 0; i < n; ++i) ++count[static_cast<int>(sample(rng)[0])];
+  EXPECT_EQ(count[0], 0);
+  EXPECT_NEAR(count[1], 0.3 * n, 5 * std::sqrt(0.21 * n));
+}
+
+}  // namespace
+}  // namespace wearwell
