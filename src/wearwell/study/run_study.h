@@ -9,6 +9,9 @@ namespace wearwell {
 /// them. What `choice` leaves open is as the study says, and then the method's default: 4 chains of
 /// 1000 draws after 1000 of warm-up, for Metropolis 6000 after 4000. Uses `threads` threads (0:
 /// all); the result does not depend on it.
-StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads);
+///
+/// `with_plots`: computes what a report draws as well.
+StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads,
+                      bool with_plots = false);
 
 }  // namespace wearwell

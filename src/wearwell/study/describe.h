@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "wearwell/study/study.h"
+
+namespace wearwell {
+
+/// "normal, mean 0.000505, sd 7.4e-05, above 0 mm^3/(N m)".
+std::string prior_in_words(const Parameter& parameter);
+
+}  // namespace wearwell
