@@ -11,6 +11,7 @@ namespace wearwell {
 namespace {
 
 namespace colour = plot::colour;
+using html::capital;
 using html::Figure;
 using plot::Axis;
 using plot::Columns;
@@ -48,11 +49,6 @@ Scale scale_of(const ParameterSummary& p) {
   return scale_for(p.exact ? p.exact->q50 : p.q50, p.unit);
 }
 
-std::string capital(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
 const Prediction& best(const PredictionSummary& p) {
   return p.exact ? *p.exact : p.drawn;
 }
@@ -73,24 +69,10 @@ struct Window {
   double margin(double share) const { return share * (high - low); }
 };
 
-std::string at_name(const StudyResult& result) {
-  if (!result.predictions.empty()) return result.predictions.front().at_name;
-  if (!result.stages.empty() && !result.stages.front().predictions.empty()) {
-    return result.stages.front().predictions.front().at_name;
-  }
-  return "at";
-}
-
-std::string volume_unit(const StudyResult& result) {
-  if (!result.predictions.empty()) return result.predictions.front().unit;
-  if (!result.stages.empty()) return result.stages.front().predictions.front().unit;
-  return "1";
-}
-
 // Wear against cycles (Fig. 12 of An et al. 2011).
 Figure history_figure(const StudyResult& result, const Plots& plots) {
   const History& h = plots.history;
-  const std::string at = at_name(result);
+  const std::string at = plots.at_name;
   std::vector<Json> marks = {plot::area({{"x", h.at}, {"y", h.pi95}, {"y2", h.pi05}},
                                         {colour::wide, "90 % of measurements", 0.28}),
                              plot::area({{"x", h.at}, {"y", h.ci95}, {"y2", h.ci05}},
@@ -108,13 +90,12 @@ Figure history_figure(const StudyResult& result, const Plots& plots) {
   std::string caption = fmt::format(
       "The line is the mean; the inner band holds the true mean, the outer band one measurement, "
       "with 90 % probability.");
-  return {
-      "history", fmt::format("{} against {}", capital(plots.quantity), at), caption,
-      plot::plot(fmt::format("{} against {} with its bands and the measured points",
-                             capital(plots.quantity), at),
-                 {capital(at)},
-                 {fmt::format("{} [{}]", capital(plots.quantity), html::unit(volume_unit(result)))},
-                 marks, 340, true)};
+  return {"history", fmt::format("{} against {}", capital(plots.quantity), at), caption,
+          plot::plot(fmt::format("{} against {} with its bands and the measured points",
+                                 capital(plots.quantity), at),
+                     {capital(at)},
+                     {fmt::format("{} [{}]", capital(plots.quantity), html::unit(plots.unit))},
+                     marks, 340, true)};
 }
 
 Figure life_figure(const StudyResult& result, const Plots& plots) {
@@ -138,28 +119,30 @@ Figure life_figure(const StudyResult& result, const Plots& plots) {
                                  {colour::limit, "", 1, 0, false, 60}));
     marks.push_back(plot::text(x, p, fmt::format("B{:.0f}", p), colour::limit));
   }
-  return {"life", fmt::format("Life until {}", html::quantity(summary.limit, summary.limit_unit)),
-          fmt::format("By so many {} the limit is reached with so much probability. B10 is the "
-                      "life that one in ten does not reach.",
-                      summary.unit),
-          plot::plot("Probability that the limit is reached, against " + summary.unit,
-                     {capital(summary.unit)}, {"Probability [%]", false, 0, 100}, marks, 300)};
+  return {
+      "life",
+      fmt::format("Life until {}",
+                  html::given(summary.limit) + "\u00a0" + html::unit(summary.limit_unit)),
+      fmt::format("The probability that the limit is reached by then. B10: the {} that one in ten "
+                  "does not survive.",
+                  summary.unit),
+      plot::plot("Probability that the limit is reached, against " + summary.unit,
+                 {capital(summary.unit)}, {"Probability [%]", false, 0, 100}, marks, 300)};
 }
 
 // What each stage said of the next inspection (Figs. 10 and 11).
 Figure next_figure(const StudyResult& result) {
   std::vector<std::string> names;
-  Numbers ci05, ci95, pi05, pi95, mean, measured;
+  Numbers ci05, ci95, pi05, pi95, measured;
   Window window;
   for (std::size_t i = 0; i + 1 < result.stages.size(); ++i) {
     const PredictionSummary& next = result.stages[i].predictions[1];
     const Prediction& p = best(next);
-    names.push_back(html::number(next.at));
+    names.push_back(html::given(next.at));
     ci05.push_back(p.ci05);
     ci95.push_back(p.ci95);
     pi05.push_back(p.pi05);
     pi95.push_back(p.pi95);
-    mean.push_back(p.mean);
     measured.push_back(next.measured.value_or(NAN));
     window.take(measured.back());
     if (2 * (i + 2) > result.stages.size() && result.stages[i].rows > 2) {
@@ -214,7 +197,7 @@ Figure belief_figure(const ParameterSummary& p, const ParameterPlots& plots) {
                                {colour::posterior, "after the data (exact)"}));
   }
   return {"belief-" + p.name, fmt::format("{} ({})", capital(plots.meaning), p.name),
-          fmt::format("Prior: {}.", html::unit(plots.prior_in_words)),
+          fmt::format("Prior: {}.", html::raised(plots.prior_in_words)),
           plot::plot(fmt::format("Density of {} before and after the data", p.name),
                      {scale.title(p.name)}, {"Density", false, 0.0, {}, {}, false}, marks)};
 }
@@ -311,7 +294,7 @@ Figure stages_figure(const StudyResult& result, const Plots& plots) {
         plot::line({{"x", scale(curve.x)}, {"y", top}}, {colour::posterior, "", 1, 1.5}));
     names.push_back(fmt::format("{}", n - i));
   }
-  return {"stages", fmt::format("{} after each data set", capital(p.name)),
+  return {"stages", fmt::format("{} after each data set", p.name),
           "Each row is the density after so many data sets, drawn to the same height.",
           plot::plot(fmt::format("Density of {} after each data set", p.name),
                      {scale.title(p.name), false, scale(plots.stages.back().x.front()),
@@ -354,12 +337,12 @@ Figure interval_figure(const StudyResult& result) {
 }
 
 // Measured data sets about what the fit predicts of them.
-Figure check_figure(const StudyResult& result, const Plots& plots) {
+Figure check_figure(const Plots& plots) {
   const History& r = plots.replicated;
   std::vector<std::string> names;
   Numbers low, high, ci05, ci95, measured;
   for (std::size_t i = 0; i < r.at.size(); ++i) {
-    names.push_back(html::number(r.at[i]));
+    names.push_back(html::given(r.at[i]));
     low.push_back(r.pi05[i] - r.mean[i]);
     high.push_back(r.pi95[i] - r.mean[i]);
     ci05.push_back(r.ci05[i] - r.mean[i]);
@@ -371,8 +354,8 @@ Figure check_figure(const StudyResult& result, const Plots& plots) {
           "Measurements minus the fitted mean. Nine in ten should lie within the bars, and on both "
           "sides of zero without a pattern.",
           plot::plot("Measured minus fitted at each data set",
-                     {fmt::format("Inspection at … {}", at_name(result)), false, {}, {}, names},
-                     {fmt::format("Difference [{}]", html::unit(volume_unit(result)))},
+                     {fmt::format("Inspection at … {}", plots.at_name), false, {}, {}, names},
+                     {fmt::format("Difference [{}]", html::unit(plots.unit))},
                      {plot::bars({{"x", x}, {"y", low}, {"y2", high}},
                                  {colour::wide, "90 % of measurements", 0.55, 8}),
                       plot::bars({{"x", x}, {"y", ci05}, {"y2", ci95}},
@@ -455,8 +438,8 @@ std::vector<Figure> parameter_figures(const StudyResult& result, const Plots& pl
   return figures;
 }
 
-std::vector<Figure> fit_figures(const StudyResult& result, const Plots& plots) {
-  return {check_figure(result, plots)};
+std::vector<Figure> fit_figures(const Plots& plots) {
+  return {check_figure(plots)};
 }
 
 std::vector<Figure> sampler_figures(const StudyResult& result, const Plots& plots) {

@@ -32,25 +32,23 @@ int exponent_of(double x) {
   return exponent < -2 || exponent > 6 ? exponent : 0;
 }
 
-// With thousands apart, and a true minus.
-std::string plain(double x, int digits) {
-  const int whole = x == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(x)))) + 1;
-  const double step = std::pow(10.0, whole - digits);
-  std::string text = whole >= digits ? fmt::format("{:.0f}", std::round(x / step) * step)
-                                     : fmt::format("{:.{}f}", x, digits - whole);
+// Thousands apart (from five digits on), and a true minus.
+std::string spaced(std::string text) {
   std::string sign;
   if (text.front() == '-') {
     text.erase(0, 1);
     sign = "−";
   }
   const std::size_t point = std::min(text.find('.'), text.size());
-  if (point > 4) {
-    for (std::size_t at = point - 3;; at -= 3) {
-      text.insert(at, narrow_space);
-      if (at <= 3) break;
-    }
-  }
+  for (std::size_t at = point; point > 4 && at > 3;) text.insert(at -= 3, narrow_space);
   return sign + text;
+}
+
+std::string plain(double x, int digits) {
+  const int whole = x == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(x)))) + 1;
+  if (whole < digits) return spaced(fmt::format("{:.{}f}", x, digits - whole));
+  const double step = std::pow(10.0, whole - digits);
+  return spaced(fmt::format("{:.0f}", std::round(x / step) * step));
 }
 
 // JSON inside a script element: no character can end the element.
@@ -94,6 +92,11 @@ std::string escape(const std::string& text) {
   return out;
 }
 
+std::string capital(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
 std::string number(double x, int digits) {
   if (std::isnan(x)) return "–";
   if (std::isinf(x)) return x > 0 ? "∞" : "−∞";
@@ -102,22 +105,31 @@ std::string number(double x, int digits) {
   return plain(x / std::pow(10.0, exponent), digits) + power_of_ten(exponent);
 }
 
-std::string unit(const std::string& text) {
-  if (text == "1") return {};
+std::string given(double x) {
+  const int exponent = exponent_of(x);
+  if (!std::isfinite(x)) return number(x);
+  if (exponent == 0) return spaced(fmt::format("{:.9g}", x));
+  return fmt::format("{:.9g}", x / std::pow(10.0, exponent)) + power_of_ten(exponent);
+}
+
+std::string raised(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] != '^') {
-      out += text[i] == ' ' ? "\u00a0" : std::string(1, text[i]);
+      out += text[i];
       continue;
     }
-    std::size_t end = i + 1;
-    while (end < text.size() && (std::isdigit(static_cast<unsigned char>(text[end])) ||
-                                 (end == i + 1 && text[end] == '-'))) {
-      ++end;
-    }
+    const std::size_t end = std::min(text.find_first_not_of("-0123456789", i + 1), text.size());
     out += superscript(text.substr(i + 1, end - i - 1));
     i = end - 1;
   }
+  return out;
+}
+
+std::string unit(const std::string& text) {
+  if (text == "1") return {};
+  std::string out;
+  for (const char c : raised(text)) out += c == ' ' ? std::string("\u00a0") : std::string(1, c);
   return out;
 }
 

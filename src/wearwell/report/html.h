@@ -10,10 +10,19 @@ namespace wearwell::html {
 
 std::string escape(const std::string& text);
 
+/// With a capital at the beginning.
+std::string capital(std::string text);
+
 /// 4 significant digits as people write them: "0.7759", "21 602", "7.759 × 10⁻⁴".
 std::string number(double x, int digits = 4);
 
-/// "mm³/(N m)" of "mm^3/(N m)"; empty for "1".
+/// A number that was given, not estimated: all its digits, "20 585".
+std::string given(double x);
+
+/// Powers raised: "5 mm³" of "5 mm^3".
+std::string raised(const std::string& text);
+
+/// "mm³/(N m)" of "mm^3/(N m)", in one piece; empty for "1".
 std::string unit(const std::string& text);
 
 /// A number and its unit.
@@ -24,7 +33,7 @@ std::string range(double low, double high, int digits = 4);
 
 /// One key figure: what, how much, and what to know of it.
 struct Tile {
-  std::string name, value, note;
+  std::string name, value, unit, note;
 };
 std::string tiles(const std::vector<Tile>& tiles);
 

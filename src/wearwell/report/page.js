@@ -28,6 +28,7 @@
       config,
       renderer: 'svg',
       mode: 'vega-lite',
+      formatLocale: {decimal: '.', thousands: '\u202f', grouping: [3], currency: ['', '']},
       actions: {export: {svg: true, png: true}, source: true, compiled: false, editor: false},
       downloadFileName: name,
       scaleFactor: {svg: 1, png: 2},

@@ -62,8 +62,12 @@ Json stroke(const char* type, const Look& look) {
 }
 
 Json scale(const Axis& axis) {
-  Json json = {{"zero", false}, {"nice", !axis.low && !axis.high}};
-  if (axis.logarithmic) json["type"] = "log";
+  Json json = {{"nice", !axis.low && !axis.high}};
+  if (axis.logarithmic) {
+    json["type"] = "log";
+  } else {
+    json["zero"] = false;
+  }
   if (axis.low) json["domainMin"] = *axis.low;
   if (axis.high) json["domainMax"] = *axis.high;
   if (!axis.names.empty()) {
@@ -79,6 +83,7 @@ Json ticks(const Axis& axis) {
     for (std::size_t i = 1; i <= axis.names.size(); ++i) values.push_back(static_cast<double>(i));
     return {{"values", values},
             {"grid", false},
+            {"labelOverlap", false},
             {"labelExpr", Json(axis.names).dump() + "[datum.value - 1]"}};
   }
   if (!axis.numbers) return {{"labels", false}, {"ticks", false}, {"grid", false}};
@@ -155,7 +160,8 @@ Json text(double x, double y, const std::string& words, const std::string& colou
 
 Json plot(const std::string& description, const Axis& x, const Axis& y, std::vector<Json> marks,
           int height, bool zoom) {
-  Json labels = Json::array(), colours = Json::array();
+  Json labels = Json::array(), colours = Json::array(), legend = Json::object();
+  bool lines = true;
   for (const Json& each : marks) {
     if (!each["encoding"].contains("color")) continue;
     const Json& label = each["encoding"]["color"]["datum"];
@@ -164,7 +170,9 @@ Json plot(const std::string& description, const Axis& x, const Axis& y, std::vec
     for (const char* paint : {"stroke", "fill", "color"}) {
       if (each["mark"].contains(paint)) colours.push_back(each["mark"][paint]);
     }
+    lines = lines && each["mark"].contains("stroke");
   }
+  if (lines) legend = {{"symbolType", "stroke"}, {"symbolStrokeWidth", 3}};
   for (Json& each : marks) {
     Json& encoding = each["encoding"];
     set_axis(encoding, "x", x);
@@ -172,6 +180,7 @@ Json plot(const std::string& description, const Axis& x, const Axis& y, std::vec
     if (!encoding.contains("color")) continue;
     encoding["color"].update({{"type", "nominal"},
                               {"title", nullptr},
+                              {"legend", legend},
                               {"scale", {{"domain", labels}, {"range", colours}}}});
     for (const char* paint : {"stroke", "fill", "color"}) each["mark"].erase(paint);
   }

@@ -44,6 +44,8 @@ struct DataFile {
 
 struct Plots {
   std::string quantity;  ///< what is measured and predicted, "worn volume"
+  std::string unit;      ///< its unit
+  std::string at_name;   ///< against what, "cycles"
   std::vector<ParameterPlots> parameters;
   std::optional<DensityGrid> joint;  ///< of the first two parameters
   std::vector<Curve> stages;         ///< density of the first parameter after 1, 2, ... data sets

@@ -12,6 +12,7 @@ namespace wearwell {
 namespace {
 
 using html::escape;
+using html::given;
 using html::number;
 using html::quantity;
 using html::range;
@@ -61,6 +62,11 @@ Verdict worst(const StudyResult& result) {
   return verdict;
 }
 
+std::string given(double x, const std::string& unit_text) {
+  const std::string u = unit(unit_text);
+  return u.empty() ? given(x) : given(x) + "\u00a0" + u;
+}
+
 // What a tribologist would say.
 std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
   std::string sentence;
@@ -69,13 +75,13 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
   };
   if (result.life) {
     const Life& life = result.life->exact ? *result.life->exact : result.life->drawn;
-    add(fmt::format("the limit of {} is reached after about {} {} (90 % interval {})",
-                    quantity(result.life->limit, result.life->limit_unit), number(life.b50, 3),
-                    result.life->unit, range(life.q05, life.q95, 3)));
+    add(fmt::format("the {} reaches the limit of {} after about {} {} (90 % interval {})",
+                    plots.quantity, given(result.life->limit, result.life->limit_unit),
+                    number(life.b50, 3), result.life->unit, range(life.q05, life.q95, 3)));
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
-    add(fmt::format("at {} {} the {} is {} (90 % interval {})", number(p.at), p.at_name,
+    add(fmt::format("at {} {} the {} is {} (90 % interval {})", given(p.at), p.at_name,
                     plots.quantity, quantity(best(p).mean, p.unit, 3),
                     interval(best(p).ci05, best(p).ci95, p.unit, 3)));
   }
@@ -84,8 +90,7 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
   add(fmt::format("the {} {} is {} (90 % interval {})", plots.parameters.front().meaning,
                   first.name, quantity(k.mean, first.unit, 3),
                   interval(k.q05, k.q95, first.unit, 3)));
-  sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-  return sentence + ".";
+  return html::capital(sentence) + ".";
 }
 
 std::string trust_callout(const StudyResult& result) {
@@ -116,26 +121,26 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
   if (result.life) {
     const LifeSummary& summary = *result.life;
     const Life& life = summary.exact ? *summary.exact : summary.drawn;
-    tiles.push_back({"Life B10", fmt::format("{} {}", number(life.b10, 3), summary.unit),
-                     fmt::format("one in ten reaches {} earlier",
-                                 quantity(summary.limit, summary.limit_unit))});
-    tiles.push_back({"Inspect again within",
-                     fmt::format("{} {}", number(life.inspect_within, 3), summary.unit),
+    tiles.push_back(
+        {"Life B10", number(life.b10, 3), summary.unit,
+         fmt::format("one in ten reaches {} earlier", given(summary.limit, summary.limit_unit))});
+    tiles.push_back({"Inspect again within", number(life.inspect_within, 3), summary.unit,
                      fmt::format("after {}; risk of reaching the limit before: {} %",
-                                 number(summary.now), number(100 * summary.risk, 2))});
+                                 given(summary.now), given(100 * summary.risk))});
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
     tiles.push_back(
-        {fmt::format("{} at {} {}", plots.quantity, number(p.at), p.at_name),
-         quantity(best(p).mean, p.unit, 3),
+        {fmt::format("{} at {} {}", html::capital(plots.quantity), given(p.at), p.at_name),
+         number(best(p).mean, 3), unit(p.unit),
          fmt::format("one measurement: {}", interval(best(p).pi05, best(p).pi95, p.unit, 3))});
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(2, result.parameters.size()); ++i) {
     const ParameterSummary& p = result.parameters[i];
     const ExactSummary each = best(p);
     tiles.push_back({fmt::format("{}, {}", p.name, plots.parameters[i].meaning),
-                     quantity(each.mean, p.unit, 3), range(each.q05, each.q95, 3)});
+                     number(each.mean, 3), unit(p.unit),
+                     fmt::format("90 % interval {}", range(each.q05, each.q95, 3))});
   }
   return out + html::tiles(tiles);
 }
@@ -149,7 +154,7 @@ std::string prediction_table(const std::string& caption,
                     {}};
   for (const auto& [data_sets, p] : rows) {
     const Prediction& b = best(p);
-    table.rows.push_back({fmt::format("{}", data_sets), number(p.at), number(b.mean),
+    table.rows.push_back({fmt::format("{}", data_sets), given(p.at), number(b.mean),
                           range(b.ci05, b.ci95), range(b.pi05, b.pi95),
                           p.measured ? number(*p.measured) : "–"});
   }
@@ -159,13 +164,12 @@ std::string prediction_table(const std::string& caption,
 std::string life_table(const LifeSummary& summary) {
   const Life& life = summary.exact ? *summary.exact : summary.drawn;
   return html::table(
-      {fmt::format("Life in {} until {}", summary.unit,
-                   quantity(summary.limit, summary.limit_unit)),
+      {fmt::format("Life in {} until {}", summary.unit, given(summary.limit, summary.limit_unit)),
        {"B1", "B10", "B50", "90 % interval",
         fmt::format("Inspect within <span class=\"unit\">(risk {} %)</span>",
-                    number(100 * summary.risk, 2))},
+                    given(100 * summary.risk))},
        {{number(life.b1), number(life.b10), number(life.b50), range(life.q05, life.q95),
-         fmt::format("{} after {}", number(life.inspect_within), number(summary.now))}}});
+         fmt::format("{} after {}", number(life.inspect_within), given(summary.now))}}});
 }
 
 std::string prediction_section(const StudyResult& result, const Plots& plots) {
@@ -188,19 +192,20 @@ std::string prediction_section(const StudyResult& result, const Plots& plots) {
 }
 
 std::string parameter_section(const StudyResult& result, const Plots& plots) {
-  html::Table table{"Parameters after all data sets",
-                    {"", "Mean", "MCSE", "Sd", "5 %", "50 %", "95 %", "Exact mean", "Exact sd"},
-                    {}};
+  html::Table table{
+      "Parameters after all data sets",
+      {"Parameter", "Mean", "MCSE", "Sd", "5 %", "50 %", "95 %", "Exact mean", "Exact sd"},
+      {}};
   for (const ParameterSummary& p : result.parameters) {
     table.rows.push_back({with_unit(p.name, p.unit), number(p.mean), number(p.mcse, 2),
                           number(p.sd), number(p.q05), number(p.q50), number(p.q95),
                           p.exact ? number(p.exact->mean) : "–",
                           p.exact ? number(p.exact->sd) : "–"});
   }
-  html::Table priors{"What was believed before", {"", "Meaning", "Prior"}, {}, true};
+  html::Table priors{"What was believed before", {"Parameter", "Meaning", "Prior"}, {}, true};
   for (std::size_t i = 0; i < result.parameters.size(); ++i) {
     priors.rows.push_back({escape(result.parameters[i].name), escape(plots.parameters[i].meaning),
-                           escape(unit(plots.parameters[i].prior_in_words))});
+                           escape(html::raised(plots.parameters[i].prior_in_words))});
   }
   std::string out = html::table(table) + html::table(priors);
   if (!result.stages.empty()) {
@@ -227,24 +232,25 @@ std::string parameter_section(const StudyResult& result, const Plots& plots) {
 }
 
 std::string fit_section(const StudyResult& result, const Plots& plots) {
-  std::string out = fmt::format("<p>{}</p>\n", escape(fmt::format("{}.", unit(result.equation))));
+  std::string out =
+      fmt::format("<p>{}</p>\n", escape(fmt::format("{}.", html::raised(result.equation))));
   const History& r = plots.replicated;
-  const std::string u = result.predictions.empty() ? "1" : result.predictions.front().unit;
+  const std::string at = plots.at_name, u = plots.unit;
   html::Table table{"Data, and what the fit says of them",
-                    {result.predictions.empty() ? "" : escape(result.predictions.front().at_name),
-                     "Measured", "Fitted mean", "90 % of the mean", "90 % of measurements"},
+                    {escape(at), with_unit("Measured", u), "Fitted mean", "90 % of the mean",
+                     "90 % of measurements"},
                     {}};
   std::size_t inside = 0;
   for (std::size_t i = 0; i < r.at.size(); ++i) {
     const double y = plots.measured[i];
     inside += r.pi05[i] <= y && y <= r.pi95[i];
-    table.rows.push_back({number(r.at[i]), quantity(y, u), number(r.mean[i]),
-                          range(r.ci05[i], r.ci95[i]), range(r.pi05[i], r.pi95[i])});
+    table.rows.push_back({given(r.at[i]), number(y), number(r.mean[i]), range(r.ci05[i], r.ci95[i]),
+                          range(r.pi05[i], r.pi95[i])});
   }
   out += fmt::format(
       "<p>{} of {} measurements lie within the interval that should hold nine in ten.</p>\n",
       inside, r.at.size());
-  out += html::table(table) + html::figures(fit_figures(result, plots));
+  out += html::table(table) + html::figures(fit_figures(plots));
   if (result.pointwise) {
     const PointwiseTable& p = *result.pointwise;
     html::Table pointwise{"Wear coefficient of each measurement for itself",
@@ -252,7 +258,7 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
                            with_unit("V", p.volume_unit), with_unit("k = V/(F s)", p.k_unit)},
                           {}};
     for (const PointwiseRow& row : p.rows) {
-      pointwise.rows.push_back({number(row.cycles), number(row.force), number(row.slip),
+      pointwise.rows.push_back({given(row.cycles), number(row.force), number(row.slip),
                                 number(row.volume), number(row.k)});
     }
     out += html::table(pointwise);
@@ -264,9 +270,9 @@ std::string check_section(const StudyResult& result, const Plots& plots) {
   html::Table table{
       "Checks of the final posterior", {"Check", "Verdict", "What was found"}, {}, true};
   for (const Check& check : result.checks) {
-    std::string found = escape(unit(check.detail));
+    std::string found = escape(html::raised(check.detail));
     if (!check.advice.empty()) {
-      found += fmt::format("<br><em>{}</em>", escape(unit(check.advice)));
+      found += fmt::format("<br><em>{}</em>", escape(html::raised(check.advice)));
     }
     table.rows.push_back({escape(check.name),
                           fmt::format("<span class=\"badge {}\">{}</span>", kind(check.verdict),
@@ -274,7 +280,7 @@ std::string check_section(const StudyResult& result, const Plots& plots) {
                           found});
   }
   html::Table draws{"Draws of each parameter",
-                    {"", "R-hat", "Effective draws, centre", "Effective draws, tails"},
+                    {"Parameter", "R-hat", "Effective draws, centre", "Effective draws, tails"},
                     {}};
   for (const ParameterSummary& p : result.parameters) {
     draws.rows.push_back({escape(p.name), fmt::format("{:.4f}", p.rhat),

@@ -15,7 +15,7 @@
 namespace wearwell {
 namespace {
 
-constexpr int curve_points = 120, bins = 40, grid_cells = 48, life_points = 120;
+constexpr int curve_points = 120, bins = 40, grid_cells = 56, life_points = 120;
 
 struct Range {
   double low, high;
@@ -126,7 +126,7 @@ std::optional<DensityGrid> joint_density(const Posterior& posterior, const Fit& 
   const auto centres = [&](const Parameter& parameter, Eigen::Index index) {
     const Distribution marginal = distribution(parameter, index, fit.exact->nodes);
     const auto edges = spaced(
-        within_bounds(parameter, {marginal.quantile(0.001), marginal.quantile(0.999)}), grid_cells);
+        within_bounds(parameter, {marginal.quantile(0.003), marginal.quantile(0.997)}), grid_cells);
     std::vector<double> middle;
     for (int i = 0; i < grid_cells; ++i) middle.push_back(0.5 * (edges[i] + edges[i + 1]));
     return middle;
@@ -203,6 +203,8 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
     observed.push_back(study.stage_predictions(rows).front());
     plots.measured.push_back(from_si(observed.back().unit, *observed.back().measured));
   }
+  plots.unit = observed.front().unit.text;
+  plots.at_name = observed.front().at_name;
   plots.replicated = predict_all(observed, best(fit));
   if (study.life) plots.life = life_curve(*study.life, fit);
 
@@ -222,10 +224,14 @@ std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index inde
     range.high = std::max(range.high, all[i].quantile(0.95));
   }
   const double margin = 0.15 * (range.high - range.low);
-  const auto edges =
-      spaced(within_bounds(parameter, {range.low - margin, range.high + margin}), curve_points);
+  range = within_bounds(parameter, {range.low - margin, range.high + margin});
   std::vector<Curve> curves;
-  for (const Distribution& each : all) curves.push_back(density_curve(each, edges));
+  for (const Distribution& each : all) {
+    // Where little of a wide posterior is seen, few points carry it.
+    const double seen = each.cdf(range.high) - each.cdf(range.low);
+    const int intervals = std::clamp(static_cast<int>(seen * curve_points), 12, curve_points);
+    curves.push_back(density_curve(each, spaced(range, intervals)));
+  }
   return curves;
 }
 
