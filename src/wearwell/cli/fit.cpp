@@ -8,6 +8,7 @@
 
 #include "wearwell/report/csv.h"
 #include "wearwell/report/json.h"
+#include "wearwell/report/plots_json.h"
 #include "wearwell/report/report.h"
 #include "wearwell/report/result_folder.h"
 #include "wearwell/report/terminal.h"
@@ -37,6 +38,7 @@ int run_fit(const FitOptions& options) {
   }
   folder.write("predictions.csv", predictions_csv(result));
   if (!options.no_report) {
+    folder.write("plots.json", to_json(*result.plots).dump() + "\n");
     folder.write("report.html", html_report(result));
   }
   folder.copy(options.study, "study.toml");

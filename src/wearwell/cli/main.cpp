@@ -4,7 +4,10 @@
 #include <cstdio>
 
 #include "wearwell/base/error.h"
+#include "wearwell/cli/check.h"
 #include "wearwell/cli/fit.h"
+#include "wearwell/cli/new.h"
+#include "wearwell/cli/report.h"
 
 namespace {
 
@@ -26,6 +29,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", WEARWELL_VERSION);
   add_fit_command(app, exit_code);
+  add_check_command(app, exit_code);
+  add_new_command(app, exit_code);
+  add_report_command(app, exit_code);
 
   try {
     app.parse(argc, argv);

@@ -32,7 +32,7 @@ int exponent_of(double x) {
   return exponent < -2 || exponent > 6 ? exponent : 0;
 }
 
-// Thousands apart (from five digits on), and a true minus.
+// Thousands apart, and a true minus.
 std::string spaced(std::string text) {
   std::string sign;
   if (text.front() == '-') {
@@ -40,7 +40,7 @@ std::string spaced(std::string text) {
     sign = "−";
   }
   const std::size_t point = std::min(text.find('.'), text.size());
-  for (std::size_t at = point; point > 4 && at > 3;) text.insert(at -= 3, narrow_space);
+  for (std::size_t at = point; at > 3;) text.insert(at -= 3, narrow_space);
   return sign + text;
 }
 
@@ -153,9 +153,10 @@ std::string range(double low, double high, int digits) {
 std::string tiles(const std::vector<Tile>& tiles) {
   std::string out = "<dl class=\"tiles\">\n";
   for (const Tile& tile : tiles) {
-    out +=
-        fmt::format("<div><dt>{}</dt><dd class=\"value\">{}</dd><dd class=\"note\">{}</dd></div>\n",
-                    escape(tile.name), escape(tile.value), escape(tile.note));
+    out += fmt::format(
+        "<div><dt>{}</dt><dd class=\"value\">{} <span>{}</span></dd><dd "
+        "class=\"note\">{}</dd></div>\n",
+        escape(tile.name), escape(tile.value), escape(tile.unit), escape(tile.note));
   }
   return out + "</dl>\n";
 }

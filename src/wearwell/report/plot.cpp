@@ -154,7 +154,7 @@ Json level(double y, const Look& look) {
 
 Json text(double x, double y, const std::string& words, const std::string& colour) {
   Json json = layer({{"x", {x}}, {"y", {y}}}, mark("text", {colour}, "fill"), {colour});
-  json["mark"].update({{"text", words}, {"align", "left"}, {"dx", 7}, {"dy", 10}});
+  json["mark"].update({{"text", words}, {"align", "right"}, {"dx", -7}, {"dy", -5}});
   return json;
 }
 

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+
+#include "wearwell/study/run_study.h"
 
 namespace wearwell {
 namespace {
@@ -56,6 +59,45 @@ std::string prior_in_words(const Parameter& parameter) {
     words += ", below " + value(law.upper);
   }
   return parameter.unit.text == "1" ? words : words + " " + parameter.unit.text;
+}
+
+std::string study_in_words(const Study& study) {
+  std::string out =
+      fmt::format("{}\n  {}\n\nData\n  {}: {} data sets of {}\n\nUnknowns\n", study.title,
+                  study.equation, study.data_file, study.data_rows, study.quantity);
+  std::size_t width = 0;
+  for (const Parameter& p : study.parameters) width = std::max(width, p.name.size());
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    const Parameter& p = study.parameters[i];
+    out += fmt::format("  {:<{}}  {}{}\n  {:<{}}  prior: {}\n", p.name, width, study.meanings[i],
+                       p.unit.text == "1" ? "" : fmt::format(" [{}]", p.unit.text), "", width,
+                       prior_in_words(p));
+  }
+  out += "\nWill be fitted\n";
+  out += study.stages ? fmt::format("  after each of 1, 2, ... {} data sets\n", study.data_rows)
+                      : fmt::format("  from all {} data sets\n", study.data_rows);
+  const FitSettings settings = fit_settings(study, {});
+  const RunSettings& run = settings.run;
+  if (settings.method == Method::exact) {
+    out += "  by quadrature";
+  } else {
+    out += fmt::format("  by {}, {} chains of {} draws after {} of warm-up{}",
+                       method_name(settings.method), run.chains, run.draws, run.warmup,
+                       study.parameters.size() <= max_exact_dimension ? ", beside quadrature" : "");
+  }
+  out += fmt::format("; seed {}\n", run.seed);
+  if (!study.predictions.empty() || study.life) out += "\nWill be predicted\n";
+  for (const PredictionRequest& p : study.predictions) {
+    out += fmt::format("  {} [{}] at {} {}\n", study.quantity, p.unit.text, p.at, p.at_name);
+  }
+  if (study.life) {
+    const LifeRequest& life = *study.life;
+    out += fmt::format(
+        "  {} until the {} reaches {} {}, and when to inspect after {} {} at a risk of {:.4g} %\n",
+        life.unit_name, study.quantity, life.limit.value, life.limit.unit.text, life.now,
+        life.unit_name, 100 * life.risk);
+  }
+  return out;
 }
 
 }  // namespace wearwell

@@ -229,8 +229,13 @@ std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index inde
   for (const Distribution& each : all) {
     // Where little of a wide posterior is seen, few points carry it.
     const double seen = each.cdf(range.high) - each.cdf(range.low);
-    const int intervals = std::clamp(static_cast<int>(seen * curve_points), 12, curve_points);
-    curves.push_back(density_curve(each, spaced(range, intervals)));
+    const int intervals = std::clamp(static_cast<int>(seen * curve_points), 6, curve_points);
+    Curve curve = density_curve(each, spaced(range, intervals));
+    curve.x.insert(curve.x.begin(), range.low);
+    curve.y.insert(curve.y.begin(), curve.y.front());
+    curve.x.push_back(range.high);
+    curve.y.push_back(curve.y.back());
+    curves.push_back(std::move(curve));
   }
   return curves;
 }

@@ -13,23 +13,6 @@
 namespace wearwell {
 namespace {
 
-FitSettings fit_settings(const Study& study, const SamplerChoice& choice) {
-  const auto chosen = [](const auto& first, const auto& second, auto otherwise) {
-    return first ? *first : second ? *second : otherwise;
-  };
-  FitSettings settings;
-  settings.nuts = study.nuts;
-  settings.metropolis = study.metropolis;
-  settings.method = chosen(choice.method, study.sampler.method, Method::nuts);
-  const bool metropolis = settings.method == Method::metropolis;
-  RunSettings& run = settings.run;
-  run.chains = chosen(choice.chains, study.sampler.chains, 4);
-  run.warmup = chosen(choice.warmup, study.sampler.warmup, metropolis ? 4000 : 1000);
-  run.draws = chosen(choice.draws, study.sampler.draws, metropolis ? 6000 : 1000);
-  run.seed = chosen(choice.seed, study.sampler.seed, std::uint64_t{1});
-  return settings;
-}
-
 std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, const Fit& fit) {
   std::vector<ParameterSummary> summaries;
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
@@ -130,7 +113,26 @@ Draws in_units(const Study& study, Draws draws) {
   return draws;
 }
 
-const char* name(Method method) {
+}  // namespace
+
+FitSettings fit_settings(const Study& study, const SamplerChoice& choice) {
+  const auto chosen = [](const auto& first, const auto& second, auto otherwise) {
+    return first ? *first : second ? *second : otherwise;
+  };
+  FitSettings settings;
+  settings.nuts = study.nuts;
+  settings.metropolis = study.metropolis;
+  settings.method = chosen(choice.method, study.sampler.method, Method::nuts);
+  const bool metropolis = settings.method == Method::metropolis;
+  RunSettings& run = settings.run;
+  run.chains = chosen(choice.chains, study.sampler.chains, 4);
+  run.warmup = chosen(choice.warmup, study.sampler.warmup, metropolis ? 4000 : 1000);
+  run.draws = chosen(choice.draws, study.sampler.draws, metropolis ? 6000 : 1000);
+  run.seed = chosen(choice.seed, study.sampler.seed, std::uint64_t{1});
+  return settings;
+}
+
+const char* method_name(Method method) {
   switch (method) {
     case Method::exact:
       return "exact";
@@ -141,8 +143,6 @@ const char* name(Method method) {
   }
   return "nuts";
 }
-
-}  // namespace
 
 StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads,
                       bool with_plots) {
@@ -163,7 +163,7 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      study.equation,
                      study.data_file,
                      study.data_rows,
-                     name(final.method),
+                     method_name(final.method),
                      settings.run.chains,
                      final.method == Method::exact ? 0 : settings.run.warmup,
                      settings.run.draws,
