@@ -93,7 +93,7 @@ Figure history_figure(const StudyResult& result, const Plots& plots) {
   return {"history", fmt::format("{} against {}", capital(plots.quantity), at), caption,
           plot::plot(fmt::format("{} against {} with its bands and the measured points",
                                  capital(plots.quantity), at),
-                     {capital(at)},
+                     {capital(at), false, 0.0, h.at.back()},
                      {fmt::format("{} [{}]", capital(plots.quantity), html::unit(plots.unit))},
                      marks, 340, true)};
 }

@@ -10,13 +10,12 @@
     padding: 4,
     view: {stroke: null},
     axis: {labelColor: soft, titleColor: ink, titleFontWeight: 500, titleFontSize: 12, labelFontSize: 11,
-           gridColor: faint, domainColor: soft, tickColor: soft, titlePadding: 8, labelOverlap: 'greedy',
-           labelFlush: true},
+           gridColor: faint, domainColor: soft, tickColor: soft, titlePadding: 8, labelFlush: true},
     axisX: {grid: false, tickCount: {signal: 'max(3, ceil(width / 90))'}},
     axisY: {tickCount: 6},
     legend: {orient: 'top', direction: 'horizontal', title: null, labelColor: ink, labelFontSize: 12,
              labelLimit: 280, symbolType: 'square', symbolSize: 90, symbolOpacity: 0.9, symbolStrokeWidth: 0,
-             columnPadding: 14, rowPadding: 3, offset: 8, columns: {signal: 'width < 380 ? 1 : 0'}},
+             columnPadding: 14, rowPadding: 3, offset: 8},
     text: {fontSize: 12, fontWeight: 600},
   };
   const title = document.title;
@@ -24,8 +23,10 @@
   document.querySelectorAll('figure').forEach((figure) => {
     const specification = JSON.parse(figure.querySelector('script').textContent);
     const name = `${title} ${figure.id}`.replace(/[^\p{L}\p{N}]+/gu, '-');
-    vegaEmbed(figure.querySelector('.plot'), specification, {
-      config,
+    const plot = figure.querySelector('.plot');
+    const legend = {...config.legend, columns: plot.clientWidth < 400 ? 1 : 0};
+    vegaEmbed(plot, specification, {
+      config: {...config, legend},
       renderer: 'svg',
       mode: 'vega-lite',
       formatLocale: {decimal: '.', thousands: '\u202f', grouping: [3], currency: ['', '']},
@@ -39,7 +40,7 @@
       figure.dataset.drawn = 'true';
       return result;
     }).catch((error) => {
-      figure.querySelector('.plot').textContent = `This plot cannot be drawn: ${error.message}`;
+      plot.textContent = `This plot cannot be drawn: ${error.message}`;
       console.error(error);
     });
   });

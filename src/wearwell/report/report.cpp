@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "wearwell/report/figures.h"
 #include "wearwell/report/html.h"
@@ -67,6 +68,12 @@ std::string given(double x, const std::string& unit_text) {
   return u.empty() ? given(x) : given(x) + "\u00a0" + u;
 }
 
+// A life: no fraction of a cycle.
+std::string life_number(double x, int digits = 4) {
+  const int whole = x >= 1 && std::isfinite(x) ? static_cast<int>(std::log10(x)) + 1 : digits;
+  return number(x, std::min(digits, whole));
+}
+
 // What a tribologist would say.
 std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
   std::string sentence;
@@ -77,7 +84,7 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
     const Life& life = result.life->exact ? *result.life->exact : result.life->drawn;
     add(fmt::format("the {} reaches the limit of {} after about {} {} (90 % interval {})",
                     plots.quantity, given(result.life->limit, result.life->limit_unit),
-                    number(life.b50, 3), result.life->unit, range(life.q05, life.q95, 3)));
+                    life_number(life.b50, 3), result.life->unit, range(life.q05, life.q95, 3)));
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
@@ -122,9 +129,9 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
     const LifeSummary& summary = *result.life;
     const Life& life = summary.exact ? *summary.exact : summary.drawn;
     tiles.push_back(
-        {"Life B10", number(life.b10, 3), summary.unit,
+        {"Life B10", life_number(life.b10, 3), summary.unit,
          fmt::format("one in ten reaches {} earlier", given(summary.limit, summary.limit_unit))});
-    tiles.push_back({"Inspect again within", number(life.inspect_within, 3), summary.unit,
+    tiles.push_back({"Inspect again within", life_number(life.inspect_within, 3), summary.unit,
                      fmt::format("after {}; risk of reaching the limit before: {} %",
                                  given(summary.now), given(100 * summary.risk))});
   }
@@ -168,8 +175,9 @@ std::string life_table(const LifeSummary& summary) {
        {"B1", "B10", "B50", "90 % interval",
         fmt::format("Inspect within <span class=\"unit\">(risk {} %)</span>",
                     given(100 * summary.risk))},
-       {{number(life.b1), number(life.b10), number(life.b50), range(life.q05, life.q95),
-         fmt::format("{} after {}", number(life.inspect_within), given(summary.now))}}});
+       {{life_number(life.b1), life_number(life.b10), life_number(life.b50),
+         range(life.q05, life.q95),
+         fmt::format("{} after {}", life_number(life.inspect_within), given(summary.now))}}});
 }
 
 std::string prediction_section(const StudyResult& result, const Plots& plots) {
@@ -244,8 +252,8 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
   for (std::size_t i = 0; i < r.at.size(); ++i) {
     const double y = plots.measured[i];
     inside += r.pi05[i] <= y && y <= r.pi95[i];
-    table.rows.push_back({given(r.at[i]), number(y), number(r.mean[i]), range(r.ci05[i], r.ci95[i]),
-                          range(r.pi05[i], r.pi95[i])});
+    table.rows.push_back({given(r.at[i]), number(y), number(r.mean[i], 3),
+                          range(r.ci05[i], r.ci95[i], 3), range(r.pi05[i], r.pi95[i], 3)});
   }
   out += fmt::format(
       "<p>{} of {} measurements lie within the interval that should hold nine in ten.</p>\n",
@@ -313,8 +321,10 @@ std::string method_section(const StudyResult& result, const Plots& plots) {
   }
   out += fmt::format(
       "<p>The same study file, data and seed give the same numbers to the bit, whatever the number "
-      "of threads: <code>wearwell fit {} --seed {}</code></p>\n",
-      escape(plots.files.front().name), result.seed);
+      "of threads: <code>wearwell fit {} --method {} --chains {} --warmup {} --draws {} "
+      "--seed {}</code></p>\n",
+      escape(plots.files.front().name), result.method, result.chains, result.warmup, result.draws,
+      result.seed);
   return out + html::details("Study file", fmt::format("<pre tabindex=\"0\">{}</pre>\n",
                                                        escape(plots.study_text)));
 }

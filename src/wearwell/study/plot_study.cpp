@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/predict/prediction.h"
@@ -143,6 +144,46 @@ std::optional<DensityGrid> joint_density(const Posterior& posterior, const Fit& 
   return grid;
 }
 
+// A few points of one weight that stand for tens of thousands: evenly through the posterior, in
+// slices of its first parameter and within each along the second. Quantiles move by less than a
+// plot shows, and a curve takes 2 % of the time.
+WeightedDraws thinned(const WeightedDraws& draws) {
+  constexpr Eigen::Index count = 2000, slices = 40;
+  const Eigen::Index all = draws.values.rows();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(all));
+  std::iota(order.begin(), order.end(), 0);
+  const auto sort_along = [&](Eigen::Index parameter, auto begin, auto end) {
+    std::sort(begin, end, [&](auto a, auto b) {
+      return draws.values(a, parameter) < draws.values(b, parameter);
+    });
+  };
+  sort_along(0, order.begin(), order.end());
+  if (draws.values.cols() > 1) {
+    double mass = 0;
+    auto begin = order.begin();
+    for (auto end = begin; end != order.end();) {
+      mass += draws.weights[*end++];
+      if (mass * slices < 1 && end != order.end()) continue;
+      sort_along(1, begin, end);
+      begin = end;
+      mass = 0;
+    }
+  }
+
+  WeightedDraws few{Eigen::MatrixXd(count, draws.values.cols()),
+                    Eigen::VectorXd::Constant(count, 1.0 / count),
+                    {},
+                    {}};
+  double mass = draws.weights[order[0]];
+  for (Eigen::Index i = 0, at = 0; i < count; ++i) {
+    while (mass * count < static_cast<double>(i) + 0.5 && at + 1 < all) {
+      mass += draws.weights[order[static_cast<std::size_t>(++at)]];
+    }
+    few.values.row(i) = draws.values.row(order[static_cast<std::size_t>(at)]);
+  }
+  return few;
+}
+
 History predict_all(const std::vector<PredictionRequest>& requests, const WeightedDraws& draws) {
   std::vector<Prediction> predictions(requests.size());
   tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t i) {
@@ -196,7 +237,8 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
     plots.parameters.push_back(plot_parameter(study, i, fit));
   }
   plots.joint = joint_density(posterior, fit);
-  plots.history = predict_all(study.history, best(fit));
+  const WeightedDraws few = thinned(best(fit));
+  plots.history = predict_all(study.history, few);
 
   std::vector<PredictionRequest> observed;
   for (std::size_t rows = 1; rows <= study.data_rows; ++rows) {
@@ -205,7 +247,7 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
   }
   plots.unit = observed.front().unit.text;
   plots.at_name = observed.front().at_name;
-  plots.replicated = predict_all(observed, best(fit));
+  plots.replicated = predict_all(observed, few);
   if (study.life) plots.life = life_curve(*study.life, fit);
 
   plots.study_text = content(study.file);
