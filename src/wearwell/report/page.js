@@ -24,7 +24,12 @@
     const specification = JSON.parse(figure.querySelector('script').textContent);
     const name = `${title} ${figure.id}`.replace(/[^\p{L}\p{N}]+/gu, '-');
     const plot = figure.querySelector('.plot');
-    const legend = {...config.legend, columns: plot.clientWidth < 400 ? 1 : 0};
+    // As many columns as fit, on paper too, where plots may be narrower than on the screen.
+    const labels = new Set(specification.layer.map((layer) => layer.encoding.color?.datum).filter(Boolean));
+    const needed = [...labels].reduce((sum, label) => sum + 32 + 6.5 * label.length, 0);
+    const width = plot.clientWidth;
+    const legend = {...config.legend,
+                    columns: needed < Math.min(width, 330) || width > 900 ? 0 : width < 400 ? 1 : 2};
     vegaEmbed(plot, specification, {
       config: {...config, legend},
       renderer: 'svg',

@@ -84,6 +84,7 @@ Json ticks(const Axis& axis) {
     return {{"values", values},
             {"grid", false},
             {"labelOverlap", false},
+            {"tickCount", values.size() + 1},
             {"labelExpr", Json(axis.names).dump() + "[datum.value - 1]"}};
   }
   if (!axis.numbers) return {{"labels", false}, {"ticks", false}, {"grid", false}};

@@ -310,7 +310,7 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
     return requests;
   };
   // The curve ends after the last inspection or prediction, or somewhat after the limit.
-  constexpr int points = 48;
+  constexpr int points = 32;
   const double seen = *std::max_element(data.cycles.begin(), data.cycles.end());
   double end = seen;
   if (predict && rate) {
