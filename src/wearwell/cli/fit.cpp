@@ -8,6 +8,8 @@
 
 #include "wearwell/report/csv.h"
 #include "wearwell/report/json.h"
+#include "wearwell/report/plots_json.h"
+#include "wearwell/report/report.h"
 #include "wearwell/report/result_folder.h"
 #include "wearwell/report/terminal.h"
 #include "wearwell/study/run_study.h"
@@ -19,7 +21,7 @@ struct FitOptions {
   std::filesystem::path study, output;
   SamplerChoice sampler;
   int threads = 0;
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, no_report = false;
 };
 
 int run_fit(const FitOptions& options) {
@@ -27,7 +29,7 @@ int run_fit(const FitOptions& options) {
   ResultFolder folder(options.output.empty()
                           ? std::filesystem::path(options.study.stem().string() + "-results")
                           : options.output);
-  const StudyResult result = run_study(study, options.sampler, options.threads);
+  const StudyResult result = run_study(study, options.sampler, options.threads, !options.no_report);
 
   const std::string summary = to_json(result).dump(2) + "\n";
   folder.write("summary.json", summary);
@@ -35,6 +37,10 @@ int run_fit(const FitOptions& options) {
     folder.write(fmt::format("draws_{}.csv", c + 1), draws_csv(result, c));
   }
   folder.write("predictions.csv", predictions_csv(result));
+  if (!options.no_report) {
+    folder.write("plots.json", to_json(*result.plots).dump() + "\n");
+    folder.write("report.html", html_report(result));
+  }
   folder.copy(options.study, "study.toml");
   folder.commit();
 
@@ -75,6 +81,7 @@ void add_fit_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1024));
   CLI::Option* json = fit->add_flag("--json", options->json, "Print summary.json and nothing else");
   fit->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
+  fit->add_flag("--no-report", options->no_report, "Write no report.html");
   fit->footer(
       "Examples:\n"
       "  wearwell fit examples/joint/study.toml\n"

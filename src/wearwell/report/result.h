@@ -8,6 +8,7 @@
 #include "wearwell/bayes/draws.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/predict/prediction.h"
+#include "wearwell/report/plots.h"
 
 namespace wearwell {
 
@@ -82,6 +83,8 @@ struct StudyResult {
   bool trusted = true;
 
   Draws posterior_draws;  ///< in the parameters' units
+
+  std::optional<Plots> plots{};  ///< when a report was asked for
 };
 
 }  // namespace wearwell

@@ -81,4 +81,19 @@ void ResultFolder::commit() {
   fs::remove_all(old, error);
 }
 
+void replace_file(const fs::path& file, const std::string& content) {
+  const fs::path staging = file.string() + ".new";
+  std::ofstream stream(staging, std::ios::binary);
+  if (!stream) throw InputError(fmt::format("cannot write to {}", file.parent_path().string()));
+  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+  stream.close();
+  std::error_code error;
+  if (stream) fs::rename(staging, file, error);
+  if (!stream || error) {
+    std::error_code ignored;
+    fs::remove(staging, ignored);
+    throw MachineError(fmt::format("cannot write {}: is the disk full?", file.string()));
+  }
+}
+
 }  // namespace wearwell

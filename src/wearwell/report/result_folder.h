@@ -29,4 +29,8 @@ class ResultFolder {
   std::filesystem::path target_, staging_, made_parent_;
 };
 
+/// Replaces one file of a result folder, whole or not at all. Throws InputError when the folder
+/// cannot be written, MachineError when the disk refuses.
+void replace_file(const std::filesystem::path& file, const std::string& content);
+
 }  // namespace wearwell

@@ -252,6 +252,10 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
   study.equation = in_words(law, family, data);
   study.data_rows = data.cycles.size();
   study.pointwise = data.pointwise;
+  study.quantity = "worn volume";
+  study.meanings = {"wear coefficient", "scatter of one measurement"};
+  if (law.has_constant) study.meanings.push_back("volume before any work");
+  if (law.has_exponent) study.meanings.push_back("exponent of the work");
   study.likelihood = [=, inspections = data.inspections](std::size_t rows) {
     return joint::archard_likelihood(law, family, inspections, rows);
   };
@@ -270,6 +274,24 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
       work_then = work[static_cast<std::size_t>(last - data.cycles.begin())];
     }
   }
+  // Between inspections, work grows evenly.
+  const auto work_until = [&](double cycles) {
+    if (data.work_per_cycle) return cycles * *data.work_per_cycle;
+    double before = 0, work_before = 0, after = INFINITY, work_after = 0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      if (data.cycles[i] <= cycles && data.cycles[i] >= before) {
+        before = data.cycles[i];
+        work_before = work[i];
+      } else if (data.cycles[i] > cycles && data.cycles[i] < after) {
+        after = data.cycles[i];
+        work_after = work[i];
+      }
+    }
+    if (std::isfinite(after)) {
+      return work_before + (cycles - before) / (after - before) * (work_after - work_before);
+    }
+    return work_before + (rate ? (cycles - before) * *rate : 0);
+  };
   const auto request = [=](double cycles, double at_work, std::optional<double> measured) {
     return PredictionRequest{"cycles",
                              cycles,
@@ -287,6 +309,25 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
     }
     return requests;
   };
+  // The curve ends after the last inspection or prediction, or somewhat after the limit.
+  constexpr int points = 32;
+  const double seen = *std::max_element(data.cycles.begin(), data.cycles.end());
+  double end = seen;
+  if (predict && rate) {
+    for (const Quantity& cycles : predict->quantities("cycles", "1")) {
+      end = std::max(end, cycles.si());
+    }
+    if (const auto limit = predict->quantity("limit", "m^3")) {
+      const double k = joint::least_squares(data.inspections).k;
+      const double reached = cycles_then + (limit->si() / k - work_then) / *rate;
+      if (reached > 0) end = std::max(end, std::min(reached, 3 * end));
+    }
+    end *= 1.1;
+  }
+  for (int i = 0; i <= points; ++i) {
+    const double cycles = end * std::max<double>(i, 1e-3) / points;
+    study.history.push_back(request(cycles, work_until(cycles), {}));
+  }
   if (!predict) return;
 
   const auto need_rate = [&](const char* key) {

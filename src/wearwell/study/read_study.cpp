@@ -55,6 +55,7 @@ void read_sampler(const TomlReader& root, Study& study) {
 Study read_study(const std::filesystem::path& file) {
   const TomlReader root = TomlReader::parse_file(file);
   Study study;
+  study.file = file;
   study.title = root.text("title").value_or(file.stem().string());
   const auto model = root.choice("model", {"archard-joint"});
   if (!model) root.fail("model", "is missing: \"archard-joint\"");

@@ -3,29 +3,15 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include <chrono>
+
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/trust.h"
+#include "wearwell/study/plot_study.h"
 
 namespace wearwell {
 namespace {
-
-FitSettings fit_settings(const Study& study, const SamplerChoice& choice) {
-  const auto chosen = [](const auto& first, const auto& second, auto otherwise) {
-    return first ? *first : second ? *second : otherwise;
-  };
-  FitSettings settings;
-  settings.nuts = study.nuts;
-  settings.metropolis = study.metropolis;
-  settings.method = chosen(choice.method, study.sampler.method, Method::nuts);
-  const bool metropolis = settings.method == Method::metropolis;
-  RunSettings& run = settings.run;
-  run.chains = chosen(choice.chains, study.sampler.chains, 4);
-  run.warmup = chosen(choice.warmup, study.sampler.warmup, metropolis ? 4000 : 1000);
-  run.draws = chosen(choice.draws, study.sampler.draws, metropolis ? 6000 : 1000);
-  run.seed = chosen(choice.seed, study.sampler.seed, std::uint64_t{1});
-  return settings;
-}
 
 std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, const Fit& fit) {
   std::vector<ParameterSummary> summaries;
@@ -101,15 +87,18 @@ LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
   return summary;
 }
 
-StageSummary run_stage(const Study& study, FitSettings settings, std::size_t rows) {
+// What is kept of the posterior of one stage: `density`, when given, takes its points.
+StageSummary run_stage(const Study& study, FitSettings settings, std::size_t rows,
+                       WeightedDraws* density) {
   settings.run.first_stream = rows * max_chains;
   const Posterior posterior(study.parameters, study.likelihood(rows));
-  const Fit stage = fit(posterior, settings);
+  Fit stage = fit(posterior, settings);
   std::vector<PredictionRequest> requests = study.stage_predictions(rows);
   requests.insert(requests.end(), study.predictions.begin(), study.predictions.end());
   StageSummary summary{rows, summarize_parameters(posterior, stage), summarize(requests, stage),
                        trust_checks(posterior, stage), true};
   summary.trusted = trusted(summary.checks);
+  if (density) *density = std::move(stage.exact ? stage.exact->nodes : stage.pooled);
   return summary;
 }
 
@@ -124,7 +113,26 @@ Draws in_units(const Study& study, Draws draws) {
   return draws;
 }
 
-const char* name(Method method) {
+}  // namespace
+
+FitSettings fit_settings(const Study& study, const SamplerChoice& choice) {
+  const auto chosen = [](const auto& first, const auto& second, auto otherwise) {
+    return first ? *first : second ? *second : otherwise;
+  };
+  FitSettings settings;
+  settings.nuts = study.nuts;
+  settings.metropolis = study.metropolis;
+  settings.method = chosen(choice.method, study.sampler.method, Method::nuts);
+  const bool metropolis = settings.method == Method::metropolis;
+  RunSettings& run = settings.run;
+  run.chains = chosen(choice.chains, study.sampler.chains, 4);
+  run.warmup = chosen(choice.warmup, study.sampler.warmup, metropolis ? 4000 : 1000);
+  run.draws = chosen(choice.draws, study.sampler.draws, metropolis ? 6000 : 1000);
+  run.seed = chosen(choice.seed, study.sampler.seed, std::uint64_t{1});
+  return settings;
+}
+
+const char* method_name(Method method) {
   switch (method) {
     case Method::exact:
       return "exact";
@@ -136,9 +144,9 @@ const char* name(Method method) {
   return "nuts";
 }
 
-}  // namespace
-
-StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads) {
+StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads,
+                      bool with_plots) {
+  const auto start = std::chrono::steady_clock::now();
   std::optional<tbb::global_control> limit;
   if (threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
@@ -146,6 +154,8 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
   const FitSettings settings = fit_settings(study, choice);
   const Posterior posterior(study.parameters, study.likelihood(study.data_rows));
   Fit final = fit(posterior, settings);
+  std::optional<Plots> plots;
+  if (with_plots) plots = plot_study(study, posterior, final);
 
   StudyResult result{WEARWELL_VERSION,
                      study.title,
@@ -153,7 +163,7 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      study.equation,
                      study.data_file,
                      study.data_rows,
-                     name(final.method),
+                     method_name(final.method),
                      settings.run.chains,
                      final.method == Method::exact ? 0 : settings.run.warmup,
                      settings.run.draws,
@@ -171,9 +181,17 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
   if (study.life) result.life = summarize(*study.life, final);
   if (study.stages) {
     result.stages.resize(study.data_rows);
-    tbb::parallel_for(std::size_t{0}, study.data_rows,
-                      [&](std::size_t i) { result.stages[i] = run_stage(study, settings, i + 1); });
+    std::vector<WeightedDraws> densities(plots ? study.data_rows : 0);
+    tbb::parallel_for(std::size_t{0}, study.data_rows, [&](std::size_t i) {
+      result.stages[i] = run_stage(study, settings, i + 1, plots ? &densities[i] : nullptr);
+    });
+    if (plots) plots->stages = stage_densities(study.parameters.front(), 0, densities);
   }
+  if (plots) {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    plots->seconds = taken.count();
+  }
+  result.plots = std::move(plots);
   return result;
 }
 

@@ -5,10 +5,18 @@
 
 namespace wearwell {
 
+/// What the study and `choice` (which comes first) say of how to fit, with the method's defaults.
+FitSettings fit_settings(const Study& study, const SamplerChoice& choice);
+
+const char* method_name(Method method);
+
 /// Fits, checks and predicts: the final posterior, and that of every stage when the study asks for
 /// them. What `choice` leaves open is as the study says, and then the method's default: 4 chains of
 /// 1000 draws after 1000 of warm-up, for Metropolis 6000 after 4000. Uses `threads` threads (0:
 /// all); the result does not depend on it.
-StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads);
+///
+/// `with_plots`: computes what a report draws as well.
+StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads,
+                      bool with_plots = false);
 
 }  // namespace wearwell

@@ -54,8 +54,9 @@ struct SamplerChoice {
 /// first data sets, and what to predict.
 struct Study {
   std::string title, model, equation;
-  std::string data_file;
-  std::size_t data_rows = 0;  ///< data sets; the posterior can be updated after each
+  std::filesystem::path file;  ///< the study file
+  std::string data_file;       ///< as the study file names it
+  std::size_t data_rows = 0;   ///< data sets; the posterior can be updated after each
   std::vector<Parameter> parameters;
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
   bool stages = false;  ///< the posterior after 1, 2, ... data sets as well
@@ -64,8 +65,11 @@ struct Study {
   /// the next.
   std::function<std::vector<PredictionRequest>(std::size_t rows)> stage_predictions;
   std::optional<LifeRequest> life;
+  std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
   std::optional<PointwiseTable> pointwise;
-  SamplerChoice sampler;  ///< as the study file says
+  std::string quantity;               ///< what is measured, in words: "worn volume"
+  std::vector<std::string> meanings;  ///< of the parameters: "wear coefficient"
+  SamplerChoice sampler;              ///< as the study file says
   NutsSettings nuts;
   MetropolisSettings metropolis;
 };

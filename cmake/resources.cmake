@@ -1,0 +1,15 @@
+# Files that the program carries with it.
+#
+#   wearwell_resource(report page_css page.css)
+#
+# puts the file into the library wearwell_report as `std::string_view wearwell::resource::page_css()`.
+function(wearwell_resource library name file)
+  get_filename_component(path ${file} ABSOLUTE)
+  if(NOT EXISTS ${path})
+    message(FATAL_ERROR "no ${path}; run setup/install")
+  endif()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}_resource.cpp)
+  configure_file(${PROJECT_SOURCE_DIR}/cmake/resource.cpp.in ${source} @ONLY)
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${path})
+  target_sources(wearwell_${library} PRIVATE ${source})
+endfunction()

@@ -1,0 +1,24 @@
+#include "wearwell/cli/check.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "wearwell/study/describe.h"
+
+namespace wearwell {
+
+void add_check_command(CLI::App& app, int& exit_code) {
+  auto study = std::make_shared<std::filesystem::path>();
+  CLI::App* check = app.add_subcommand(
+      "check", "Say in words and units what a study will fit; reads the data, runs nothing");
+  check->add_option("STUDY", *study, "Study file (TOML)")->required();
+  check->footer("Example:\n  wearwell check examples/joint/study.toml");
+  check->callback([study, &exit_code] {
+    fmt::print("{}", study_in_words(read_study(*study)));
+    exit_code = 0;
+  });
+}
+
+}  // namespace wearwell

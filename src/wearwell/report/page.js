@@ -1,0 +1,56 @@
+'use strict';
+// Draws every figure from the Vega-Lite specification beside it. Exports are always light; on the page, page.css
+// paints text and axes.
+(() => {
+  const font = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif';
+  const ink = '#1d2733', soft = '#5a6572', faint = '#e3e7ec';
+  const config = {
+    background: 'white',
+    font,
+    padding: 4,
+    view: {stroke: null},
+    axis: {labelColor: soft, titleColor: ink, titleFontWeight: 500, titleFontSize: 12, labelFontSize: 11,
+           gridColor: faint, domainColor: soft, tickColor: soft, titlePadding: 8, labelFlush: true},
+    axisX: {grid: false, tickCount: {signal: 'max(3, ceil(width / 90))'}},
+    axisY: {tickCount: 6},
+    legend: {orient: 'top', direction: 'horizontal', title: null, labelColor: ink, labelFontSize: 12,
+             labelLimit: 280, symbolType: 'square', symbolSize: 90, symbolOpacity: 0.9, symbolStrokeWidth: 0,
+             columnPadding: 14, rowPadding: 3, offset: 8},
+    text: {fontSize: 12, fontWeight: 600},
+  };
+  const title = document.title;
+
+  document.querySelectorAll('figure').forEach((figure) => {
+    const specification = JSON.parse(figure.querySelector('script').textContent);
+    const name = `${title} ${figure.id}`.replace(/[^\p{L}\p{N}]+/gu, '-');
+    const plot = figure.querySelector('.plot');
+    // As many columns as fit, on paper too, where plots may be narrower than on the screen.
+    const labels = new Set(specification.layer.map((layer) => layer.encoding.color?.datum).filter(Boolean));
+    const needed = [...labels].reduce((sum, label) => sum + 32 + 6.5 * label.length, 0);
+    const width = plot.clientWidth;
+    const legend = {...config.legend,
+                    columns: needed < Math.min(width, 330) || width > 900 ? 0 : width < 400 ? 1 : 2};
+    vegaEmbed(plot, specification, {
+      config: {...config, legend},
+      renderer: 'svg',
+      mode: 'vega-lite',
+      formatLocale: {decimal: '.', thousands: '\u202f', grouping: [3], currency: ['', '']},
+      actions: {export: {svg: true, png: true}, source: true, compiled: false, editor: false},
+      downloadFileName: name,
+      scaleFactor: {svg: 1, png: 2},
+      tooltip: {theme: matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'},
+    }).then((result) => {
+      const summary = figure.querySelector('summary');
+      if (summary) summary.setAttribute('aria-label', `Menu: ${figure.querySelector('h3').textContent}`);
+      figure.dataset.drawn = 'true';
+      return result;
+    }).catch((error) => {
+      plot.textContent = `This plot cannot be drawn: ${error.message}`;
+      console.error(error);
+    });
+  });
+  // What is folded away on screen is printed.
+  addEventListener('beforeprint', () => document.querySelectorAll('main details').forEach((each) => {
+    if (!each.closest('.plot')) each.open = true;
+  }));
+})();

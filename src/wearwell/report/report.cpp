@@ -1,0 +1,389 @@
+#include "wearwell/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/report/figures.h"
+#include "wearwell/report/html.h"
+#include "wearwell/report/resources.h"
+
+namespace wearwell {
+namespace {
+
+using html::escape;
+using html::given;
+using html::number;
+using html::quantity;
+using html::range;
+using html::unit;
+
+const Prediction& best(const PredictionSummary& p) {
+  return p.exact ? *p.exact : p.drawn;
+}
+
+// Quadrature where there is one, else draws.
+ExactSummary best(const ParameterSummary& p) {
+  return p.exact ? *p.exact : ExactSummary{p.mean, p.sd, p.q05, p.q50, p.q95};
+}
+
+std::string with_unit(const std::string& name, const std::string& unit_text) {
+  return unit_text == "1" ? escape(name)
+                          : fmt::format("{} <span class=\"unit\">[{}]</span>", escape(name),
+                                        escape(unit(unit_text)));
+}
+
+std::string interval(double low, double high, const std::string& unit_text, int digits) {
+  const std::string u = unit(unit_text);
+  return range(low, high, digits) + (u.empty() ? "" : "\u00a0" + u);
+}
+
+std::string names_of(const std::vector<Check>& checks, Verdict verdict) {
+  std::string names;
+  for (const Check& check : checks) {
+    if (check.verdict == verdict) names += (names.empty() ? "" : ", ") + check.name;
+  }
+  return names;
+}
+
+const char* kind(Verdict verdict) {
+  static constexpr const char* kinds[] = {"pass", "warn", "fail"};
+  return kinds[static_cast<int>(verdict)];
+}
+
+const char* word(Verdict verdict) {
+  static constexpr const char* words[] = {"Passed", "Warning", "Failed"};
+  return words[static_cast<int>(verdict)];
+}
+
+Verdict worst(const StudyResult& result) {
+  Verdict verdict = Verdict::pass;
+  for (const Check& check : result.checks) verdict = std::max(verdict, check.verdict);
+  return verdict;
+}
+
+std::string given(double x, const std::string& unit_text) {
+  const std::string u = unit(unit_text);
+  return u.empty() ? given(x) : given(x) + "\u00a0" + u;
+}
+
+// A life: no fraction of a cycle.
+std::string life_number(double x, int digits = 4) {
+  const int whole = x >= 1 && std::isfinite(x) ? static_cast<int>(std::log10(x)) + 1 : digits;
+  return number(x, std::min(digits, whole));
+}
+
+// What a tribologist would say.
+std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
+  std::string sentence;
+  const auto add = [&](const std::string& clause) {
+    sentence += (sentence.empty() ? "" : "; ") + clause;
+  };
+  if (result.life) {
+    const Life& life = result.life->exact ? *result.life->exact : result.life->drawn;
+    add(fmt::format("the {} reaches the limit of {} after about {} {} (90 % interval {})",
+                    plots.quantity, given(result.life->limit, result.life->limit_unit),
+                    life_number(life.b50, 3), result.life->unit, range(life.q05, life.q95, 3)));
+  }
+  if (!result.predictions.empty()) {
+    const PredictionSummary& p = result.predictions.back();
+    add(fmt::format("at {} {} the {} is {} (90 % interval {})", given(p.at), p.at_name,
+                    plots.quantity, quantity(best(p).mean, p.unit, 3),
+                    interval(best(p).ci05, best(p).ci95, p.unit, 3)));
+  }
+  const ParameterSummary& first = result.parameters.front();
+  const ExactSummary k = best(first);
+  add(fmt::format("the {} {} is {} (90 % interval {})", plots.parameters.front().meaning,
+                  first.name, quantity(k.mean, first.unit, 3),
+                  interval(k.q05, k.q95, first.unit, 3)));
+  return html::capital(sentence) + ".";
+}
+
+std::string trust_callout(const StudyResult& result) {
+  const Verdict verdict = worst(result);
+  if (!result.trusted) {
+    std::string advice;
+    for (const Check& check : result.checks) {
+      if (check.verdict == Verdict::fail && !check.advice.empty()) advice += " " + check.advice;
+    }
+    return html::callout("fail", "Not trusted.",
+                         fmt::format("Do not use these numbers as they stand: {} failed.{}",
+                                     names_of(result.checks, Verdict::fail), advice));
+  }
+  if (verdict == Verdict::warn) {
+    return html::callout(
+        "warn", "Trusted, with a warning.",
+        fmt::format("No check failed; look at {}.", names_of(result.checks, Verdict::warn)));
+  }
+  return html::callout("pass", "Trusted.",
+                       fmt::format("All {} checks passed.", result.checks.size()));
+}
+
+std::string verdict_section(const StudyResult& result, const Plots& plots) {
+  std::string out =
+      fmt::format("<p class=\"verdict\">{}</p>\n", escape(verdict_sentence(result, plots)));
+  out += trust_callout(result);
+  std::vector<html::Tile> tiles;
+  if (result.life) {
+    const LifeSummary& summary = *result.life;
+    const Life& life = summary.exact ? *summary.exact : summary.drawn;
+    tiles.push_back(
+        {"Life B10", life_number(life.b10, 3), summary.unit,
+         fmt::format("one in ten reaches {} earlier", given(summary.limit, summary.limit_unit))});
+    tiles.push_back({"Inspect again within", life_number(life.inspect_within, 3), summary.unit,
+                     fmt::format("after {}; risk of reaching the limit before: {} %",
+                                 given(summary.now), given(100 * summary.risk))});
+  }
+  if (!result.predictions.empty()) {
+    const PredictionSummary& p = result.predictions.back();
+    tiles.push_back(
+        {fmt::format("{} at {} {}", html::capital(plots.quantity), given(p.at), p.at_name),
+         number(best(p).mean, 3), unit(p.unit),
+         fmt::format("one measurement: {}", interval(best(p).pi05, best(p).pi95, p.unit, 3))});
+  }
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, result.parameters.size()); ++i) {
+    const ParameterSummary& p = result.parameters[i];
+    const ExactSummary each = best(p);
+    tiles.push_back({fmt::format("{}, {}", p.name, plots.parameters[i].meaning),
+                     number(each.mean, 3), unit(p.unit),
+                     fmt::format("90 % interval {}", range(each.q05, each.q95, 3))});
+  }
+  return out + html::tiles(tiles);
+}
+
+std::string prediction_table(const std::string& caption,
+                             const std::vector<std::pair<std::size_t, PredictionSummary>>& rows) {
+  const PredictionSummary& first = rows.front().second;
+  html::Table table{caption,
+                    {"Data sets", escape(first.at_name), with_unit(first.quantity, first.unit),
+                     "90 % of the mean", "90 % of measurements", "Measured"},
+                    {}};
+  for (const auto& [data_sets, p] : rows) {
+    const Prediction& b = best(p);
+    table.rows.push_back({fmt::format("{}", data_sets), given(p.at), number(b.mean),
+                          range(b.ci05, b.ci95), range(b.pi05, b.pi95),
+                          p.measured ? number(*p.measured) : "–"});
+  }
+  return html::table(table);
+}
+
+std::string life_table(const LifeSummary& summary) {
+  const Life& life = summary.exact ? *summary.exact : summary.drawn;
+  return html::table(
+      {fmt::format("Life in {} until {}", summary.unit, given(summary.limit, summary.limit_unit)),
+       {"B1", "B10", "B50", "90 % interval",
+        fmt::format("Inspect within <span class=\"unit\">(risk {} %)</span>",
+                    given(100 * summary.risk))},
+       {{life_number(life.b1), life_number(life.b10), life_number(life.b50),
+         range(life.q05, life.q95),
+         fmt::format("{} after {}", life_number(life.inspect_within), given(summary.now))}}});
+}
+
+std::string prediction_section(const StudyResult& result, const Plots& plots) {
+  std::string out = html::figures(prediction_figures(result, plots));
+  if (!result.predictions.empty()) {
+    std::vector<std::pair<std::size_t, PredictionSummary>> rows;
+    for (const PredictionSummary& p : result.predictions) rows.emplace_back(result.data_rows, p);
+    out += prediction_table("Predictions from all data sets", rows);
+  }
+  if (result.life) out += life_table(*result.life);
+  if (!result.stages.empty()) {
+    std::vector<std::pair<std::size_t, PredictionSummary>> rows;
+    for (const StageSummary& stage : result.stages) {
+      for (const PredictionSummary& p : stage.predictions) rows.emplace_back(stage.rows, p);
+    }
+    out += html::details("Every prediction, data set by data set",
+                         prediction_table("Predictions, data set by data set", rows));
+  }
+  return out;
+}
+
+std::string parameter_section(const StudyResult& result, const Plots& plots) {
+  html::Table table{
+      "Parameters after all data sets",
+      {"Parameter", "Mean", "MCSE", "Sd", "5 %", "50 %", "95 %", "Exact mean", "Exact sd"},
+      {}};
+  for (const ParameterSummary& p : result.parameters) {
+    table.rows.push_back({with_unit(p.name, p.unit), number(p.mean), number(p.mcse, 2),
+                          number(p.sd), number(p.q05), number(p.q50), number(p.q95),
+                          p.exact ? number(p.exact->mean) : "–",
+                          p.exact ? number(p.exact->sd) : "–"});
+  }
+  html::Table priors{"What was believed before", {"Parameter", "Meaning", "Prior"}, {}, true};
+  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+    priors.rows.push_back({escape(result.parameters[i].name), escape(plots.parameters[i].meaning),
+                           escape(html::raised(plots.parameters[i].prior_in_words))});
+  }
+  std::string out = html::table(table) + html::table(priors);
+  if (!result.stages.empty()) {
+    html::Table stages{"Parameters, data set by data set", {"Data sets"}, {}};
+    for (const ParameterSummary& p : result.parameters) {
+      stages.heading.push_back(with_unit(p.name, p.unit));
+      stages.heading.push_back("Sd");
+      stages.heading.push_back("90 % interval");
+    }
+    stages.heading.push_back("Trusted");
+    for (const StageSummary& stage : result.stages) {
+      stages.rows.push_back({fmt::format("{}", stage.rows)});
+      for (const ParameterSummary& p : stage.parameters) {
+        const ExactSummary b = best(p);
+        stages.rows.back().insert(stages.rows.back().end(),
+                                  {number(b.mean), number(b.sd), range(b.q05, b.q95)});
+      }
+      std::string failed = names_of(stage.checks, Verdict::fail);
+      stages.rows.back().push_back(stage.trusted ? "yes" : "no: " + escape(failed));
+    }
+    out += html::table(stages);
+  }
+  return out + html::figures(parameter_figures(result, plots));
+}
+
+std::string fit_section(const StudyResult& result, const Plots& plots) {
+  std::string out =
+      fmt::format("<p>{}</p>\n", escape(fmt::format("{}.", html::raised(result.equation))));
+  const History& r = plots.replicated;
+  const std::string at = plots.at_name, u = plots.unit;
+  html::Table table{"Data, and what the fit says of them",
+                    {escape(at), with_unit("Measured", u), "Fitted mean", "90 % of the mean",
+                     "90 % of measurements"},
+                    {}};
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < r.at.size(); ++i) {
+    const double y = plots.measured[i];
+    inside += r.pi05[i] <= y && y <= r.pi95[i];
+    table.rows.push_back({given(r.at[i]), number(y), number(r.mean[i], 3),
+                          range(r.ci05[i], r.ci95[i], 3), range(r.pi05[i], r.pi95[i], 3)});
+  }
+  out += fmt::format(
+      "<p>{} of {} measurements lie within the interval that should hold nine in ten.</p>\n",
+      inside, r.at.size());
+  out += html::table(table) + html::figures(fit_figures(plots));
+  if (result.pointwise) {
+    const PointwiseTable& p = *result.pointwise;
+    html::Table pointwise{"Wear coefficient of each measurement for itself",
+                          {"cycles", with_unit("F", p.force_unit), with_unit("s", p.slip_unit),
+                           with_unit("V", p.volume_unit), with_unit("k = V/(F s)", p.k_unit)},
+                          {}};
+    for (const PointwiseRow& row : p.rows) {
+      pointwise.rows.push_back({given(row.cycles), number(row.force), number(row.slip),
+                                number(row.volume), number(row.k)});
+    }
+    out += html::table(pointwise);
+  }
+  return out;
+}
+
+std::string check_section(const StudyResult& result, const Plots& plots) {
+  html::Table table{
+      "Checks of the final posterior", {"Check", "Verdict", "What was found"}, {}, true};
+  for (const Check& check : result.checks) {
+    std::string found = escape(html::raised(check.detail));
+    if (!check.advice.empty()) {
+      found += fmt::format("<br><em>{}</em>", escape(html::raised(check.advice)));
+    }
+    table.rows.push_back({escape(check.name),
+                          fmt::format("<span class=\"badge {}\">{}</span>", kind(check.verdict),
+                                      word(check.verdict)),
+                          found});
+  }
+  html::Table draws{"Draws of each parameter",
+                    {"Parameter", "R-hat", "Effective draws, centre", "Effective draws, tails"},
+                    {}};
+  for (const ParameterSummary& p : result.parameters) {
+    draws.rows.push_back({escape(p.name), fmt::format("{:.4f}", p.rhat),
+                          fmt::format("{:.0f}", p.ess_bulk), fmt::format("{:.0f}", p.ess_tail)});
+  }
+  return html::table(table) + html::table(draws) + html::figures(sampler_figures(result, plots));
+}
+
+std::string method_section(const StudyResult& result, const Plots& plots) {
+  std::vector<std::pair<std::string, std::string>> facts = {
+      {"Program", "wearwell " + result.version},
+      {"Model", result.model},
+      {"Method", fmt::format("{}, {} chains of {} draws after {} of warm-up", result.method,
+                             result.chains, result.draws, result.warmup)},
+      {"Seed", fmt::format("{}", result.seed)}};
+  if (result.log_evidence) {
+    facts.emplace_back("Log evidence", fmt::format("{:.4f}", *result.log_evidence));
+  }
+  for (const DataFile& file : plots.files) facts.emplace_back(file.name, "SHA-1 " + file.sha1);
+  facts.emplace_back("Time taken", fmt::format("{:.2f} s", plots.seconds));
+  std::string out = "<dl class=\"facts\">\n";
+  for (const auto& [name, value] : facts) {
+    out += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escape(name), escape(value));
+  }
+  out += "</dl>\n";
+  if (result.parameters.front().exact) {
+    out +=
+        "<p>Where the posterior can be integrated by quadrature, intervals and predictions are "
+        "those of quadrature and carry no sampling noise; the draws check them.</p>\n";
+  }
+  out += fmt::format(
+      "<p>The same study file, data and seed give the same numbers to the bit, whatever the number "
+      "of threads: <code>wearwell fit {} --method {} --chains {} --warmup {} --draws {} "
+      "--seed {}</code></p>\n",
+      escape(plots.files.front().name), result.method, result.chains, result.warmup, result.draws,
+      result.seed);
+  return out + html::details("Study file", fmt::format("<pre tabindex=\"0\">{}</pre>\n",
+                                                       escape(plots.study_text)));
+}
+
+std::string script(std::string_view code) {
+  return fmt::format("<script>{}</script>\n", code);
+}
+
+// The licences ask that their text goes with the code.
+std::string licence(const char* name, std::string_view text) {
+  return fmt::format("<!-- {} in this page:\n{}\n-->\n", name, text);
+}
+
+}  // namespace
+
+std::string html_report(const StudyResult& result) {
+  const Plots& plots = *result.plots;
+  static constexpr std::pair<const char*, const char*> contents[] = {
+      {"verdict", "Verdict"}, {"predictions", "Predictions"}, {"parameters", "Parameters"},
+      {"fit", "Fit"},         {"checks", "Checks"},           {"method", "Method"}};
+  std::string navigation;
+  for (const auto& [id, title] : contents) {
+    navigation += fmt::format("<li><a href=\"#{}\">{}</a></li>", id, title);
+  }
+  std::string page = fmt::format(
+      R"(<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark">
+<meta name="generator" content="wearwell {}">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'; img-src data: blob:">
+<title>{}</title>
+<style>{}</style>
+</head>
+<body>
+<header><h1>{}</h1><p>{}, {} data sets of {}</p>
+<nav aria-label="Contents"><ul>{}</ul></nav></header>
+<main>
+)",
+      escape(result.version), escape(result.title), resource::page_css(), escape(result.title),
+      escape(result.model), result.data_rows, escape(result.data_file), navigation);
+  page += html::section("verdict", "Verdict", verdict_section(result, plots));
+  page += html::section("predictions", "Predictions", prediction_section(result, plots));
+  page += html::section("parameters", "Parameters", parameter_section(result, plots));
+  page += html::section("fit", "Fit", fit_section(result, plots));
+  page += html::section("checks", "Checks", check_section(result, plots));
+  page += html::section("method", "Method and reproducibility", method_section(result, plots));
+  page += fmt::format("</main>\n<footer><p>Written by wearwell {}.</p></footer>\n",
+                      escape(result.version));
+  page += licence("vega", resource::vega_license());
+  page += script(resource::vega());
+  page += licence("vega-lite", resource::vega_lite_license());
+  page += script(resource::vega_lite());
+  page += licence("vega-embed", resource::vega_embed_license());
+  page += script(resource::vega_embed());
+  page += script(resource::page_js());
+  return page + "</body>\n</html>\n";
+}
+
+}  // namespace wearwell

@@ -1,0 +1,103 @@
+#include "wearwell/study/describe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/study/run_study.h"
+
+namespace wearwell {
+namespace {
+
+// The parameters of a family in the unit of the parameter.
+struct FamilyInWords {
+  const Parameter& parameter;
+
+  std::string value(double si) const { return fmt::format("{:.6g}", from_si(parameter.unit, si)); }
+  std::string width(double si) const { return fmt::format("{:.6g}", si / parameter.unit.scale); }
+
+  std::string operator()(const Flat&) const { return "flat: nothing is known"; }
+  std::string operator()(const Uniform&) const { return "uniform"; }
+  std::string operator()(const Jeffreys&) const { return "1/x: its order of magnitude is unknown"; }
+  std::string operator()(const Normal& law) const {
+    if (parameter.law == "half-normal") return "half-normal, scale " + width(law.sd);
+    return fmt::format("normal, mean {}, sd {}", value(law.mean), width(law.sd));
+  }
+  std::string operator()(const Lognormal& law) const {
+    return fmt::format("lognormal, median {}, sd of the logarithm {:.4g}", value(std::exp(law.eta)),
+                       law.zeta);
+  }
+  std::string operator()(const Gamma& law) const {
+    if (parameter.law == "exponential") return "exponential, mean " + width(law.scale);
+    return fmt::format("gamma, shape {:.6g}, scale {}", law.shape, width(law.scale));
+  }
+  std::string operator()(const InverseGamma& law) const {
+    return fmt::format("inverse gamma, shape {:.6g}, scale {}", law.shape, width(law.scale));
+  }
+  std::string operator()(const StudentT& law) const {
+    if (parameter.law == "half-cauchy") return "half-Cauchy, scale " + width(law.scale);
+    return fmt::format("Student t, {:.6g} degrees of freedom, location {}, scale {}", law.df,
+                       value(law.location), width(law.scale));
+  }
+  std::string operator()(const Beta& law) const {
+    return fmt::format("beta, alpha {:.6g}, beta {:.6g}", law.alpha, law.beta);
+  }
+};
+
+}  // namespace
+
+std::string prior_in_words(const Parameter& parameter) {
+  const Law& law = parameter.prior;
+  std::string words = std::visit(FamilyInWords{parameter}, law.family);
+  const auto value = [&](double si) { return fmt::format("{:.6g}", from_si(parameter.unit, si)); };
+  if (std::isfinite(law.lower) && std::isfinite(law.upper)) {
+    words += fmt::format(", between {} and {}", value(law.lower), value(law.upper));
+  } else if (std::isfinite(law.lower)) {
+    words += ", above " + value(law.lower);
+  } else if (std::isfinite(law.upper)) {
+    words += ", below " + value(law.upper);
+  }
+  return parameter.unit.text == "1" ? words : words + " " + parameter.unit.text;
+}
+
+std::string study_in_words(const Study& study) {
+  std::string out =
+      fmt::format("{}\n  {}\n\nData\n  {}: {} data sets of {}\n\nUnknowns\n", study.title,
+                  study.equation, study.data_file, study.data_rows, study.quantity);
+  std::size_t width = 0;
+  for (const Parameter& p : study.parameters) width = std::max(width, p.name.size());
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    const Parameter& p = study.parameters[i];
+    out += fmt::format("  {:<{}}  {}{}\n  {:<{}}  prior: {}\n", p.name, width, study.meanings[i],
+                       p.unit.text == "1" ? "" : fmt::format(" [{}]", p.unit.text), "", width,
+                       prior_in_words(p));
+  }
+  out += "\nWill be fitted\n";
+  out += study.stages ? fmt::format("  after each of 1, 2, ... {} data sets\n", study.data_rows)
+                      : fmt::format("  from all {} data sets\n", study.data_rows);
+  const FitSettings settings = fit_settings(study, {});
+  const RunSettings& run = settings.run;
+  if (settings.method == Method::exact) {
+    out += "  by quadrature";
+  } else {
+    out += fmt::format("  by {}, {} chains of {} draws after {} of warm-up{}",
+                       method_name(settings.method), run.chains, run.draws, run.warmup,
+                       study.parameters.size() <= max_exact_dimension ? ", beside quadrature" : "");
+  }
+  out += fmt::format("; seed {}\n", run.seed);
+  if (!study.predictions.empty() || study.life) out += "\nWill be predicted\n";
+  for (const PredictionRequest& p : study.predictions) {
+    out += fmt::format("  {} [{}] at {} {}\n", study.quantity, p.unit.text, p.at, p.at_name);
+  }
+  if (study.life) {
+    const LifeRequest& life = *study.life;
+    out += fmt::format(
+        "  {} until the {} reaches {} {}, and when to inspect after {} {} at a risk of {:.4g} %\n",
+        life.unit_name, study.quantity, life.limit.value, life.limit.unit.text, life.now,
+        life.unit_name, 100 * life.risk);
+  }
+  return out;
+}
+
+}  // namespace wearwell

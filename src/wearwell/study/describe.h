@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "wearwell/study/study.h"
+
+namespace wearwell {
+
+/// "normal, mean 0.000505, sd 7.4e-05, above 0 mm^3/(N m)".
+std::string prior_in_words(const Parameter& parameter);
+
+/// What `wearwell fit` would do, ending with a newline: equation, data, unknowns with their units
+/// and priors, predictions, sampler.
+std::string study_in_words(const Study& study);
+
+}  // namespace wearwell

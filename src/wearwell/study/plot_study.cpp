@@ -1,0 +1,285 @@
+#include "wearwell/study/plot_study.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+
+#include "wearwell/bayes/posterior.h"
+#include "wearwell/predict/prediction.h"
+#include "wearwell/study/describe.h"
+#include "wearwell/study/fingerprint.h"
+
+namespace wearwell {
+namespace {
+
+constexpr int curve_points = 120, bins = 40, grid_cells = 56, life_points = 120;
+
+struct Range {
+  double low, high;
+};
+
+// The better of the two: quadrature where there is one.
+const WeightedDraws& best(const Fit& fit) {
+  return fit.exact ? fit.exact->nodes : fit.pooled;
+}
+
+std::vector<double> spaced(Range range, int intervals) {
+  std::vector<double> points;
+  for (int i = 0; i <= intervals; ++i) {
+    points.push_back(std::lerp(range.low, range.high, static_cast<double>(i) / intervals));
+  }
+  return points;
+}
+
+Distribution distribution(const Parameter& parameter, Eigen::Index index,
+                          const WeightedDraws& draws) {
+  return {draws, [&](const double* x) { return from_si(parameter.unit, x[index]); }};
+}
+
+// The probability of each interval over its width, at its middle.
+Curve density_curve(const Distribution& distribution, const std::vector<double>& edges) {
+  Curve curve;
+  double below = distribution.cdf(edges.front());
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double until = distribution.cdf(edges[i + 1]);
+    curve.x.push_back(0.5 * (edges[i] + edges[i + 1]));
+    curve.y.push_back((until - below) / (edges[i + 1] - edges[i]));
+    below = until;
+  }
+  return curve;
+}
+
+Range within_bounds(const Parameter& parameter, Range range) {
+  return {std::max(range.low, from_si(parameter.unit, parameter.prior.lower)),
+          std::min(range.high, from_si(parameter.unit, parameter.prior.upper))};
+}
+
+// Nearly all of the posterior, and of the prior where that does not squeeze the posterior.
+Range range_of(const Parameter& parameter, const Distribution& posterior) {
+  Range range{posterior.quantile(0.0005), posterior.quantile(0.9995)};
+  const double margin = 0.05 * (range.high - range.low);
+  range = within_bounds(parameter, {range.low - margin, range.high + margin});
+  if (parameter.prior.proper) {
+    const Range both{
+        std::min(range.low, from_si(parameter.unit, quantile(parameter.prior, 0.002))),
+        std::max(range.high, from_si(parameter.unit, quantile(parameter.prior, 0.998)))};
+    if (both.high - both.low < 5 * (range.high - range.low)) range = both;
+  }
+  return range;
+}
+
+Histogram histogram(const Parameter& parameter, Eigen::Index index, const Draws& draws,
+                    Range range) {
+  Histogram result{spaced(range, bins), {}};
+  const double width = (range.high - range.low) / bins;
+  for (const Chain& chain : draws) {
+    std::vector<double> density(bins, 0.0);
+    const double share = 1 / (static_cast<double>(chain.values.rows()) * width);
+    for (const double si : chain.values.col(index)) {
+      const double bin = std::floor((from_si(parameter.unit, si) - range.low) / width);
+      if (bin >= 0 && bin < bins) density[static_cast<std::size_t>(bin)] += share;
+    }
+    result.density.push_back(std::move(density));
+  }
+  return result;
+}
+
+Curve prior_curve(const Parameter& parameter, Range range) {
+  Curve curve;
+  const std::vector<double> edges = spaced(range, curve_points);
+  double area = 0;
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double x = 0.5 * (edges[i] + edges[i + 1]);
+    const double si = to_si(parameter.unit, x);
+    const bool inside = parameter.prior.lower < si && si < parameter.prior.upper;
+    curve.x.push_back(x);
+    curve.y.push_back(
+        inside ? std::exp(log_density(parameter.prior, si).value) * parameter.unit.scale : 0);
+    area += curve.y.back() * (edges[i + 1] - edges[i]);
+  }
+  if (!parameter.prior.proper) {
+    for (double& y : curve.y) y /= area;
+  }
+  return curve;
+}
+
+ParameterPlots plot_parameter(const Study& study, std::size_t i, const Fit& fit) {
+  const Parameter& parameter = study.parameters[i];
+  const auto index = static_cast<Eigen::Index>(i);
+  const Distribution posterior = distribution(parameter, index, best(fit));
+  const Range range = range_of(parameter, posterior);
+  ParameterPlots plots{study.meanings[i],
+                       prior_in_words(parameter),
+                       histogram(parameter, index, fit.draws, range),
+                       {},
+                       prior_curve(parameter, range)};
+  if (fit.exact) plots.exact = density_curve(posterior, spaced(range, curve_points));
+  return plots;
+}
+
+std::optional<DensityGrid> joint_density(const Posterior& posterior, const Fit& fit) {
+  if (posterior.dimension() != 2 || !fit.exact) return {};
+  const Parameter &a = posterior.parameters()[0], &b = posterior.parameters()[1];
+  const auto centres = [&](const Parameter& parameter, Eigen::Index index) {
+    const Distribution marginal = distribution(parameter, index, fit.exact->nodes);
+    const auto edges = spaced(
+        within_bounds(parameter, {marginal.quantile(0.003), marginal.quantile(0.997)}), grid_cells);
+    std::vector<double> middle;
+    for (int i = 0; i < grid_cells; ++i) middle.push_back(0.5 * (edges[i] + edges[i + 1]));
+    return middle;
+  };
+  DensityGrid grid{centres(a, 0), centres(b, 1), {}};
+  for (const double x : grid.x) {
+    for (const double y : grid.y) {
+      const double point[] = {to_si(a.unit, x), to_si(b.unit, y)};
+      grid.density.push_back(posterior.natural_value(point));
+    }
+  }
+  const double highest = *std::max_element(grid.density.begin(), grid.density.end());
+  for (double& each : grid.density) each = std::exp(each - highest);
+  return grid;
+}
+
+// A few points of one weight that stand for tens of thousands: evenly through the posterior, in
+// slices of its first parameter and within each along the second. Quantiles move by less than a
+// plot shows, and a curve takes a tenth of the time.
+WeightedDraws thinned(const WeightedDraws& draws) {
+  constexpr Eigen::Index count = 4000, slices = 200;
+  const Eigen::Index all = draws.values.rows();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(all));
+  std::iota(order.begin(), order.end(), 0);
+  const auto sort_along = [&](Eigen::Index parameter, auto begin, auto end) {
+    std::sort(begin, end, [&](auto a, auto b) {
+      return draws.values(a, parameter) < draws.values(b, parameter);
+    });
+  };
+  sort_along(0, order.begin(), order.end());
+  if (draws.values.cols() > 1) {
+    double mass = 0;
+    auto begin = order.begin();
+    for (auto end = begin; end != order.end();) {
+      mass += draws.weights[*end++];
+      if (mass * slices < 1 && end != order.end()) continue;
+      sort_along(1, begin, end);
+      begin = end;
+      mass = 0;
+    }
+  }
+
+  WeightedDraws few{Eigen::MatrixXd(count, draws.values.cols()),
+                    Eigen::VectorXd::Constant(count, 1.0 / count),
+                    {},
+                    {}};
+  double mass = draws.weights[order[0]];
+  for (Eigen::Index i = 0, at = 0; i < count; ++i) {
+    while (mass * count < static_cast<double>(i) + 0.5 && at + 1 < all) {
+      mass += draws.weights[order[static_cast<std::size_t>(++at)]];
+    }
+    few.values.row(i) = draws.values.row(order[static_cast<std::size_t>(at)]);
+  }
+  return few;
+}
+
+History predict_all(const std::vector<PredictionRequest>& requests, const WeightedDraws& draws) {
+  std::vector<Prediction> predictions(requests.size());
+  tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t i) {
+    predictions[i] = predict(draws, requests[i].mean, requests[i].sd, requests[i].family);
+  });
+  History history;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    const Unit& unit = requests[i].unit;
+    const Prediction& p = predictions[i];
+    history.at.push_back(requests[i].at);
+    history.mean.push_back(from_si(unit, p.mean));
+    history.ci05.push_back(from_si(unit, p.ci05));
+    history.ci95.push_back(from_si(unit, p.ci95));
+    history.pi05.push_back(from_si(unit, p.pi05));
+    history.pi95.push_back(from_si(unit, p.pi95));
+  }
+  return history;
+}
+
+Curve life_curve(const LifeRequest& request, const Fit& fit) {
+  const Distribution lives(best(fit), request.life);
+  // Components that hardly ever reach the limit have no finite upper quantiles.
+  double end = request.now;
+  for (const double p : {0.995, 0.95, 0.75, 0.5, 0.25, 0.1}) {
+    const double life = lives.quantile(p);
+    if (std::isfinite(life)) {
+      end = std::max(end, life);
+      break;
+    }
+  }
+  const double low = std::min(request.now, lives.quantile(0.001));
+  Curve curve;
+  for (const double x : spaced({std::max(0.0, low - 0.1 * (end - low)), end}, life_points)) {
+    curve.x.push_back(x);
+    curve.y.push_back(lives.cdf(x));
+  }
+  return curve;
+}
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit) {
+  Plots plots;
+  plots.quantity = study.quantity;
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    plots.parameters.push_back(plot_parameter(study, i, fit));
+  }
+  plots.joint = joint_density(posterior, fit);
+  const WeightedDraws few = thinned(best(fit));
+  plots.history = predict_all(study.history, few);
+
+  std::vector<PredictionRequest> observed;
+  for (std::size_t rows = 1; rows <= study.data_rows; ++rows) {
+    observed.push_back(study.stage_predictions(rows).front());
+    plots.measured.push_back(from_si(observed.back().unit, *observed.back().measured));
+  }
+  plots.unit = observed.front().unit.text;
+  plots.at_name = observed.front().at_name;
+  plots.replicated = predict_all(observed, few);
+  if (study.life) plots.life = life_curve(*study.life, fit);
+
+  plots.study_text = content(study.file);
+  plots.files = {{study.file.filename().string(), sha1(study.file)},
+                 {study.data_file, sha1(study.file.parent_path() / study.data_file)}};
+  return plots;
+}
+
+std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index index,
+                                   const std::vector<WeightedDraws>& stages) {
+  std::vector<Distribution> all;
+  for (const WeightedDraws& draws : stages) all.push_back(distribution(parameter, index, draws));
+  Range range{INFINITY, -INFINITY};
+  for (std::size_t i = all.size() / 2; i < all.size(); ++i) {
+    range.low = std::min(range.low, all[i].quantile(0.05));
+    range.high = std::max(range.high, all[i].quantile(0.95));
+  }
+  const double margin = 0.15 * (range.high - range.low);
+  range = within_bounds(parameter, {range.low - margin, range.high + margin});
+  std::vector<Curve> curves;
+  for (const Distribution& each : all) {
+    // Where little of a wide posterior is seen, few points carry it.
+    const double seen = each.cdf(range.high) - each.cdf(range.low);
+    const int intervals = std::clamp(static_cast<int>(seen * curve_points), 6, curve_points);
+    Curve curve = density_curve(each, spaced(range, intervals));
+    curve.x.insert(curve.x.begin(), range.low);
+    curve.y.insert(curve.y.begin(), curve.y.front());
+    curve.x.push_back(range.high);
+    curve.y.push_back(curve.y.back());
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/infer/fit.h"
+#include "wearwell/report/plots.h"
+#include "wearwell/study/study.h"
+
+namespace wearwell {
+
+/// Everything that a report draws of the final posterior; some tens of milliseconds.
+Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit);
+
+/// The density of `parameter` after every stage, over one range: that of the 90 % intervals of the
+/// later half of the stages.
+std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index index,
+                                   const std::vector<WeightedDraws>& stages);
+
+}  // namespace wearwell

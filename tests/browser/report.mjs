@@ -1,0 +1,103 @@
+// Opens reports in headless Chromium and refuses what a reader would stumble over: an error on the console, a request to
+// the network, a plot without marks, a violation of WCAG AA, a page wider than the screen.
+//
+//   node report.mjs NODE_MODULES SCREENSHOTS REPORT.html...
+import {createRequire} from 'node:module';
+import {mkdirSync, readFileSync} from 'node:fs';
+import {basename, dirname, join, resolve} from 'node:path';
+import {pathToFileURL} from 'node:url';
+
+const [modules, screenshots, ...reports] = process.argv.slice(2);
+const require = createRequire(join(resolve(modules), 'any.js'));
+const {chromium} = require('playwright-core');
+const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+
+const views = [
+  {name: 'wide', viewport: {width: 1280, height: 900}, colorScheme: 'light'},
+  {name: 'phone', viewport: {width: 390, height: 844}, colorScheme: 'light'},
+  {name: 'wide-dark', viewport: {width: 1280, height: 900}, colorScheme: 'dark'},
+];
+
+// What is wrong with the plots, in words.
+function plotFaults(page) {
+  return page.evaluate(() => {
+    const wrong = [];
+    const figures = [...document.querySelectorAll('figure')];
+    if (figures.length < 10) wrong.push(`only ${figures.length} plots`);
+    for (const figure of figures) {
+      // A mark counts when it is seen: some length on the screen.
+      const marks = [...figure.querySelectorAll('svg .role-mark path, svg .role-mark line')];
+      const seen = marks.filter((mark) => {
+        const box = mark.getBoundingClientRect();
+        return box.width + box.height > 1;
+      });
+      if (seen.length === 0) wrong.push(`plot ${figure.id} shows nothing`);
+      if (figure.querySelector('[d*="NaN"], [x1="NaN"], [y1="NaN"]')) wrong.push(`plot ${figure.id} has NaN`);
+      const svg = figure.querySelector('svg.marks');
+      if (svg.getBoundingClientRect().right > innerWidth + 1) wrong.push(`plot ${figure.id} leaves the screen`);
+      if (getComputedStyle(svg).backgroundColor !== 'rgba(0, 0, 0, 0)') wrong.push(`plot ${figure.id} has a ground of its own`);
+    }
+    if (document.documentElement.scrollWidth > innerWidth) wrong.push('the page is wider than the screen');
+    return wrong;
+  });
+}
+
+async function accessibilityFaults(page) {
+  // Thousands of marks are hidden from screen readers; axe would take seconds to walk over them.
+  await page.evaluate(() => document.querySelectorAll('svg .role-mark > *').forEach((mark) => mark.remove()));
+  // Evaluated, not added as an element, so that the page's Content-Security-Policy stays in force.
+  await page.evaluate(axe);
+  const {violations} = await page.evaluate(
+      () => axe.run({runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']}));
+  return violations.map(
+      ({id, help, nodes}) => `${id}: ${help}: ${nodes.slice(0, 3).map((node) => node.html.slice(0, 160)).join(' | ')}`);
+}
+
+async function open(context, report, complaints) {
+  const page = await context.newPage();
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) complaints.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => complaints.push(`script: ${error.message}`));
+  const address = pathToFileURL(report).href;
+  page.on('request', (request) => {
+    const url = request.url();
+    if (url !== address && !url.startsWith('data:') && !url.startsWith('blob:')) complaints.push(`request: ${url}`);
+  });
+  await page.goto(address);
+  await page.waitForFunction(
+      () => document.querySelectorAll('figure').length === document.querySelectorAll('figure[data-drawn]').length,
+      null, {timeout: 30000});
+  return page;
+}
+
+mkdirSync(screenshots, {recursive: true});
+// Playwright gives the browser an empty folder for its profile and removes it.
+const browser = await chromium.launch({
+  executablePath: '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync'],
+});
+let failed = false;
+try {
+  for (const {name: view, ...options} of views) {
+    const context = await browser.newContext(options);
+    for (const report of reports) {
+      const name = `${basename(dirname(resolve(report)))}-${view}`;
+      const complaints = [];
+      const page = await open(context, report, complaints);
+      complaints.push(...await plotFaults(page));
+      await page.screenshot({path: join(screenshots, `${name}.png`), fullPage: true});
+      if (view === 'wide') await page.pdf({path: join(screenshots, `${name}.pdf`), format: 'A4'});
+      complaints.push(...await accessibilityFaults(page));
+      await page.close();
+      for (const complaint of complaints) console.log(`${name}: ${complaint}`);
+      console.log(`${name}: ${complaints.length ? 'FAILED' : 'passed'}`);
+      failed ||= complaints.length > 0;
+    }
+    await context.close();
+  }
+} finally {
+  await browser.close();
+}
+process.exit(failed ? 1 : 0);

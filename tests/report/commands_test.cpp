@@ -1,0 +1,84 @@
+// `wearwell report`, `check` and `new` as their users run them.
+#include <gmock/gmock.h>
+
+#include "support/run_command.h"
+#include "support/scratch.h"
+
+namespace wearwell {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string study = PROJECT_SOURCE_DIR "/examples/joint/study.toml";
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+class ReportCommands : public ScratchTest {
+ protected:
+  CommandResult fit(const std::string& options) {
+    return run_wearwell("fit " + study + " -o '" + results().string() + "' --quiet " + options);
+  }
+  fs::path results() const { return folder() / "results"; }
+};
+
+TEST_F(ReportCommands, RebuildsTheReportToTheByte) {
+  ASSERT_EQ(fit("").exit_code, 0);
+  const std::string first = content(results() / "report.html");
+  ASSERT_THAT(first, HasSubstr("<!doctype html>"));
+  fs::remove(results() / "report.html");
+  EXPECT_EQ(run_wearwell("report '" + results().string() + "'").exit_code, 0);
+  EXPECT_EQ(content(results() / "report.html"), first);
+}
+
+TEST_F(ReportCommands, WritesNoReportWhenNoneIsWanted) {
+  ASSERT_EQ(fit("--no-report").exit_code, 0);
+  EXPECT_FALSE(fs::exists(results() / "report.html"));
+  EXPECT_FALSE(fs::exists(results() / "plots.json"));
+  const CommandResult run = run_wearwell("report '" + results().string() + "'");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("plots.json is missing"));
+}
+
+TEST_F(ReportCommands, NamesTheFileThatIsWrong) {
+  EXPECT_THAT(run_wearwell("report '" + folder().string() + "'").err, HasSubstr("summary.json"));
+  ASSERT_EQ(fit("").exit_code, 0);
+  write("results/draws_2.csv", "lp__,k,sigma\n1,2\n");
+  const CommandResult short_row = run_wearwell("report '" + results().string() + "'");
+  EXPECT_EQ(short_row.exit_code, 2);
+  EXPECT_THAT(short_row.err, HasSubstr("draws_2.csv, draw 1: it should hold 3 numbers"));
+  write("results/summary.json", "{\"wearwell\": 1}");
+  const CommandResult summary = run_wearwell("report '" + results().string() + "'");
+  EXPECT_EQ(summary.exit_code, 2);
+  EXPECT_THAT(summary.err, HasSubstr("summary.json is not what wearwell writes"));
+}
+
+TEST_F(ReportCommands, CheckSaysWhatWillBeFitted) {
+  const CommandResult run = run_wearwell("check " + study);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const char* words :
+       {"V = k W, W = cycles x 5.966 N m", "5 data sets of worn volume",
+        "k      wear coefficient [mm^3/(N m)]", "prior: flat: nothing is known, above 0 mm^3/(N m)",
+        "prior: uniform, between 0 and 15 mm^3", "by nuts, 4 chains of 1000 draws",
+        "worn volume [mm^3] at 20585 cycles", "until the worn volume reaches 100 mm^3"}) {
+    EXPECT_THAT(run.out, HasSubstr(words));
+  }
+}
+
+TEST_F(ReportCommands, NewStudyRunsAsItIs) {
+  const fs::path mine = folder() / "mine";
+  ASSERT_EQ(run_wearwell("new joint '" + mine.string() + "'").exit_code, 0);
+  EXPECT_EQ(content(mine / "study.toml"), content(study));
+  EXPECT_EQ(run_wearwell("check '" + (mine / "study.toml").string() + "'").exit_code, 0);
+  const CommandResult again = run_wearwell("new joint '" + mine.string() + "'");
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("is not empty"));
+  EXPECT_EQ(run_wearwell("new nonsense '" + (folder() / "other").string() + "'").exit_code, 2);
+  EXPECT_FALSE(fs::exists(folder() / "other"));
+}
+
+}  // namespace
+}  // namespace wearwell
