@@ -1,7 +1,9 @@
 # make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
 .PHONY: run test build calibrate sanitize bench format clean
 
-run: build
+run: setup
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release --target wearwell
 	@build/release/bin/wearwell fit examples/joint/study.toml -o build/joint-results
 
 test: build
@@ -11,20 +13,23 @@ test: build
 calibrate: build
 	@ctest --preset calibration
 
-sanitize: setup
+sanitize: setup-tests
 	@cmake --preset asan-ubsan >/dev/null && cmake --build --preset asan-ubsan && ctest --preset asan-ubsan
 	@cmake --preset tsan >/dev/null && cmake --build --preset tsan && ctest --preset tsan
 
 bench: build
 	@bench/run
 
-build: setup
+build: setup-tests
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release
 
-.PHONY: setup
+.PHONY: setup setup-tests
 setup:
 	@setup/install
+
+setup-tests:
+	@setup/install --tests
 
 format:
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -6,7 +6,8 @@
 namespace wearwell {
 
 /// A folder of results that appears whole or not at all: files are written into a folder beside the
-/// target, which takes the target's place at `commit` and is removed when that never comes.
+/// target, which takes the target's place at `commit` and is removed when that never comes. So are
+/// the folders above the target that had to be made.
 class ResultFolder {
  public:
   /// Throws InputError when `target` is something else than an earlier result or an empty folder,
@@ -18,7 +19,7 @@ class ResultFolder {
 
   const std::filesystem::path& path() const { return target_; }
 
-  /// Throws MachineError when the disk refuses.
+  /// `name` is one of the files that make a result. Throws MachineError when the disk refuses.
   void write(const std::string& name, const std::string& content) const;
   void copy(const std::filesystem::path& file, const std::string& name) const;
 

@@ -170,7 +170,7 @@ WeightedDraws thinned(const WeightedDraws& draws) {
     }
   }
 
-  WeightedDraws few{Eigen::MatrixXd(count, draws.values.cols()),
+  WeightedDraws few{Points::Zero(count, draws.values.cols()),
                     Eigen::VectorXd::Constant(count, 1.0 / count),
                     {},
                     {}};

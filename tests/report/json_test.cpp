@@ -1,0 +1,84 @@
+#include "wearwell/report/json.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "report/sample.h"
+
+namespace wearwell {
+namespace {
+
+using testing::IsSupersetOf;
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> keys(const Json& object) {
+  std::vector<std::string> names;
+  for (const auto& [key, value] : object.items()) names.push_back(key);
+  return names;
+}
+
+// What programs that read summary.json rely on.
+TEST(SummaryJson, HasTheKeysOfTheContract) {
+  const Json json = to_json(sample_result());
+  EXPECT_THAT(keys(json),
+              IsSupersetOf({"parameters", "stages", "predictions", "life", "checks", "trusted"}));
+  for (const Json& parameters : {json["parameters"], json["stages"][0]["parameters"]}) {
+    EXPECT_THAT(keys(parameters["k"]),
+                IsSupersetOf({"unit", "mean", "sd", "mcse", "q05", "q50", "q95", "ess_bulk",
+                              "ess_tail", "rhat", "exact"}));
+    EXPECT_THAT(keys(parameters["k"]["exact"]), IsSupersetOf({"mean", "sd", "q05", "q50", "q95"}));
+    EXPECT_FALSE(parameters["sigma"].contains("exact"));
+  }
+  EXPECT_THAT(keys(json["predictions"][0]),
+              IsSupersetOf({"cycles", "mean", "ci05", "ci95", "pi05", "pi95"}));
+  EXPECT_THAT(keys(json["life"]), IsSupersetOf({"unit", "limit", "limit_unit", "now", "risk", "b1",
+                                                "b10", "b50", "q05", "q95", "inspect_within"}));
+  for (const Json& check : json["checks"]) {
+    EXPECT_THAT(keys(check), IsSupersetOf({"name", "verdict", "detail"}));
+  }
+  EXPECT_EQ(json["trusted"], false);
+}
+
+TEST(SummaryJson, HoldsWhatWasFound) {
+  const StudyResult result = sample_result();
+  const Json json = Json::parse(to_json(result).dump(2));
+  EXPECT_EQ(json["parameters"]["k"]["mean"].get<double>(), 7.5e-4);
+  EXPECT_EQ(json["parameters"]["k"]["exact"]["sd"].get<double>(), 1.1e-5);
+  EXPECT_EQ(json["predictions"][0]["pi95"].get<double>(), 101);
+  EXPECT_EQ(json["predictions"][0]["exact"]["pi95"].get<double>(), 101.5);
+  EXPECT_FALSE(json["predictions"][0].contains("measured"));
+  EXPECT_EQ(json["stages"][0]["rows"].get<int>(), 1);
+  EXPECT_EQ(json["stages"][0]["predictions"][0]["measured"].get<double>(), 92.73);
+  EXPECT_EQ(json["sampler"]["seed"].get<std::uint64_t>(), result.seed);
+  EXPECT_EQ(json["log_evidence"].get<double>(), -12.25);
+  std::vector<std::string> verdicts;
+  for (const Json& check : json["checks"]) verdicts.push_back(check["verdict"]);
+  EXPECT_THAT(verdicts, testing::ElementsAre("pass", "warn", "fail"));
+}
+
+TEST(SummaryJson, WhatIsNoNumberIsNull) {
+  StudyResult result = sample_result();
+  result.parameters[0].rhat = std::nan("");
+  const Json json = Json::parse(to_json(result).dump());
+  EXPECT_TRUE(json["parameters"]["k"]["rhat"].is_null());
+  EXPECT_TRUE(json["life"]["q95"].is_null());  // a life that never ends
+}
+
+TEST(SummaryJson, LeavesOutWhatTheStudyDidNotAsk) {
+  StudyResult result = sample_result();
+  result.life.reset();
+  result.pointwise.reset();
+  result.log_evidence.reset();
+  result.stages.clear();
+  result.predictions.clear();
+  const Json json = to_json(result);
+  EXPECT_FALSE(json.contains("life"));
+  EXPECT_FALSE(json.contains("pointwise"));
+  EXPECT_FALSE(json.contains("log_evidence"));
+  EXPECT_EQ(json["stages"], Json::array());
+  EXPECT_EQ(json["predictions"], Json::array());
+}
+
+}  // namespace
+}  // namespace wearwell
