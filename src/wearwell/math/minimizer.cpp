@@ -1,5 +1,6 @@
 #include "wearwell/math/minimizer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <nlopt.hpp>
@@ -23,6 +24,8 @@ struct Search {
       throw nlopt::forced_stop();
     }
     if (std::isnan(value)) value = INFINITY;
+    // Outside the domain the objective may leave the gradient as it was, and NLopt reads it.
+    if (!std::isfinite(value)) std::fill(slope.begin(), slope.end(), 0.0);
     if (value < best.value) {
       best.value = value;
       best.position = Eigen::Map<const Eigen::VectorXd>(x, n);
@@ -56,7 +59,7 @@ Minimum minimize(const Objective& objective, const Eigen::VectorXd& start, int m
     // stands.
   }
   if (search.failure) std::rethrow_exception(search.failure);
-  if (!std::isfinite(search.best.value)) search.best.converged = false;
+  search.best.converged = search.best.converged && std::isfinite(search.best.value);
   return search.best;
 }
 

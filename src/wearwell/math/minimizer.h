@@ -7,7 +7,7 @@
 namespace wearwell {
 
 /// Value at `x` and, when `gradient` is not empty, the gradient there. Infinity marks a point
-/// outside the domain.
+/// outside the domain, where the gradient need not be set.
 using Objective = std::function<double(std::span<const double> x, std::span<double> gradient)>;
 
 struct Minimum {
