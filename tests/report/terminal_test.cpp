@@ -2,44 +2,57 @@
 
 #include <gmock/gmock.h>
 
-#include "report/sample.h"
+#include "support/run_command.h"
 
 namespace wearwell {
 namespace {
 
-using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(TerminalSummary, ColoursOnlyWhenAsked) {
-  const std::string plain = terminal_summary(sample_result(), false);
+StudyResult two_values() {
+  StudyResult result;
+  result.parameters = {{"k", "mm", 0, 0, 0, 0, 0, 0, 0, 0, 0, {}}};
+  Chain chain;
+  chain.values.resize(4, 1);
+  chain.values << 1, 1, 1, 2;
+  result.posterior_draws = {chain};
+  result.checks = {{"convergence", Verdict::fail, "R-hat 2", ""}};
+  result.trusted = false;
+  return result;
+}
+
+TEST(Terminal, IsPlainUnlessAskedOtherwise) {
+  const std::string plain = terminal_summary(two_values(), {});
   EXPECT_THAT(plain, Not(HasSubstr("\033")));
-  const std::string coloured = terminal_summary(sample_result(), true);
-  for (const char* verdict : {"\033[32mpass\033[0m", "\033[33mWARN\033[0m", "\033[31mFAIL\033[0m"})
-    EXPECT_THAT(coloured, HasSubstr(verdict));
+  EXPECT_THAT(plain, Not(HasSubstr("█")));
+  EXPECT_THAT(plain, HasSubstr("FAIL  convergence"));
+  EXPECT_THAT(terminal_summary(two_values(), {.colour = true}), HasSubstr("\033[31mFAIL\033[0m"));
 }
 
-TEST(TerminalSummary, SaysWhatWasFound) {
-  const std::string text = terminal_summary(sample_result(), false);
-  for (const char* part : {"Pin joint\n", "joint.csv: 2 data sets", "k [mm^3/(N m)]", "0.00075",
-                           "0.000751", "91.5", "88.5 .. 94.5", "80.5 .. 101.5", "-> reparametrize",
-                           "B10 22000", "21500 .. never", "1 % risk", "NOT TRUSTED"}) {
-    EXPECT_THAT(text, HasSubstr(part));
-  }
-  EXPECT_THAT(text, EndsWith("\n"));
+TEST(Terminal, HistogramIsAsHighAsItsBinsAreFull) {
+  std::string bars = "█";
+  for (int i = 0; i < 30; ++i) bars += "▁";
+  EXPECT_THAT(terminal_summary(two_values(), {.histograms = true}),
+              HasSubstr("k [mm]           1 " + bars + "▃ 2\n"));
 }
 
-TEST(TerminalSummary, OfTheBareMinimum) {
-  StudyResult result = sample_result();
-  result.stages.clear();
-  result.predictions.clear();
-  result.life.reset();
-  result.pointwise.reset();
-  result.trusted = true;
-  const std::string text = terminal_summary(result, false);
-  for (const char* part : {"Predictions", "Life", "Data set by data set", "Wear coefficient"})
-    EXPECT_THAT(text, Not(HasSubstr(part)));
-  EXPECT_THAT(text, EndsWith("\nTrusted: no check failed.\n"));
+// `script` gives the program a terminal.
+TEST(Terminal, ShowsMoreOnATerminal) {
+  const std::string fit = "\"" WEARWELL_BINARY "\" fit \"" PROJECT_SOURCE_DIR
+                          "/examples/joint/study.toml\" --no-report -o \"$d/r\"";
+  const auto on_terminal = [&](const std::string& environment, const std::string& options) {
+    return run_command("d=$(mktemp -d) && export d && " + environment + " script -qec '" + fit +
+                       options + "' /dev/null; rm -rf \"$d\"")
+        .out;
+  };
+  const std::string full = on_terminal("TERM=xterm LC_ALL=C.UTF-8", "");
+  EXPECT_THAT(full, HasSubstr("\033[32mpass"));
+  EXPECT_THAT(full, HasSubstr("█"));
+  const std::string plain = on_terminal("NO_COLOR=1 TERM=xterm LC_ALL=C", "");
+  EXPECT_THAT(plain, Not(HasSubstr("\033[32m")));
+  EXPECT_THAT(plain, Not(HasSubstr("█")));
+  EXPECT_EQ(on_terminal("TERM=xterm LC_ALL=C.UTF-8", " --quiet"), "");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "wearwell/base/progress.h"
 #include "wearwell/report/csv.h"
 #include "wearwell/report/json.h"
 #include "wearwell/report/plots_json.h"
@@ -29,7 +30,11 @@ int run_fit(const FitOptions& options) {
   ResultFolder folder(options.output.empty()
                           ? std::filesystem::path(options.study.stem().string() + "-results")
                           : options.output);
-  const StudyResult result = run_study(study, options.sampler, options.threads, !options.no_report);
+  const StudyResult result = [&] {
+    const bool shown = !options.quiet && isatty(STDERR_FILENO);
+    Progress progress(shown ? stderr : nullptr, "iterations");
+    return run_study(study, options.sampler, options.threads, !options.no_report, &progress);
+  }();
 
   const std::string summary = to_json(result).dump(2) + "\n";
   folder.write("summary.json", summary);
@@ -47,7 +52,7 @@ int run_fit(const FitOptions& options) {
   if (options.json) {
     fmt::print("{}", summary);
   } else if (!options.quiet) {
-    fmt::print("{}Results are in {}\n", terminal_summary(result, isatty(fileno(stdout)) != 0),
+    fmt::print("{}Results are in {}\n", terminal_summary(result, terminal_style()),
                folder.path().string());
   }
   return result.trusted ? 0 : 1;

@@ -22,7 +22,9 @@ Chain metropolis_chain(const Posterior& posterior, const Eigen::VectorXd& start,
   Chain chain;
   chain.values.resize(settings.draws, d);
   chain.log_density.reserve(static_cast<std::size_t>(settings.draws));
+  ProgressSteps steps(settings.progress);
   for (int i = -settings.warmup; i < settings.draws; ++i) {
+    steps.step();
     const double factor = std::exp(log_factor);
     for (Eigen::Index j = 0; j < d; ++j) {
       proposal[j] = x[j] + factor * half_width[j] * rng.uniform(-1, 1);

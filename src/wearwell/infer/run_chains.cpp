@@ -42,7 +42,11 @@ Chain nuts_chain(const Posterior& posterior, const Whitening& whitening,
 
   nuts.find_reasonable_step_size(rng);
   WindowedWarmup<N> warmup(settings.warmup, options.target_accept);
-  for (int i = 0; i < settings.warmup; ++i) warmup.adapt(i, nuts.step(rng), nuts, rng);
+  ProgressSteps steps(settings.progress);
+  for (int i = 0; i < settings.warmup; ++i) {
+    warmup.adapt(i, nuts.step(rng), nuts, rng);
+    steps.step();
+  }
   if (settings.warmup > 0) warmup.finish(nuts);
 
   Chain chain;
@@ -57,6 +61,7 @@ Chain nuts_chain(const Posterior& posterior, const Whitening& whitening,
     posterior.to_natural(view(whitening(nuts.point().position)), view(x));
     chain.values.row(i) = x;
     chain.log_density.push_back(nuts.point().log_density);
+    steps.step();
   }
   chain.accept_rate = accept / settings.draws;
   chain.step_size = nuts.step_size;

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "wearwell/base/progress.h"
+
 namespace wearwell {
 
 /// How many draws, and from which random numbers.
@@ -11,6 +13,7 @@ struct RunSettings {
   int draws = 1000;   ///< kept per chain
   std::uint64_t seed = 1;
   std::uint64_t first_stream = 0;  ///< of the seed; chain c uses stream first_stream + c
+  Progress* progress = nullptr;    ///< told of every iteration, when there is one
 };
 
 }  // namespace wearwell

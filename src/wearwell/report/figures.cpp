@@ -69,6 +69,15 @@ struct Window {
   double margin(double share) const { return share * (high - low); }
 };
 
+// Ends of bars far beyond the plot, of a stage that knows nothing, are drawn to where nobody sees
+// the difference: browsers do not draw to 1e300.
+Numbers within(double low, double high, Numbers values) {
+  for (double& value : values) {
+    if (!std::isnan(value)) value = std::clamp(value, low, high);
+  }
+  return values;
+}
+
 // Wear against cycles (Fig. 12 of An et al. 2011).
 Figure history_figure(const StudyResult& result, const Plots& plots) {
   const History& h = plots.history;
@@ -151,15 +160,25 @@ Figure next_figure(const StudyResult& result) {
     }
   }
   const Numbers x = counted(names.size());
-  const double margin = window.margin(0.05);
+  const double margin = window.margin(0.05), reach = window.margin(1);
+  const auto drawn = [&](const Numbers& values) {
+    return within(window.low - reach, window.high + reach, values);
+  };
   const PredictionSummary& first = result.stages.front().predictions.front();
-  std::vector<Json> marks = {
-      plot::bars({{"x", x}, {"y", pi05}, {"y2", pi95}, {"lower 5 %", pi05}, {"upper 95 %", pi95}},
-                 {colour::wide, "90 % of measurements", 0.55, 8}),
-      plot::bars({{"x", x}, {"y", ci05}, {"y2", ci95}, {"lower 5 %", ci05}, {"upper 95 %", ci95}},
-                 {colour::posterior, "90 % of the mean", 0.9, 8}),
-      plot::points({{"x", x}, {"y", measured}, {"measured", measured}},
-                   {colour::measured, "measured then", 1, 0, false, 70})};
+  std::vector<Json> marks = {plot::bars({{"x", x},
+                                         {"y", drawn(pi05)},
+                                         {"y2", drawn(pi95)},
+                                         {"lower 5 %", pi05},
+                                         {"upper 95 %", pi95}},
+                                        {colour::wide, "90 % of measurements", 0.55, 8}),
+                             plot::bars({{"x", x},
+                                         {"y", drawn(ci05)},
+                                         {"y2", drawn(ci95)},
+                                         {"lower 5 %", ci05},
+                                         {"upper 95 %", ci95}},
+                                        {colour::posterior, "90 % of the mean", 0.9, 8}),
+                             plot::points({{"x", x}, {"y", measured}, {"measured", measured}},
+                                          {colour::measured, "measured then", 1, 0, false, 70})};
   return {"next", "Predicted before each inspection",
           fmt::format("What the data sets before an inspection say of it, and what was then "
                       "measured. Bars that leave the plot are cut off; the table has their ends."),
@@ -321,19 +340,31 @@ Figure interval_figure(const StudyResult& result) {
   const bool wide = positive && *std::max_element(high.begin(), high.end()) >
                                     20 * *std::min_element(low.begin(), low.end());
   const double target = scale(last.exact ? last.exact->mean : last.mean);
+  Window later;
+  for (std::size_t i = x.size() / 2; i < x.size(); ++i) {
+    later.take(low[i]);
+    later.take(high[i]);
+  }
+  const auto drawn = [&](const Numbers& values) {
+    constexpr double decades = 1e6, spans = 20;
+    return wide ? within(later.low / decades, later.high * decades, values)
+                : within(later.low - later.margin(spans), later.high + later.margin(spans), values);
+  };
   return {"interval", fmt::format("Interval of {} by data set", last.name),
           fmt::format("5 % to 95 % and median{}. The line is the mean with all data sets.",
                       wide ? ", on a logarithmic axis" : ""),
-          plot::plot(
-              fmt::format("Interval of {} after each data set", last.name),
-              {"Data sets", false, {}, {}, names}, {scale.title(last.name), wide},
-              {plot::level(target, {colour::limit, "all data sets", 1, 1.5, true}),
-               plot::bars(
-                   {{"x", x}, {"y", low}, {"y2", high}, {"lower 5 %", low}, {"upper 95 %", high}},
-                   {colour::posterior, "90 % interval", 0.85, 8}),
-               plot::points({{"x", x}, {"y", mid}, {"median", mid}},
-                            {colour::measured, "median", 1, 0, false, 60})},
-              300)};
+          plot::plot(fmt::format("Interval of {} after each data set", last.name),
+                     {"Data sets", false, {}, {}, names}, {scale.title(last.name), wide},
+                     {plot::level(target, {colour::limit, "all data sets", 1, 1.5, true}),
+                      plot::bars({{"x", x},
+                                  {"y", drawn(low)},
+                                  {"y2", drawn(high)},
+                                  {"lower 5 %", low},
+                                  {"upper 95 %", high}},
+                                 {colour::posterior, "90 % interval", 0.85, 8}),
+                      plot::points({{"x", x}, {"y", drawn(mid)}, {"median", mid}},
+                                   {colour::measured, "median", 1, 0, false, 60})},
+                     300)};
 }
 
 // Measured data sets about what the fit predicts of them.
@@ -439,6 +470,7 @@ std::vector<Figure> parameter_figures(const StudyResult& result, const Plots& pl
 }
 
 std::vector<Figure> fit_figures(const Plots& plots) {
+  if (plots.replicated.at.empty()) return {};
   return {check_figure(plots)};
 }
 

@@ -98,8 +98,7 @@ std::string capital(std::string text) {
 }
 
 std::string number(double x, int digits) {
-  if (std::isnan(x)) return "–";
-  if (std::isinf(x)) return x > 0 ? "∞" : "−∞";
+  if (!std::isfinite(x)) return "–";
   const int exponent = exponent_of(x);
   if (exponent == 0) return plain(x, digits);
   return plain(x / std::pow(10.0, exponent), digits) + power_of_ten(exponent);

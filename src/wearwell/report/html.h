@@ -13,7 +13,8 @@ std::string escape(const std::string& text);
 /// With a capital at the beginning.
 std::string capital(std::string text);
 
-/// 4 significant digits as people write them: "0.7759", "21 602", "7.759 × 10⁻⁴".
+/// 4 significant digits as people write them: "0.7759", "21 600", "7.759 × 10⁻⁴"; "–" for what is
+/// not finite.
 std::string number(double x, int digits = 4);
 
 /// A number that was given, not estimated: all its digits, "20 585".

@@ -26,10 +26,12 @@
     const plot = figure.querySelector('.plot');
     // As many columns as fit, on paper too, where plots may be narrower than on the screen.
     const labels = new Set(specification.layer.map((layer) => layer.encoding.color?.datum).filter(Boolean));
-    const needed = [...labels].reduce((sum, label) => sum + 32 + 6.5 * label.length, 0);
+    const widths = [...labels].map((label) => 40 + 7 * label.length);
+    const needed = widths.reduce((sum, each) => sum + each, 0);
     const width = plot.clientWidth;
+    const fits = (columns) => columns * Math.max(...widths, 0) < Math.min(width, 330);
     const legend = {...config.legend,
-                    columns: needed < Math.min(width, 330) || width > 900 ? 0 : width < 400 ? 1 : 2};
+                    columns: needed < Math.min(width, 330) || width > 900 ? 0 : width > 400 || fits(2) ? 2 : 1};
     vegaEmbed(plot, specification, {
       config: {...config, legend},
       renderer: 'svg',

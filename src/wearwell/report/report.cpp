@@ -70,6 +70,7 @@ std::string given(double x, const std::string& unit_text) {
 
 // A life: no fraction of a cycle.
 std::string life_number(double x, int digits = 4) {
+  if (std::isinf(x)) return "never";
   const int whole = x >= 1 && std::isfinite(x) ? static_cast<int>(std::log10(x)) + 1 : digits;
   return number(x, std::min(digits, whole));
 }
@@ -255,10 +256,12 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
     table.rows.push_back({given(r.at[i]), number(y), number(r.mean[i], 3),
                           range(r.ci05[i], r.ci95[i], 3), range(r.pi05[i], r.pi95[i], 3)});
   }
-  out += fmt::format(
-      "<p>{} of {} measurements lie within the interval that should hold nine in ten.</p>\n",
-      inside, r.at.size());
-  out += html::table(table) + html::figures(fit_figures(plots));
+  if (!r.at.empty()) {
+    out += fmt::format(
+        "<p>{} of {} measurements lie within the interval that should hold nine in ten.</p>\n",
+        inside, r.at.size());
+    out += html::table(table) + html::figures(fit_figures(plots));
+  }
   if (result.pointwise) {
     const PointwiseTable& p = *result.pointwise;
     html::Table pointwise{"Wear coefficient of each measurement for itself",

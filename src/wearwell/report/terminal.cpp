@@ -1,9 +1,14 @@
 #include "wearwell/report/terminal.h"
 
 #include <fmt/format.h>
+#include <langinfo.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <clocale>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 
 namespace wearwell {
 namespace {
@@ -46,6 +51,43 @@ std::string parameter_table(const std::vector<ParameterSummary>& parameters) {
                     p.exact ? number(p.exact->sd) : "-"});
   }
   return table(rows);
+}
+
+// The draws of one parameter between their smallest and largest 0.5 %, in blocks of eight heights.
+std::string histogram(const Draws& draws, Eigen::Index parameter) {
+  static constexpr const char* blocks[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  constexpr std::size_t bins = 32;
+  std::vector<double> values;
+  for (const Chain& chain : draws) {
+    for (const double value : chain.values.col(parameter)) values.push_back(value);
+  }
+  std::sort(values.begin(), values.end());
+  const std::size_t cut = values.size() / 200;
+  const double low = values[cut], high = values[values.size() - 1 - cut];
+  std::vector<int> counts(bins, 0);
+  for (const double value : values) {
+    if (value < low || value > high) continue;
+    const double share = high > low ? (value - low) / (high - low) : 0;
+    ++counts[std::min(bins - 1, static_cast<std::size_t>(share * bins))];
+  }
+  const int highest = *std::max_element(counts.begin(), counts.end());
+  std::string bars;
+  for (const int count : counts) bars += blocks[count * 7 / highest];
+  return fmt::format("{:>10.4g} {} {:.4g}", low, bars, high);
+}
+
+std::string histogram_lines(const StudyResult& result) {
+  std::size_t width = 0;
+  for (const ParameterSummary& p : result.parameters) {
+    width = std::max(width, with_unit(p.name, p.unit).size());
+  }
+  std::string out;
+  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+    const ParameterSummary& p = result.parameters[i];
+    out += fmt::format("  {:<{}}  {}\n", with_unit(p.name, p.unit), width,
+                       histogram(result.posterior_draws, static_cast<Eigen::Index>(i)));
+  }
+  return out;
 }
 
 // The better of the two: quadrature where there is one.
@@ -130,17 +172,34 @@ std::string check_lines(const std::vector<Check>& checks, bool colour) {
 
 }  // namespace
 
-std::string terminal_summary(const StudyResult& result, bool colour) {
+TerminalStyle terminal_style() {
+  if (!isatty(STDOUT_FILENO)) return {};
+  const char* no_colour = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  const bool dumb = !terminal || std::strcmp(terminal, "dumb") == 0;
+  const char* before = std::setlocale(LC_CTYPE, nullptr);
+  const std::string kept = before ? before : "C";
+  std::setlocale(LC_CTYPE, "");
+  const bool utf8 = std::strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+  std::setlocale(LC_CTYPE, kept.c_str());
+  return {!(no_colour && *no_colour) && !dumb, utf8};
+}
+
+std::string terminal_summary(const StudyResult& result, const TerminalStyle& style) {
   std::string out = fmt::format("{}\n  {}\n  {}: {} data sets\n", result.title, result.equation,
                                 result.data_file, result.data_rows);
   out += "\nParameters\n" + parameter_table(result.parameters);
+  if (style.histograms) {
+    out += '\n';
+    out += histogram_lines(result);
+  }
   if (result.pointwise)
     out += "\nWear coefficient of each measurement\n" + pointwise_table(*result.pointwise);
   if (!result.stages.empty())
     out += "\nData set by data set (mean, sd)\n" + stage_table(result.stages);
   if (!result.predictions.empty()) out += "\nPredictions\n" + prediction_table(result.predictions);
   if (result.life) out += "\nLife\n" + life_lines(*result.life);
-  out += "\nChecks\n" + check_lines(result.checks, colour);
+  out += "\nChecks\n" + check_lines(result.checks, style.colour);
   out += result.trusted ? "\nTrusted: no check failed.\n"
                         : "\nNOT TRUSTED: at least one check failed; the numbers above are not to "
                           "be used as they stand.\n";

@@ -6,8 +6,17 @@
 
 namespace wearwell {
 
-/// The result as aligned tables for people, ending with a newline; with ANSI colours for verdicts
-/// when `colour`.
-std::string terminal_summary(const StudyResult& result, bool colour);
+/// What a terminal can show; nothing of it where output goes to a file.
+struct TerminalStyle {
+  bool colour = false;      ///< ANSI colours for verdicts
+  bool histograms = false;  ///< small ones, of block characters
+};
+
+/// The style of standard output: none when it is not a terminal; no colour with NO_COLOR
+/// (no-color.org) or a dumb terminal; histograms where the locale is UTF-8.
+TerminalStyle terminal_style();
+
+/// The result as aligned tables for people, ending with a newline.
+std::string terminal_summary(const StudyResult& result, const TerminalStyle& style);
 
 }  // namespace wearwell

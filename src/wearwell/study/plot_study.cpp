@@ -232,11 +232,24 @@ std::string content(const std::filesystem::path& file) {
 
 Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit) {
   Plots plots;
+  const PredictionRequest first = study.stage_predictions(1).front();
   plots.quantity = study.quantity;
+  plots.unit = first.unit.text;
+  plots.at_name = first.at_name;
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     plots.parameters.push_back(plot_parameter(study, i, fit));
   }
   plots.joint = joint_density(posterior, fit);
+
+  plots.study_text = content(study.file);
+  plots.files = {{study.file.filename().string(), sha1(study.file)},
+                 {study.data_file, sha1(study.file.parent_path() / study.data_file)}};
+
+  // The draws of an improper posterior wander for ever: they predict nothing.
+  if (!std::all_of(fit.tails.begin(), fit.tails.end(),
+                   [](const Tail& tail) { return tail.integrable(); })) {
+    return plots;
+  }
   const WeightedDraws few = thinned(best(fit));
   plots.history = predict_all(study.history, few);
 
@@ -245,14 +258,8 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
     observed.push_back(study.stage_predictions(rows).front());
     plots.measured.push_back(from_si(observed.back().unit, *observed.back().measured));
   }
-  plots.unit = observed.front().unit.text;
-  plots.at_name = observed.front().at_name;
   plots.replicated = predict_all(observed, few);
   if (study.life) plots.life = life_curve(*study.life, fit);
-
-  plots.study_text = content(study.file);
-  plots.files = {{study.file.filename().string(), sha1(study.file)},
-                 {study.data_file, sha1(study.file.parent_path() / study.data_file)}};
   return plots;
 }
 

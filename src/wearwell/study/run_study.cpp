@@ -144,14 +144,20 @@ const char* method_name(Method method) {
   return "nuts";
 }
 
-StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads,
-                      bool with_plots) {
+StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads, bool with_plots,
+                      Progress* progress) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<tbb::global_control> limit;
   if (threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
-  const FitSettings settings = fit_settings(study, choice);
+  FitSettings settings = fit_settings(study, choice);
+  if (progress && settings.method != Method::exact) {
+    const RunSettings& run = settings.run;
+    const long long fits = 1 + (study.stages ? static_cast<long long>(study.data_rows) : 0);
+    progress->expect(fits * run.chains * (run.warmup + run.draws));
+    settings.run.progress = progress;
+  }
   const Posterior posterior(study.parameters, study.likelihood(study.data_rows));
   Fit final = fit(posterior, settings);
   std::optional<Plots> plots;

@@ -15,8 +15,8 @@ const char* method_name(Method method);
 /// 1000 draws after 1000 of warm-up, for Metropolis 6000 after 4000. Uses `threads` threads (0:
 /// all); the result does not depend on it.
 ///
-/// `with_plots`: computes what a report draws as well.
+/// `with_plots`: computes what a report draws as well. `progress` is told of every iteration.
 StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads,
-                      bool with_plots = false);
+                      bool with_plots = false, Progress* progress = nullptr);
 
 }  // namespace wearwell

@@ -1,0 +1,46 @@
+#include "wearwell/report/terminal.h"
+
+#include <gmock/gmock.h>
+
+#include "report/sample.h"
+
+namespace wearwell {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(TerminalSummary, ColoursOnlyWhenAsked) {
+  const std::string plain = terminal_summary(sample_result(), {});
+  EXPECT_THAT(plain, Not(HasSubstr("\033")));
+  const std::string coloured = terminal_summary(sample_result(), {.colour = true});
+  for (const char* verdict : {"\033[32mpass\033[0m", "\033[33mWARN\033[0m", "\033[31mFAIL\033[0m"})
+    EXPECT_THAT(coloured, HasSubstr(verdict));
+}
+
+TEST(TerminalSummary, SaysWhatWasFound) {
+  const std::string text = terminal_summary(sample_result(), {});
+  for (const char* part : {"Pin joint\n", "joint.csv: 2 data sets", "k [mm^3/(N m)]", "0.00075",
+                           "0.000751", "91.5", "88.5 .. 94.5", "80.5 .. 101.5", "-> reparametrize",
+                           "B10 22000", "21500 .. never", "1 % risk", "NOT TRUSTED"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_THAT(text, EndsWith("\n"));
+}
+
+TEST(TerminalSummary, OfTheBareMinimum) {
+  StudyResult result = sample_result();
+  result.stages.clear();
+  result.predictions.clear();
+  result.life.reset();
+  result.pointwise.reset();
+  result.trusted = true;
+  const std::string text = terminal_summary(result, {});
+  for (const char* part : {"Predictions", "Life", "Data set by data set", "Wear coefficient"})
+    EXPECT_THAT(text, Not(HasSubstr(part)));
+  EXPECT_THAT(text, EndsWith("\nTrusted: no check failed.\n"));
+}
+
+}  // namespace
+}  // namespace wearwell
