@@ -8,9 +8,8 @@
 
 namespace wearwell {
 
-/// Vectors and matrices of N variables that never allocate. N is Eigen::Dynamic (up to
-/// max_dimension), or a small number known to the compiler: trajectories of 2 to 4 parameters then
-/// take 60 % of the time (bench/sampling_bench.cpp).
+/// Vectors and matrices of N variables that never allocate. N is Eigen::Dynamic (up to max_dimension), or a small number
+/// known to the compiler, which makes the short trajectories of 1 to 4 parameters faster.
 template <int N>
 inline constexpr int max_size = N == Eigen::Dynamic ? max_dimension : N;
 template <int N>
