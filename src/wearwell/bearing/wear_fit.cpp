@@ -1,0 +1,213 @@
+#include "wearwell/bearing/wear_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "wearwell/base/error.h"
+#include "wearwell/bearing/wear_number.h"
+#include "wearwell/math/dual.h"
+
+namespace wearwell::bearing {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double value_of(double x) {
+  return x;
+}
+template <int N>
+double value_of(const Dual<N>& x) {
+  return x.a;
+}
+
+// ln k of one inspection for itself; none when there is no wear.
+std::optional<double> single_log_k(const Duty& duty, double depth) {
+  if (!(depth > 0)) return {};
+  const double w = wear_number(duty.contact, duty.clearance / duty.radius, depth / duty.radius);
+  return std::log(w / (duty.pressure * duty.revolutions));
+}
+
+// The inspections of one bearing.
+class Group {
+ public:
+  Group(ObservationFamily family, const std::vector<DepthLaw>& laws, const Inspections& inspections,
+        const std::vector<std::size_t>& rows)
+      : observations_(family, depths(inspections, rows)) {
+    double sum = 0;
+    for (const std::size_t row : rows) {
+      laws_.push_back(laws[row]);
+      limit_ = std::min(limit_, laws[row].limit());
+      const auto log_k = single_log_k(inspections.duty[row], inspections.depth[row]);
+      if (!log_k) continue;
+      const DepthCurve::Point p = (*laws[row].curve)(*log_k + laws[row].log_loading);
+      const double weight = std::pow(laws[row].radius * p.slope, 2);
+      sum += weight * *log_k;
+      information_ += weight;
+    }
+    if (information_ > 0) own_log_k_ = sum / information_;
+  }
+
+  template <class T>
+  T log_likelihood(const T& log_k, const T& sigma) const {
+    if (!(value_of(log_k) <= limit_)) return T(-infinity);
+    return observations_.log_likelihood([&](std::size_t i) { return laws_[i].depth(log_k); },
+                                        sigma);
+  }
+
+  /// log of the integral over z ~ N(0, 1) of the likelihood of log_k + scatter z.
+  template <class T>
+  T log_integral(const T& log_k, const T& sigma, const T& scatter) const {
+    const auto term = [&](double z) { return log_likelihood(T(log_k + scatter * z), sigma) - 0.5 * z * z; };
+    const Bell bell = find_bell(value_of(log_k), value_of(sigma), value_of(scatter));
+    if (bell.top == -infinity) return T(-infinity);
+    constexpr double negligible = -28;  // e^-28 = 7e-13 of the top
+    using std::exp;
+    using std::log;
+    T sum(0);
+    const auto add = [&](double z) {
+      const T above = term(z) - bell.top;
+      if (!(value_of(above) > negligible)) return false;
+      sum += exp(above);
+      return true;
+    };
+    add(bell.center);
+    for (const double step : {bell.step, -bell.step}) {
+      for (double z = bell.center + step; add(z); z += step) {
+      }
+    }
+    return log(sum) + (bell.top + std::log(bell.step / std::sqrt(2 * std::numbers::pi)));
+  }
+
+ private:
+  // The integrand over z: its highest node, and the distance of nodes.
+  struct Bell {
+    double center, step, top;
+  };
+
+  static std::vector<double> depths(const Inspections& inspections,
+                                    const std::vector<std::size_t>& rows) {
+    std::vector<double> values;
+    for (const std::size_t row : rows) values.push_back(inspections.depth[row]);
+    return values;
+  }
+
+  // Starts from the bell as it would be if depths were linear in ln k, and climbs; steps are halved
+  // where the bell is narrower than that.
+  Bell find_bell(double log_k, double sigma, double scatter) const {
+    constexpr double step_over_width = 0.7;
+    constexpr double steepest = -0.7;  // second difference over one step at the top
+    const auto term = [&](double z) {
+      return log_likelihood(log_k + scatter * z, sigma) - 0.5 * z * z;
+    };
+    const double pull = information_ * std::pow(scatter / sigma, 2);
+    Bell bell{0, step_over_width / std::sqrt(1 + pull), 0};
+    if (pull > 0) bell.center = pull / (1 + pull) * (own_log_k_ - log_k) / scatter;
+    if (!(log_k + scatter * bell.center <= limit_)) {
+      bell.center = (limit_ - log_k) / scatter - bell.step;
+    }
+    bell.top = term(bell.center);
+    if (!std::isfinite(bell.top)) return {0, 1, -infinity};
+    for (;;) {
+      double above = term(bell.center + bell.step), below = term(bell.center - bell.step);
+      while (above > bell.top) {
+        below = bell.top;
+        bell = {bell.center + bell.step, bell.step, above};
+        above = term(bell.center + bell.step);
+      }
+      while (below > bell.top) {
+        above = bell.top;
+        bell = {bell.center - bell.step, bell.step, below};
+        below = term(bell.center - bell.step);
+      }
+      if (above + below - 2 * bell.top > steepest || bell.step < 1e-6) return bell;
+      bell.step *= 0.5;
+    }
+  }
+
+  Observations observations_;
+  std::vector<DepthLaw> laws_;
+  double limit_ = infinity;
+  double own_log_k_ = 0;    // the bearing's ln k by its own depths
+  double information_ = 0;  // sum of (d depth/d ln k)^2, m^2
+};
+
+class WearLikelihood final : public LogDensity {
+ public:
+  WearLikelihood(const WearModel& model, std::vector<Group> groups)
+      : model_(model), groups_(std::move(groups)) {}
+
+  int dimension() const override { return model_.dimension(); }
+
+  double value(std::span<const double> x) const override { return formula(x.data()); }
+
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    return wearwell::value_and_gradient<3>([this](const auto* p) { return formula(p); }, x,
+                                           gradient);
+  }
+
+ private:
+  template <class T>
+  T formula(const T* x) const {
+    using std::log;
+    const T log_k = log(x[0]);
+    const T sigma = model_.depth_error ? T(*model_.depth_error) : x[1];
+    T sum(0);
+    for (const Group& group : groups_) {
+      sum += model_.has_scatter ? group.log_integral(log_k, sigma, x[model_.dimension() - 1])
+                                : group.log_likelihood(log_k, sigma);
+      if (value_of(sum) == -infinity) break;
+    }
+    return sum;
+  }
+
+  WearModel model_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace
+
+std::shared_ptr<const LogDensity> wear_likelihood(const WearModel& model,
+                                                  const Inspections& inspections,
+                                                  std::size_t count) {
+  const std::vector<DepthLaw> laws = depth_laws(inspections.duty, guess(inspections).k);
+  std::vector<std::vector<std::size_t>> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t group = model.has_scatter ? inspections.bearing[i] : 0;
+    rows.resize(std::max(rows.size(), group + 1));
+    rows[group].push_back(i);
+  }
+  std::vector<Group> groups;
+  for (const auto& each : rows) {
+    if (!each.empty()) groups.emplace_back(model.family, laws, inspections, each);
+  }
+  return std::make_shared<WearLikelihood>(model, std::move(groups));
+}
+
+WearGuess guess(const Inspections& inspections) {
+  double wear = 0, loading = 0, log_sum = 0, log_squares = 0, n = 0;
+  for (std::size_t i = 0; i < inspections.depth.size(); ++i) {
+    const Duty& duty = inspections.duty[i];
+    const auto log_k = single_log_k(duty, inspections.depth[i]);
+    if (!log_k) continue;
+    const double here = duty.pressure * duty.revolutions;
+    wear += std::exp(*log_k) * here;
+    loading += here;
+    log_sum += *log_k;
+    log_squares += *log_k * *log_k;
+    ++n;
+  }
+  if (n == 0) throw InputError("no measured depth is positive; there is no wear to learn from");
+  WearGuess result{wear / loading, 0, 0};
+  result.scatter = std::sqrt(std::max(0.0, log_squares / n - std::pow(log_sum / n, 2)));
+  const std::vector<DepthLaw> laws = depth_laws(inspections.duty, result.k);
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const double log_k = std::min(std::log(result.k), laws[i].limit());
+    result.sigma += std::pow(inspections.depth[i] - laws[i].depth(log_k), 2);
+  }
+  result.sigma = std::sqrt(result.sigma / static_cast<double>(laws.size()));
+  return result;
+}
+
+}  // namespace wearwell::bearing
