@@ -67,8 +67,8 @@ std::vector<DepthLaw> depth_laws(const std::vector<Duty>& duties, double k) {
     const auto same = [&](const Duty& other) {
       return other.contact == duty.contact && other.clearance / other.radius == sigma;
     };
-    const auto first = static_cast<std::size_t>(
-        std::find_if(duties.begin(), duties.end(), same) - duties.begin());
+    const auto first =
+        static_cast<std::size_t>(std::find_if(duties.begin(), duties.end(), same) - duties.begin());
     std::shared_ptr<const DepthCurve> curve;
     if (first < i) {
       curve = laws[first].curve;

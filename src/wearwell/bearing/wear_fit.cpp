@@ -59,25 +59,31 @@ class Group {
   /// log of the integral over z ~ N(0, 1) of the likelihood of log_k + scatter z.
   template <class T>
   T log_integral(const T& log_k, const T& sigma, const T& scatter) const {
-    const auto term = [&](double z) { return log_likelihood(T(log_k + scatter * z), sigma) - 0.5 * z * z; };
-    const Bell bell = find_bell(value_of(log_k), value_of(sigma), value_of(scatter));
-    if (bell.top == -infinity) return T(-infinity);
-    constexpr double negligible = -28;  // e^-28 = 7e-13 of the top
     using std::exp;
     using std::log;
+    const Bell bell = find_bell(value_of(log_k), value_of(sigma), value_of(scatter));
+    if (!std::isfinite(bell.top)) return T(-infinity);
     T sum(0);
-    const auto add = [&](double z) {
-      const T above = term(z) - bell.top;
+    const auto add = [&](double z, double weight) {
+      constexpr double negligible = -28;  // e^-28 = 7e-13 of the top
+      const T above = log_likelihood(T(log_k + scatter * z), sigma) - (0.5 * z * z + bell.top);
       if (!(value_of(above) > negligible)) return false;
-      sum += exp(above);
+      sum += weight * exp(above);
       return true;
     };
-    add(bell.center);
-    for (const double step : {bell.step, -bell.step}) {
-      for (double z = bell.center + step; add(z); z += step) {
+    add(bell.center, bell.step);
+    for (const double side : {1.0, -1.0}) {
+      double step = bell.step, z = bell.center + side * step;
+      for (int n = 1;; ++n) {
+        // A bell has ended long before; what goes on is a plateau (depths within the noise of no
+        // wear at all), ever flatter.
+        const double next = n > 48 && n % 16 == 0 ? 2 * step : step;
+        if (!add(z, 0.5 * (step + next))) break;
+        step = next;
+        z += side * step;
       }
     }
-    return log(sum) + (bell.top + std::log(bell.step / std::sqrt(2 * std::numbers::pi)));
+    return log(sum) + (bell.top - 0.5 * std::log(2 * std::numbers::pi));
   }
 
  private:
@@ -93,37 +99,43 @@ class Group {
     return values;
   }
 
-  // Starts from the bell as it would be if depths were linear in ln k, and climbs; steps are halved
-  // where the bell is narrower than that.
+  // Starts from the bell as it would be if depths were linear in ln k, and looks for the zero of
+  // the slope; steps are halved where the bell is narrower than that.
   Bell find_bell(double log_k, double sigma, double scatter) const {
     constexpr double step_over_width = 0.7;
-    constexpr double steepest = -0.7;  // second difference over one step at the top
-    const auto term = [&](double z) {
-      return log_likelihood(log_k + scatter * z, sigma) - 0.5 * z * z;
+    const auto term = [&](const auto& z) {
+      using T = std::decay_t<decltype(z)>;
+      return log_likelihood(T(log_k + scatter * z), T(sigma)) - 0.5 * z * z;
     };
-    const double pull = information_ * std::pow(scatter / sigma, 2);
-    Bell bell{0, step_over_width / std::sqrt(1 + pull), 0};
-    if (pull > 0) bell.center = pull / (1 + pull) * (own_log_k_ - log_k) / scatter;
-    if (!(log_k + scatter * bell.center <= limit_)) {
-      bell.center = (limit_ - log_k) / scatter - bell.step;
-    }
-    bell.top = term(bell.center);
-    if (!std::isfinite(bell.top)) return {0, 1, -infinity};
-    for (;;) {
-      double above = term(bell.center + bell.step), below = term(bell.center - bell.step);
-      while (above > bell.top) {
-        below = bell.top;
-        bell = {bell.center + bell.step, bell.step, above};
-        above = term(bell.center + bell.step);
+    const auto slope = [&](double z) { return term(Dual<1>(z, 0)).v[0]; };
+    const double last = (limit_ - log_k) / scatter;
+    double curvature = 1 + information_ * std::pow(scatter / sigma, 2);
+    Bell bell{(1 - 1 / curvature) * (own_log_k_ - log_k) / scatter, 0, 0};
+    for (int halvings = 0; halvings < 60; ++halvings) {
+      bell.step = step_over_width / std::sqrt(curvature);
+      double low = -infinity, high = last, reach = bell.step;
+      if (!(bell.center < last)) bell.center = last - bell.step;
+      for (int i = 0; i < 200; ++i) {
+        const double rise = slope(bell.center);
+        (rise > 0 ? low : high) = bell.center;
+        double next = bell.center + rise / curvature;
+        if (std::abs(next - bell.center) < 0.1 * bell.step) break;
+        // Newton's step first, then safe ones.
+        if (i >= 4 || !(next > low && next < high)) {
+          next = std::isinf(low)    ? high - (reach *= 2)
+                 : std::isinf(high) ? low + (reach *= 2)
+                                    : 0.5 * (low + high);
+        }
+        bell.center = next;
+        if (high - low < 0.1 * bell.step) break;
       }
-      while (below > bell.top) {
-        above = bell.top;
-        bell = {bell.center - bell.step, bell.step, below};
-        below = term(bell.center - bell.step);
-      }
-      if (above + below - 2 * bell.top > steepest || bell.step < 1e-6) return bell;
-      bell.step *= 0.5;
+      bell.top = term(bell.center);
+      const double bend =
+          term(bell.center + bell.step) + term(bell.center - bell.step) - 2 * bell.top;
+      if (!(bend < -1.5 * step_over_width * step_over_width)) break;
+      curvature *= 4;
     }
+    return bell;
   }
 
   Observations observations_;

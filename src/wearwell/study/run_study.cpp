@@ -6,6 +6,7 @@
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/trust.h"
+#include "wearwell/predict/scattered.h"
 
 namespace wearwell {
 namespace {
@@ -65,7 +66,8 @@ Prediction in_unit(const Unit& unit, Prediction p) {
 
 PredictionSummary summarize(const PredictionRequest& request, const Fit& fit) {
   const auto predicted = [&](const WeightedDraws& draws) {
-    return in_unit(request.unit, predict(draws, request.mean, request.sd, request.family));
+    return in_unit(request.unit,
+                   predict(draws, request.mean, request.sd, request.family, request.item));
   };
   PredictionSummary summary{request.at_name,
                             request.at,
@@ -84,6 +86,39 @@ std::vector<PredictionSummary> summarize(const std::vector<PredictionRequest>& r
   std::vector<PredictionSummary> summaries;
   for (const PredictionRequest& request : requests) summaries.push_back(summarize(request, fit));
   return summaries;
+}
+
+QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws& draws) {
+  std::function<double(double p)> driver;
+  if (request.scatter) {
+    driver = [items = Scattered(draws, request.driver, request.scatter)](double p) {
+      return items.quantile(p);
+    };
+  } else {
+    driver = [known = Distribution(draws, request.driver)](double p) { return known.quantile(p); };
+  }
+  const auto quantile = [&](double p) {
+    return from_si(request.unit, request.value(driver(request.increasing ? p : 1 - p)));
+  };
+  QuantityQuantiles result{quantile(0.05), quantile(0.5), quantile(0.95), 0, 0, 0};
+  if (request.is_life) {
+    result.b1 = quantile(0.01);
+    result.b10 = quantile(0.1);
+    result.b50 = result.q50;
+  }
+  return result;
+}
+
+QuantitySummary summarize(const QuantityRequest& request, const Fit& fit) {
+  QuantitySummary summary{request.name,
+                          request.of,
+                          request.at,
+                          request.unit.text,
+                          request.is_life,
+                          quantiles(request, fit.pooled),
+                          {}};
+  if (fit.exact) summary.exact = quantiles(request, fit.exact->nodes);
+  return summary;
 }
 
 LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
@@ -162,12 +197,16 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      {},
                      summarize(study.predictions, final),
                      {},
+                     {},
                      study.pointwise,
                      final.exact ? final.exact->log_evidence : std::nullopt,
                      trust_checks(posterior, final),
                      true,
                      in_units(study, std::move(final.draws))};
   result.trusted = trusted(result.checks);
+  for (const QuantityRequest& request : study.quantities) {
+    result.quantities.push_back(summarize(request, final));
+  }
   if (study.life) result.life = summarize(*study.life, final);
   if (study.stages) {
     result.stages.resize(study.data_rows);
