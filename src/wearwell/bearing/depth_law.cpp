@@ -28,26 +28,13 @@ double largest_log_wear_number(Contact contact) {
 }  // namespace
 
 DepthCurve::DepthCurve(Contact contact, double sigma, double from, double to)
-    : contact_(contact), sigma_(sigma), from_(from), limit_(largest_log_wear_number(contact)) {
-  for (int i = 0;; ++i) {
-    const double x = from + i / nodes_per_unit;
-    if (x > std::min(to, limit_)) break;
-    const Point point = solve(x);
-    nodes_.push_back({point.delta, point.slope / nodes_per_unit});
-  }
-}
+    : contact_(contact),
+      sigma_(sigma),
+      limit_(largest_log_wear_number(contact)),
+      table_(from, std::min(to, limit_), nodes_per_unit, [this](double x) { return solve(x); }) {}
 
 DepthCurve::Point DepthCurve::operator()(double x) const {
-  const double at = (x - from_) * nodes_per_unit;
-  if (!(at >= 0 && at + 1 < static_cast<double>(nodes_.size()))) return solve(x);
-  const auto i = static_cast<std::size_t>(at);
-  const double t = at - static_cast<double>(i);
-  const Point& a = nodes_[i];
-  const Point& b = nodes_[i + 1];
-  const double rise = b.delta - a.delta;
-  const double c2 = 3 * rise - 2 * a.slope - b.slope, c3 = a.slope + b.slope - 2 * rise;
-  return {a.delta + t * (a.slope + t * (c2 + t * c3)),
-          nodes_per_unit * (a.slope + t * (2 * c2 + 3 * t * c3))};
+  return table_.covers(x) ? table_(x) : solve(x);
 }
 
 DepthCurve::Point DepthCurve::solve(double x) const {

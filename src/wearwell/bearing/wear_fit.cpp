@@ -22,6 +22,15 @@ double value_of(const Dual<N>& x) {
   return x.a;
 }
 
+// f(x) where its value and slope are known.
+double chain(const HermiteTable::Point& f, double) {
+  return f.value;
+}
+template <int N>
+Dual<N> chain(const HermiteTable::Point& f, const Dual<N>& x) {
+  return Dual<N>(f.value, f.slope * x.v);
+}
+
 // ln k of one inspection for itself; none when there is no wear.
 std::optional<double> single_log_k(const Duty& duty, double depth) {
   if (!(depth > 0)) return {};
@@ -32,28 +41,46 @@ std::optional<double> single_log_k(const Duty& duty, double depth) {
 // The inspections of one bearing.
 class Group {
  public:
+  /// `log_k` is about where ln k will be.
   Group(ObservationFamily family, const std::vector<DepthLaw>& laws, const Inspections& inspections,
-        const std::vector<std::size_t>& rows)
-      : observations_(family, depths(inspections, rows)) {
+        const std::vector<std::size_t>& rows, double log_k) {
     double sum = 0;
     for (const std::size_t row : rows) {
-      laws_.push_back(laws[row]);
-      limit_ = std::min(limit_, laws[row].limit());
-      const auto log_k = single_log_k(inspections.duty[row], inspections.depth[row]);
-      if (!log_k) continue;
-      const DepthCurve::Point p = (*laws[row].curve)(*log_k + laws[row].log_loading);
-      const double weight = std::pow(laws[row].radius * p.slope, 2);
-      sum += weight * *log_k;
+      const DepthLaw& law = laws[row];
+      laws_.push_back(law);
+      depths_.push_back(inspections.depth[row]);
+      limit_ = std::min(limit_, law.limit());
+      const auto own = single_log_k(inspections.duty[row], inspections.depth[row]);
+      if (!own) continue;
+      const double weight = std::pow(law.depth(Dual<1>(*own, 0)).v[0], 2);
+      sum += weight * *own;
       information_ += weight;
     }
     if (information_ > 0) own_log_k_ = sum / information_;
+    if (family == ObservationFamily::normal) {
+      // Around the bearing's own ln k, where the sum is small and counts.
+      constexpr double reach = 6, nodes_per_unit = 512;
+      const double center = information_ > 0 ? own_log_k_ : log_k;
+      squares_ = HermiteTable(center - reach, std::min(center + reach, limit_), nodes_per_unit,
+                              [this](double x) { return sum_of_squares(x); });
+    } else {
+      observations_.emplace(family, depths_);
+    }
   }
 
+  std::size_t size() const { return depths_.size(); }
+
+  /// log of the likelihood of ln k; for the normal family without its factors of sigma.
   template <class T>
   T log_likelihood(const T& log_k, const T& sigma) const {
     if (!(value_of(log_k) <= limit_)) return T(-infinity);
-    return observations_.log_likelihood([&](std::size_t i) { return laws_[i].depth(log_k); },
-                                        sigma);
+    if (observations_) {
+      return observations_->log_likelihood([&](std::size_t i) { return laws_[i].depth(log_k); },
+                                           sigma);
+    }
+    const double x = value_of(log_k);
+    const HermiteTable::Point squares = squares_.covers(x) ? squares_(x) : sum_of_squares(x);
+    return -0.5 * chain(squares, log_k) / (sigma * sigma);
   }
 
   /// log of the integral over z ~ N(0, 1) of the likelihood of log_k + scatter z.
@@ -65,7 +92,7 @@ class Group {
     if (!std::isfinite(bell.top)) return T(-infinity);
     T sum(0);
     const auto add = [&](double z, double weight) {
-      constexpr double negligible = -28;  // e^-28 = 7e-13 of the top
+      constexpr double negligible = -23;  // 1e-10 of the top
       const T above = log_likelihood(T(log_k + scatter * z), sigma) - (0.5 * z * z + bell.top);
       if (!(value_of(above) > negligible)) return false;
       sum += weight * exp(above);
@@ -92,17 +119,21 @@ class Group {
     double center, step, top;
   };
 
-  static std::vector<double> depths(const Inspections& inspections,
-                                    const std::vector<std::size_t>& rows) {
-    std::vector<double> values;
-    for (const std::size_t row : rows) values.push_back(inspections.depth[row]);
-    return values;
+  // Of the depths about those of ln k, with its slope by ln k.
+  HermiteTable::Point sum_of_squares(double log_k) const {
+    HermiteTable::Point sum{0, 0};
+    for (std::size_t i = 0; i < laws_.size(); ++i) {
+      const Dual<1> excess = laws_[i].depth(Dual<1>(log_k, 0)) - depths_[i];
+      sum.value += excess.a * excess.a;
+      sum.slope += 2 * excess.a * excess.v[0];
+    }
+    return sum;
   }
 
   // Starts from the bell as it would be if depths were linear in ln k, and looks for the zero of
   // the slope; steps are halved where the bell is narrower than that.
   Bell find_bell(double log_k, double sigma, double scatter) const {
-    constexpr double step_over_width = 0.7;
+    constexpr double step_over_width = 0.8;
     const auto term = [&](const auto& z) {
       using T = std::decay_t<decltype(z)>;
       return log_likelihood(T(log_k + scatter * z), T(sigma)) - 0.5 * z * z;
@@ -138,8 +169,11 @@ class Group {
     return bell;
   }
 
-  Observations observations_;
   std::vector<DepthLaw> laws_;
+  std::vector<double> depths_;
+  HermiteTable squares_;                      // the sum of squares by ln k, for the normal family:
+                                              // the only way in which k enters, at any sigma
+  std::optional<Observations> observations_;  // for the lognormal
   double limit_ = infinity;
   double own_log_k_ = 0;    // the bearing's ln k by its own depths
   double information_ = 0;  // sum of (d depth/d ln k)^2, m^2
@@ -166,10 +200,16 @@ class WearLikelihood final : public LogDensity {
     const T log_k = log(x[0]);
     const T sigma = model_.depth_error ? T(*model_.depth_error) : x[1];
     T sum(0);
+    std::size_t count = 0;
     for (const Group& group : groups_) {
+      count += group.size();
       sum += model_.has_scatter ? group.log_integral(log_k, sigma, x[model_.dimension() - 1])
                                 : group.log_likelihood(log_k, sigma);
-      if (value_of(sum) == -infinity) break;
+      if (value_of(sum) == -infinity) return sum;
+    }
+    if (model_.family == ObservationFamily::normal) {
+      constexpr double half_log_two_pi = 0.91893853320467274178;
+      sum -= static_cast<double>(count) * (log(sigma) + half_log_two_pi);
     }
     return sum;
   }
@@ -183,7 +223,8 @@ class WearLikelihood final : public LogDensity {
 std::shared_ptr<const LogDensity> wear_likelihood(const WearModel& model,
                                                   const Inspections& inspections,
                                                   std::size_t count) {
-  const std::vector<DepthLaw> laws = depth_laws(inspections.duty, guess(inspections).k);
+  const double k = guess(inspections).k;
+  const std::vector<DepthLaw> laws = depth_laws(inspections.duty, k);
   std::vector<std::vector<std::size_t>> rows;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t group = model.has_scatter ? inspections.bearing[i] : 0;
@@ -192,7 +233,7 @@ std::shared_ptr<const LogDensity> wear_likelihood(const WearModel& model,
   }
   std::vector<Group> groups;
   for (const auto& each : rows) {
-    if (!each.empty()) groups.emplace_back(model.family, laws, inspections, each);
+    if (!each.empty()) groups.emplace_back(model.family, laws, inspections, each, std::log(k));
   }
   return std::make_shared<WearLikelihood>(model, std::move(groups));
 }

@@ -45,7 +45,7 @@ struct WearModel {
 /// for.
 ///
 /// The rule is the trapezoid's on the whole line, which converges faster than any power of the step
-/// for bells that are analytic: with a step of 0.7 of the width of the bell the relative error is
+/// for bells that are analytic: with a step of 0.8 of the width of the bell the relative error is
 /// below 1e-9 (tests). The gradient is that of the sum at the same nodes.
 ///
 /// k that wears a bearing beyond its geometry is outside the support.

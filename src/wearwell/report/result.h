@@ -45,7 +45,7 @@ struct QuantityQuantiles {
 
 struct QuantitySummary {
   std::string name;  ///< "life"
-  std::string of;    ///< "mean bearing", "new bearing"
+  std::string of;    ///< "median bearing", "new bearing"
   std::string at;    ///< under which conditions, in words
   std::string unit;
   bool is_life = false;

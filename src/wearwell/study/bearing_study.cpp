@@ -422,10 +422,10 @@ class Predictions {
     return time->si() * need(speed_, "speed", "required_time").si();
   }
 
-  // A quantity of the mean bearing, and of a new one where bearings differ.
+  // A quantity of the bearing in the middle, and of a new one where bearings differ.
   void add(QuantityRequest request) {
     request.driver = [](const double* x) { return x[0]; };
-    request.of = "mean bearing";
+    request.of = model_.has_scatter ? "median bearing" : "bearing";
     study_.quantities.push_back(request);
     if (!model_.has_scatter) return;
     request.scatter = [model = model_](const double* x) { return model.scatter(x); };

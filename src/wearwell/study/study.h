@@ -45,7 +45,7 @@ struct LifeRequest {
 /// a pressure or a life from a wear rate.
 struct QuantityRequest {
   std::string name;  ///< "life"
-  std::string of;    ///< "mean bearing"; "new bearing" when the driver is that of one not yet seen
+  std::string of;    ///< "median bearing"; "new bearing" when the driver is that of one not yet seen
   std::string at;    ///< under which conditions, in words
   Unit unit;
   bool increasing = true;
