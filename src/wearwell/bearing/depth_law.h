@@ -12,7 +12,8 @@ namespace wearwell::bearing {
 /// delta = depth/r as a function of x = ln(wear number), for one contact and one sigma: the inverse
 /// geometry `depth_for` as a primitive of fits, where it is asked for millions of times. A table
 /// with nodes 1/64 apart, whose slopes come from the implicit function theorem, d delta/dx =
-/// w/(dw/d delta): a relative error below 1e-9 (tests). Beyond the table it solves.
+/// w/(dw/d delta): a relative error below 1e-9 for wear numbers below 0.1 (tests). Beyond the table
+/// it solves.
 class DepthCurve {
  public:
   using Point = HermiteTable::Point;

@@ -89,13 +89,21 @@ class Group {
     using std::exp;
     using std::log;
     const Bell bell = find_bell(value_of(log_k), value_of(sigma), value_of(scatter));
-    if (!std::isfinite(bell.top)) return T(-infinity);
+    // So far below any posterior the differences that are exponentiated here would be rounding.
+    constexpr double lost = -1e9;
+    if (!(bell.top > lost)) return T(-infinity);
     T sum(0);
+    double top = bell.top;
     const auto add = [&](double z, double weight) {
       constexpr double negligible = -23;  // 1e-10 of the top
-      const T above = log_likelihood(T(log_k + scatter * z), sigma) - (0.5 * z * z + bell.top);
+      const T above = log_likelihood(T(log_k + scatter * z), sigma) - (0.5 * z * z + top);
       if (!(value_of(above) > negligible)) return false;
-      sum += weight * exp(above);
+      if (value_of(above) > 0) {  // higher than all before
+        top += value_of(above);
+        sum = sum * std::exp(-value_of(above)) + weight * exp(T(above - value_of(above)));
+      } else {
+        sum += weight * exp(above);
+      }
       return true;
     };
     add(bell.center, bell.step);
@@ -110,7 +118,7 @@ class Group {
         z += side * step;
       }
     }
-    return log(sum) + (bell.top - 0.5 * std::log(2 * std::numbers::pi));
+    return log(sum) + (top - 0.5 * std::log(2 * std::numbers::pi));
   }
 
  private:
@@ -133,7 +141,8 @@ class Group {
   // Starts from the bell as it would be if depths were linear in ln k, and looks for the zero of
   // the slope; steps are halved where the bell is narrower than that.
   Bell find_bell(double log_k, double sigma, double scatter) const {
-    constexpr double step_over_width = 0.8;
+    constexpr double step_over_width = 0.6;
+    constexpr double shortest_edge = 0.35;  // in ln k, of the plateau of depths below the noise
     const auto term = [&](const auto& z) {
       using T = std::decay_t<decltype(z)>;
       return log_likelihood(T(log_k + scatter * z), T(sigma)) - 0.5 * z * z;
@@ -142,8 +151,10 @@ class Group {
     const double last = (limit_ - log_k) / scatter;
     double curvature = 1 + information_ * std::pow(scatter / sigma, 2);
     Bell bell{(1 - 1 / curvature) * (own_log_k_ - log_k) / scatter, 0, 0};
+    // Far from its own ln k a bearing may be likelier to lie near that of all.
+    if (term(0.0) > term(bell.center)) bell.center = 0;
     for (int halvings = 0; halvings < 60; ++halvings) {
-      bell.step = step_over_width / std::sqrt(curvature);
+      bell.step = std::min(step_over_width / std::sqrt(curvature), shortest_edge / scatter);
       double low = -infinity, high = last, reach = bell.step;
       if (!(bell.center < last)) bell.center = last - bell.step;
       for (int i = 0; i < 200; ++i) {
@@ -161,9 +172,21 @@ class Group {
         if (high - low < 0.1 * bell.step) break;
       }
       bell.top = term(bell.center);
-      const double bend =
-          term(bell.center + bell.step) + term(bell.center - bell.step) - 2 * bell.top;
-      if (!(bend < -1.5 * step_over_width * step_over_width)) break;
+      double above = term(bell.center + bell.step), below = term(bell.center - bell.step);
+      // Where the curvature was far from the guess, the slope was small before the top.
+      for (double stride = bell.step; above > bell.top || below > bell.top;) {
+        const double to = bell.center + (above > below ? stride : -stride);
+        const double there = term(to);
+        if (there > bell.top) {
+          bell = {to, bell.step, there};
+          stride *= 2;
+        } else {
+          stride = bell.step;
+          above = term(bell.center + stride);
+          below = term(bell.center - stride);
+        }
+      }
+      if (!(above + below - 2 * bell.top < -1.5 * step_over_width * step_over_width)) break;
       curvature *= 4;
     }
     return bell;

@@ -92,12 +92,9 @@ Result evaluate(const ProfileOptions& options) {
                     load ? "--revolutions (or --speed and --time) is missing"
                          : "--pressure (or --force and --length) is missing"));
   }
-  Result result{
-      worn_area(read_profile("--before", options.before, options),
-                read_profile("--after", options.after, options), read_flank(options.flank)),
-      {},
-      {},
-      {}};
+  const Profile before = read_profile("--before", options.before, options);
+  const Profile after = read_profile("--after", options.after, options);
+  Result result{worn_area(before, after, read_flank(options.flank)), {}, {}, {}};
   const double full = 4 * std::numbers::pi * *b.radius * *b.radius;
   if (load) {
     const double pressure = b.pressure ? *b.pressure : *b.force / (2 * *b.radius * *b.length);
