@@ -1,13 +1,8 @@
 #pragma once
 
-namespace wearwell::bearing {
+#include "wearwell/bearing/contact.h"
 
-/// What wears in a journal bearing (Ligterink and de Gee 1996).
-enum class Contact {
-  stationary,  ///< a scar in the bushing, which the journal's circle cuts out
-  journal,     ///< the journal, evenly all around: the load or the bushing turns
-  bushing,     ///< the inside of a turning bushing, evenly all around
-};
+namespace wearwell::bearing {
 
 /// The wear number p_a k n = A / (4 pi r^2) and its derivatives, where A is the worn cross-section.
 struct WearNumber {

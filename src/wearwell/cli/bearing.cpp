@@ -18,6 +18,7 @@
 #include "wearwell/bearing/solve.h"
 #include "wearwell/cli/bearing_chart.h"
 #include "wearwell/cli/bearing_options.h"
+#include "wearwell/cli/bearing_profile.h"
 
 namespace wearwell {
 namespace bearing {
@@ -379,6 +380,7 @@ void add_bearing_command(CLI::App& app) {
     sub->callback([&question, options] { bearing::run(question, *options); });
   }
   bearing::add_chart_command(*command);
+  bearing::add_profile_command(*command);
 }
 
 }  // namespace wearwell

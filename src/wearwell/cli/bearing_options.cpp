@@ -13,17 +13,15 @@ namespace wearwell::bearing {
 
 namespace {
 
-const std::vector<std::string> contact_names = {"stationary", "journal", "bushing"};
-
 Contact read_contact(const std::string& name) {
   const std::string choice = "stationary (a scar in the bushing), journal or bushing (even wear)";
   if (name.empty()) throw InputError("--contact is missing; it is one of " + choice);
-  const auto found = std::find(contact_names.begin(), contact_names.end(), name);
-  if (found == contact_names.end()) {
+  const auto contact = contact_named(name);
+  if (!contact) {
     throw InputError(fmt::format("--contact: '{}' is not one of {}; did you mean {}?", name, choice,
-                                 nearest_name(name, contact_names)));
+                                 nearest_name(name, contact_names())));
   }
-  return static_cast<Contact>(found - contact_names.begin());
+  return *contact;
 }
 
 Uncertain read_input(const InputOption& option, const std::string& text) {
@@ -82,17 +80,6 @@ UncertainBearing BearingOptions::read() const {
       result.given.push_back({&input_options[i], read_input(input_options[i], texts[i])});
   }
   return result;
-}
-
-bool is_angle(const std::string& unit) {
-  const auto words = {"rpm",   "rps",    "cps", "rev", "turn", "rot",
-                      "cycle", "circle", "rad", "deg", "°"};
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return unit.find(word) != unit.npos; });
-}
-
-const char* contact_name(Contact contact) {
-  return contact_names[static_cast<std::size_t>(contact)].c_str();
 }
 
 }  // namespace wearwell::bearing

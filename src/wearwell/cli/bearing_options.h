@@ -63,10 +63,4 @@ struct BearingOptions {
   UncertainBearing read() const;
 };
 
-/// True for a unit that UDUNITS-2 reads as an angle or an angular speed (rpm, rad/s, revolution)
-/// and so measures in radians; speeds and lives here count revolutions.
-bool is_angle(const std::string& unit);
-
-const char* contact_name(Contact contact);
-
 }  // namespace wearwell::bearing

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "wearwell/predict/scattered.h"
+
 namespace wearwell {
 namespace {
 
-// Weighted measurements: each draw gives one law; draws that together weigh nothing are left out.
+// Weighted measurements: each draw gives one law, or one for each of some items.
 struct Mixture {
   ObservationFamily family;
   std::vector<double> weight;
@@ -42,38 +44,54 @@ struct Mixture {
 };
 
 Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function& sd,
-                ObservationFamily family) {
-  // The nodes of a quadrature reach far into tails that hold less than this of the mass.
-  constexpr double negligible = 1e-6;
-  const Eigen::Index n = draws.values.rows();
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(n));
-  std::iota(order.begin(), order.end(), 0);
-  if (!draws.lower.empty()) {
-    std::sort(order.begin(), order.end(),
-              [&](auto a, auto b) { return draws.weights[a] > draws.weights[b]; });
-  }
+                ObservationFamily family, const ItemFunction& item) {
+  const Heaviest heaviest(draws);
+  // Enough points that their steps do not show in a quantile.
+  constexpr std::size_t points = 50'000;
+  const std::size_t n = heaviest.rows.size();
+  const std::size_t strata = item ? std::clamp<std::size_t>(points / n, 1, 100) : 1;
+  std::vector<double> z = {0};
   Mixture all{family, {}, {}};
-  double total = 0;
-  for (const Eigen::Index i : order) {
-    if (total > 1 - negligible) break;
-    const auto x = draws.values.row(i);
-    const double weight = draws.weights[i], m = mean(x.data()), s = sd(x.data());
-    all.weight.push_back(weight);
-    all.law.emplace_back(family, m, s);
-    all.mean += weight * m;
-    all.sd += weight * s;
-    total += weight;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::VectorXd x = draws.values.row(heaviest.rows[i]);
+    const double s = sd(x.data());
+    if (item) stratified_normals(i, strata, z);
+    for (const double each : z) {
+      const double weight = heaviest.weights[i] / static_cast<double>(strata);
+      const double m = item ? item(x.data(), each) : mean(x.data());
+      all.weight.push_back(weight);
+      all.law.emplace_back(family, m, s);
+      all.mean += weight * m;
+      all.sd += weight * s;
+    }
   }
-  for (double& weight : all.weight) weight /= total;
   return all;
 }
 
 }  // namespace
 
+Heaviest::Heaviest(const WeightedDraws& draws) {
+  constexpr double negligible = 1e-6;
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(draws.values.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  if (!draws.lower.empty()) {
+    std::sort(order.begin(), order.end(),
+              [&](auto a, auto b) { return draws.weights[a] > draws.weights[b]; });
+  }
+  double total = 0;
+  for (const Eigen::Index i : order) {
+    if (total > 1 - negligible) break;
+    rows.push_back(i);
+    weights.push_back(draws.weights[i]);
+    total += draws.weights[i];
+  }
+  for (double& weight : weights) weight /= total;
+}
+
 Prediction predict(const WeightedDraws& draws, const Function& mean, const Function& sd,
-                   ObservationFamily family) {
+                   ObservationFamily family, const ItemFunction& item) {
   const Distribution truth(draws, mean);
-  const Mixture measurement = mixture(draws, mean, sd, family);
+  const Mixture measurement = mixture(draws, mean, sd, family, item);
   return {truth.mean(), truth.quantile(0.05), truth.quantile(0.95), measurement.quantile(0.05),
           measurement.quantile(0.95)};
 }

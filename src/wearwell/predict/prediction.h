@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "wearwell/bayes/observation.h"
 #include "wearwell/bayes/weighted_draws.h"
@@ -9,6 +10,17 @@ namespace wearwell {
 
 /// A number that depends on the parameters; `x` has one entry a parameter, natural, SI.
 using Function = std::function<double(const double* x)>;
+
+/// The same for one item of a population, where items differ: z is standard normal over them.
+using ItemFunction = std::function<double(const double* x, double z)>;
+
+/// The points that carry all but a millionth of the weight: the nodes of a quadrature reach far
+/// into tails. Weights are scaled to sum to 1.
+struct Heaviest {
+  explicit Heaviest(const WeightedDraws& draws);
+  std::vector<Eigen::Index> rows;
+  std::vector<double> weights;
+};
 
 /// What a measurement will read: the law of the true mean, and of one measurement of it.
 struct Prediction {
@@ -20,9 +32,10 @@ struct Prediction {
 };
 
 /// `mean` and `sd` of the measurement as functions of the parameters. The prediction interval
-/// solves for the quantiles of the mixture over all draws, so it carries no noise of its own.
+/// solves for the quantiles of the mixture over all draws, so it carries no noise of its own. With
+/// `item` it is the interval of a measurement of an item not yet seen, whose true value that is.
 Prediction predict(const WeightedDraws& draws, const Function& mean, const Function& sd,
-                   ObservationFamily family);
+                   ObservationFamily family, const ItemFunction& item = {});
 
 /// When something is reached that every draw reaches at its own time.
 struct Life {

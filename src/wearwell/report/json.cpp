@@ -41,6 +41,23 @@ Json to_json(const std::vector<PredictionSummary>& predictions) {
   return json;
 }
 
+Json to_json(const QuantityQuantiles& q, bool is_life) {
+  Json json = {{"q05", q.q05}, {"q50", q.q50}, {"q95", q.q95}};
+  if (is_life) json.update({{"b1", q.b1}, {"b10", q.b10}, {"b50", q.b50}});
+  return json;
+}
+
+Json to_json(const std::vector<QuantitySummary>& quantities) {
+  Json json = Json::array();
+  for (const QuantitySummary& q : quantities) {
+    Json each = {{"name", q.name}, {"of", q.of}, {"at", q.at}, {"unit", q.unit}};
+    each.update(to_json(q.drawn, q.is_life));
+    if (q.exact) each["exact"] = to_json(*q.exact, q.is_life);
+    json.push_back(std::move(each));
+  }
+  return json;
+}
+
 Json to_json(const Life& life) {
   return {{"b1", life.b1},   {"b10", life.b10}, {"b50", life.b50},
           {"q05", life.q05}, {"q95", life.q95}, {"inspect_within", life.inspect_within}};
@@ -114,6 +131,7 @@ Json to_json(const StudyResult& result) {
   for (const StageSummary& stage : result.stages) stages.push_back(to_json(stage));
   json["stages"] = stages;
   json["predictions"] = to_json(result.predictions);
+  if (!result.quantities.empty()) json["quantities"] = to_json(result.quantities);
   if (result.life) json["life"] = to_json(*result.life);
   if (result.pointwise) json["pointwise"] = to_json(*result.pointwise);
   if (result.log_evidence) json["log_evidence"] = *result.log_evidence;

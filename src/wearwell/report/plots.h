@@ -1,8 +1,11 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "wearwell/report/html.h"
 
 namespace wearwell {
 
@@ -42,6 +45,12 @@ struct DataFile {
   std::string name, sha1;
 };
 
+/// What a trade shows in a section of the report beyond what every study shows there.
+struct Exhibits {
+  std::vector<html::Figure> figures;
+  std::vector<html::Table> tables;
+};
+
 struct Plots {
   std::string quantity;  ///< what is measured and predicted, "worn volume"
   std::string unit;      ///< its unit
@@ -55,7 +64,8 @@ struct Plots {
   std::optional<Curve> life;     ///< probability that the limit is reached by then
   std::string study_text;        ///< the study file
   std::vector<DataFile> files;
-  double seconds = 0;  ///< that the study took
+  double seconds = 0;                        ///< that the study took
+  std::map<std::string, Exhibits> exhibits;  ///< by section: "predictions", "parameters" or "fit"
 };
 
 }  // namespace wearwell

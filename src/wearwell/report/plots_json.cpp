@@ -37,6 +37,19 @@ void fields(Io& io, T& each) {
   } else if constexpr (std::is_same_v<Struct, DataFile>) {
     io("name", each.name);
     io("sha1", each.sha1);
+  } else if constexpr (std::is_same_v<Struct, html::Figure>) {
+    io("id", each.id);
+    io("title", each.title);
+    io("caption", each.caption);
+    io("specification", each.specification);
+  } else if constexpr (std::is_same_v<Struct, html::Table>) {
+    io("caption", each.caption);
+    io("heading", each.heading);
+    io("rows", each.rows);
+    io("words", each.words);
+  } else if constexpr (std::is_same_v<Struct, Exhibits>) {
+    io("figures", each.figures);
+    io("tables", each.tables);
   } else {
     static_assert(std::is_same_v<Struct, Plots>);
     io("quantity", each.quantity);
@@ -52,6 +65,7 @@ void fields(Io& io, T& each) {
     io("study_text", each.study_text);
     io("files", each.files);
     io("seconds", each.seconds);
+    io("exhibits", each.exhibits);
   }
 }
 
@@ -64,7 +78,15 @@ struct Writer {
   }
 
   static Json of(double value) { return value; }
+  static Json of(bool value) { return value; }
   static Json of(const std::string& value) { return value; }
+  static Json of(const Json& value) { return value; }
+  template <class T>
+  static Json of(const std::map<std::string, T>& values) {
+    Json object = Json::object();
+    for (const auto& [name, value] : values) object[name] = of(value);
+    return object;
+  }
   template <class T>
   static Json of(const std::vector<T>& values) {
     Json array = Json::array();
@@ -94,7 +116,13 @@ struct Reader {
   static void read(const Json& json, double& value) {
     value = json.is_null() ? std::nan("") : json.get<double>();
   }
+  static void read(const Json& json, bool& value) { value = json.get<bool>(); }
   static void read(const Json& json, std::string& value) { value = json.get<std::string>(); }
+  static void read(const Json& json, Json& value) { value = json; }
+  template <class T>
+  static void read(const Json& json, std::map<std::string, T>& values) {
+    for (const auto& [name, value] : json.items()) read(value, values[name]);
+  }
   template <class T>
   static void read(const Json& json, std::vector<T>& values) {
     values.resize(json.get_ref<const Json::array_t&>().size());

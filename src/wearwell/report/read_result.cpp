@@ -86,6 +86,34 @@ std::vector<PredictionSummary> read_predictions(const Json& json) {
   return predictions;
 }
 
+QuantityQuantiles read_quantiles(const Json& json) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  QuantityQuantiles q{
+      number(json, "q05", never), number(json, "q50", never), number(json, "q95", never), 0, 0, 0};
+  if (json.contains("b1")) {
+    q.b1 = number(json, "b1", never);
+    q.b10 = number(json, "b10", never);
+    q.b50 = number(json, "b50", never);
+  }
+  return q;
+}
+
+std::vector<QuantitySummary> read_quantities(const Json& json) {
+  std::vector<QuantitySummary> quantities;
+  for (const Json& each : json) {
+    QuantitySummary q{text(each, "name"),
+                      text(each, "of"),
+                      text(each, "at"),
+                      text(each, "unit"),
+                      each.contains("b10"),
+                      read_quantiles(each),
+                      {}};
+    if (each.contains("exact")) q.exact = read_quantiles(each["exact"]);
+    quantities.push_back(std::move(q));
+  }
+  return quantities;
+}
+
 Life read_life(const Json& json) {
   constexpr double never = std::numeric_limits<double>::infinity();
   return {number(json, "b1", never),  number(json, "b10", never),
@@ -151,6 +179,7 @@ StudyResult read_summary(const Json& json) {
                              read_checks(stage.at("checks")), stage.at("trusted").get<bool>()});
   }
   result.predictions = read_predictions(json.at("predictions"));
+  if (json.contains("quantities")) result.quantities = read_quantities(json["quantities"]);
   if (json.contains("life")) result.life = read_life_summary(json["life"]);
   if (json.contains("pointwise")) result.pointwise = read_pointwise(json["pointwise"]);
   if (json.contains("log_evidence")) result.log_evidence = number(json, "log_evidence");

@@ -121,6 +121,14 @@ std::string trust_callout(const StudyResult& result) {
                        fmt::format("All {} checks passed.", result.checks.size()));
 }
 
+std::string quantity_value(const QuantitySummary& summary, double x, int digits = 4) {
+  return summary.is_life ? life_number(x, digits) : number(x, digits);
+}
+
+const QuantityQuantiles& best(const QuantitySummary& summary) {
+  return summary.exact ? *summary.exact : summary.drawn;
+}
+
 std::string verdict_section(const StudyResult& result, const Plots& plots) {
   std::string out =
       fmt::format("<p class=\"verdict\">{}</p>\n", escape(verdict_sentence(result, plots)));
@@ -181,6 +189,29 @@ std::string life_table(const LifeSummary& summary) {
          fmt::format("{} after {}", life_number(life.inspect_within), given(summary.now))}}});
 }
 
+std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
+  html::Table table{"What follows from the parameters",
+                    {"Quantity", "Of", "Where", "5 %", "50 %", "95 %", "B1", "B10"},
+                    {}};
+  for (const QuantitySummary& each : quantities) {
+    const QuantityQuantiles& q = best(each);
+    const auto value = [&](double x) { return quantity_value(each, x); };
+    table.rows.push_back({with_unit(each.name, each.unit), escape(each.of),
+                          escape(html::raised(each.at)), value(q.q05), value(q.q50), value(q.q95),
+                          each.is_life ? value(q.b1) : "–", each.is_life ? value(q.b10) : "–"});
+  }
+  return html::table(table);
+}
+
+// What the trade shows there beyond that.
+std::string exhibits(const Plots& plots, const std::string& section) {
+  const auto found = plots.exhibits.find(section);
+  if (found == plots.exhibits.end()) return "";
+  std::string out = html::figures(found->second.figures);
+  for (const html::Table& table : found->second.tables) out += html::table(table);
+  return out;
+}
+
 std::string prediction_section(const StudyResult& result, const Plots& plots) {
   std::string out = html::figures(prediction_figures(result, plots));
   if (!result.predictions.empty()) {
@@ -189,6 +220,8 @@ std::string prediction_section(const StudyResult& result, const Plots& plots) {
     out += prediction_table("Predictions from all data sets", rows);
   }
   if (result.life) out += life_table(*result.life);
+  if (!result.quantities.empty()) out += quantity_table(result.quantities);
+  out += exhibits(plots, "predictions");
   if (!result.stages.empty()) {
     std::vector<std::pair<std::size_t, PredictionSummary>> rows;
     for (const StageSummary& stage : result.stages) {
@@ -237,7 +270,7 @@ std::string parameter_section(const StudyResult& result, const Plots& plots) {
     }
     out += html::table(stages);
   }
-  return out + html::figures(parameter_figures(result, plots));
+  return out + html::figures(parameter_figures(result, plots)) + exhibits(plots, "parameters");
 }
 
 std::string fit_section(const StudyResult& result, const Plots& plots) {
@@ -274,7 +307,7 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
     }
     out += html::table(pointwise);
   }
-  return out;
+  return out + exhibits(plots, "fit");
 }
 
 std::string check_section(const StudyResult& result, const Plots& plots) {

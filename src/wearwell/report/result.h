@@ -38,6 +38,22 @@ struct PredictionSummary {
   std::optional<double> measured;  ///< when the data hold a measurement there
 };
 
+/// A quantity derived from the parameters: a pressure, a length, a life.
+struct QuantityQuantiles {
+  double q05 = 0, q50 = 0, q95 = 0;
+  double b1 = 0, b10 = 0, b50 = 0;  ///< of a life: reached by then with 1, 10, 50 %
+};
+
+struct QuantitySummary {
+  std::string name;  ///< "life"
+  std::string of;    ///< "median bearing", "new bearing"
+  std::string at;    ///< under which conditions, in words
+  std::string unit;
+  bool is_life = false;
+  QuantityQuantiles drawn;
+  std::optional<QuantityQuantiles> exact;
+};
+
 struct LifeSummary {
   std::string unit;  ///< "cycles"
   double limit = 0;  ///< what is reached
@@ -76,6 +92,7 @@ struct StudyResult {
   std::vector<ParameterSummary> parameters;
   std::vector<StageSummary> stages;
   std::vector<PredictionSummary> predictions;
+  std::vector<QuantitySummary> quantities;
   std::optional<LifeSummary> life;
   std::optional<PointwiseTable> pointwise;
   std::optional<double> log_evidence;  ///< natural logarithm, data in SI

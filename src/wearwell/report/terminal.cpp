@@ -128,6 +128,20 @@ std::string prediction_table(const std::vector<PredictionSummary>& predictions) 
   return table(rows);
 }
 
+std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
+  std::vector<std::vector<std::string>> rows = {
+      {"", "of the", "5 %", "50 %", "95 %", "B1", "B10", "B50"}};
+  for (const QuantitySummary& each : quantities) {
+    const QuantityQuantiles& q = each.exact ? *each.exact : each.drawn;
+    rows.push_back({with_unit(each.name, each.unit) + " " + each.at, each.of, number(q.q05),
+                    number(q.q50), number(q.q95)});
+    for (const double b : {q.b1, q.b10, q.b50}) {
+      rows.back().push_back(each.is_life ? number(b) : "-");
+    }
+  }
+  return table(rows);
+}
+
 std::string count(double x) {
   return std::isfinite(x) ? fmt::format("{:.0f}", x) : "never";
 }
@@ -198,6 +212,9 @@ std::string terminal_summary(const StudyResult& result, const TerminalStyle& sty
   if (!result.stages.empty())
     out += "\nData set by data set (mean, sd)\n" + stage_table(result.stages);
   if (!result.predictions.empty()) out += "\nPredictions\n" + prediction_table(result.predictions);
+  if (!result.quantities.empty()) {
+    out += "\nDerived quantities\n" + quantity_table(result.quantities);
+  }
   if (result.life) out += "\nLife\n" + life_lines(*result.life);
   out += "\nChecks\n" + check_lines(result.checks, style.colour);
   out += result.trusted ? "\nTrusted: no check failed.\n"

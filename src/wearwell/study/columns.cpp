@@ -42,4 +42,14 @@ ColumnChoice required_column(const TomlReader& columns, const std::string& name,
   return *choice;
 }
 
+void require(bool good, const Table& table, const ColumnChoice& choice, std::size_t row,
+             const char* allowed) {
+  if (good) return;
+  const Column& column = table.column(choice.column);
+  const std::string value =
+      column.is_number ? fmt::format("{}", column.numbers[row]) : column.text[row];
+  throw InputError(
+      fmt::format("{}: {} must be {}", place(table, choice.column, row), value, allowed));
+}
+
 }  // namespace wearwell

@@ -25,16 +25,6 @@ struct JointData {
   std::optional<PointwiseTable> pointwise;
 };
 
-void require(bool good, const Table& table, const ColumnChoice& choice, std::size_t row,
-             const char* allowed) {
-  if (good) return;
-  const Column& column = table.column(choice.column);
-  const std::string value =
-      column.is_number ? fmt::format("{}", column.numbers[row]) : column.text[row];
-  throw InputError(
-      fmt::format("{}: {} must be {}", place(table, choice.column, row), value, allowed));
-}
-
 // A profile of force and slip over one cycle: work per cycle.
 double read_profile(const TomlReader& profile, const std::filesystem::path& folder) {
   const auto rule = profile.choice("rule", {"rectangle", "trapezoid"});

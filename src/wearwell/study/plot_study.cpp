@@ -187,7 +187,8 @@ WeightedDraws thinned(const WeightedDraws& draws) {
 History predict_all(const std::vector<PredictionRequest>& requests, const WeightedDraws& draws) {
   std::vector<Prediction> predictions(requests.size());
   tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t i) {
-    predictions[i] = predict(draws, requests[i].mean, requests[i].sd, requests[i].family);
+    predictions[i] =
+        predict(draws, requests[i].mean, requests[i].sd, requests[i].family, requests[i].item);
   });
   History history;
   for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -232,10 +233,12 @@ std::string content(const std::filesystem::path& file) {
 
 Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit) {
   Plots plots;
-  const PredictionRequest first = study.stage_predictions(1).front();
   plots.quantity = study.quantity;
-  plots.unit = first.unit.text;
-  plots.at_name = first.at_name;
+  if (study.stage_predictions) {
+    const PredictionRequest first = study.stage_predictions(1).front();
+    plots.unit = first.unit.text;
+    plots.at_name = first.at_name;
+  }
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     plots.parameters.push_back(plot_parameter(study, i, fit));
   }
@@ -253,12 +256,15 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
   const WeightedDraws few = thinned(best(fit));
   plots.history = predict_all(study.history, few);
 
-  std::vector<PredictionRequest> observed;
-  for (std::size_t rows = 1; rows <= study.data_rows; ++rows) {
-    observed.push_back(study.stage_predictions(rows).front());
-    plots.measured.push_back(from_si(observed.back().unit, *observed.back().measured));
+  if (study.stage_predictions) {
+    std::vector<PredictionRequest> observed;
+    for (std::size_t rows = 1; rows <= study.data_rows; ++rows) {
+      observed.push_back(study.stage_predictions(rows).front());
+      plots.measured.push_back(from_si(observed.back().unit, *observed.back().measured));
+    }
+    plots.replicated = predict_all(observed, few);
   }
-  plots.replicated = predict_all(observed, few);
+  if (study.exhibits) plots.exhibits = study.exhibits(fit);
   if (study.life) plots.life = life_curve(*study.life, fit);
   return plots;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "wearwell/base/error.h"
+#include "wearwell/study/bearing_study.h"
 #include "wearwell/study/joint_study.h"
 #include "wearwell/study/study.h"
 #include "wearwell/study/toml_reader.h"
@@ -57,15 +58,19 @@ Study read_study(const std::filesystem::path& file) {
   Study study;
   study.file = file;
   study.title = root.text("title").value_or(file.stem().string());
-  const auto model = root.choice("model", {"archard-joint"});
-  if (!model) root.fail("model", "is missing: \"archard-joint\"");
+  const auto model = root.choice("model", {"archard-joint", "bearing-wear"});
+  if (!model) root.fail("model", "is missing: \"archard-joint\" or \"bearing-wear\"");
   study.model = *model;
   const TomlReader data = root.required_table("data");
   study.data_file = data.required_text("file");
   if (const auto update = root.table("update")) {
     study.stages = update->choice("stages", {"row"}).has_value();
   }
-  read_joint_study(root, file.parent_path(), study);
+  if (*model == "archard-joint") {
+    read_joint_study(root, file.parent_path(), study);
+  } else {
+    read_bearing_study(root, file.parent_path(), study);
+  }
   read_sampler(root, study);
   root.finish();
   return study;

@@ -8,6 +8,7 @@
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/trust.h"
+#include "wearwell/predict/scattered.h"
 #include "wearwell/study/plot_study.h"
 
 namespace wearwell {
@@ -51,7 +52,8 @@ Prediction in_unit(const Unit& unit, Prediction p) {
 
 PredictionSummary summarize(const PredictionRequest& request, const Fit& fit) {
   const auto predicted = [&](const WeightedDraws& draws) {
-    return in_unit(request.unit, predict(draws, request.mean, request.sd, request.family));
+    return in_unit(request.unit,
+                   predict(draws, request.mean, request.sd, request.family, request.item));
   };
   PredictionSummary summary{request.at_name,
                             request.at,
@@ -72,6 +74,46 @@ std::vector<PredictionSummary> summarize(const std::vector<PredictionRequest>& r
   return summaries;
 }
 
+QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws& draws) {
+  std::function<double(double p)> driver;
+  if (request.scatter) {
+    driver = [items = Scattered(draws, request.driver, request.scatter)](double p) {
+      return items.quantile(p);
+    };
+  } else {
+    driver = [known = Distribution(draws, request.driver)](double p) { return known.quantile(p); };
+  }
+  const auto quantile = [&](double p) {
+    return from_si(request.unit, request.value(driver(request.increasing ? p : 1 - p)));
+  };
+  QuantityQuantiles result{quantile(0.05), quantile(0.5), quantile(0.95), 0, 0, 0};
+  if (request.is_life) {
+    result.b1 = quantile(0.01);
+    result.b10 = quantile(0.1);
+    result.b50 = result.q50;
+  }
+  return result;
+}
+
+QuantitySummary summarize(const QuantityRequest& request, const Fit& fit) {
+  QuantitySummary summary{request.name,
+                          request.of,
+                          request.at,
+                          request.unit.text,
+                          request.is_life,
+                          quantiles(request, fit.pooled),
+                          {}};
+  if (fit.exact) summary.exact = quantiles(request, fit.exact->nodes);
+  return summary;
+}
+
+std::vector<QuantitySummary> summarize(const std::vector<QuantityRequest>& requests,
+                                       const Fit& fit) {
+  std::vector<QuantitySummary> summaries;
+  for (const QuantityRequest& request : requests) summaries.push_back(summarize(request, fit));
+  return summaries;
+}
+
 LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
   const auto life = [&](const WeightedDraws& draws) {
     return predict_life(draws, request.life, request.now, request.risk);
@@ -85,6 +127,14 @@ LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
                       {}};
   if (fit.exact) summary.exact = life(fit.exact->nodes);
   return summary;
+}
+
+std::vector<Check> all_checks(const Study& study, const Posterior& posterior, const Fit& fit) {
+  std::vector<Check> checks = trust_checks(posterior, fit);
+  if (study.checks) {
+    for (Check& check : study.checks(fit)) checks.push_back(std::move(check));
+  }
+  return checks;
 }
 
 // What is kept of the posterior of one stage: `density`, when given, takes its points.
@@ -177,10 +227,11 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      summarize_parameters(posterior, final),
                      {},
                      summarize(study.predictions, final),
+                     summarize(study.quantities, final),
                      {},
                      study.pointwise,
                      final.exact ? final.exact->log_evidence : std::nullopt,
-                     trust_checks(posterior, final),
+                     all_checks(study, posterior, final),
                      true,
                      in_units(study, std::move(final.draws))};
   result.trusted = trusted(result.checks);

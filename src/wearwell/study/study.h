@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,8 @@ struct PredictionRequest {
   Function sd;
   ObservationFamily family = ObservationFamily::normal;
   std::optional<double> measured;  ///< SI
+  ItemFunction item =
+      {};  ///< the mean of one item where items differ; the prediction interval is its
 };
 
 /// When a limit is reached.
@@ -37,6 +40,21 @@ struct LifeRequest {
   double now = 0;   ///< the last inspection
   double risk = 0;  ///< tolerated at the next inspection
   Function life;
+};
+
+/// A quantity that follows from one positive unknown, its driver, by a monotone function: a depth,
+/// a pressure or a life from a wear rate.
+struct QuantityRequest {
+  std::string name;  ///< "life"
+  std::string of;  ///< "median bearing"; "new bearing" when the driver is that of one not yet seen
+  std::string at;  ///< under which conditions, in words
+  Unit unit;
+  bool increasing = true;
+  bool is_life = false;                        ///< then B1, B10 and B50 are told as well
+  std::function<double(double driver)> value;  ///< SI
+  Function driver;
+  Function scatter;  ///< standard deviation of ln driver between items, for one not yet seen; else
+                     ///< empty
 };
 
 inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
@@ -64,12 +82,17 @@ struct Study {
   /// What to predict at the stage after `rows` data sets, beside `predictions`: that inspection and
   /// the next.
   std::function<std::vector<PredictionRequest>(std::size_t rows)> stage_predictions;
+  std::vector<QuantityRequest> quantities;
   std::optional<LifeRequest> life;
   std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
   std::optional<PointwiseTable> pointwise;
   std::string quantity;               ///< what is measured, in words: "worn volume"
   std::vector<std::string> meanings;  ///< of the parameters: "wear coefficient"
-  SamplerChoice sampler;              ///< as the study file says
+  /// What the trade checks beside the engine's checks, and shows in each section of the report;
+  /// both may be empty.
+  std::function<std::vector<Check>(const Fit&)> checks;
+  std::function<std::map<std::string, Exhibits>(const Fit&)> exhibits;
+  SamplerChoice sampler;  ///< as the study file says
   NutsSettings nuts;
   MetropolisSettings metropolis;
 };

@@ -1,0 +1,30 @@
+#include "wearwell/bearing/contact.h"
+
+#include <algorithm>
+
+namespace wearwell::bearing {
+
+const std::vector<std::string>& contact_names() {
+  static const std::vector<std::string> names = {"stationary", "journal", "bushing"};
+  return names;
+}
+
+const char* contact_name(Contact contact) {
+  return contact_names()[static_cast<std::size_t>(contact)].c_str();
+}
+
+std::optional<Contact> contact_named(std::string_view name) {
+  const auto& names = contact_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return {};
+  return static_cast<Contact>(found - names.begin());
+}
+
+bool is_angle(const std::string& unit) {
+  const auto words = {"rpm",   "rps",    "cps", "rev", "turn", "rot",
+                      "cycle", "circle", "rad", "deg", "°"};
+  return std::any_of(words.begin(), words.end(),
+                     [&](const char* word) { return unit.find(word) != unit.npos; });
+}
+
+}  // namespace wearwell::bearing

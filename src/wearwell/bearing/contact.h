@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wearwell::bearing {
+
+/// What wears in a journal bearing (Ligterink and de Gee 1996).
+enum class Contact {
+  stationary,  ///< a scar in the bushing, which the journal's circle cuts out
+  journal,     ///< the journal, evenly all around: the load or the bushing turns
+  bushing,     ///< the inside of a turning bushing, evenly all around
+};
+
+/// The contacts as users write them, in the order of the enumeration.
+const std::vector<std::string>& contact_names();
+
+const char* contact_name(Contact contact);
+
+/// None for a word that is not in `contact_names`.
+std::optional<Contact> contact_named(std::string_view name);
+
+/// True for a unit that UDUNITS-2 reads as an angle or an angular speed (rpm, rad/s, revolution)
+/// and so measures in radians; speeds and lives of bearings count revolutions.
+bool is_angle(const std::string& unit);
+
+}  // namespace wearwell::bearing

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace wearwell::bearing {
+
+/// A measured surface profile across a worn place, in m: position along the surface, ascending, and
+/// height, upward out of the material.
+struct Profile {
+  std::vector<double> position;
+  std::vector<double> height;
+};
+
+/// The area that wear has removed between two profiles of one place.
+struct WornArea {
+  double area = 0;    ///< m^2
+  double sd = 0;      ///< its standard deviation from the noise of the profiles, m^2
+  double shift = 0;   ///< by which the profile after was moved along the surface, m; 0 where the
+                      ///< flanks have no feature to align by
+  double offset = 0;  ///< by which it was raised in the middle, m
+  double tilt = 0;    ///< by which it was turned, height over position
+  double noise = 0;   ///< standard deviation of the aligned difference on the flanks, m
+  double correlation = 1;   ///< of that noise: as many neighbouring points count as one
+  double from = 0, to = 0;  ///< the worn place, between the flanks, m
+  double flank_step = 0;    ///< how much lower the inner quarter of the flanks is than the rest, in
+                            ///< its standard deviations: large when wear reaches into the flanks
+};
+
+/// The second way to a wear rate of Ligterink and de Gee (1996). `flank` is the length at either
+/// end of the common part that is not worn (default: a fifth of that part). The profile after is
+/// aligned to the one before by the flanks: height and tilt by least squares, the shift along the
+/// surface (up to a quarter of a flank) by the least misfit, and only where that is significantly
+/// better than none (by more than 3.3 standard deviations). The difference between the flanks is
+/// integrated (trapezoids).
+///
+/// Uncertainty: the noise of the difference on the flanks, taken to go on between them, in the
+/// integral itself and in height, tilt and shift that it rests on. Neighbouring points are
+/// correlated (stylus, filter, roughness): the variance grows by the autocorrelation summed over
+/// the flanks until it first turns negative. Waves longer than a flank cannot be seen there and are
+/// not in it.
+///
+/// Throws InputError: positions that do not ascend, too short a common part, flanks of fewer than
+/// 20 points or together fewer than 10 independent ones, or too long.
+WornArea worn_area(const Profile& before, const Profile& after, std::optional<double> flank = {});
+
+}  // namespace wearwell::bearing

@@ -1,0 +1,51 @@
+#include "wearwell/predict/scattered.h"
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+
+namespace wearwell {
+
+Scattered::Scattered(const WeightedDraws& draws, const Function& center, const Function& log_sd) {
+  const Heaviest heaviest(draws);
+  for (std::size_t i = 0; i < heaviest.rows.size(); ++i) {
+    const Eigen::VectorXd x = draws.values.row(heaviest.rows[i]);
+    weight_.push_back(heaviest.weights[i]);
+    log_center_.push_back(std::log(center(x.data())));
+    log_sd_.push_back(log_sd(x.data()));
+  }
+}
+
+double Scattered::cdf(double log_value) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    sum +=
+        weight_[i] * 0.5 * std::erfc((log_center_[i] - log_value) / (log_sd_[i] * std::sqrt(2.0)));
+  }
+  return sum;
+}
+
+double Scattered::quantile(double p) const {
+  double a = log_center_.front() - 1, b = log_center_.front() + 1;
+  while (cdf(a) > p) a -= b - a;
+  while (cdf(b) < p) b += b - a;
+  std::uintmax_t iterations = 100;
+  const auto [left, right] = boost::math::tools::toms748_solve(
+      [&](double x) { return cdf(x) - p; }, a, b, [](double l, double r) { return r - l <= 1e-9; },
+      iterations);
+  return std::exp(0.5 * (left + right));
+}
+
+void stratified_normals(std::size_t draw, std::size_t count, std::vector<double>& z) {
+  constexpr double golden = 0.6180339887498949;  // its multiples are the most even modulo 1
+  double whole = 0;
+  const double shift = std::modf((static_cast<double>(draw) + 0.5) * golden, &whole);
+  z.clear();
+  for (std::size_t j = 0; j < count; ++j) {
+    const double p = (static_cast<double>(j) + shift) / static_cast<double>(count);
+    z.push_back(-std::sqrt(2.0) * boost::math::erfc_inv(2 * std::clamp(p, 1e-15, 1 - 1e-15)));
+  }
+}
+
+}  // namespace wearwell

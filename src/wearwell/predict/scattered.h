@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/predict/prediction.h"
+
+namespace wearwell {
+
+/// The distribution of a positive number that differs from item to item, for an item not yet seen:
+/// its logarithm is normal about ln center(x) with standard deviation log_sd(x), mixed over the
+/// posterior of x. No draws of the item: quantiles of the mixture are solved for.
+class Scattered {
+ public:
+  Scattered(const WeightedDraws& draws, const Function& center, const Function& log_sd);
+
+  /// 0 < p < 1.
+  double quantile(double p) const;
+
+ private:
+  double cdf(double log_value) const;
+
+  std::vector<double> weight_, log_center_, log_sd_;
+};
+
+/// `count` points of the standard normal law for the draw of this index, one in each of as many
+/// strata of equal probability. Where in their strata they lie moves evenly from draw to draw, so
+/// that over many draws the points fill the law.
+void stratified_normals(std::size_t draw, std::size_t count, std::vector<double>& z);
+
+}  // namespace wearwell
