@@ -317,7 +317,7 @@ TEST(SubsetSearch, TheSameWhateverTheThreads) {
     settings.threads = 1;
     const auto one = search(problem, settings);
     ASSERT_TRUE(one.certified);
-    for (const int threads : {2, 5}) {
+    for (const int threads : {2, 0}) {
       settings.threads = threads;
       const auto many = search(problem, settings);
       ASSERT_EQ(many.models.size(), one.models.size());
@@ -399,7 +399,6 @@ TEST(SubsetSearch, StoppedEarlyItStatesAnHonestGap) {
     const auto none = search(problem, settings);
     EXPECT_FALSE(none.certified);
     EXPECT_LT(none.lower_bound, optimum);
-    settings.cloud = CloudKind::none;
   }
 }
 
@@ -421,11 +420,11 @@ TEST(SubsetSearch, NearTiesAreAllModelsWithinTheDistance) {
   settings.keep = 1023;
   const auto all = search(problem, settings);
   settings.keep = 3;
-  settings.near = 0.05;
+  settings.near = 0.1;
   const auto near = search(problem, settings);
   std::size_t expected = 0;
   for (const auto& model : all.models)
-    expected += model.criterion <= 1.05 * all.models.front().criterion;
+    expected += model.criterion <= 1.1 * all.models.front().criterion;
   ASSERT_GT(expected, 5);
   ASSERT_EQ(near.models.size(), expected);
   for (std::size_t i = 0; i < expected; ++i) EXPECT_EQ(near.models[i].terms, all.models[i].terms);

@@ -59,11 +59,15 @@ double ModelPool::threshold() const {
 
 void ModelPool::update_limits() {
   const double all = threshold();
+  // Larger models than the last of all exact fits can only be exact, too, and lose the tie.
+  const bool exact =
+      settings_.near == 0 && all < infinity && models_.back().error <= problem_.least_error;
+  const int largest = exact ? models_.back().size : problem_.terms;
   for (int size = 0; size <= problem_.terms; ++size) {
     double cut = -infinity, worth = -infinity;
     if (size > 0) {
       const auto& best = by_size_[size];
-      const double of_all = problem_.score.error_at(all, size);
+      const double of_all = size > largest ? -infinity : problem_.score.error_at(all, size);
       const double of_size = !problem_.score.admits(size) ? -infinity
                              : best                       ? best->error
                                                           : infinity;

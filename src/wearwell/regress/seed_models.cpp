@@ -1,5 +1,6 @@
 #include "wearwell/regress/seed_models.h"
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 
@@ -77,7 +78,7 @@ class Seeder {
   void note(TermSet set, double error) {
     const int size = std::popcount(set);
     pool_.offer(set, size, error);
-    const double score = problem_.score.of(error, size);
+    const double score = problem_.score.of(std::max(error, problem_.least_error), size);
     if (score < best_.score) best_ = {set, score};
   }
 

@@ -31,7 +31,7 @@ struct SearchSettings {
   std::vector<int> forced;  ///< terms that every model holds
   CloudKind cloud = CloudKind::none;  ///< wanted: every model is looked at; at most 25 free terms
   bool prove_sizes = false;  ///< the best of every size is to be proven, however bad: takes longer
-  int threads = 0;           ///< 0: as many as the machine has
+  int threads = 0;           ///< 0: as many as the machine has cores, which is the most
   double seconds = std::numeric_limits<double>::infinity();  ///< time limit
   const std::atomic<bool>* stop = nullptr;                   ///< may be set while searching
   std::function<void(const SearchProgress&)> progress;  ///< called from any thread; may be empty
