@@ -1,0 +1,39 @@
+#include "wearwell/regress/branch_and_bound.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <memory>
+
+#include "wearwell/regress/press_search.h"
+#include "wearwell/regress/rss_search.h"
+
+namespace wearwell {
+namespace {
+
+std::unique_ptr<BranchSearch> make_search(const SearchProblem& problem, ModelPool& pool,
+                                          Frontier& frontier) {
+  if (problem.leave_one_out) return std::make_unique<PressSearch>(problem, pool, frontier);
+  return std::make_unique<RssSearch>(problem, pool, frontier);
+}
+
+}  // namespace
+
+void branch_and_bound(const SearchProblem& problem, ModelPool& pool, Frontier& frontier,
+                      const Branch& root, int threads) {
+  make_search(problem, pool, frontier)->offer_root(root);
+  const auto work = [&](int worker) {
+    try {
+      const auto search = make_search(problem, pool, frontier);
+      Branch branch;
+      while (frontier.take(worker, branch)) frontier.done(worker, search->search(branch));
+    } catch (...) {
+      frontier.stop();  // or the others would wait for this thread
+      throw;
+    }
+  };
+  tbb::task_arena arena(threads);
+  arena.execute([&] { tbb::parallel_for(0, threads, work, tbb::simple_partitioner()); });
+}
+
+}  // namespace wearwell

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <vector>
+
+#include "wearwell/regress/search_control.h"
+#include "wearwell/regress/search_problem.h"
+
+namespace wearwell {
+
+/// A branch of the search: models that hold all `fixed` and any of `free`.
+struct Branch {
+  TermSet fixed = 0;
+  TermSet free = 0;
+  double bound = 0;  ///< no model of the branch has a smaller score
+};
+
+/// The branches that nobody has looked at yet, smallest bound first, shared by all threads. A
+/// thread takes one, searches part of it and gives back what it did not get to.
+class Frontier {
+ public:
+  Frontier(const Branch& root, int threads, SearchControl& control);
+
+  /// The next branch for thread `worker`, waiting while others may still give some back. False
+  /// when the search is over: nothing left, or stopped.
+  bool take(int worker, Branch& branch);
+  void give_back(const Branch& branch);
+  /// The thread is through with the branch it took, having looked at `nodes` nodes.
+  void done(int worker, double nodes);
+
+  bool stopped() { return control_.stopped(); }
+  /// Ends the search for every thread.
+  void stop();
+
+  double nodes() const { return nodes_; }
+  /// The smallest bound of the branches left; infinity when there are none.
+  double bound() const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Branch> heap_;     ///< smallest bound first
+  std::vector<double> working_;  ///< bound of the branch each thread works on; infinity if none
+  double nodes_ = 0;
+  SearchControl& control_;
+};
+
+}  // namespace wearwell
