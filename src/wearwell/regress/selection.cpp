@@ -51,10 +51,11 @@ Selection select_terms(const Design& design, const Eigen::VectorXd& response,
   selection.weights = stack(models, count, design, response, weights);
   for (std::size_t m = 0; m < models.size(); ++m) {
     for (const int term : models[m].terms) {
-      selection.support[term].inclusion += 1 / static_cast<double>(models.size());
+      ++selection.support[term].inclusion;
       if (m < count) selection.support[term].weight += selection.weights[m];
     }
   }
+  for (TermSupport& each : selection.support) each.inclusion /= static_cast<double>(models.size());
   for (std::size_t m = 0; settings.folds > 0 && m < count; ++m) {
     selection.k_fold_press.push_back(k_fold_press(design.columns(Eigen::all, models[m].terms),
                                                   response, weights, settings.folds,

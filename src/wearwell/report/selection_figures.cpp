@@ -101,8 +101,8 @@ html::Figure size_figure(const SelectionResult& result, bool predictive, bool zo
   figure.title =
       fmt::format("{} against the number of terms{}", symbol, zoom ? ", near the best" : "");
   figure.caption =
-      all ? fmt::format("{} of {}{:.0f} models: the darker, the more models (logarithmic).{}", what,
-                        search.cloud.complete ? "all " : "", search.cloud.models,
+      all ? fmt::format("{} of {}{} models: the darker, the more models (logarithmic).{}", what,
+                        search.cloud.complete ? "all " : "", html::given(search.cloud.models),
                         zoom ? "" : " Below zero counts as zero.")
           : fmt::format("{} of the best model of each size; best by the criterion.", what);
   figure.specification = plot::plot(figure.title, terms, height, std::move(marks), 300, true);
@@ -226,8 +226,8 @@ std::vector<html::Figure> support_figures(const SelectionResult& result) {
     zero.push_back(0);
   }
   Axis share{"share of the models"};
-  share.low = 0;
-  share.high = 1;
+  share.low = -0.02;
+  share.high = 1.02;
   return {{"support", "How sure each term is",
            "In how many of the models found each term is, and the stacking weights of those models "
            "together. A term near one is needed; a term near a half is a matter of taste.",

@@ -64,6 +64,24 @@ std::string model_table(const SelectionResult& result) {
   return text;
 }
 
+/// Terms that at least one in ten of the models holds, most frequent first.
+std::string support_table(const SelectionResult& result) {
+  constexpr double rare = 0.1;
+  const auto& support = result.selection.support;
+  std::vector<int> terms;
+  for (std::size_t t = 0; t < support.size(); ++t) {
+    if (support[t].inclusion >= rare) terms.push_back(static_cast<int>(t));
+  }
+  std::stable_sort(terms.begin(), terms.end(),
+                   [&](int a, int b) { return support[a].inclusion > support[b].inclusion; });
+  Rows rows = {{"", "in models", "weight"}};
+  for (const int t : terms)
+    rows.push_back({result.design.terms[t].name,
+                    fmt::format("{:.0f} %", 100 * support[t].inclusion),
+                    fmt::format("{:.2f}", support[t].weight)});
+  return text_table(rows);
+}
+
 std::string size_table(const SelectionResult& result) {
   Rows rows = {{"terms", "R2", "R2p", "proven", "changes from the size before"}};
   std::vector<int> before;
@@ -149,6 +167,9 @@ std::string selection_text(const SelectionResult& result) {
                       number(fit.rmse), number(fit.rmsep));
   text += "\nCoefficients\n" + coefficient_table(result);
   text += "\nModels, best first\n" + model_table(result);
+  if (result.settings.search.near > 0)
+    text +=
+        fmt::format("\nTerms of these {} models\n", search.models.size()) + support_table(result);
   if (search.truncated)
     text += fmt::format("  More than {} models are within the distance of {}.\n",
                         result.settings.search.near_most, result.settings.search.near);
