@@ -36,7 +36,7 @@ double k_fold_press(const Eigen::MatrixXd& columns, const Eigen::VectorXd& respo
     throw InputError(fmt::format("{} folds; there may be 2 to {}, the number of rows", folds, n));
   if (repeats < 1) throw InputError(fmt::format("{} repeats of the folds; need 1", repeats));
   // Whether a model close to dependence counts as one is for the search to judge.
-  const Fit fit = fit_least_squares(columns, response, weights, {}, 0.5 * rank_tolerance);
+  const LinearFit fit = fit_least_squares(columns, response, weights, {}, 0.5 * rank_tolerance);
   Eigen::VectorXd root = Eigen::VectorXd::Ones(n);
   if (weights.size() != 0) root = weights.cwiseSqrt();
   const Eigen::MatrixXd scaled = root.asDiagonal() * columns;

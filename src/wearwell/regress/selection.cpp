@@ -9,8 +9,8 @@ namespace wearwell {
 namespace {
 
 /// The search has judged the rank already; rounding must not judge it differently here.
-Fit fit_of(const SubsetModel& model, const Design& design, const Eigen::VectorXd& response,
-           const Eigen::VectorXd& weights) {
+LinearFit fit_of(const SubsetModel& model, const Design& design, const Eigen::VectorXd& response,
+                 const Eigen::VectorXd& weights) {
   return fit_least_squares(design.columns(Eigen::all, model.terms), response, weights, {},
                            0.5 * rank_tolerance);
 }

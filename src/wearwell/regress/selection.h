@@ -25,7 +25,7 @@ struct TermSupport {
 /// A subset search and what follows from its models.
 struct Selection {
   SearchResult search;
-  Fit fit;  ///< of the best model
+  LinearFit fit;  ///< of the best model
   OriginalCoefficients original;
   /// Stacking weights of the first models of `search.models` by their leave-one-out residuals;
   /// models that cannot be left one out have none. At most `most_stacked`.

@@ -110,7 +110,7 @@ html::Figure size_figure(const SelectionResult& result, bool predictive, bool zo
 }
 
 html::Figure observed_figure(const SelectionResult& result) {
-  const Fit& fit = result.selection.fit;
+  const LinearFit& fit = result.selection.fit;
   const double low = std::min(result.observed.minCoeff(), fit.fitted.minCoeff());
   const double high = std::max(result.observed.maxCoeff(), fit.fitted.maxCoeff());
   std::vector<Json> marks = {
@@ -142,7 +142,7 @@ html::Figure residual_figure(const std::string& id, const std::string& title,
 
 /// Residuals, each divided by its own standard deviation sigma sqrt((1 - h) / w).
 Eigen::VectorXd standardized(const SelectionResult& result) {
-  const Fit& fit = result.selection.fit;
+  const LinearFit& fit = result.selection.fit;
   Eigen::ArrayXd scale = (1 - fit.leverages.array()).max(leverage_tolerance).sqrt() * fit.sigma;
   if (result.weights.size() != 0) scale /= result.weights.array().sqrt();
   return fit.residuals.array() / scale;
@@ -170,7 +170,7 @@ html::Figure quantile_figure(const SelectionResult& result) {
 }
 
 html::Figure leverage_figure(const SelectionResult& result) {
-  const Fit& fit = result.selection.fit;
+  const LinearFit& fit = result.selection.fit;
   const double usual = 2 * static_cast<double>(fit.coefficients.size()) /
                        static_cast<double>(result.observed.size());
   std::vector<double> row(static_cast<std::size_t>(result.observed.size()));
@@ -197,7 +197,7 @@ std::vector<html::Figure> size_figures(const SelectionResult& result) {
 }
 
 std::vector<html::Figure> selection_fit_figures(const SelectionResult& result) {
-  const Fit& fit = result.selection.fit;
+  const LinearFit& fit = result.selection.fit;
   std::vector<html::Figure> figures = {
       observed_figure(result),
       residual_figure(

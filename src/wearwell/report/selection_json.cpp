@@ -25,7 +25,7 @@ Json to_json(const SelectionResult& result, const SubsetModel& model) {
 
 Json best_model(const SelectionResult& result) {
   const SubsetModel& model = result.selection.search.models.front();
-  const Fit& fit = result.selection.fit;
+  const LinearFit& fit = result.selection.fit;
   const OriginalCoefficients& original = result.selection.original;
   Json json = to_json(result, model);
   json["adjusted_r2"] = number(fit.adjusted_r2);

@@ -26,7 +26,7 @@ std::string terms_of(const SelectionResult& result, const SubsetModel& model) {
 std::string verdict_section(const SelectionResult& result) {
   const SearchResult& search = result.selection.search;
   const SubsetModel& best = search.models.front();
-  const Fit& fit = result.selection.fit;
+  const LinearFit& fit = result.selection.fit;
   std::string out = fmt::format("<p class=\"verdict\">{} = {}</p>\n", escape(result.response),
                                 escape(terms_of(result, best)));
   out += search.certified

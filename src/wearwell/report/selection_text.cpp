@@ -152,7 +152,7 @@ std::string selection_text(const SelectionResult& result) {
   const Selection& selection = result.selection;
   const SearchResult& search = selection.search;
   if (search.models.empty()) return gap_sentence(result) + "\n";
-  const Fit& fit = selection.fit;
+  const LinearFit& fit = selection.fit;
   std::string text =
       fmt::format("{} = {}\n", result.response,
                   fmt::format("{}", fmt::join(result.names(search.models.front().terms), " + ")));
