@@ -49,10 +49,6 @@ Scale scale_of(const ParameterSummary& p) {
   return scale_for(p.exact ? p.exact->q50 : p.q50, p.unit);
 }
 
-const Prediction& best(const PredictionSummary& p) {
-  return p.exact ? *p.exact : p.drawn;
-}
-
 Numbers counted(std::size_t n) {
   Numbers values;
   for (std::size_t i = 1; i <= n; ++i) values.push_back(static_cast<double>(i));
@@ -110,7 +106,7 @@ Figure history_figure(const StudyResult& result, const Plots& plots) {
 
 Figure life_figure(const StudyResult& result, const Plots& plots) {
   const LifeSummary& summary = *result.life;
-  const Life& life = summary.exact ? *summary.exact : summary.drawn;
+  const Life& life = summary.best();
   Numbers percent = plots.life->y;
   for (double& p : percent) p *= 100;
   std::vector<Json> marks = {
@@ -147,7 +143,7 @@ Figure next_figure(const StudyResult& result) {
   Window window;
   for (std::size_t i = 0; i + 1 < result.stages.size(); ++i) {
     const PredictionSummary& next = result.stages[i].predictions[1];
-    const Prediction& p = best(next);
+    const Prediction& p = next.best();
     names.push_back(html::given(next.at));
     ci05.push_back(p.ci05);
     ci95.push_back(p.ci95);

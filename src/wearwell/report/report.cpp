@@ -19,15 +19,6 @@ using html::quantity;
 using html::range;
 using html::unit;
 
-const Prediction& best(const PredictionSummary& p) {
-  return p.exact ? *p.exact : p.drawn;
-}
-
-// Quadrature where there is one, else draws.
-ExactSummary best(const ParameterSummary& p) {
-  return p.exact ? *p.exact : ExactSummary{p.mean, p.sd, p.q05, p.q50, p.q95};
-}
-
 std::string with_unit(const std::string& name, const std::string& unit_text) {
   return unit_text == "1" ? escape(name)
                           : fmt::format("{} <span class=\"unit\">[{}]</span>", escape(name),
@@ -75,10 +66,6 @@ std::string life_number(double x, int digits = 4) {
   return number(x, std::min(digits, whole));
 }
 
-const QuantityQuantiles& best(const QuantitySummary& summary) {
-  return summary.exact ? *summary.exact : summary.drawn;
-}
-
 // The life that the verdict tells where there is none until a limit: the last that was asked for.
 const QuantitySummary* told_life(const StudyResult& result) {
   const auto& all = result.quantities;
@@ -93,13 +80,13 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
     sentence += (sentence.empty() ? "" : "; ") + clause;
   };
   if (result.life) {
-    const Life& life = result.life->exact ? *result.life->exact : result.life->drawn;
+    const Life& life = result.life->best();
     add(fmt::format("the {} reaches the limit of {} after about {} {} (90 % interval {})",
                     plots.quantity, given(result.life->limit, result.life->limit_unit),
                     life_number(life.b50, 3), result.life->unit, range(life.q05, life.q95, 3)));
   }
   if (const QuantitySummary* life = told_life(result)) {
-    const QuantityQuantiles& q = best(*life);
+    const QuantityQuantiles& q = life->best();
     const std::string in = unit(life->unit);
     add(
         fmt::format("the {} of a {} {} is {} {} in the median (90 % interval {} to {}), and one in "
@@ -110,11 +97,11 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
     add(fmt::format("at {} {} the {} is {} (90 % interval {})", given(p.at), p.at_name,
-                    plots.quantity, quantity(best(p).mean, p.unit, 3),
-                    interval(best(p).ci05, best(p).ci95, p.unit, 3)));
+                    plots.quantity, quantity(p.best().mean, p.unit, 3),
+                    interval(p.best().ci05, p.best().ci95, p.unit, 3)));
   }
   const ParameterSummary& first = result.parameters.front();
-  const ExactSummary k = best(first);
+  const ExactSummary k = first.best();
   add(fmt::format("the {} {} is {} (90 % interval {})", plots.parameters.front().meaning,
                   first.name, quantity(k.mean, first.unit, 3),
                   interval(k.q05, k.q95, first.unit, 3)));
@@ -152,7 +139,7 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
   std::vector<html::Tile> tiles;
   if (result.life) {
     const LifeSummary& summary = *result.life;
-    const Life& life = summary.exact ? *summary.exact : summary.drawn;
+    const Life& life = summary.best();
     tiles.push_back(
         {"Life B10", life_number(life.b10, 3), summary.unit,
          fmt::format("one in ten reaches {} earlier", given(summary.limit, summary.limit_unit))});
@@ -161,19 +148,19 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
                                  given(summary.now), given(100 * summary.risk))});
   }
   if (const QuantitySummary* told = told_life(result)) {
-    tiles.push_back({"Life B10", life_number(best(*told).b10, 3), unit(told->unit),
+    tiles.push_back({"Life B10", life_number(told->best().b10, 3), unit(told->unit),
                      fmt::format("{} {}", told->of, told->at)});
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
     tiles.push_back(
         {fmt::format("{} at {} {}", html::capital(plots.quantity), given(p.at), p.at_name),
-         number(best(p).mean, 3), unit(p.unit),
-         fmt::format("one measurement: {}", interval(best(p).pi05, best(p).pi95, p.unit, 3))});
+         number(p.best().mean, 3), unit(p.unit),
+         fmt::format("one measurement: {}", interval(p.best().pi05, p.best().pi95, p.unit, 3))});
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(2, result.parameters.size()); ++i) {
     const ParameterSummary& p = result.parameters[i];
-    const ExactSummary each = best(p);
+    const ExactSummary each = p.best();
     tiles.push_back({fmt::format("{}, {}", p.name, plots.parameters[i].meaning),
                      number(each.mean, 3), unit(p.unit),
                      fmt::format("90 % interval {}", range(each.q05, each.q95, 3))});
@@ -189,7 +176,7 @@ std::string prediction_table(const std::string& caption,
                      "90 % of the mean", "90 % of measurements", "Measured"},
                     {}};
   for (const auto& [data_sets, p] : rows) {
-    const Prediction& b = best(p);
+    const Prediction& b = p.best();
     table.rows.push_back({fmt::format("{}", data_sets), given(p.at), number(b.mean),
                           range(b.ci05, b.ci95), range(b.pi05, b.pi95),
                           p.measured ? number(*p.measured) : "–"});
@@ -198,7 +185,7 @@ std::string prediction_table(const std::string& caption,
 }
 
 std::string life_table(const LifeSummary& summary) {
-  const Life& life = summary.exact ? *summary.exact : summary.drawn;
+  const Life& life = summary.best();
   return html::table(
       {fmt::format("Life in {} until {}", summary.unit, given(summary.limit, summary.limit_unit)),
        {"B1", "B10", "B50", "90 % interval",
@@ -214,7 +201,7 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
                     {"Quantity", "Of", "Where", "5 %", "50 %", "95 %", "B1", "B10"},
                     {}};
   for (const QuantitySummary& each : quantities) {
-    const QuantityQuantiles& q = best(each);
+    const QuantityQuantiles& q = each.best();
     const auto value = [&](double x) { return quantity_value(each, x); };
     table.rows.push_back({with_unit(each.name, each.unit), escape(each.of),
                           escape(html::raised(each.at)), value(q.q05), value(q.q50), value(q.q95),
@@ -281,7 +268,7 @@ std::string parameter_section(const StudyResult& result, const Plots& plots) {
     for (const StageSummary& stage : result.stages) {
       stages.rows.push_back({fmt::format("{}", stage.rows)});
       for (const ParameterSummary& p : stage.parameters) {
-        const ExactSummary b = best(p);
+        const ExactSummary b = p.best();
         stages.rows.back().insert(stages.rows.back().end(),
                                   {number(b.mean), number(b.sd), range(b.q05, b.q95)});
       }

@@ -13,7 +13,7 @@
 namespace wearwell {
 
 /// What a study found, in the units that its user asked for: all that reports need. No physics, no
-/// statistics.
+/// statistics. best(): by quadrature where there is one, else from the draws.
 
 struct ExactSummary {
   double mean = 0, sd = 0, q05 = 0, q50 = 0, q95 = 0;
@@ -25,6 +25,8 @@ struct ParameterSummary {
   double mean = 0, sd = 0, mcse = 0, q05 = 0, q50 = 0, q95 = 0;
   double ess_bulk = 0, ess_tail = 0, rhat = 0;
   std::optional<ExactSummary> exact;
+
+  ExactSummary best() const { return exact ? *exact : ExactSummary{mean, sd, q05, q50, q95}; }
 };
 
 /// The worn volume (or whatever the study measures) at one point of its history.
@@ -36,6 +38,8 @@ struct PredictionSummary {
   Prediction drawn;
   std::optional<Prediction> exact;
   std::optional<double> measured;  ///< when the data hold a measurement there
+
+  const Prediction& best() const { return exact ? *exact : drawn; }
 };
 
 /// A quantity derived from the parameters: a pressure, a length, a life.
@@ -52,6 +56,8 @@ struct QuantitySummary {
   bool is_life = false;
   QuantityQuantiles drawn;
   std::optional<QuantityQuantiles> exact;
+
+  const QuantityQuantiles& best() const { return exact ? *exact : drawn; }
 };
 
 struct LifeSummary {
@@ -62,6 +68,8 @@ struct LifeSummary {
   double risk = 0;
   Life drawn;
   std::optional<Life> exact;
+
+  const Life& best() const { return exact ? *exact : drawn; }
 };
 
 /// The posterior after the first `rows` data sets.

@@ -38,16 +38,12 @@ Json best_model(const SelectionResult& result) {
   json["intercept"] = {{"value", number(original.intercept)},
                        {"se", number(original.intercept_error)}};
   Json coefficients = Json::object();
-  for (std::size_t j = 0; j < model.terms.size(); ++j) {
-    const auto i = static_cast<Eigen::Index>(j);
-    const Term& term = result.design.terms[model.terms[j]];
-    const bool constant = term.factors.empty();
-    const double value = constant ? original.intercept : original.coefficients[i];
-    const double error = constant ? original.intercept_error : original.standard_errors[i];
-    coefficients[term.name] = {{"value", number(value)},
-                               {"se", number(error)},
-                               {"scaled", number(fit.coefficients[i])},
-                               {"scaled_se", number(fit.standard_errors[i])}};
+  for (const CoefficientRow& each : coefficient_rows(result)) {
+    if (!each.selected) continue;
+    coefficients[each.term] = {{"value", number(each.original)},
+                               {"se", number(each.original_error)},
+                               {"scaled", number(each.scaled)},
+                               {"scaled_se", number(each.scaled_error)}};
   }
   json["coefficients"] = coefficients;
   return json;

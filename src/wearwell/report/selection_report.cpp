@@ -71,28 +71,16 @@ std::string size_section(const SelectionResult& result) {
 }
 
 std::string coefficient_section(const SelectionResult& result) {
-  const Selection& selection = result.selection;
-  const auto& terms = selection.search.models.front().terms;
   html::Table table{
       "Coefficients of the best model",
       {"Term", "Scaled", "Standard error", "Original units", "Standard error", "In models found"},
       {}};
-  bool constant = false;
-  for (std::size_t j = 0; j < terms.size(); ++j) {
-    const auto i = static_cast<Eigen::Index>(j);
-    const Term& term = result.design.terms[terms[j]];
-    const OriginalCoefficients& original = selection.original;
-    const bool here = term.factors.empty();
-    constant = constant || here;
-    table.rows.push_back({escape(term.name), number(selection.fit.coefficients[i]),
-                          number(selection.fit.standard_errors[i]),
-                          number(here ? original.intercept : original.coefficients[i]),
-                          number(here ? original.intercept_error : original.standard_errors[i]),
-                          fmt::format("{:.0f} %", 100 * selection.support[terms[j]].inclusion)});
+  for (const CoefficientRow& each : coefficient_rows(result)) {
+    table.rows.push_back({escape(each.term), each.selected ? number(each.scaled) : "–",
+                          each.selected ? number(each.scaled_error) : "–", number(each.original),
+                          number(each.original_error),
+                          each.selected ? fmt::format("{:.0f} %", 100 * each.inclusion) : "–"});
   }
-  if (!constant)
-    table.rows.push_back({"(intercept)", "–", "–", number(selection.original.intercept),
-                          number(selection.original.intercept_error), "–"});
   std::string out =
       "<p>Each term is scaled to run from 0 to 1 over the data, so that the scaled coefficients "
       "compare: how much the response changes over the range of the term. Standard errors take the "

@@ -28,6 +28,18 @@ struct SelectionResult {
   }
 };
 
+/// One coefficient of the best model. A constant has its value in original units and its inclusion
+/// like any term; where the model has none, a last row holds the intercept that scaling leaves.
+struct CoefficientRow {
+  std::string term;
+  bool selected = true;  ///< false for an intercept that is no term: `scaled` and `inclusion` unset
+  double scaled = 0, scaled_error = 0;
+  double original = 0, original_error = 0;
+  double inclusion = 0;  ///< share of the models found that hold the term
+};
+
+std::vector<CoefficientRow> coefficient_rows(const SelectionResult& result);
+
 /// How `model` differs from `other`: "- a*b + a*a"; empty when they are the same.
 std::string difference(const SelectionResult& result, const std::vector<int>& model,
                        const std::vector<int>& other);

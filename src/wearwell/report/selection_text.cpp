@@ -20,25 +20,12 @@ std::string number(double x) {
 }
 
 std::string coefficient_table(const SelectionResult& result) {
-  const Selection& selection = result.selection;
-  const auto& terms = selection.search.models.front().terms;
   Rows rows = {{"", "scaled", "std. error", "original units", "std. error", "in models"}};
-  bool constant = false;
-  for (std::size_t j = 0; j < terms.size(); ++j) {
-    const auto i = static_cast<Eigen::Index>(j);
-    const Term& term = result.design.terms[terms[j]];
-    const OriginalCoefficients& original = selection.original;
-    const bool here = term.factors.empty();
-    constant = constant || here;
-    rows.push_back({term.name, number(selection.fit.coefficients[i]),
-                    number(selection.fit.standard_errors[i]),
-                    number(here ? original.intercept : original.coefficients[i]),
-                    number(here ? original.intercept_error : original.standard_errors[i]),
-                    fmt::format("{:.0f} %", 100 * selection.support[terms[j]].inclusion)});
-  }
-  if (!constant) {
-    rows.push_back({"(intercept)", "-", "-", number(selection.original.intercept),
-                    number(selection.original.intercept_error), "-"});
+  for (const CoefficientRow& each : coefficient_rows(result)) {
+    rows.push_back({each.term, each.selected ? number(each.scaled) : "-",
+                    each.selected ? number(each.scaled_error) : "-", number(each.original),
+                    number(each.original_error),
+                    each.selected ? fmt::format("{:.0f} %", 100 * each.inclusion) : "-"});
   }
   return text_table(rows);
 }
@@ -108,26 +95,6 @@ std::string best_by(Criterion criterion) {
 }
 
 }  // namespace
-
-std::string criterion_title(Criterion criterion) {
-  static constexpr const char* titles[] = {"PRESS", "AIC", "AICc", "BIC", "Cp", "adjusted R2"};
-  return titles[static_cast<int>(criterion)];
-}
-
-std::string difference(const SelectionResult& result, const std::vector<int>& model,
-                       const std::vector<int>& other) {
-  std::vector<std::string> changes;
-  const auto list = [&](const char* sign, const std::vector<int>& from,
-                        const std::vector<int>& to) {
-    for (const int term : from) {
-      if (std::find(to.begin(), to.end(), term) == to.end())
-        changes.push_back(fmt::format("{} {}", sign, result.design.terms[term].name));
-    }
-  };
-  list("-", other, model);
-  list("+", model, other);
-  return fmt::format("{}", fmt::join(changes, " "));
-}
 
 std::string gap_sentence(const SelectionResult& result) {
   const SearchResult& search = result.selection.search;

@@ -74,10 +74,6 @@ std::string histogram_lines(const StudyResult& result) {
 }
 
 // The better of the two: quadrature where there is one.
-const Prediction& best(const PredictionSummary& p) {
-  return p.exact ? *p.exact : p.drawn;
-}
-
 std::string stage_table(const std::vector<StageSummary>& stages) {
   std::vector<std::vector<std::string>> rows = {{"data sets"}};
   for (const ParameterSummary& p : stages.front().parameters) {
@@ -102,7 +98,7 @@ std::string prediction_table(const std::vector<PredictionSummary>& predictions) 
       {first.at_name, with_unit(first.quantity, first.unit), "mean wear 5 %..95 %",
        "measurement 5 %..95 %", "measured"}};
   for (const PredictionSummary& each : predictions) {
-    const Prediction& p = best(each);
+    const Prediction& p = each.best();
     rows.push_back({fmt::format("{}", each.at), number(p.mean),
                     fmt::format("{:.4g} .. {:.4g}", p.ci05, p.ci95),
                     fmt::format("{:.4g} .. {:.4g}", p.pi05, p.pi95),
@@ -115,7 +111,7 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows = {
       {"", "of the", "5 %", "50 %", "95 %", "B1", "B10", "B50"}};
   for (const QuantitySummary& each : quantities) {
-    const QuantityQuantiles& q = each.exact ? *each.exact : each.drawn;
+    const QuantityQuantiles& q = each.best();
     rows.push_back({with_unit(each.name, each.unit) + " " + each.at, each.of, number(q.q05),
                     number(q.q50), number(q.q95)});
     for (const double b : {q.b1, q.b10, q.b50}) {
@@ -130,7 +126,7 @@ std::string count(double x) {
 }
 
 std::string life_lines(const LifeSummary& summary) {
-  const Life& life = summary.exact ? *summary.exact : summary.drawn;
+  const Life& life = summary.best();
   return fmt::format(
       "  {0} to {1} {2}:  B1 {3}   B10 {4}   B50 {5}   (5 %..95 %: {6} .. {7})\n"
       "  after {8} {0}, inspect again within {9} {0}: {10} % risk of reaching the limit before\n",
