@@ -107,6 +107,9 @@ void every_size_of_35(benchmark::State& state) {
 void loo_of_35_in_1000_rows(benchmark::State& state) {
   search(state, tall(1000), settings_of(state, Criterion::loo));
 }
+void loo_of_35_in_10000_rows(benchmark::State& state) {
+  search(state, tall(10'000), settings_of(state, Criterion::loo));
+}
 void bic_of_35_in_10000_rows(benchmark::State& state) {
   search(state, tall(10'000), settings_of(state, Criterion::bic));
 }
@@ -147,6 +150,7 @@ SEARCH(loo_of_35);
 SEARCH(bic_of_35);
 SEARCH(every_size_of_35);
 SEARCH(loo_of_35_in_1000_rows);
+SEARCH(loo_of_35_in_10000_rows)->Iterations(1);
 SEARCH(bic_of_35_in_10000_rows);
 SEARCH(bic_of_60);
 BENCHMARK(plain_loop_of_14)->Unit(benchmark::kMillisecond);

@@ -1,10 +1,8 @@
 #include "wearwell/regress/branch_and_bound.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <memory>
 
+#include "wearwell/base/workers.h"
 #include "wearwell/regress/press_search.h"
 #include "wearwell/regress/rss_search.h"
 
@@ -32,8 +30,7 @@ void branch_and_bound(const SearchProblem& problem, ModelPool& pool, Frontier& f
       throw;
     }
   };
-  tbb::task_arena arena(threads);
-  arena.execute([&] { tbb::parallel_for(0, threads, work, tbb::simple_partitioner()); });
+  run_workers(threads, work);
 }
 
 }  // namespace wearwell

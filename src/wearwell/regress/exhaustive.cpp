@@ -1,13 +1,11 @@
 #include "wearwell/regress/exhaustive.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
 
+#include "wearwell/base/workers.h"
 #include "wearwell/regress/submodel.h"
 
 namespace wearwell {
@@ -142,8 +140,7 @@ Cloud exhaustive_search(const SearchProblem& problem, ModelPool& pool, const Bra
     ++done;
     control.report(cloud.models, root.bound, static_cast<double>(done) / tasks);
   };
-  tbb::task_arena arena(threads);
-  arena.execute([&] { tbb::parallel_for(0, tasks, work, tbb::simple_partitioner()); });
+  run_tasks(tasks, threads, work);
   cloud.skipped = std::ldexp(1.0, count) - cloud.models;
   return cloud;
 }

@@ -1,11 +1,11 @@
 #include "wearwell/regress/subset_search.h"
 
 #include <fmt/format.h>
-#include <tbb/info.h>
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "wearwell/base/error.h"
 #include "wearwell/regress/branch_and_bound.h"
@@ -73,7 +73,7 @@ SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorX
   const bool exhaustive = settings.cloud != CloudKind::none;
   const int free_count = static_cast<int>(terms_of(free).size());
   check(settings, free_count);
-  const int cores = tbb::info::default_concurrency();
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = settings.threads > 0 ? std::min(settings.threads, cores) : cores;
 
   ModelPool pool(problem, {static_cast<std::size_t>(settings.keep), settings.near,

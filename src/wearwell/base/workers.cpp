@@ -1,0 +1,42 @@
+#include "wearwell/base/workers.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace wearwell {
+
+void run_workers(int threads, const std::function<void(int)>& work) {
+  std::vector<std::exception_ptr> failures(threads);
+  const auto guarded = [&](int worker) {
+    try {
+      work(worker);
+    } catch (...) {
+      failures[worker] = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;  // join where this scope ends
+    for (int worker = 1; worker < threads; ++worker) others.emplace_back(guarded, worker);
+    guarded(0);
+  }
+  for (const auto& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
+
+void run_tasks(int count, int threads, const std::function<void(int)>& task) {
+  std::atomic<int> next = 0;
+  run_workers(std::min(threads, count), [&](int) {
+    try {
+      for (int i = next++; i < count; i = next++) task(i);
+    } catch (...) {
+      next = count;
+      throw;
+    }
+  });
+}
+
+}  // namespace wearwell
