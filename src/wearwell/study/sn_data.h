@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "wearwell/fatigue/life_test.h"
+#include "wearwell/study/columns.h"
+
+namespace wearwell {
+
+/// Life tests as a study file names them, with what is needed to speak of them in its terms.
+struct SnData {
+  fatigue::LifeTests tests;         ///< one a row
+  std::vector<std::string> labels;  ///< one a row: the type of specimen; empty where there is none
+  Unit stress_unit;
+  Unit life_unit;      ///< "cycles", "1e5 cycles"
+  std::string source;  ///< the file, for messages
+  std::string mean_stress_column;
+};
+
+/// Reads [data] and what [conditions] holds for all rows. Stress stands there in one of four ways:
+/// alternating_stress with mean_stress (0 where it does not matter), max_stress with min_stress,
+/// alternating_stress with stress_ratio, or displacement_mean with displacement_amplitude of a
+/// spring in [conditions]. Throws InputError naming file, row and column.
+SnData read_sn_data(const TomlReader& root, const std::filesystem::path& folder,
+                    fatigue::MeanStress correction);
+
+/// The unit of lives as people read it: "cycles", "1e5 cycles".
+Unit life_unit(const Unit& unit);
+
+}  // namespace wearwell
