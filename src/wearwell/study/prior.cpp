@@ -30,9 +30,7 @@ class PriorReader {
 
   double dimensional(const char* key) { return keep(table_.required_quantity(key, spec_.si)); }
   // Standard deviations and scales: of a logarithm they are plain numbers.
-  double size(const char* key) {
-    return is_logarithm(spec_.si) ? plain(key) : dimensional(key);
-  }
+  double size(const char* key) { return is_logarithm(spec_.si) ? plain(key) : dimensional(key); }
   double plain(const char* key) { return table_.required_quantity(key, "1").si(); }
   double bound(const char* key, double none) {
     const auto value = table_.quantity(key, spec_.si);
@@ -48,9 +46,10 @@ class PriorReader {
       return Uniform{};
     }
     if (is_logarithm(spec_.si) && law != "normal" && law != "student-t") {
-      table_.fail("law", fmt::format("of a logarithm must be flat, uniform, normal or student-t, not "
-                                     "{}",
-                                     law));
+      table_.fail("law",
+                  fmt::format("of a logarithm must be flat, uniform, normal or student-t, not "
+                              "{}",
+                              law));
     }
     if (law == "normal") return Normal{dimensional("mean"), size("sd")};
     if (law == "lognormal") return lognormal();

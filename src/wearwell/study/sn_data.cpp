@@ -20,8 +20,7 @@ using fatigue::Stress;
 // One input of every test: from its column, or the same for all from [conditions].
 class Inputs {
  public:
-  Inputs(const TomlReader& columns, const std::optional<TomlReader>& conditions,
-         const Table& table)
+  Inputs(const TomlReader& columns, const std::optional<TomlReader>& conditions, const Table& table)
       : columns_(columns), conditions_(conditions), table_(table) {}
 
   bool has(const std::string& name) const {
@@ -133,7 +132,8 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
     const auto ratios = inputs.read("stress_ratio", "1");
     for (std::size_t i = 0; i < table.rows; ++i) {
       const double r = ratios.values[i];
-      inputs.require(r < 1, ratios, i, "stress_ratio", "less than 1 (smallest over largest stress)");
+      inputs.require(r < 1, ratios, i, "stress_ratio",
+                     "less than 1 (smallest over largest stress)");
       stresses[i].mean = stresses[i].alternating * (1 + r) / (1 - r);
     }
     data.mean_stress_column = ratios.column ? ratios.column->column : "";
@@ -151,9 +151,9 @@ std::string cell(const Column& column, std::size_t row) {
 
 Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t row) {
   static const std::vector<std::pair<std::string, Outcome>> words = {
-      {"failure", Outcome::failure}, {"F", Outcome::failure}, {"0", Outcome::failure},
-      {"runout", Outcome::runout},   {"S", Outcome::runout},  {"1", Outcome::runout},
-      {"run-out", Outcome::runout},  {"left", Outcome::left}, {"-1", Outcome::left},
+      {"failure", Outcome::failure},   {"F", Outcome::failure}, {"0", Outcome::failure},
+      {"runout", Outcome::runout},     {"S", Outcome::runout},  {"1", Outcome::runout},
+      {"run-out", Outcome::runout},    {"left", Outcome::left}, {"-1", Outcome::left},
       {"interval", Outcome::interval}, {"2", Outcome::interval}};
   const std::string word = cell(table.column(choice.column), row);
   for (const auto& [name, outcome] : words) {

@@ -24,17 +24,18 @@ SnLaw read_law(const TomlReader& root) {
   const auto correction =
       table ? table->choice("mean_stress", fatigue::mean_stress_names()) : std::nullopt;
   if (!correction) {
-    root.fail("law", "needs mean_stress: how does a mean stress shorten life? [law] mean_stress = "
-                     "\"goodman\", \"gerber\", \"soderberg\", \"morrow\", \"swt\", \"walker\" or "
-                     "\"none\"");
+    root.fail("law",
+              "needs mean_stress: how does a mean stress shorten life? [law] mean_stress = "
+              "\"goodman\", \"gerber\", \"soderberg\", \"morrow\", \"swt\", \"walker\" or "
+              "\"none\"");
   }
   law.correction = *fatigue::mean_stress_named(*correction);
   const auto limit = table->choice("fatigue_limit", {"none", "random"});
   const std::vector<std::string> families = {"normal", "smallest-extreme-value"};
   const auto limit_family = table->choice("limit_family", families);
   if (limit == "random") {
-    law.limit = limit_family == families[1] ? StandardLaw::smallest_extreme_value
-                                            : StandardLaw::normal;
+    law.limit =
+        limit_family == families[1] ? StandardLaw::smallest_extreme_value : StandardLaw::normal;
   } else if (limit_family) {
     table->fail("limit_family", "needs fatigue_limit = \"random\"");
   }
@@ -67,18 +68,18 @@ std::string log_strength_name(MeanStress correction) {
 }
 
 // Refuses tests whose mean stress no allowed strength bears.
-void refuse_beyond(const SnLaw& law, const SnData& data, double strength, const std::string& name) {
+void refuse_beyond(const SnData& data, double strength, const std::string& name) {
   for (std::size_t i = 0; i < data.tests.size(); ++i) {
     const double mean = data.tests[i].stress.mean;
     if (mean < strength) continue;
-    const std::string column =
-        data.mean_stress_column.empty() ? "" : fmt::format(", column '{}'", data.mean_stress_column);
+    const std::string column = data.mean_stress_column.empty()
+                                   ? ""
+                                   : fmt::format(", column '{}'", data.mean_stress_column);
     throw InputError(fmt::format(
         "{}, row {}{}: the mean stress {:.6g} {} is not below {}, which is at most {:.6g} {}",
         data.source, i + 1, column, from_si(data.stress_unit, mean), data.stress_unit.text, name,
         from_si(data.stress_unit, strength), data.stress_unit.text));
   }
-  (void)law;
 }
 
 std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
@@ -90,17 +91,17 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
   double material = std::max(3 * largest_mean, 1e6);
   std::optional<Parameter> log_strength;
   if (law.strength) {
-    refuse_beyond(law, data, *law.strength, strength);
+    refuse_beyond(data, *law.strength, strength);
     if (priors.has(log_strength_name(law.correction))) {
-      priors.fail(log_strength_name(law.correction),
-                  fmt::format("is given, but conditions.{} says that it is known; keep one",
-                              strength));
+      priors.fail(
+          log_strength_name(law.correction),
+          fmt::format("is given, but conditions.{} says that it is known; keep one", strength));
     }
     material = *law.strength;
   } else if (law.has_strength()) {
     log_strength = read_prior(priors, {log_strength_name(law.correction), "log10(Pa)", -INFINITY,
                                        INFINITY, std::log10(material)});
-    refuse_beyond(law, data, std::pow(10, log_strength->prior.upper), strength);
+    refuse_beyond(data, std::pow(10, log_strength->prior.upper), strength);
     const double least = largest_mean > 0 ? std::log10(largest_mean) : -INFINITY;
     if (log_strength->start < least + 0.01) {
       const double upper = std::min(log_strength->prior.upper, least + 1);
@@ -186,9 +187,10 @@ std::string in_words(const SnLaw& law) {
                ? "; N is Weibull of shape 1/(sigma ln 10), 63.2 % below the curve"
                : "; N scatters normally with standard deviation sigma";
   if (law.limit) {
-    words += fmt::format("; log10 of the limit is {} with location log10_limit and scale "
-                         "sigma_limit, and no end of life below it",
-                         *law.limit == StandardLaw::normal ? "normal" : "smallest extreme value");
+    words += fmt::format(
+        "; log10 of the limit is {} with location log10_limit and scale "
+        "sigma_limit, and no end of life below it",
+        *law.limit == StandardLaw::normal ? "normal" : "smallest extreme value");
   }
   return words;
 }
@@ -200,8 +202,9 @@ void read_sn_study(const TomlReader& root, const std::filesystem::path& folder, 
   const SnData data = read_sn_data(root, folder, law.correction);
   if (study.stages) {
     root.required_table("update").fail(
-        "stages", "is not for model \"sn\": tests have no order; fit the first tests as a study of "
-                  "their own (data.sql = \"select ... limit 6\")");
+        "stages",
+        "is not for model \"sn\": tests have no order; fit the first tests as a study of "
+        "their own (data.sql = \"select ... limit 6\")");
   }
   study.parameters = read_parameters(root, law, data);
   study.equation = in_words(law);
