@@ -7,7 +7,7 @@
 
 #include "wearwell/report/figures.h"
 #include "wearwell/report/html.h"
-#include "wearwell/report/resources.h"
+#include "wearwell/report/page.h"
 
 namespace wearwell {
 namespace {
@@ -75,6 +75,17 @@ std::string life_number(double x, int digits = 4) {
   return number(x, std::min(digits, whole));
 }
 
+const QuantityQuantiles& best(const QuantitySummary& summary) {
+  return summary.exact ? *summary.exact : summary.drawn;
+}
+
+// The life that the verdict tells where there is none until a limit: the last that was asked for.
+const QuantitySummary* told_life(const StudyResult& result) {
+  const auto& all = result.quantities;
+  const auto last = std::find_if(all.rbegin(), all.rend(), [](const auto& q) { return q.is_life; });
+  return result.life || last == all.rend() ? nullptr : &*last;
+}
+
 // What a tribologist would say.
 std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
   std::string sentence;
@@ -86,6 +97,15 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
     add(fmt::format("the {} reaches the limit of {} after about {} {} (90 % interval {})",
                     plots.quantity, given(result.life->limit, result.life->limit_unit),
                     life_number(life.b50, 3), result.life->unit, range(life.q05, life.q95, 3)));
+  }
+  if (const QuantitySummary* life = told_life(result)) {
+    const QuantityQuantiles& q = best(*life);
+    const std::string in = unit(life->unit);
+    add(
+        fmt::format("the {} of a {} {} is {} {} in the median (90 % interval {} to {}), and one in "
+                    "ten has less than {} {}",
+                    life->name, life->of, life->at, life_number(q.q50, 3), in,
+                    life_number(q.q05, 3), life_number(q.q95, 3), life_number(q.b10, 3), in));
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
@@ -125,10 +145,6 @@ std::string quantity_value(const QuantitySummary& summary, double x, int digits 
   return summary.is_life ? life_number(x, digits) : number(x, digits);
 }
 
-const QuantityQuantiles& best(const QuantitySummary& summary) {
-  return summary.exact ? *summary.exact : summary.drawn;
-}
-
 std::string verdict_section(const StudyResult& result, const Plots& plots) {
   std::string out =
       fmt::format("<p class=\"verdict\">{}</p>\n", escape(verdict_sentence(result, plots)));
@@ -143,6 +159,10 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
     tiles.push_back({"Inspect again within", life_number(life.inspect_within, 3), summary.unit,
                      fmt::format("after {}; risk of reaching the limit before: {} %",
                                  given(summary.now), given(100 * summary.risk))});
+  }
+  if (const QuantitySummary* told = told_life(result)) {
+    tiles.push_back({"Life B10", life_number(best(*told).b10, 3), unit(told->unit),
+                     fmt::format("{} {}", told->of, told->at)});
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
@@ -365,61 +385,20 @@ std::string method_section(const StudyResult& result, const Plots& plots) {
                                                        escape(plots.study_text)));
 }
 
-std::string script(std::string_view code) {
-  return fmt::format("<script>{}</script>\n", code);
-}
-
-// The licences ask that their text goes with the code.
-std::string licence(const char* name, std::string_view text) {
-  return fmt::format("<!-- {} in this page:\n{}\n-->\n", name, text);
-}
-
 }  // namespace
 
 std::string html_report(const StudyResult& result) {
   const Plots& plots = *result.plots;
-  static constexpr std::pair<const char*, const char*> contents[] = {
-      {"verdict", "Verdict"}, {"predictions", "Predictions"}, {"parameters", "Parameters"},
-      {"fit", "Fit"},         {"checks", "Checks"},           {"method", "Method"}};
-  std::string navigation;
-  for (const auto& [id, title] : contents) {
-    navigation += fmt::format("<li><a href=\"#{}\">{}</a></li>", id, title);
-  }
-  std::string page = fmt::format(
-      R"(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<meta name="generator" content="wearwell {}">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'; img-src data: blob:">
-<title>{}</title>
-<style>{}</style>
-</head>
-<body>
-<header><h1>{}</h1><p>{}, {} data sets of {}</p>
-<nav aria-label="Contents"><ul>{}</ul></nav></header>
-<main>
-)",
-      escape(result.version), escape(result.title), resource::page_css(), escape(result.title),
-      escape(result.model), result.data_rows, escape(result.data_file), navigation);
-  page += html::section("verdict", "Verdict", verdict_section(result, plots));
-  page += html::section("predictions", "Predictions", prediction_section(result, plots));
-  page += html::section("parameters", "Parameters", parameter_section(result, plots));
-  page += html::section("fit", "Fit", fit_section(result, plots));
-  page += html::section("checks", "Checks", check_section(result, plots));
-  page += html::section("method", "Method and reproducibility", method_section(result, plots));
-  page += fmt::format("</main>\n<footer><p>Written by wearwell {}.</p></footer>\n",
-                      escape(result.version));
-  page += licence("vega", resource::vega_license());
-  page += script(resource::vega());
-  page += licence("vega-lite", resource::vega_lite_license());
-  page += script(resource::vega_lite());
-  page += licence("vega-embed", resource::vega_embed_license());
-  page += script(resource::vega_embed());
-  page += script(resource::page_js());
-  return page + "</body>\n</html>\n";
+  return html_page(
+      {result.version,
+       result.title,
+       fmt::format("{}, {} data sets of {}", result.model, result.data_rows, result.data_file),
+       {{"verdict", "Verdict", verdict_section(result, plots)},
+        {"predictions", "Predictions", prediction_section(result, plots)},
+        {"parameters", "Parameters", parameter_section(result, plots)},
+        {"fit", "Fit", fit_section(result, plots)},
+        {"checks", "Checks", check_section(result, plots)},
+        {"method", "Method", method_section(result, plots), "Method and reproducibility"}}});
 }
 
 }  // namespace wearwell
