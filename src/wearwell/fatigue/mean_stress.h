@@ -16,6 +16,17 @@ struct Stress {
   double mean = 0;
 };
 
+/// Where the mean stress is when the alternating stress grows: it stays, or the ratio R of smallest
+/// to largest stress does.
+struct StressLine {
+  double mean = 0;              ///< Pa, where there is no ratio
+  std::optional<double> ratio;  ///< R < 1
+
+  Stress at(double alternating) const {
+    return {alternating, ratio ? alternating * (1 + *ratio) / (1 - *ratio) : mean};
+  }
+};
+
 /// How a mean stress lowers life: the fully reversed amplitude S_f that is as harmful.
 ///
 ///   none      S_f = S_a
@@ -68,5 +79,10 @@ T log10_factor(MeanStress correction, const Stress& stress, const T& strength, c
   }
   return T(0);
 }
+
+/// The alternating stress [Pa] along a line whose fully reversed amplitude is `reversed` [Pa]: 0
+/// where the mean stress alone reaches the strength, infinite where no cycle is as harmful.
+double alternating_stress(MeanStress correction, double reversed, const StressLine& line,
+                          double strength, double gamma);
 
 }  // namespace wearwell::fatigue

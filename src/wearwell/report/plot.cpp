@@ -125,6 +125,12 @@ Json points(const Columns& data, const Look& look) {
   return layer(data, filled, look);
 }
 
+Json arrows(const Columns& data, const std::string& shape, const Look& look) {
+  Json json = points(data, look);
+  json["mark"]["shape"] = shape;
+  return json;
+}
+
 Json bars(const Columns& data, const Look& look) {
   Json thick = stroke("rule", look);
   thick["strokeCap"] = "butt";

@@ -215,12 +215,65 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
                     {}};
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = best(each);
+    if (q.predictive) continue;
     const auto value = [&](double x) { return quantity_value(each, x); };
     table.rows.push_back({with_unit(each.name, each.unit), escape(each.of),
                           escape(html::raised(each.at)), value(q.q05), value(q.q50), value(q.q95),
                           each.is_life ? value(q.b1) : "–", each.is_life ? value(q.b10) : "–"});
   }
+  return table.rows.empty() ? "" : html::table(table);
+}
+
+// Properties of all items, for the next one and with a lower bound: two columns that are not to be
+// mistaken for each other.
+std::string bound_table(const std::vector<QuantitySummary>& quantities) {
+  html::Table table;
+  for (const QuantitySummary& each : quantities) {
+    const QuantityQuantiles& q = best(each);
+    if (!q.predictive) continue;
+    if (table.heading.empty()) {
+      table.heading = {"Quantity",
+                       "Of",
+                       "Where",
+                       "Posterior predictive",
+                       fmt::format("{} % lower bound", given(100 * *each.credible_level)),
+                       "5 %",
+                       "50 %",
+                       "95 %"};
+    }
+    table.rows.push_back({with_unit(each.name, each.unit), escape(each.of),
+                          escape(html::raised(each.at)), number(*q.predictive), number(*q.bound),
+                          number(q.q05), number(q.q50), number(q.q95)});
+  }
+  if (table.rows.empty()) return "";
+  table.caption =
+      "For the next one (posterior predictive: all that is unknown averaged in), and at least "
+      "(lower bound: of all such items, exceeded with the stated probability)";
   return html::table(table);
+}
+
+std::string coverage_table(const CoverageTable& coverage) {
+  html::Table table{"Every test, and the life that the fit predicts of it",
+                    {"Row", "Type", "Outcome", with_unit("Life", coverage.unit), "Share below",
+                     "90 % predictive interval", "B10", "Where it lies"},
+                    {}};
+  std::size_t failures = 0, inside = 0;
+  for (const CoverageRow& row : coverage.rows) {
+    failures += row.failed();
+    inside += row.failed() && row.inside();
+    table.rows.push_back({fmt::format("{}", row.row), escape(row.label), escape(row.outcome),
+                          row.until ? range(row.life, *row.until) : number(row.life),
+                          number(100 * row.probability, 3) + "\u00a0%", range(row.q05, row.q95),
+                          number(row.b10),
+                          !row.failed()     ? "–"
+                          : row.below_b10() ? row.inside() ? "below B10" : "below B10, outside"
+                          : row.inside()    ? "inside"
+                                            : "outside"});
+  }
+  return fmt::format(
+             "<p>{} of {} failures lie within the interval that should hold nine in ten.</p>\n",
+             inside, failures) +
+         html::table(table);
 }
 
 // What the trade shows there beyond that.
@@ -240,7 +293,7 @@ std::string prediction_section(const StudyResult& result, const Plots& plots) {
     out += prediction_table("Predictions from all data sets", rows);
   }
   if (result.life) out += life_table(*result.life);
-  if (!result.quantities.empty()) out += quantity_table(result.quantities);
+  out += quantity_table(result.quantities) + bound_table(result.quantities);
   out += exhibits(plots, "predictions");
   if (!result.stages.empty()) {
     std::vector<std::pair<std::size_t, PredictionSummary>> rows;
@@ -315,6 +368,7 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
         inside, r.at.size());
     out += html::table(table) + html::figures(fit_figures(plots));
   }
+  if (result.coverage) out += coverage_table(*result.coverage);
   if (result.pointwise) {
     const PointwiseTable& p = *result.pointwise;
     html::Table pointwise{"Wear coefficient of each measurement for itself",

@@ -74,7 +74,18 @@ std::vector<PredictionSummary> summarize(const std::vector<PredictionRequest>& r
   return summaries;
 }
 
+QuantityQuantiles in_unit(const Unit& unit, QuantityQuantiles q) {
+  for (double* each : {&q.q05, &q.q50, &q.q95, &q.b1, &q.b10, &q.b50}) {
+    *each = from_si(unit, *each);
+  }
+  for (std::optional<double>* each : {&q.predictive, &q.bound}) {
+    if (*each) *each = from_si(unit, **each);
+  }
+  return q;
+}
+
 QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws& draws) {
+  if (request.from_draws) return in_unit(request.unit, request.from_draws(draws));
   std::function<double(double p)> driver;
   if (request.scatter) {
     driver = [items = Scattered(draws, request.driver, request.scatter)](double p) {
@@ -102,15 +113,17 @@ QuantitySummary summarize(const QuantityRequest& request, const Fit& fit) {
                           request.unit.text,
                           request.is_life,
                           quantiles(request, fit.pooled),
-                          {}};
+                          {},
+                          request.credible_level};
   if (fit.exact) summary.exact = quantiles(request, fit.exact->nodes);
   return summary;
 }
 
 std::vector<QuantitySummary> summarize(const std::vector<QuantityRequest>& requests,
                                        const Fit& fit) {
-  std::vector<QuantitySummary> summaries;
-  for (const QuantityRequest& request : requests) summaries.push_back(summarize(request, fit));
+  std::vector<QuantitySummary> summaries(requests.size());
+  tbb::parallel_for(std::size_t{0}, requests.size(),
+                    [&](std::size_t i) { summaries[i] = summarize(requests[i], fit); });
   return summaries;
 }
 
@@ -239,12 +252,16 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      summarize(study.quantities, final),
                      {},
                      study.pointwise,
+                     {},
                      final.exact ? final.exact->log_evidence : std::nullopt,
                      all_checks(study, posterior, final),
                      true,
                      in_units(study, std::move(final.draws))};
   result.trusted = trusted(result.checks);
   if (study.life) result.life = summarize(*study.life, final);
+  if (study.coverage) {
+    result.coverage = study.coverage(final.exact ? final.exact->nodes : final.pooled);
+  }
   if (study.stages) {
     // After the last data set the stage is the whole.
     const std::size_t last = study.data_rows - 1;

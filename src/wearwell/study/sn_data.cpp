@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
@@ -96,6 +97,7 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
   if (displacement) {
     if (!conditions) columns.fail("displacement_amplitude", "needs the spring in [conditions]");
     const fatigue::HelicalSpring spring = read_spring(*conditions);
+    data.spring = spring;
     const auto mean = inputs.read("displacement_mean", "m");
     const auto amplitude = inputs.read("displacement_amplitude", "m");
     data.stress_unit = read_unit("MPa", "Pa");
@@ -174,10 +176,61 @@ Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t
 
 }  // namespace
 
-Unit life_unit(const Unit& unit) {
-  Unit result = unit;
-  result.text = unit.text == "1" ? "cycles" : unit.text + " cycles";
-  return result;
+Unit life_unit(Unit unit) {
+  if (unit.text.find("cycle") != std::string::npos) {
+    unit.scale /= 2 * std::numbers::pi;
+  } else {
+    unit.text = unit.text == "1" ? "cycles" : unit.text + " cycles";
+  }
+  return unit;
+}
+
+std::vector<Quantity> read_lives(const TomlReader& table, const std::string& key) {
+  std::vector<Quantity> lives = table.quantities(key, "1");
+  for (Quantity& life : lives) {
+    life.unit = life_unit(life.unit);
+    if (!(life.si() > 0)) table.fail(key, "a life must be positive");
+  }
+  return lives;
+}
+
+Stress read_stress(const TomlReader& table, MeanStress correction,
+                   const std::optional<fatigue::HelicalSpring>& spring) {
+  const bool displacement = table.has("displacement_amplitude");
+  const bool extremes = table.has("max_stress");
+  if (displacement + extremes + table.has("alternating_stress") != 1) {
+    table.fail("",
+               "give the stress in one way: alternating_stress with mean_stress or stress_ratio, "
+               "max_stress with min_stress, or displacement_amplitude with displacement_mean");
+  }
+  if (displacement) {
+    if (!spring) table.fail("displacement_amplitude", "needs data given as displacements");
+    const double mean = table.required_quantity("displacement_mean", "m").si();
+    return {shear_stress(*spring, positive(table, "displacement_amplitude", "m")),
+            shear_stress(*spring, mean)};
+  }
+  if (extremes) {
+    const double high = table.required_quantity("max_stress", "Pa").si();
+    const double low = table.required_quantity("min_stress", "Pa").si();
+    if (!(high > low)) table.fail("max_stress", "must be larger than min_stress");
+    return {0.5 * (high - low), 0.5 * (high + low)};
+  }
+  const double alternating = positive(table, "alternating_stress", "Pa");
+  if (!table.has("mean_stress") && !table.has("stress_ratio") && correction == MeanStress::none) {
+    return {alternating, 0};
+  }
+  return read_line(table).at(alternating);
+}
+
+fatigue::StressLine read_line(const TomlReader& table) {
+  if (table.has("mean_stress") == table.has("stress_ratio")) {
+    table.fail(table.has("mean_stress") ? "stress_ratio" : "mean_stress",
+               "give one of mean_stress and stress_ratio (smallest over largest stress)");
+  }
+  if (table.has("mean_stress")) return {table.required_quantity("mean_stress", "Pa").si(), {}};
+  const double ratio = table.required_quantity("stress_ratio", "1").si();
+  if (!(ratio < 1)) table.fail("stress_ratio", "must be less than 1");
+  return {0, ratio};
 }
 
 SnData read_sn_data(const TomlReader& root, const std::filesystem::path& folder,

@@ -9,6 +9,8 @@
 #include "wearwell/fatigue/sn_likelihood.h"
 #include "wearwell/study/prior.h"
 #include "wearwell/study/sn_data.h"
+#include "wearwell/study/sn_exhibits.h"
+#include "wearwell/study/sn_predictions.h"
 
 namespace wearwell {
 namespace {
@@ -195,6 +197,37 @@ std::string in_words(const SnLaw& law) {
   return words;
 }
 
+// "9 tests: 8 failures, 1 runout", and what stresses and lives they span.
+std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
+  static constexpr const char* outcomes[] = {"failure", "runout", "left-censored", "interval"};
+  int counts[4] = {}, all = 0;
+  std::vector<double> alternating, mean, life;
+  for (const LifeTest& test : data.tests) {
+    counts[static_cast<int>(test.outcome)] += test.count;
+    all += test.count;
+    alternating.push_back(from_si(data.stress_unit, test.stress.alternating));
+    mean.push_back(from_si(data.stress_unit, test.stress.mean));
+    life.push_back(from_si(data.life_unit, test.life));
+  }
+  std::string tests = fmt::format("{} test{}:", all, all == 1 ? "" : "s");
+  const char* separator = " ";
+  for (int i = 0; i < 4; ++i) {
+    if (counts[i] == 0) continue;
+    tests += fmt::format("{}{} {}{}", separator, counts[i], outcomes[i],
+                         counts[i] > 1 && i < 2 ? "s" : "");
+    separator = ", ";
+  }
+  const auto span = [](const std::vector<double>& values, const std::string& unit) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return fmt::format("{:.5g} to {:.5g} {}", *least, *most, unit);
+  };
+  std::string stresses = "alternating stress " + span(alternating, data.stress_unit.text);
+  if (law.correction != MeanStress::none) {
+    stresses += ", mean stress " + span(mean, data.stress_unit.text);
+  }
+  return {tests, stresses, "life " + span(life, data.life_unit.text)};
+}
+
 }  // namespace
 
 void read_sn_study(const TomlReader& root, const std::filesystem::path& folder, Study& study) {
@@ -214,6 +247,15 @@ void read_sn_study(const TomlReader& root, const std::filesystem::path& folder, 
   study.likelihood = [=, tests = data.tests](std::size_t rows) {
     return fatigue::sn_likelihood(law, tests, rows);
   };
+  study.data_notes = notes(law, data);
+  SnPredictions predictions;
+  if (const auto predict = root.table("predict")) {
+    predictions = read_sn_predictions(*predict, law, data);
+  }
+  add_sn_quantities(law, data, predictions, study);
+  study.coverage = [=](const WeightedDraws& draws) { return sn_coverage(law, data, draws); };
+  study.exhibits = [=](const Fit& fit) { return sn_exhibits(law, data, predictions, fit); };
+  study.checks = [=](const Fit& fit) { return sn_checks(law, data, predictions, fit); };
 }
 
 }  // namespace wearwell

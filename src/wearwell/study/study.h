@@ -42,8 +42,8 @@ struct LifeRequest {
   Function life;
 };
 
-/// A quantity that follows from one positive unknown, its driver, by a monotone function: a depth,
-/// a pressure or a life from a wear rate.
+/// A quantity that follows from the parameters. Either from one positive unknown, its driver, by a
+/// monotone function: a depth, a pressure or a life from a wear rate; or as `from_draws` says.
 struct QuantityRequest {
   std::string name;  ///< "life"
   std::string of;  ///< "median bearing"; "new bearing" when the driver is that of one not yet seen
@@ -55,6 +55,9 @@ struct QuantityRequest {
   Function driver;
   Function scatter;  ///< standard deviation of ln driver between items, for one not yet seen; else
                      ///< empty
+  /// All of it from the points of a posterior, SI.
+  std::function<QuantityQuantiles(const WeightedDraws& draws)> from_draws = {};
+  std::optional<double> credible_level = {};  ///< of `QuantityQuantiles::bound`
 };
 
 inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
@@ -88,11 +91,13 @@ struct Study {
   std::vector<double> history_at;  ///< where each data set lies along it; where it was if empty
   std::string history_note;        ///< what to know of that curve
   std::optional<PointwiseTable> pointwise;
-  std::string quantity;               ///< what is measured, in words: "worn volume"
-  std::vector<std::string> meanings;  ///< of the parameters: "wear coefficient"
+  std::string quantity;                 ///< what is measured, in words: "worn volume"
+  std::vector<std::string> data_notes;  ///< what else to know of the data, in sentences
+  std::vector<std::string> meanings;    ///< of the parameters: "wear coefficient"
   /// What the trade checks beside the engine's checks, and shows in each section of the report;
   /// both may be empty.
   std::function<std::vector<Check>(const Fit&)> checks;
+  std::function<CoverageTable(const WeightedDraws&)> coverage;  ///< of single tests; may be empty
   std::function<std::map<std::string, Exhibits>(const Fit&)> exhibits;
   SamplerChoice sampler;  ///< as the study file says
   NutsSettings nuts;
