@@ -16,6 +16,10 @@ class MixedLife {
   /// end. Weights sum to 1 over all laws.
   void add(double weight, double center, double sigma);
 
+  /// Makes laws that no digit of interest tells apart one law of their common mean: a quadrature has
+  /// hundreds of thousands. Moves no life by more than a hundred thousandth.
+  void merge();
+
   /// The probability that life [cycles] has ended by then.
   double cdf(double life) const;
 
@@ -29,14 +33,17 @@ class MixedLife {
   struct Sums {
     double cdf = 0, density = 0;
   };
-  Sums sums(double at, std::size_t stride) const;
-  double root(double share, double low, double high, double start, std::size_t stride) const;
+  Sums sums(double at) const;
   StandardLaw standard() const;
 
   LifeFamily family_;
   std::vector<double> weight_, center_, inverse_sigma_;
   double ended_ = 0;  // weight of the laws with an end
 };
+
+/// The centre of lives of items without fatigue limit, on the scale on which lives scatter: log10 of
+/// cycles, of the normal family cycles.
+double life_center(const SnLaw& law, const double* x, double log10_reversed);
 
 /// How finely the population of fatigue limits is seen: in so many slices. `index` moves them from
 /// one draw of parameters to the next.
@@ -50,7 +57,7 @@ void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x
               double log10_reversed, LimitStrata strata = {});
 
 /// The life by which a share p of items has failed under one stress, on the scale on which lives
-/// scatter: log10 of cycles, of the normal family cycles. Infinite where fewer ever do.
+/// scatter. Infinite where fewer ever do.
 double life_quantile(const SnLaw& law, const double* x, const Stress& stress, double p);
 
 /// From that scale to cycles.

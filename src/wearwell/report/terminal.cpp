@@ -147,7 +147,7 @@ std::string bound_table(const std::vector<QuantitySummary>& quantities) {
 }
 
 std::string coverage_table(const CoverageTable& table) {
-  std::vector<std::vector<std::string>> rows = {{"row", "", "outcome",
+  std::vector<std::vector<std::string>> rows = {{"row", "type", "outcome",
                                                  with_unit("life", table.unit), "share below",
                                                  "90 % predictive interval", "B10", ""}};
   std::size_t failures = 0, inside = 0;

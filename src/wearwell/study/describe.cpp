@@ -87,12 +87,18 @@ std::string study_in_words(const Study& study) {
                        study.parameters.size() <= max_exact_dimension ? ", beside quadrature" : "");
   }
   out += fmt::format("; seed {}\n", run.seed);
-  if (!study.predictions.empty() || !study.quantities.empty() || study.life)
+  if (!study.predictions.empty() || !study.quantities.empty() || !study.quantity_groups.empty() ||
+      study.life) {
     out += "\nWill be predicted\n";
+  }
   for (const PredictionRequest& p : study.predictions) {
     out += fmt::format("  {} [{}] at {} {}\n", study.quantity, p.unit.text, p.at, p.at_name);
   }
-  for (const QuantityRequest& q : study.quantities) {
+  std::vector<QuantityRequest> quantities = study.quantities;
+  for (const QuantityGroup& group : study.quantity_groups) {
+    quantities.insert(quantities.end(), group.requests.begin(), group.requests.end());
+  }
+  for (const QuantityRequest& q : quantities) {
     out +=
         fmt::format("  {} [{}] of a {} {}{}\n", q.name, q.unit.text, q.of, q.at,
                     q.credible_level ? fmt::format("; posterior predictive, and lower bound with "

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <chrono>
+#include <iterator>
 
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/fit.h"
@@ -85,7 +86,6 @@ QuantityQuantiles in_unit(const Unit& unit, QuantityQuantiles q) {
 }
 
 QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws& draws) {
-  if (request.from_draws) return in_unit(request.unit, request.from_draws(draws));
   std::function<double(double p)> driver;
   if (request.scatter) {
     driver = [items = Scattered(draws, request.driver, request.scatter)](double p) {
@@ -106,24 +106,41 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
   return result;
 }
 
+QuantitySummary summary_of(const QuantityRequest& request, const QuantityQuantiles& drawn) {
+  return {request.name,    request.of, request.at, request.unit.text,
+          request.is_life, drawn,      {},         request.credible_level};
+}
+
 QuantitySummary summarize(const QuantityRequest& request, const Fit& fit) {
-  QuantitySummary summary{request.name,
-                          request.of,
-                          request.at,
-                          request.unit.text,
-                          request.is_life,
-                          quantiles(request, fit.pooled),
-                          {},
-                          request.credible_level};
+  QuantitySummary summary = summary_of(request, quantiles(request, fit.pooled));
   if (fit.exact) summary.exact = quantiles(request, fit.exact->nodes);
   return summary;
 }
 
-std::vector<QuantitySummary> summarize(const std::vector<QuantityRequest>& requests,
-                                       const Fit& fit) {
-  std::vector<QuantitySummary> summaries(requests.size());
-  tbb::parallel_for(std::size_t{0}, requests.size(),
-                    [&](std::size_t i) { summaries[i] = summarize(requests[i], fit); });
+std::vector<QuantitySummary> summarize(const QuantityGroup& group, const Fit& fit) {
+  std::vector<QuantitySummary> summaries;
+  const std::vector<QuantityQuantiles> drawn = group.from_draws(fit.pooled);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const QuantityRequest& request = group.requests[i];
+    summaries.push_back(summary_of(request, in_unit(request.unit, drawn[i])));
+  }
+  if (!fit.exact) return summaries;
+  const std::vector<QuantityQuantiles> exact = group.from_draws(fit.exact->nodes);
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    summaries[i].exact = in_unit(group.requests[i].unit, exact[i]);
+  }
+  return summaries;
+}
+
+std::vector<QuantitySummary> summarize_quantities(const Study& study, const Fit& fit) {
+  std::vector<QuantitySummary> summaries;
+  for (const QuantityRequest& request : study.quantities) {
+    summaries.push_back(summarize(request, fit));
+  }
+  std::vector<std::vector<QuantitySummary>> groups(study.quantity_groups.size());
+  tbb::parallel_for(std::size_t{0}, groups.size(),
+                    [&](std::size_t i) { groups[i] = summarize(study.quantity_groups[i], fit); });
+  for (auto& group : groups) std::move(group.begin(), group.end(), std::back_inserter(summaries));
   return summaries;
 }
 
@@ -249,7 +266,7 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      summarize_parameters(posterior, final),
                      {},
                      summarize(study.predictions, final),
-                     summarize(study.quantities, final),
+                     summarize_quantities(study, final),
                      {},
                      study.pointwise,
                      {},

@@ -243,9 +243,10 @@ SnData read_sn_data(const TomlReader& root, const std::filesystem::path& folder,
   data.source = table.source;
   const std::vector<Stress> stresses = read_stresses(columns, conditions, table, correction, data);
 
-  const ColumnChoice life = required_column(columns, "life", "1");
-  data.life_unit = life_unit(life.unit);
-  const auto until = read_column(columns, "life_until", "1");
+  ColumnChoice life = required_column(columns, "life", "1");
+  data.life_unit = life.unit = life_unit(life.unit);
+  auto until = read_column(columns, "life_until", "1");
+  if (until) until->unit = life_unit(until->unit);
   const auto status = read_column(columns, "status", "1");
   const auto count = read_column(columns, "count", "1");
   const auto label = read_column(columns, "label", "1");

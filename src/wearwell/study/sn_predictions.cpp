@@ -67,44 +67,107 @@ std::vector<StressPoint> points_of_types(const TomlReader& predict, const SnLaw&
   return points;
 }
 
-// What a fit does not know at a life is only its parameters.
-QuantityQuantiles life_quantiles(const SnLaw& law, const WeightedDraws& draws,
-                                 const Stress& stress) {
-  const MixedLife life = next_life(law, draws, stress);
-  QuantityQuantiles q{life.quantile(0.05), life.quantile(0.5), life.quantile(0.95),
-                      life.quantile(0.01), life.quantile(0.1), 0};
-  q.b50 = q.q50;
-  return q;
+using Reduction = std::function<void(const double* x, double* y)>;
+
+// A posterior in terms of `count` numbers that follow from its parameters. A lattice's nodes lie in
+// the middle of their cells; there the mean of a bent function is Simpson's, a third as far from
+// its middle as the mean of its ends, which is where the ends are moved to.
+WeightedDraws reduced(const WeightedDraws& draws, Eigen::Index count, const Reduction& reduction) {
+  const auto reduce = [&](const Points& points) {
+    Points values(points.rows(), count);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      reduction(points.row(i).data(), values.row(i).data());
+    }
+    return values;
+  };
+  WeightedDraws result{reduce(draws.values), draws.weights, {}, {}, draws.cell_weights};
+  for (std::size_t axis = 0; axis < draws.lower.size(); ++axis) {
+    result.lower.push_back(reduce(draws.lower[axis]));
+    result.upper.push_back(reduce(draws.upper[axis]));
+    if (draws.cell_weights.size() == 0) continue;
+    Points& a = result.lower.back();
+    Points& b = result.upper.back();
+    const Points away = (0.5 * (a + b) - result.values) * (2.0 / 3);
+    a -= away;
+    b -= away;
+  }
+  return result;
 }
 
-QuantityQuantiles b_life(const SnLaw& law, const WeightedDraws& draws, const Stress& stress,
-                         double share, double credible_level) {
-  const Distribution at(draws,
-                        [&](const double* x) { return life_quantile(law, x, stress, share); });
-  const auto quantile = [&](double p) { return cycles(law, at.quantile(p)); };
-  QuantityQuantiles q{quantile(0.05), quantile(0.5), quantile(0.95), 0, 0, 0};
-  q.predictive = next_life(law, draws, stress).quantile(share);
-  q.bound = quantile(1 - credible_level);
-  return q;
-}
+// Lives under one stress, over a posterior.
+class LivesAt {
+ public:
+  LivesAt(const SnLaw& law, const WeightedDraws& draws, const Stress& stress)
+      : law_(law), stress_(stress), next_(next_life(law, draws, stress)) {
+    next_.merge();
+    if (law.limit) {
+      draws_ = draws;
+      return;
+    }
+    // All that matters here of a point is the centre of its lives and their scatter.
+    draws_ = reduced(draws, 2, [&](const double* x, double* y) {
+      y[0] = life_center(law, x, law.log10_reversed(x, stress));
+      y[1] = x[law.sigma_index()];
+    });
+  }
 
-QuantityQuantiles survival_quantiles(const SnLaw& law, const WeightedDraws& draws,
-                                     const Stress& stress, double life, double credible_level) {
-  const Distribution share(
-      draws, [&](const double* x) { return fatigue::survival(law, x, stress, life); });
-  QuantityQuantiles q{share.quantile(0.05), share.quantile(0.5), share.quantile(0.95), 0, 0, 0};
-  q.predictive = 1 - next_life(law, draws, stress).cdf(life);
-  q.bound = share.quantile(1 - credible_level);
-  return q;
+  const MixedLife& next() const { return next_; }
+
+  // On the scale on which lives scatter.
+  Distribution quantile(double share) const {
+    if (law_.limit) {
+      return {draws_, [&](const double* x) { return life_quantile(law_, x, stress_, share); }};
+    }
+    const double z = wearwell::quantile(law_.standard(), share);
+    return {draws_, [z](const double* x) { return x[0] + z * x[1]; }};
+  }
+
+  Distribution survival(double life) const {
+    if (law_.limit) {
+      return {draws_, [&](const double* x) { return fatigue::survival(law_, x, stress_, life); }};
+    }
+    const double at = law_.logarithmic() ? std::log10(life) : life;
+    const StandardLaw standard = law_.standard();
+    return {draws_, [=](const double* x) { return 1 - cdf(standard, (at - x[0]) / x[1]); }};
+  }
+
+ private:
+  const SnLaw& law_;
+  Stress stress_;
+  MixedLife next_;
+  WeightedDraws draws_;
+};
+
+// The life of the next one; then of all, B-lives and survival.
+std::vector<QuantityQuantiles> at_point(const SnLaw& law, const WeightedDraws& draws,
+                                        const Stress& stress, const SnPredictions& predictions) {
+  const LivesAt lives(law, draws, stress);
+  const MixedLife& next = lives.next();
+  std::vector<QuantityQuantiles> all = {{next.quantile(0.05), next.quantile(0.5),
+                                         next.quantile(0.95), next.quantile(0.01),
+                                         next.quantile(0.1), next.quantile(0.5)}};
+  for (const double percent_failed : predictions.percents) {
+    const Distribution at = lives.quantile(percent_failed / 100);
+    const auto quantile = [&](double p) { return cycles(law, at.quantile(p)); };
+    all.push_back({quantile(0.05), quantile(0.5), quantile(0.95), 0, 0, 0,
+                   next.quantile(percent_failed / 100), quantile(1 - predictions.credible_level)});
+  }
+  for (const Quantity& to : predictions.survival_to) {
+    const Distribution share = lives.survival(to.si());
+    all.push_back({share.quantile(0.05), share.quantile(0.5), share.quantile(0.95), 0, 0, 0,
+                   1 - next.cdf(to.si()), share.quantile(1 - predictions.credible_level)});
+  }
+  return all;
 }
 
 Distribution allowed_distribution(const SnLaw& law, const WeightedDraws& draws,
                                   const AllowedStress& allowed) {
-  return {draws, [&](const double* x) {
-            return alternating_allowed(
-                law, x, allowed.line,
-                log10_reversed_allowed(law, x, allowed.life.si(), allowed.reliability));
-          }};
+  const WeightedDraws stresses = reduced(draws, 1, [&](const double* x, double* y) {
+    y[0] =
+        alternating_allowed(law, x, allowed.line,
+                            log10_reversed_allowed(law, x, allowed.life.si(), allowed.reliability));
+  });
+  return {stresses, [](const double* x) { return x[0]; }};
 }
 
 QuantityQuantiles allowed_quantiles(const SnLaw& law, const WeightedDraws& draws,
@@ -375,31 +438,25 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     return result;
   };
   for (const StressPoint& point : predictions.points) {
-    const Stress stress = point.stress;
-    const std::string at =
-        point.name.find(" at ") == std::string::npos ? "at " + in_words(law, data, stress) : "";
-    QuantityRequest life = request("life", point.name, at, data.life_unit);
-    life.is_life = true;
-    life.credible_level.reset();
-    life.from_draws = [=](const WeightedDraws& draws) {
-      return life_quantiles(law, draws, stress);
-    };
-    study.quantities.push_back(life);
+    const std::string at = point.name.find(" at ") == std::string::npos
+                               ? "at " + in_words(law, data, point.stress)
+                               : "";
+    QuantityGroup group;
+    // As a bearing that is not yet seen is a new one.
+    group.requests.push_back(request("life", "new " + point.name, at, data.life_unit));
+    group.requests.back().is_life = true;
+    group.requests.back().credible_level.reset();
     for (const double percent_failed : predictions.percents) {
-      QuantityRequest b =
-          request(fmt::format("B{:.6g} life", percent_failed), point.name, at, data.life_unit);
-      b.from_draws = [=](const WeightedDraws& draws) {
-        return b_life(law, draws, stress, percent_failed / 100, level);
-      };
-      study.quantities.push_back(b);
+      group.requests.push_back(
+          request(fmt::format("B{:.6g} life", percent_failed), point.name, at, data.life_unit));
     }
     for (const Quantity& to : predictions.survival_to) {
-      QuantityRequest survival = request("survival to " + in_words(to), point.name, at, percent());
-      survival.from_draws = [=, cycles = to.si()](const WeightedDraws& draws) {
-        return survival_quantiles(law, draws, stress, cycles, level);
-      };
-      study.quantities.push_back(survival);
+      group.requests.push_back(request("survival to " + in_words(to), point.name, at, percent()));
     }
+    group.from_draws = [=, stress = point.stress](const WeightedDraws& draws) {
+      return at_point(law, draws, stress, predictions);
+    };
+    study.quantity_groups.push_back(std::move(group));
   }
   for (const AllowedStress& allowed : predictions.allowed) {
     QuantityRequest stress =
@@ -407,20 +464,31 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
                 fmt::format("for {:.6g} % to outlast {}{}", 100 * allowed.reliability,
                             in_words(allowed.life), in_words(law, data, allowed.line)),
                 data.stress_unit);
-    stress.from_draws = [=](const WeightedDraws& draws) {
-      return allowed_quantiles(law, draws, allowed, level);
-    };
-    study.quantities.push_back(stress);
+    study.quantity_groups.push_back({{stress}, [=](const WeightedDraws& draws) {
+                                       return std::vector<QuantityQuantiles>{
+                                           allowed_quantiles(law, draws, allowed, level)};
+                                     }});
   }
 }
 
 CoverageTable sn_coverage(const SnLaw& law, const SnData& data, const WeightedDraws& draws) {
   static constexpr const char* outcomes[] = {"failure", "runout", "left", "interval"};
   CoverageTable table{data.life_unit.text, std::vector<CoverageRow>(data.tests.size())};
-  tbb::parallel_for(std::size_t{0}, data.tests.size(), [&](std::size_t i) {
+  // Tests of one stress have one prediction.
+  std::vector<std::size_t> first(data.tests.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    while (!same(data.tests[first[i]].stress, data.tests[i].stress)) ++first[i];
+  }
+  std::vector<std::optional<MixedLife>> lives(data.tests.size());
+  tbb::parallel_for(std::size_t{0}, lives.size(), [&](std::size_t i) {
+    if (first[i] != i) return;
+    lives[i] = next_life(law, draws, data.tests[i].stress);
+    lives[i]->merge();
+  });
+  const auto in_unit = [&](double value) { return from_si(data.life_unit, value); };
+  for (std::size_t i = 0; i < data.tests.size(); ++i) {
     const LifeTest& test = data.tests[i];
-    const MixedLife life = next_life(law, draws, test.stress);
-    const auto in_unit = [&](double value) { return from_si(data.life_unit, value); };
+    const MixedLife& life = *lives[first[i]];
     CoverageRow& row = table.rows[i];
     row = {i + 1,
            data.labels[i],
@@ -432,7 +500,7 @@ CoverageTable sn_coverage(const SnLaw& law, const SnData& data, const WeightedDr
            in_unit(life.quantile(0.95)),
            in_unit(life.quantile(0.1))};
     if (test.outcome == Outcome::interval) row.until = in_unit(test.until);
-  });
+  }
   return table;
 }
 

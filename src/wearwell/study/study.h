@@ -42,8 +42,8 @@ struct LifeRequest {
   Function life;
 };
 
-/// A quantity that follows from the parameters. Either from one positive unknown, its driver, by a
-/// monotone function: a depth, a pressure or a life from a wear rate; or as `from_draws` says.
+/// A quantity that follows from one positive unknown, its driver, by a monotone function: a depth,
+/// a pressure or a life from a wear rate.
 struct QuantityRequest {
   std::string name;  ///< "life"
   std::string of;  ///< "median bearing"; "new bearing" when the driver is that of one not yet seen
@@ -55,9 +55,13 @@ struct QuantityRequest {
   Function driver;
   Function scatter;  ///< standard deviation of ln driver between items, for one not yet seen; else
                      ///< empty
-  /// All of it from the points of a posterior, SI.
-  std::function<QuantityQuantiles(const WeightedDraws& draws)> from_draws = {};
   std::optional<double> credible_level = {};  ///< of `QuantityQuantiles::bound`
+};
+
+/// Quantities that have no single driver: all of them at once from the points of a posterior, SI.
+struct QuantityGroup {
+  std::vector<QuantityRequest> requests;  ///< without driver
+  std::function<std::vector<QuantityQuantiles>(const WeightedDraws& draws)> from_draws;
 };
 
 inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
@@ -86,6 +90,7 @@ struct Study {
   /// the next.
   std::function<std::vector<PredictionRequest>(std::size_t rows)> stage_predictions;
   std::vector<QuantityRequest> quantities;
+  std::vector<QuantityGroup> quantity_groups;
   std::optional<LifeRequest> life;
   std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
   std::vector<double> history_at;  ///< where each data set lies along it; where it was if empty
