@@ -48,8 +48,8 @@ void MixedLife::add(double weight, double center, double sigma) {
 }
 
 void MixedLife::merge() {
-  // Cells a hundredth of sigma wide; what they blur is a ten-thousandth of the variance over 12.
-  constexpr double width = 0.01;
+  // Of cells, in sigma: within one, a twelfth of its square is lost of the variance.
+  constexpr double width = 0.005;
   std::unordered_map<std::uint64_t, std::size_t> cells;
   std::vector<double> weight, center, sigma;
   for (std::size_t i = 0; i < weight_.size(); ++i) {

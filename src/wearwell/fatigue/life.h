@@ -17,7 +17,7 @@ class MixedLife {
   void add(double weight, double center, double sigma);
 
   /// Makes laws that no digit of interest tells apart one law of their common mean: a quadrature has
-  /// hundreds of thousands. Moves no life by more than a hundred thousandth.
+  /// hundreds of thousands. From B0.1 to B99.9 no life moves by more than one ten-thousandth.
   void merge();
 
   /// The probability that life [cycles] has ended by then.
