@@ -68,9 +68,10 @@ std::string given(double x, const std::string& unit_text) {
   return u.empty() ? given(x) : given(x) + "\u00a0" + u;
 }
 
-// A life: no fraction of a cycle.
-std::string life_number(double x, int digits = 4) {
+// A life: no fraction of a cycle, but of a hundred thousand of them.
+std::string life_number(double x, const std::string& unit_text, int digits = 4) {
   if (std::isinf(x)) return "never";
+  if (unit_text.starts_with("1e")) return number(x, digits);
   const int whole = x >= 1 && std::isfinite(x) ? static_cast<int>(std::log10(x)) + 1 : digits;
   return number(x, std::min(digits, whole));
 }
@@ -96,7 +97,8 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
     const Life& life = result.life->exact ? *result.life->exact : result.life->drawn;
     add(fmt::format("the {} reaches the limit of {} after about {} {} (90 % interval {})",
                     plots.quantity, given(result.life->limit, result.life->limit_unit),
-                    life_number(life.b50, 3), result.life->unit, range(life.q05, life.q95, 3)));
+                    life_number(life.b50, result.life->unit, 3), result.life->unit,
+                    range(life.q05, life.q95, 3)));
   }
   if (const QuantitySummary* life = told_life(result)) {
     const QuantityQuantiles& q = best(*life);
@@ -104,8 +106,9 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
     add(
         fmt::format("the {} of a {} {} is {} {} in the median (90 % interval {} to {}), and one in "
                     "ten has less than {} {}",
-                    life->name, life->of, life->at, life_number(q.q50, 3), in,
-                    life_number(q.q05, 3), life_number(q.q95, 3), life_number(q.b10, 3), in));
+                    life->name, life->of, life->at, life_number(q.q50, life->unit, 3), in,
+                    life_number(q.q05, life->unit, 3), life_number(q.q95, life->unit, 3),
+                    life_number(q.b10, life->unit, 3), in));
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
@@ -142,7 +145,7 @@ std::string trust_callout(const StudyResult& result) {
 }
 
 std::string quantity_value(const QuantitySummary& summary, double x, int digits = 4) {
-  return summary.is_life ? life_number(x, digits) : number(x, digits);
+  return summary.is_life ? life_number(x, summary.unit, digits) : number(x, digits);
 }
 
 std::string verdict_section(const StudyResult& result, const Plots& plots) {
@@ -154,14 +157,15 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
     const LifeSummary& summary = *result.life;
     const Life& life = summary.exact ? *summary.exact : summary.drawn;
     tiles.push_back(
-        {"Life B10", life_number(life.b10, 3), summary.unit,
+        {"Life B10", life_number(life.b10, summary.unit, 3), summary.unit,
          fmt::format("one in ten reaches {} earlier", given(summary.limit, summary.limit_unit))});
-    tiles.push_back({"Inspect again within", life_number(life.inspect_within, 3), summary.unit,
+    tiles.push_back({"Inspect again within", life_number(life.inspect_within, summary.unit, 3),
+                     summary.unit,
                      fmt::format("after {}; risk of reaching the limit before: {} %",
                                  given(summary.now), given(100 * summary.risk))});
   }
   if (const QuantitySummary* told = told_life(result)) {
-    tiles.push_back({"Life B10", life_number(best(*told).b10, 3), unit(told->unit),
+    tiles.push_back({"Life B10", life_number(best(*told).b10, told->unit, 3), unit(told->unit),
                      fmt::format("{} {}", told->of, told->at)});
   }
   if (!result.predictions.empty()) {
@@ -204,9 +208,10 @@ std::string life_table(const LifeSummary& summary) {
        {"B1", "B10", "B50", "90 % interval",
         fmt::format("Inspect within <span class=\"unit\">(risk {} %)</span>",
                     given(100 * summary.risk))},
-       {{life_number(life.b1), life_number(life.b10), life_number(life.b50),
-         range(life.q05, life.q95),
-         fmt::format("{} after {}", life_number(life.inspect_within), given(summary.now))}}});
+       {{life_number(life.b1, summary.unit), life_number(life.b10, summary.unit),
+         life_number(life.b50, summary.unit), range(life.q05, life.q95),
+         fmt::format("{} after {}", life_number(life.inspect_within, summary.unit),
+                     given(summary.now))}}});
 }
 
 std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
@@ -246,10 +251,11 @@ std::string bound_table(const std::vector<QuantitySummary>& quantities) {
                           number(q.q05), number(q.q50), number(q.q95)});
   }
   if (table.rows.empty()) return "";
-  table.caption =
-      "For the next one (posterior predictive: all that is unknown averaged in), and at least "
-      "(lower bound: of all such items, exceeded with the stated probability)";
-  return html::table(table);
+  table.caption = "For the next one, and at least";
+  return "<p>Posterior predictive: what holds for the next one, with all that is unknown averaged "
+         "in. Lower bound: what holds for all such items at least, with the stated probability; 5, "
+         "50 and 95 % are of the same.</p>\n" +
+         html::table(table);
 }
 
 std::string coverage_table(const CoverageTable& coverage) {

@@ -99,13 +99,12 @@ class Drawing {
             fmt::format("{}. The inner band holds the life that half of all specimens outlast, the "
                         "outer band the life of the next one, with 90 % probability.{}",
                         where_drawn(), arrows_note()),
-            plot::plot(
-                "Alternating stress against life, with bands and tests",
-                {fmt::format("Life [{}]", data_.life_unit.text), true,
-                 from_si(data_.life_unit, shortest_ / 20), from_si(data_.life_unit, longest_ * 20)},
-                {fmt::format("Alternating stress [{}]", data_.stress_unit.text), high > 5 * low,
-                 in_unit(low), in_unit(high)},
-                marks, 360, true)};
+            plot::plot("Alternating stress against life, with bands and tests",
+                       {life_title(), true, from_si(data_.life_unit, shortest_ / 20),
+                        from_si(data_.life_unit, longest_ * 20)},
+                       {fmt::format("Alternating stress [{}]", data_.stress_unit.text),
+                        high > 5 * low, in_unit(low), in_unit(high)},
+                       marks, 360, true)};
   }
 
   // The predicted density of every stress that was tested or is asked about, one above the other.
@@ -174,8 +173,7 @@ class Drawing {
             "scale, with the tests that it rests on. A test left of the short stroke lies below "
             "its B10.",
             plot::plot("Predicted density of life at each stress, with the tests",
-                       {fmt::format("Life [{}]", data_.life_unit.text), true,
-                        shown(std::pow(10, low)), shown(std::pow(10, high))},
+                       {life_title(), true, shown(std::pow(10, low)), shown(std::pow(10, high))},
                        {"", false, {}, {}, names}, marks,
                        static_cast<int>(std::max<std::size_t>(220, 48 * n)))};
   }
@@ -232,8 +230,12 @@ class Drawing {
         plot::line({{"x", x}, {"y", ci50}, {"mean stress", x}, {"alternating stress", ci50}},
                    {colour::posterior, "", 1, 2}),
         plot::line({{"x", x}, {"y", b10}, {"mean stress", x}, {"alternating stress", b10}},
-                   {colour::limit, "nine in ten outlast it (posterior predictive)", 1, 1.5, true})};
-    const std::string told = html::quantity(from_si(data_.life_unit, life), data_.life_unit.text);
+                   {colour::limit, "nine in ten outlast it (predictive)", 1, 1.5, true})};
+    const std::string told =
+        html::given(from_si(data_.life_unit, life)) + "\u00a0" + html::unit(data_.life_unit.text);
+    // Far from the tests the band may be as wide as the prior: it is cut off.
+    double highest = to_si(data_.stress_unit, *std::max_element(ci50.begin(), ci50.end()));
+    for (const LifeTest& test : data_.tests) highest = std::max(highest, test.stress.alternating);
     if (!before_x.empty()) {
       marks.push_back(plot::points({{"x", before_x}, {"y", before_y}, {"alternating", before_y}},
                                    {colour::measured, "failed before", 1, 0, false, 60}));
@@ -242,20 +244,25 @@ class Drawing {
       marks.push_back(plot::points({{"x", after_x}, {"y", after_y}, {"alternating", after_y}},
                                    {colour::chains[2], "went on", 1, 0, false, 60}));
     }
-    return {
-        "haigh", fmt::format("Haigh diagram of {}", told),
-        fmt::format("Alternating against mean stress that {} are borne at: by half of all "
-                    "specimens, and by the next one with 90 % probability. Tests by whether "
-                    "they failed before.",
-                    told),
-        plot::plot(
-            "Haigh diagram: alternating against mean stress at one life, with the tests",
-            {fmt::format("Mean stress [{}]", data_.stress_unit.text), false, x.front(), x.back()},
-            {fmt::format("Alternating stress [{}]", data_.stress_unit.text)}, marks, 340, true)};
+    return {"haigh", fmt::format("Haigh diagram of {}", told),
+            fmt::format("Alternating against mean stress that {} are borne at: by half of all "
+                        "specimens, and by the next one with 90 % probability. Tests by whether "
+                        "they failed before.",
+                        told),
+            plot::plot("Haigh diagram: alternating against mean stress at one life, with the tests",
+                       {fmt::format("Mean stress [{}]", data_.stress_unit.text), false, x.front(),
+                        x.back()},
+                       {fmt::format("Alternating stress [{}]", data_.stress_unit.text), false, 0.0,
+                        in_unit(1.25 * highest)},
+                       marks, 340, true)};
   }
 
  private:
   double in_unit(double stress) const { return from_si(data_.stress_unit, stress); }
+
+  std::string life_title() const {
+    return fmt::format("Life [{}]", html::unit(data_.life_unit.text));
+  }
 
   // Lives far beyond the plot are drawn to where nobody sees the difference.
   double shown(double life) const {

@@ -322,7 +322,7 @@ std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {
   for (std::size_t i = 0; i < data.tests.size(); ++i) {
     const Stress& stress = data.tests[i].stress;
     const std::string name =
-        data.labels[i].empty() ? "specimen" : fmt::format("type {}", data.labels[i]);
+        data.labels[i].empty() ? in_words(law, data, stress) : "type " + data.labels[i];
     const bool known = std::any_of(points.begin(), points.end(), [&](const StressPoint& point) {
       return point.name == name && same(point.stress, stress);
     });
@@ -332,7 +332,7 @@ std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {
   }
   // A type that was tested under several stresses is one of each.
   for (StressPoint& point : points) {
-    if (stresses[point.name] > 1 && point.name != "specimen") {
+    if (stresses[point.name] > 1) {
       point.name += " at " + in_words(law, data, point.stress);
     }
   }
@@ -438,20 +438,20 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     return result;
   };
   for (const StressPoint& point : predictions.points) {
-    const std::string at = point.name.find(" at ") == std::string::npos
-                               ? "at " + in_words(law, data, point.stress)
-                               : "";
+    const std::string words = in_words(law, data, point.stress);
+    const std::string of = point.name == words ? "specimen" : point.name;
+    const std::string at = of.ends_with(words) ? "" : "at " + words;
     QuantityGroup group;
     // As a bearing that is not yet seen is a new one.
-    group.requests.push_back(request("life", "new " + point.name, at, data.life_unit));
+    group.requests.push_back(request("life", "new " + of, at, data.life_unit));
     group.requests.back().is_life = true;
     group.requests.back().credible_level.reset();
     for (const double percent_failed : predictions.percents) {
       group.requests.push_back(
-          request(fmt::format("B{:.6g} life", percent_failed), point.name, at, data.life_unit));
+          request(fmt::format("B{:.6g} life", percent_failed), of, at, data.life_unit));
     }
     for (const Quantity& to : predictions.survival_to) {
-      group.requests.push_back(request("survival to " + in_words(to), point.name, at, percent()));
+      group.requests.push_back(request("survival to " + in_words(to), of, at, percent()));
     }
     group.from_draws = [=, stress = point.stress](const WeightedDraws& draws) {
       return at_point(law, draws, stress, predictions);
