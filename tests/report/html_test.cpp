@@ -41,6 +41,8 @@ TEST(Html, WritesOnePowerOfTenForARange) {
 TEST(Html, RaisesPowersOfUnits) {
   EXPECT_EQ(unit("mm^3/(N m)"), "mm³/(N\u00a0m)");
   EXPECT_EQ(unit("m^-1"), "m⁻¹");
+  EXPECT_EQ(unit("1e5 cycles"), "×\u00a010⁵\u00a0cycles");
+  EXPECT_EQ(raised("a N^b"), "a N^b");
   EXPECT_EQ(unit("1"), "");
   EXPECT_EQ(raised("from 5.6 mm^3 to 6 mm^3"), "from 5.6 mm³ to 6 mm³");
 }

@@ -29,6 +29,13 @@ TEST_F(TableTest, ReadsCsvAndConverts) {
   EXPECT_THAT(table.column("note").text, ElementsAre("first", ""));
 }
 
+// DuckDB would take F and T for false and true.
+TEST_F(TableTest, LettersStayLetters) {
+  const Table table = read_table(write("a.csv", "status,broken\nF,true\nF,false\n"));
+  EXPECT_THAT(table.column("status").text, ElementsAre("F", "F"));
+  EXPECT_THAT(table.column("broken").text, ElementsAre("true", "false"));
+}
+
 // two_columns.parquet was written by DuckDB 1.4.4: duckdb_query(connection, "copy (select * from
 // (values (1, 2.5::double), (3, 4.5::double)) t(x, y)) to 'two_columns.parquet' (format parquet)").
 TEST_F(TableTest, ReadsTsvJsonAndParquetAlike) {

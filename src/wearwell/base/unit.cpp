@@ -42,6 +42,18 @@ UtUnit parse(const std::string& text) {
 Unit read_unit(std::string_view text, std::string_view si) {
   const std::string written = boost::algorithm::trim_copy(std::string(text));
   if (written == si) return Unit{written, 1, 0};
+  if (is_logarithm(si)) {
+    if (!is_logarithm(written)) {
+      throw InputError(fmt::format("'{}' is not the logarithm of a quantity (write one like '{}')",
+                                   written, si));
+    }
+    const auto inner = [](std::string_view log) { return log.substr(6, log.size() - 7); };
+    const Unit unit = read_unit(inner(written), inner(si));
+    if (unit.offset != 0) {
+      throw InputError(fmt::format("'{}': the unit has an offset, and so no logarithm", written));
+    }
+    return Unit{written, 1, std::log10(unit.scale)};
+  }
   const std::string expected{si};
   const UtUnit target = parse(expected);
   if (!target) throw std::logic_error(fmt::format("'{}' is not an SI unit", expected));

@@ -20,9 +20,15 @@ inline double from_si(const Unit& unit, double si) {
   return (si - unit.offset) / unit.scale;
 }
 
-/// Reads a unit that must have the dimension of the SI unit `si` ("m^3", "N m", "1").
+/// Reads a unit that must have the dimension of the SI unit `si` ("m^3", "N m", "1"). Where `si` is
+/// the logarithm of a quantity, "log10(Pa)", so is the unit: "log10(MPa)" is that plus 6.
 /// Throws InputError when `text` is no unit or has another dimension.
 Unit read_unit(std::string_view text, std::string_view si);
+
+/// Whether a unit is the logarithm of a quantity, whose differences are plain numbers.
+inline bool is_logarithm(std::string_view unit) {
+  return unit.starts_with("log10(") && unit.ends_with(")");
+}
 
 /// A number with its unit, "5.966 N m".
 struct Quantity {

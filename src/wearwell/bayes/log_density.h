@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 namespace wearwell {
 
@@ -23,6 +24,10 @@ class LogDensity {
   /// value is -infinity.
   virtual double value_and_gradient(std::span<const double> x,
                                     std::span<double> gradient) const = 0;
+
+  /// The logarithm of each factor of a likelihood that is a product over independent observations;
+  /// empty for any other density.
+  virtual std::vector<double> pointwise(std::span<const double>) const { return {}; }
 };
 
 }  // namespace wearwell

@@ -17,7 +17,7 @@ Distribution::Distribution(const WeightedDraws& draws,
   };
   std::vector<Point> points;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
-    if (draws.weights[i] == 0) continue;  // 0 times an infinite life is no number
+    if (draws.cell_weight(i) == 0) continue;  // 0 times an infinite life is no number
     const double at_node = quantity(draws.values.row(i).data());
     double middle = at_node, variance = 0;
     for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
@@ -27,7 +27,7 @@ Distribution::Distribution(const WeightedDraws& draws,
       middle += 0.5 * (a + b) - at_node;
       variance += 0.25 * (b - a) * (b - a);
     }
-    points.push_back({middle, std::sqrt(variance), draws.weights[i]});
+    points.push_back({middle, std::sqrt(variance), draws.cell_weight(i)});
   }
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.center < b.center; });
@@ -95,8 +95,10 @@ double Distribution::quantile(double p) const {
 }
 
 WeightedSampler::WeightedSampler(const WeightedDraws& draws) : draws_(draws) {
-  cumulated_.resize(static_cast<std::size_t>(draws.weights.size()));
-  std::partial_sum(draws.weights.begin(), draws.weights.end(), cumulated_.begin());
+  double sum = 0;
+  for (Eigen::Index i = 0; i < draws.weights.size(); ++i) {
+    cumulated_.push_back(sum += draws.cell_weight(i));
+  }
 }
 
 Eigen::VectorXd WeightedSampler::operator()(Rng& rng) const {

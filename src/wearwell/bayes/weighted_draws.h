@@ -20,6 +20,14 @@ struct WeightedDraws {
   Eigen::VectorXd weights;    ///< sum to 1
   std::vector<Points> lower;  ///< one per axis, like `values`; empty for draws
   std::vector<Points> upper;
+  /// What each cell holds when its mass is spread evenly over it, where that is not its node's
+  /// weight; sum to 1.
+  Eigen::VectorXd cell_weights = {};
+
+  /// The weight of point i where it stands for its cell.
+  double cell_weight(Eigen::Index i) const {
+    return cell_weights.size() > 0 ? cell_weights[i] : weights[i];
+  }
 };
 
 /// The distribution of one number: points, each spread evenly over center +- half_width (0 for

@@ -33,7 +33,8 @@ struct ExactPosterior {
                         ///< not to be trusted
 };
 
-/// Integrates a posterior with up to `max_exact_dimension` parameters. Works on the whitened real
+/// Integrates a posterior with up to `max_exact_dimension` parameters: four on a lattice
+/// (lattice.h), fewer by adaptive boxes. Works on the whitened real
 /// line: boxes are halved along the axis that resolves worst until the estimated error of mass and
 /// second moments is below the tolerance, and the region grows where mass or second moments still
 /// lie at its edge.

@@ -12,6 +12,24 @@ namespace wearwell {
 template <int N>
 using Dual = ceres::Jet<double, N>;
 
+/// The value alone.
+inline double scalar(double x) {
+  return x;
+}
+template <int N>
+double scalar(const Dual<N>& x) {
+  return x.a;
+}
+
+/// g(x) where g's value and derivative at x are known: special functions enter formulas this way.
+inline double chained(double, double value, double) {
+  return value;
+}
+template <int N>
+Dual<N> chained(const Dual<N>& x, double value, double slope) {
+  return Dual<N>(value, slope * x.v);
+}
+
 /// The value of `f` at `x` and, in `gradient`, its derivatives. `f` takes `const T* x` for T =
 /// double and Dual<N>, an array of always MaxN entries, of which those beyond x.size() are 0.
 /// Nothing is allocated.

@@ -119,6 +119,10 @@ std::string raised(const std::string& text) {
       continue;
     }
     const std::size_t end = std::min(text.find_first_not_of("-0123456789", i + 1), text.size());
+    if (end == i + 1) {  // N^b stays as it is
+      out += '^';
+      continue;
+    }
     out += superscript(text.substr(i + 1, end - i - 1));
     i = end - 1;
   }
@@ -127,6 +131,11 @@ std::string raised(const std::string& text) {
 
 std::string unit(const std::string& text) {
   if (text == "1") return {};
+  // Multiples, "1e5 cycles".
+  const std::size_t digits = text.find_first_not_of("0123456789", 2);
+  if (text.starts_with("1e") && digits != text.npos && digits > 2) {
+    return unit(fmt::format("\u00d7 10^{}{}", text.substr(2, digits - 2), text.substr(digits)));
+  }
   std::string out;
   for (const char c : raised(text)) out += c == ' ' ? std::string("\u00a0") : std::string(1, c);
   return out;

@@ -44,6 +44,8 @@ Json to_json(const std::vector<PredictionSummary>& predictions) {
 Json to_json(const QuantityQuantiles& q, bool is_life) {
   Json json = {{"q05", q.q05}, {"q50", q.q50}, {"q95", q.q95}};
   if (is_life) json.update({{"b1", q.b1}, {"b10", q.b10}, {"b50", q.b50}});
+  if (q.predictive) json["predictive"] = *q.predictive;
+  if (q.bound) json["bound"] = *q.bound;
   return json;
 }
 
@@ -51,11 +53,26 @@ Json to_json(const std::vector<QuantitySummary>& quantities) {
   Json json = Json::array();
   for (const QuantitySummary& q : quantities) {
     Json each = {{"name", q.name}, {"of", q.of}, {"at", q.at}, {"unit", q.unit}};
+    if (q.credible_level) each["credible_level"] = *q.credible_level;
     each.update(to_json(q.drawn, q.is_life));
     if (q.exact) each["exact"] = to_json(*q.exact, q.is_life);
     json.push_back(std::move(each));
   }
   return json;
+}
+
+Json to_json(const CoverageTable& table) {
+  Json rows = Json::array();
+  for (const CoverageRow& row : table.rows) {
+    Json each = {
+        {"row", row.row}, {"label", row.label}, {"outcome", row.outcome}, {"life", row.life}};
+    if (row.until) each["until"] = *row.until;
+    each.update(
+        {{"probability", row.probability}, {"q05", row.q05}, {"q95", row.q95}, {"b10", row.b10}});
+    if (row.failed()) each.update({{"inside", row.inside()}, {"below_b10", row.below_b10()}});
+    rows.push_back(std::move(each));
+  }
+  return {{"unit", table.unit}, {"rows", rows}};
 }
 
 Json to_json(const Life& life) {
@@ -134,6 +151,7 @@ Json to_json(const StudyResult& result) {
   if (!result.quantities.empty()) json["quantities"] = to_json(result.quantities);
   if (result.life) json["life"] = to_json(*result.life);
   if (result.pointwise) json["pointwise"] = to_json(*result.pointwise);
+  if (result.coverage) json["coverage"] = to_json(*result.coverage);
   if (result.log_evidence) json["log_evidence"] = *result.log_evidence;
   json["checks"] = to_json(result.checks);
   json["trusted"] = result.trusted;

@@ -77,14 +77,14 @@ Json scale(const Axis& axis) {
   return json;
 }
 
-Json ticks(const Axis& axis) {
+Json ticks(const char* channel, const Axis& axis) {
   if (!axis.names.empty()) {
     std::vector<double> values;
     for (std::size_t i = 1; i <= axis.names.size(); ++i) values.push_back(static_cast<double>(i));
     return {{"values", values},
             {"grid", false},
             {"labelOverlap", false},
-            {"labelAngle", axis.names.size() > 8 ? -60 : 0},
+            {"labelAngle", axis.names.size() > 8 && channel[0] == 'x' ? -60 : 0},
             {"tickCount", values.size() + 1},
             {"labelExpr", Json(axis.names).dump() + "[datum.value - 1]"}};
   }
@@ -99,7 +99,7 @@ void set_axis(Json& encoding, const char* channel, const Axis& axis) {
   each["type"] = "quantitative";
   each["title"] = axis.title;
   each["scale"] = scale(axis);
-  each["axis"] = ticks(axis);
+  each["axis"] = ticks(channel, axis);
 }
 
 }  // namespace
@@ -123,6 +123,12 @@ Json points(const Columns& data, const Look& look) {
   filled["filled"] = true;
   filled["size"] = look.size;
   return layer(data, filled, look);
+}
+
+Json arrows(const Columns& data, const std::string& shape, const Look& look) {
+  Json json = points(data, look);
+  json["mark"]["shape"] = shape;
+  return json;
 }
 
 Json bars(const Columns& data, const Look& look) {

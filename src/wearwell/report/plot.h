@@ -46,8 +46,12 @@ struct Look {
 /// Marks: each takes columns x and y, or what it names, and further ones for its tooltip.
 Json line(const Columns& data, const Look& look);
 Json steps(const Columns& data, const Look& look);  ///< a histogram's outline
-Json area(const Columns& data, const Look& look);   ///< from y2 (0 where there is none) to y
+/// From y2 (0 where there is none) to y; from x2 to x where there is an x2 instead.
+Json area(const Columns& data, const Look& look);
 Json points(const Columns& data, const Look& look);
+/// Points with a direction: "triangle-right" for what went on unseen, "triangle-left" for what was
+/// over before.
+Json arrows(const Columns& data, const std::string& shape, const Look& look);
 Json bars(const Columns& data, const Look& look);   ///< an upright stroke from y to y2 at x
 Json cells(const Columns& data, const Look& look);  ///< x to x2, y to y2, opacity by `density`
 Json upright(double x, const Look& look);           ///< a line across the plot

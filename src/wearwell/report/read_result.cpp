@@ -95,6 +95,8 @@ QuantityQuantiles read_quantiles(const Json& json) {
     q.b10 = number(json, "b10", never);
     q.b50 = number(json, "b50", never);
   }
+  if (json.contains("predictive")) q.predictive = number(json, "predictive", never);
+  if (json.contains("bound")) q.bound = number(json, "bound", never);
   return q;
 }
 
@@ -109,9 +111,28 @@ std::vector<QuantitySummary> read_quantities(const Json& json) {
                       read_quantiles(each),
                       {}};
     if (each.contains("exact")) q.exact = read_quantiles(each["exact"]);
+    if (each.contains("credible_level")) q.credible_level = number(each, "credible_level");
     quantities.push_back(std::move(q));
   }
   return quantities;
+}
+
+CoverageTable read_coverage(const Json& json) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  CoverageTable table{text(json, "unit"), {}};
+  for (const Json& row : json.at("rows")) {
+    table.rows.push_back({row.at("row").get<std::size_t>(),
+                          text(row, "label"),
+                          text(row, "outcome"),
+                          number(row, "life"),
+                          {},
+                          number(row, "probability"),
+                          number(row, "q05", never),
+                          number(row, "q95", never),
+                          number(row, "b10", never)});
+    if (row.contains("until")) table.rows.back().until = number(row, "until");
+  }
+  return table;
 }
 
 Life read_life(const Json& json) {
@@ -182,6 +203,7 @@ StudyResult read_summary(const Json& json) {
   if (json.contains("quantities")) result.quantities = read_quantities(json["quantities"]);
   if (json.contains("life")) result.life = read_life_summary(json["life"]);
   if (json.contains("pointwise")) result.pointwise = read_pointwise(json["pointwise"]);
+  if (json.contains("coverage")) result.coverage = read_coverage(json["coverage"]);
   if (json.contains("log_evidence")) result.log_evidence = number(json, "log_evidence");
   result.checks = read_checks(json.at("checks"));
   result.trusted = json.at("trusted").get<bool>();

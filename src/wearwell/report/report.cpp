@@ -59,9 +59,10 @@ std::string given(double x, const std::string& unit_text) {
   return u.empty() ? given(x) : given(x) + "\u00a0" + u;
 }
 
-// A life: no fraction of a cycle.
-std::string life_number(double x, int digits = 4) {
+// A life: no fraction of a cycle, but of a hundred thousand of them.
+std::string life_number(double x, const std::string& unit_text, int digits = 4) {
   if (std::isinf(x)) return "never";
+  if (unit_text.starts_with("1e")) return number(x, digits);
   const int whole = x >= 1 && std::isfinite(x) ? static_cast<int>(std::log10(x)) + 1 : digits;
   return number(x, std::min(digits, whole));
 }
@@ -83,7 +84,8 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
     const Life& life = result.life->best();
     add(fmt::format("the {} reaches the limit of {} after about {} {} (90 % interval {})",
                     plots.quantity, given(result.life->limit, result.life->limit_unit),
-                    life_number(life.b50, 3), result.life->unit, range(life.q05, life.q95, 3)));
+                    life_number(life.b50, result.life->unit, 3), result.life->unit,
+                    range(life.q05, life.q95, 3)));
   }
   if (const QuantitySummary* life = told_life(result)) {
     const QuantityQuantiles& q = life->best();
@@ -91,8 +93,9 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
     add(
         fmt::format("the {} of a {} {} is {} {} in the median (90 % interval {} to {}), and one in "
                     "ten has less than {} {}",
-                    life->name, life->of, life->at, life_number(q.q50, 3), in,
-                    life_number(q.q05, 3), life_number(q.q95, 3), life_number(q.b10, 3), in));
+                    life->name, life->of, life->at, life_number(q.q50, life->unit, 3), in,
+                    life_number(q.q05, life->unit, 3), life_number(q.q95, life->unit, 3),
+                    life_number(q.b10, life->unit, 3), in));
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
@@ -129,7 +132,7 @@ std::string trust_callout(const StudyResult& result) {
 }
 
 std::string quantity_value(const QuantitySummary& summary, double x, int digits = 4) {
-  return summary.is_life ? life_number(x, digits) : number(x, digits);
+  return summary.is_life ? life_number(x, summary.unit, digits) : number(x, digits);
 }
 
 std::string verdict_section(const StudyResult& result, const Plots& plots) {
@@ -141,14 +144,15 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
     const LifeSummary& summary = *result.life;
     const Life& life = summary.best();
     tiles.push_back(
-        {"Life B10", life_number(life.b10, 3), summary.unit,
+        {"Life B10", life_number(life.b10, summary.unit, 3), summary.unit,
          fmt::format("one in ten reaches {} earlier", given(summary.limit, summary.limit_unit))});
-    tiles.push_back({"Inspect again within", life_number(life.inspect_within, 3), summary.unit,
+    tiles.push_back({"Inspect again within", life_number(life.inspect_within, summary.unit, 3),
+                     summary.unit,
                      fmt::format("after {}; risk of reaching the limit before: {} %",
                                  given(summary.now), given(100 * summary.risk))});
   }
   if (const QuantitySummary* told = told_life(result)) {
-    tiles.push_back({"Life B10", life_number(told->best().b10, 3), unit(told->unit),
+    tiles.push_back({"Life B10", life_number(told->best().b10, told->unit, 3), unit(told->unit),
                      fmt::format("{} {}", told->of, told->at)});
   }
   if (!result.predictions.empty()) {
@@ -191,9 +195,10 @@ std::string life_table(const LifeSummary& summary) {
        {"B1", "B10", "B50", "90 % interval",
         fmt::format("Inspect within <span class=\"unit\">(risk {} %)</span>",
                     given(100 * summary.risk))},
-       {{life_number(life.b1), life_number(life.b10), life_number(life.b50),
-         range(life.q05, life.q95),
-         fmt::format("{} after {}", life_number(life.inspect_within), given(summary.now))}}});
+       {{life_number(life.b1, summary.unit), life_number(life.b10, summary.unit),
+         life_number(life.b50, summary.unit), range(life.q05, life.q95),
+         fmt::format("{} after {}", life_number(life.inspect_within, summary.unit),
+                     given(summary.now))}}});
 }
 
 std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
@@ -202,12 +207,66 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
                     {}};
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
+    if (q.predictive) continue;
     const auto value = [&](double x) { return quantity_value(each, x); };
     table.rows.push_back({with_unit(each.name, each.unit), escape(each.of),
                           escape(html::raised(each.at)), value(q.q05), value(q.q50), value(q.q95),
                           each.is_life ? value(q.b1) : "–", each.is_life ? value(q.b10) : "–"});
   }
-  return html::table(table);
+  return table.rows.empty() ? "" : html::table(table);
+}
+
+// Properties of all items, for the next one and with a lower bound: two columns that are not to be
+// mistaken for each other.
+std::string bound_table(const std::vector<QuantitySummary>& quantities) {
+  html::Table table;
+  for (const QuantitySummary& each : quantities) {
+    const QuantityQuantiles& q = best(each);
+    if (!q.predictive) continue;
+    if (table.heading.empty()) {
+      table.heading = {"Quantity",
+                       "Of",
+                       "Where",
+                       "Posterior predictive",
+                       fmt::format("{} % lower bound", given(100 * *each.credible_level)),
+                       "5 %",
+                       "50 %",
+                       "95 %"};
+    }
+    table.rows.push_back({with_unit(each.name, each.unit), escape(each.of),
+                          escape(html::raised(each.at)), number(*q.predictive), number(*q.bound),
+                          number(q.q05), number(q.q50), number(q.q95)});
+  }
+  if (table.rows.empty()) return "";
+  table.caption = "For the next one, and at least";
+  return "<p>Posterior predictive: what holds for the next one, with all that is unknown averaged "
+         "in. Lower bound: what holds for all such items at least, with the stated probability; 5, "
+         "50 and 95 % are of the same.</p>\n" +
+         html::table(table);
+}
+
+std::string coverage_table(const CoverageTable& coverage) {
+  html::Table table{"Every test, and the life that the fit predicts of it",
+                    {"Row", "Type", "Outcome", with_unit("Life", coverage.unit), "Share below",
+                     "90 % predictive interval", "B10", "Where it lies"},
+                    {}};
+  std::size_t failures = 0, inside = 0;
+  for (const CoverageRow& row : coverage.rows) {
+    failures += row.failed();
+    inside += row.failed() && row.inside();
+    table.rows.push_back({fmt::format("{}", row.row), escape(row.label), escape(row.outcome),
+                          row.until ? range(row.life, *row.until) : number(row.life),
+                          number(100 * row.probability, 3) + "\u00a0%", range(row.q05, row.q95),
+                          number(row.b10),
+                          !row.failed()     ? "–"
+                          : row.below_b10() ? row.inside() ? "below B10" : "below B10, outside"
+                          : row.inside()    ? "inside"
+                                            : "outside"});
+  }
+  return fmt::format(
+             "<p>{} of {} failures lie within the interval that should hold nine in ten.</p>\n",
+             inside, failures) +
+         html::table(table);
 }
 
 // What the trade shows there beyond that.
@@ -227,7 +286,7 @@ std::string prediction_section(const StudyResult& result, const Plots& plots) {
     out += prediction_table("Predictions from all data sets", rows);
   }
   if (result.life) out += life_table(*result.life);
-  if (!result.quantities.empty()) out += quantity_table(result.quantities);
+  out += quantity_table(result.quantities) + bound_table(result.quantities);
   out += exhibits(plots, "predictions");
   if (!result.stages.empty()) {
     std::vector<std::pair<std::size_t, PredictionSummary>> rows;
@@ -302,6 +361,7 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
         inside, r.at.size());
     out += html::table(table) + html::figures(fit_figures(plots));
   }
+  if (result.coverage) out += coverage_table(*result.coverage);
   if (result.pointwise) {
     const PointwiseTable& p = *result.pointwise;
     html::Table pointwise{"Wear coefficient of each measurement for itself",

@@ -46,6 +46,9 @@ struct PredictionSummary {
 struct QuantityQuantiles {
   double q05 = 0, q50 = 0, q95 = 0;
   double b1 = 0, b10 = 0, b50 = 0;  ///< of a life: reached by then with 1, 10, 50 %
+  /// Of a property of all items, like the life by which 10 % have failed: what it is for the next
+  /// item, with all that is unknown averaged in; and what it exceeds with a chosen probability.
+  std::optional<double> predictive = {}, bound = {};
 };
 
 struct QuantitySummary {
@@ -56,8 +59,28 @@ struct QuantitySummary {
   bool is_life = false;
   QuantityQuantiles drawn;
   std::optional<QuantityQuantiles> exact;
+  std::optional<double> credible_level = {};  ///< of the bound
 
   const QuantityQuantiles& best() const { return exact ? *exact : drawn; }
+};
+
+/// One test against the distribution that the fit predicts of its life.
+struct CoverageRow {
+  std::size_t row = 0;  ///< of the data, from 1
+  std::string label;    ///< the type of specimen; may be empty
+  std::string outcome;  ///< "failure", "runout", "left" or "interval"
+  double life = 0;
+  std::optional<double> until;  ///< where an interval ends
+  double probability = 0;       ///< of a life no longer than that
+  double q05 = 0, q95 = 0, b10 = 0;
+
+  bool failed() const { return outcome == "failure"; }
+  bool inside() const { return q05 <= life && life <= q95; }  ///< the 90 % interval
+  bool below_b10() const { return life < b10; }
+};
+struct CoverageTable {
+  std::string unit;
+  std::vector<CoverageRow> rows;
 };
 
 struct LifeSummary {
@@ -103,6 +126,7 @@ struct StudyResult {
   std::vector<QuantitySummary> quantities;
   std::optional<LifeSummary> life;
   std::optional<PointwiseTable> pointwise;
+  std::optional<CoverageTable> coverage;
   std::optional<double> log_evidence;  ///< natural logarithm, data in SI
   std::vector<Check> checks;
   bool trusted = true;

@@ -112,13 +112,56 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
       {"", "of the", "5 %", "50 %", "95 %", "B1", "B10", "B50"}};
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
+    if (q.predictive) continue;
     rows.push_back({with_unit(each.name, each.unit) + " " + each.at, each.of, number(q.q05),
                     number(q.q50), number(q.q95)});
     for (const double b : {q.b1, q.b10, q.b50}) {
       rows.back().push_back(each.is_life ? number(b) : "-");
     }
   }
-  return text_table(rows);
+  return rows.size() > 1 ? "\nDerived quantities\n" + text_table(rows) : "";
+}
+
+// Properties of all items: of the next one, and how far they can be relied on.
+std::string bound_table(const std::vector<QuantitySummary>& quantities) {
+  std::vector<std::vector<std::string>> rows;
+  for (const QuantitySummary& each : quantities) {
+    const QuantityQuantiles& q = each.exact ? *each.exact : each.drawn;
+    if (!q.predictive) continue;
+    if (rows.empty()) {
+      rows.push_back({"", "of the", "posterior predictive",
+                      fmt::format("{:.4g} % lower bound", 100 * *each.credible_level), "5 %",
+                      "50 %", "95 %"});
+    }
+    rows.push_back({with_unit(each.name, each.unit) + (each.at.empty() ? "" : " ") + each.at,
+                    each.of, number(*q.predictive), number(*q.bound), number(q.q05), number(q.q50),
+                    number(q.q95)});
+  }
+  return rows.empty() ? ""
+                      : "\nFor the next one (posterior predictive), and at least (lower bound)\n" +
+                            text_table(rows);
+}
+
+std::string coverage_table(const CoverageTable& table) {
+  std::vector<std::vector<std::string>> rows = {{"row", "type", "outcome",
+                                                 with_unit("life", table.unit), "share below",
+                                                 "90 % predictive interval", "B10", ""}};
+  std::size_t failures = 0, inside = 0;
+  for (const CoverageRow& row : table.rows) {
+    failures += row.failed();
+    inside += row.failed() && row.inside();
+    rows.push_back(
+        {fmt::format("{}", row.row), row.label, row.outcome,
+         row.until ? fmt::format("{:.4g} .. {:.4g}", row.life, *row.until) : number(row.life),
+         fmt::format("{:.1f} %", 100 * row.probability),
+         fmt::format("{:.4g} .. {:.4g}", row.q05, row.q95), number(row.b10),
+         !row.failed()     ? ""
+         : row.below_b10() ? row.inside() ? "below B10" : "below B10, outside"
+         : row.inside()    ? ""
+                           : "outside"});
+  }
+  return fmt::format("{}  {} of {} failures lie inside the 90 % intervals\n", text_table(rows),
+                     inside, failures);
 }
 
 std::string count(double x) {
@@ -191,9 +234,11 @@ std::string terminal_summary(const StudyResult& result, const TerminalStyle& sty
   if (!result.stages.empty())
     out += "\nData set by data set (mean, sd)\n" + stage_table(result.stages);
   if (!result.predictions.empty()) out += "\nPredictions\n" + prediction_table(result.predictions);
-  if (!result.quantities.empty()) {
-    out += "\nDerived quantities\n" + quantity_table(result.quantities);
+  if (result.coverage) {
+    out +=
+        "\nTests, and the lives that the fit predicts of them\n" + coverage_table(*result.coverage);
   }
+  out += quantity_table(result.quantities) + bound_table(result.quantities);
   if (result.life) out += "\nLife\n" + life_lines(*result.life);
   out += "\nChecks\n" + check_lines(result.checks, style.colour);
   out += result.trusted ? "\nTrusted: no check failed.\n"

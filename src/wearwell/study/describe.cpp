@@ -62,9 +62,10 @@ std::string prior_in_words(const Parameter& parameter) {
 }
 
 std::string study_in_words(const Study& study) {
-  std::string out =
-      fmt::format("{}\n  {}\n\nData\n  {}: {} data sets of {}\n\nUnknowns\n", study.title,
-                  study.equation, study.data_file, study.data_rows, study.quantity);
+  std::string out = fmt::format("{}\n  {}\n\nData\n  {}: {} data sets of {}\n", study.title,
+                                study.equation, study.data_file, study.data_rows, study.quantity);
+  for (const std::string& note : study.data_notes) out += fmt::format("  {}\n", note);
+  out += "\nUnknowns\n";
   std::size_t width = 0;
   for (const Parameter& p : study.parameters) width = std::max(width, p.name.size());
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
@@ -86,13 +87,24 @@ std::string study_in_words(const Study& study) {
                        study.parameters.size() <= max_exact_dimension ? ", beside quadrature" : "");
   }
   out += fmt::format("; seed {}\n", run.seed);
-  if (!study.predictions.empty() || !study.quantities.empty() || study.life)
+  if (!study.predictions.empty() || !study.quantities.empty() || !study.quantity_groups.empty() ||
+      study.life) {
     out += "\nWill be predicted\n";
+  }
   for (const PredictionRequest& p : study.predictions) {
     out += fmt::format("  {} [{}] at {} {}\n", study.quantity, p.unit.text, p.at, p.at_name);
   }
-  for (const QuantityRequest& q : study.quantities) {
-    out += fmt::format("  {} [{}] of a {} {}\n", q.name, q.unit.text, q.of, q.at);
+  std::vector<QuantityRequest> quantities = study.quantities;
+  for (const QuantityGroup& group : study.quantity_groups) {
+    quantities.insert(quantities.end(), group.requests.begin(), group.requests.end());
+  }
+  for (const QuantityRequest& q : quantities) {
+    out +=
+        fmt::format("  {} [{}] of a {} {}{}\n", q.name, q.unit.text, q.of, q.at,
+                    q.credible_level ? fmt::format("; posterior predictive, and lower bound with "
+                                                   "{:.4g} % credibility",
+                                                   100 * *q.credible_level)
+                                     : "");
   }
   if (study.life) {
     const LifeRequest& life = *study.life;

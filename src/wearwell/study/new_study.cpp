@@ -15,6 +15,8 @@ std::string_view joint_study();
 std::string_view joint_data();
 std::string_view bearing_study();
 std::string_view bearing_data();
+std::string_view fatigue_study();
+std::string_view fatigue_data();
 
 }  // namespace resource
 
@@ -32,12 +34,14 @@ struct StudyFile {
 constexpr StudyFile files[] = {{"joint", "study.toml", resource::joint_study},
                                {"joint", "joint_wear.csv", resource::joint_data},
                                {"bearing", "study.toml", resource::bearing_study},
-                               {"bearing", "inspections.csv", resource::bearing_data}};
+                               {"bearing", "inspections.csv", resource::bearing_data},
+                               {"fatigue", "study.toml", resource::fatigue_study},
+                               {"fatigue", "tests.csv", resource::fatigue_data}};
 
 }  // namespace
 
 std::vector<std::string> new_study_trades() {
-  return {"joint", "bearing"};
+  return {"joint", "bearing", "fatigue"};
 }
 
 fs::path write_new_study(const std::string& trade, const fs::path& folder) {

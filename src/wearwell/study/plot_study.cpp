@@ -145,46 +145,6 @@ std::optional<DensityGrid> joint_density(const Posterior& posterior, const Fit& 
   return grid;
 }
 
-// A few points of one weight that stand for tens of thousands: evenly through the posterior, in
-// slices of its first parameter and within each along the second. Quantiles move by less than a
-// plot shows, and a curve takes a tenth of the time.
-WeightedDraws thinned(const WeightedDraws& draws) {
-  constexpr Eigen::Index count = 4000, slices = 200;
-  const Eigen::Index all = draws.values.rows();
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(all));
-  std::iota(order.begin(), order.end(), 0);
-  const auto sort_along = [&](Eigen::Index parameter, auto begin, auto end) {
-    std::sort(begin, end, [&](auto a, auto b) {
-      return draws.values(a, parameter) < draws.values(b, parameter);
-    });
-  };
-  sort_along(0, order.begin(), order.end());
-  if (draws.values.cols() > 1) {
-    double mass = 0;
-    auto begin = order.begin();
-    for (auto end = begin; end != order.end();) {
-      mass += draws.weights[*end++];
-      if (mass * slices < 1 && end != order.end()) continue;
-      sort_along(1, begin, end);
-      begin = end;
-      mass = 0;
-    }
-  }
-
-  WeightedDraws few{Points::Zero(count, draws.values.cols()),
-                    Eigen::VectorXd::Constant(count, 1.0 / count),
-                    {},
-                    {}};
-  double mass = draws.weights[order[0]];
-  for (Eigen::Index i = 0, at = 0; i < count; ++i) {
-    while (mass * count < static_cast<double>(i) + 0.5 && at + 1 < all) {
-      mass += draws.weights[order[static_cast<std::size_t>(++at)]];
-    }
-    few.values.row(i) = draws.values.row(order[static_cast<std::size_t>(at)]);
-  }
-  return few;
-}
-
 History predict_all(const std::vector<PredictionRequest>& requests, const WeightedDraws& draws) {
   std::vector<Prediction> predictions(requests.size());
   tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t i) {
@@ -231,6 +191,44 @@ std::string content(const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+// Evenly through the posterior, in slices of its first parameter and within each along the second.
+WeightedDraws thinned(const WeightedDraws& draws) {
+  constexpr Eigen::Index count = 4000, slices = 200;
+  const Eigen::Index all = draws.values.rows();
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(all));
+  std::iota(order.begin(), order.end(), 0);
+  const auto sort_along = [&](Eigen::Index parameter, auto begin, auto end) {
+    std::sort(begin, end, [&](auto a, auto b) {
+      return draws.values(a, parameter) < draws.values(b, parameter);
+    });
+  };
+  sort_along(0, order.begin(), order.end());
+  if (draws.values.cols() > 1) {
+    double mass = 0;
+    auto begin = order.begin();
+    for (auto end = begin; end != order.end();) {
+      mass += draws.weights[*end++];
+      if (mass * slices < 1 && end != order.end()) continue;
+      sort_along(1, begin, end);
+      begin = end;
+      mass = 0;
+    }
+  }
+
+  WeightedDraws few{Points::Zero(count, draws.values.cols()),
+                    Eigen::VectorXd::Constant(count, 1.0 / count),
+                    {},
+                    {}};
+  double mass = draws.weights[order[0]];
+  for (Eigen::Index i = 0, at = 0; i < count; ++i) {
+    while (mass * count < static_cast<double>(i) + 0.5 && at + 1 < all) {
+      mass += draws.weights[order[static_cast<std::size_t>(++at)]];
+    }
+    few.values.row(i) = draws.values.row(order[static_cast<std::size_t>(at)]);
+  }
+  return few;
+}
 
 Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit) {
   Plots plots;

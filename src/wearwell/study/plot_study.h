@@ -12,6 +12,10 @@ namespace wearwell {
 /// Everything that a report draws of the final posterior; some tens of milliseconds.
 Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit);
 
+/// A few points of one weight that stand for the tens of thousands of a quadrature, for curves:
+/// their quantiles move by less than a plot shows.
+WeightedDraws thinned(const WeightedDraws& draws);
+
 /// The density of `parameter` after every stage, over one range: that of the 90 % intervals of the
 /// later half of the stages.
 std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index index,

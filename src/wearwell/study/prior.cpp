@@ -29,6 +29,8 @@ class PriorReader {
   }
 
   double dimensional(const char* key) { return keep(table_.required_quantity(key, spec_.si)); }
+  // Standard deviations and scales: of a logarithm they are plain numbers.
+  double size(const char* key) { return is_logarithm(spec_.si) ? plain(key) : dimensional(key); }
   double plain(const char* key) { return table_.required_quantity(key, "1").si(); }
   double bound(const char* key, double none) {
     const auto value = table_.quantity(key, spec_.si);
@@ -43,7 +45,13 @@ class PriorReader {
       }
       return Uniform{};
     }
-    if (law == "normal") return Normal{dimensional("mean"), dimensional("sd")};
+    if (is_logarithm(spec_.si) && law != "normal" && law != "student-t") {
+      table_.fail("law",
+                  fmt::format("of a logarithm must be flat, uniform, normal or student-t, not "
+                              "{}",
+                              law));
+    }
+    if (law == "normal") return Normal{dimensional("mean"), size("sd")};
     if (law == "lognormal") return lognormal();
     if (law == "half-normal") return Normal{0, dimensional("scale")};
     if (law == "half-cauchy") return StudentT{1, 0, dimensional("scale")};
@@ -51,7 +59,7 @@ class PriorReader {
     if (law == "gamma") return Gamma{plain("shape"), dimensional("scale")};
     if (law == "inverse-gamma") return InverseGamma{plain("shape"), dimensional("scale")};
     if (law == "student-t") {
-      return StudentT{plain("df"), dimensional("location"), dimensional("scale")};
+      return StudentT{plain("df"), dimensional("location"), size("scale")};
     }
     if (law == "beta" && spec_.si != "1") {
       table_.fail("law", "a beta law lies between 0 and 1: it is only for a plain number");
@@ -84,7 +92,7 @@ class PriorReader {
   }
 
   void refuse_offset(const Unit& unit) const {
-    if (unit.offset != 0) {
+    if (unit.offset != 0 && !is_logarithm(spec_.si)) {
       table_.fail("", fmt::format("unit '{}' has an offset; write the parameter in '{}'", unit.text,
                                   spec_.si));
     }

@@ -3,6 +3,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/study/bearing_study.h"
 #include "wearwell/study/joint_study.h"
+#include "wearwell/study/sn_study.h"
 #include "wearwell/study/study.h"
 #include "wearwell/study/toml_reader.h"
 
@@ -58,8 +59,8 @@ Study read_study(const std::filesystem::path& file) {
   Study study;
   study.file = file;
   study.title = root.text("title").value_or(file.stem().string());
-  const auto model = root.choice("model", {"archard-joint", "bearing-wear"});
-  if (!model) root.fail("model", "is missing: \"archard-joint\" or \"bearing-wear\"");
+  const auto model = root.choice("model", {"archard-joint", "bearing-wear", "sn"});
+  if (!model) root.fail("model", "is missing: \"archard-joint\", \"bearing-wear\" or \"sn\"");
   study.model = *model;
   const TomlReader data = root.required_table("data");
   study.data_file = data.required_text("file");
@@ -68,6 +69,8 @@ Study read_study(const std::filesystem::path& file) {
   }
   if (*model == "archard-joint") {
     read_joint_study(root, file.parent_path(), study);
+  } else if (*model == "sn") {
+    read_sn_study(root, file.parent_path(), study);
   } else {
     read_bearing_study(root, file.parent_path(), study);
   }

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <chrono>
+#include <iterator>
 
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/fit.h"
@@ -74,6 +75,16 @@ std::vector<PredictionSummary> summarize(const std::vector<PredictionRequest>& r
   return summaries;
 }
 
+QuantityQuantiles in_unit(const Unit& unit, QuantityQuantiles q) {
+  for (double* each : {&q.q05, &q.q50, &q.q95, &q.b1, &q.b10, &q.b50}) {
+    *each = from_si(unit, *each);
+  }
+  for (std::optional<double>* each : {&q.predictive, &q.bound}) {
+    if (*each) *each = from_si(unit, **each);
+  }
+  return q;
+}
+
 QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws& draws) {
   std::function<double(double p)> driver;
   if (request.scatter) {
@@ -95,22 +106,41 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
   return result;
 }
 
+QuantitySummary summary_of(const QuantityRequest& request, const QuantityQuantiles& drawn) {
+  return {request.name,    request.of, request.at, request.unit.text,
+          request.is_life, drawn,      {},         request.credible_level};
+}
+
 QuantitySummary summarize(const QuantityRequest& request, const Fit& fit) {
-  QuantitySummary summary{request.name,
-                          request.of,
-                          request.at,
-                          request.unit.text,
-                          request.is_life,
-                          quantiles(request, fit.pooled),
-                          {}};
+  QuantitySummary summary = summary_of(request, quantiles(request, fit.pooled));
   if (fit.exact) summary.exact = quantiles(request, fit.exact->nodes);
   return summary;
 }
 
-std::vector<QuantitySummary> summarize(const std::vector<QuantityRequest>& requests,
-                                       const Fit& fit) {
+std::vector<QuantitySummary> summarize(const QuantityGroup& group, const Fit& fit) {
   std::vector<QuantitySummary> summaries;
-  for (const QuantityRequest& request : requests) summaries.push_back(summarize(request, fit));
+  const std::vector<QuantityQuantiles> drawn = group.from_draws(fit.pooled);
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const QuantityRequest& request = group.requests[i];
+    summaries.push_back(summary_of(request, in_unit(request.unit, drawn[i])));
+  }
+  if (!fit.exact) return summaries;
+  const std::vector<QuantityQuantiles> exact = group.from_draws(fit.exact->nodes);
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    summaries[i].exact = in_unit(group.requests[i].unit, exact[i]);
+  }
+  return summaries;
+}
+
+std::vector<QuantitySummary> summarize_quantities(const Study& study, const Fit& fit) {
+  std::vector<QuantitySummary> summaries;
+  for (const QuantityRequest& request : study.quantities) {
+    summaries.push_back(summarize(request, fit));
+  }
+  std::vector<std::vector<QuantitySummary>> groups(study.quantity_groups.size());
+  tbb::parallel_for(std::size_t{0}, groups.size(),
+                    [&](std::size_t i) { groups[i] = summarize(study.quantity_groups[i], fit); });
+  for (auto& group : groups) std::move(group.begin(), group.end(), std::back_inserter(summaries));
   return summaries;
 }
 
@@ -236,15 +266,19 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      summarize_parameters(posterior, final),
                      {},
                      summarize(study.predictions, final),
-                     summarize(study.quantities, final),
+                     summarize_quantities(study, final),
                      {},
                      study.pointwise,
+                     {},
                      final.exact ? final.exact->log_evidence : std::nullopt,
                      all_checks(study, posterior, final),
                      true,
                      in_units(study, std::move(final.draws))};
   result.trusted = trusted(result.checks);
   if (study.life) result.life = summarize(*study.life, final);
+  if (study.coverage) {
+    result.coverage = study.coverage(final.exact ? final.exact->nodes : final.pooled);
+  }
   if (study.stages) {
     // After the last data set the stage is the whole.
     const std::size_t last = study.data_rows - 1;

@@ -55,6 +55,13 @@ struct QuantityRequest {
   Function driver;
   Function scatter;  ///< standard deviation of ln driver between items, for one not yet seen; else
                      ///< empty
+  std::optional<double> credible_level = {};  ///< of `QuantityQuantiles::bound`
+};
+
+/// Quantities that have no single driver: all of them at once from the points of a posterior, SI.
+struct QuantityGroup {
+  std::vector<QuantityRequest> requests;  ///< without driver
+  std::function<std::vector<QuantityQuantiles>(const WeightedDraws& draws)> from_draws;
 };
 
 inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
@@ -83,16 +90,19 @@ struct Study {
   /// the next.
   std::function<std::vector<PredictionRequest>(std::size_t rows)> stage_predictions;
   std::vector<QuantityRequest> quantities;
+  std::vector<QuantityGroup> quantity_groups;
   std::optional<LifeRequest> life;
   std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
   std::vector<double> history_at;  ///< where each data set lies along it; where it was if empty
   std::string history_note;        ///< what to know of that curve
   std::optional<PointwiseTable> pointwise;
-  std::string quantity;               ///< what is measured, in words: "worn volume"
-  std::vector<std::string> meanings;  ///< of the parameters: "wear coefficient"
+  std::string quantity;                 ///< what is measured, in words: "worn volume"
+  std::vector<std::string> data_notes;  ///< what else to know of the data, in sentences
+  std::vector<std::string> meanings;    ///< of the parameters: "wear coefficient"
   /// What the trade checks beside the engine's checks, and shows in each section of the report;
   /// both may be empty.
   std::function<std::vector<Check>(const Fit&)> checks;
+  std::function<CoverageTable(const WeightedDraws&)> coverage;  ///< of single tests; may be empty
   std::function<std::map<std::string, Exhibits>(const Fit&)> exhibits;
   SamplerChoice sampler;  ///< as the study file says
   NutsSettings nuts;

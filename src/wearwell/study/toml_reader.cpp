@@ -88,6 +88,18 @@ std::string TomlReader::required_text(std::string_view key) const {
   return *value;
 }
 
+std::vector<std::string> TomlReader::texts(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  if (!node) return {};
+  if (!node->is_array()) return {*text(key)};
+  std::vector<std::string> values;
+  for (const toml::node& each : *node->as_array()) {
+    if (!each.is_string()) fail(key, "must be a text in quotes, or a list of them");
+    values.push_back(each.as_string()->get());
+  }
+  return values;
+}
+
 std::optional<std::string> TomlReader::choice(std::string_view key,
                                               const std::vector<std::string>& allowed) const {
   auto value = text(key);

@@ -29,6 +29,8 @@ class TomlReader {
 
   std::optional<std::string> text(std::string_view key) const;
   std::string required_text(std::string_view key) const;
+  /// One text or a list of them.
+  std::vector<std::string> texts(std::string_view key) const;
   /// One of a few words.
   std::optional<std::string> choice(std::string_view key,
                                     const std::vector<std::string>& allowed) const;

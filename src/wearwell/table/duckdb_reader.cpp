@@ -93,6 +93,9 @@ std::string quoted(const std::string& name, char quote) {
   return one + boost::algorithm::replace_all_copy(name, one, one + one) + one;
 }
 
+// Without BOOLEAN: a column of the letter F alone (failures) would be read as false.
+constexpr const char* csv_types = "['BIGINT', 'DOUBLE', 'TIME', 'DATE', 'TIMESTAMP', 'VARCHAR']";
+
 bool is_csv(const std::string& path) {
   const std::string lower = boost::algorithm::to_lower_copy(path);
   for (const char* ending : {".csv", ".tsv", ".txt", ".csv.gz", ".tsv.gz"}) {
@@ -172,7 +175,9 @@ Table read_table(const std::filesystem::path& file, const std::optional<std::str
   if (is_csv(path)) refuse_duplicate_names(database, path, table.source);
   const std::string literal = quoted(path, '\'');
   const std::string reader =
-      is_csv(path) ? fmt::format("read_csv({}, header = true)", literal) : literal;
+      is_csv(path) ? fmt::format("read_csv({}, header = true, auto_type_candidates = {})", literal,
+                                 csv_types)
+                   : literal;
   Result(database, fmt::format("create view data as select * from {}", reader), table.source);
   const std::string query = sql ? *sql : "select * from data";
   if (sql) table.source += " (through sql)";

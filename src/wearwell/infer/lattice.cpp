@@ -1,0 +1,341 @@
+#include "wearwell/infer/lattice.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "wearwell/math/view.h"
+
+namespace wearwell {
+namespace {
+
+constexpr int d = 4, outer = 3;
+using Index = std::array<std::int16_t, outer>;
+using Z = std::array<double, d>;
+
+constexpr double log_negligible = -22;     // of the highest density
+constexpr double negligible_share = 1e-9;  // nodes with less of the mass are left out
+constexpr long most_nodes = 6'000'000;
+constexpr int farthest = 3000;   // steps along an axis: beyond, the mass has no end
+constexpr int most_across = 80;  // steps along a line on either side of its mode
+
+std::uint64_t key(const Index& index) {
+  std::uint64_t packed = 0;
+  for (const std::int16_t i : index) packed = packed << 16 | static_cast<std::uint16_t>(i);
+  return packed;
+}
+
+// The real line's coordinates of three parameters as an affine map of u, the fourth apart.
+struct Axes {
+  int line = 0;  // the parameter that is integrated out first
+  std::array<int, outer> rest{};
+  Eigen::Vector3d center;
+  Eigen::Matrix3d scale;
+  double line_center = 0, line_scale = 1;
+};
+
+Axes axes_at(const Whitening& whitening) {
+  const Eigen::Matrix4d covariance = whitening.scale * whitening.scale.transpose();
+  const Eigen::Matrix4d precision = covariance.inverse();
+  Axes axes;
+  // The smallest share of its variance that is left when the others are known.
+  double least = INFINITY;
+  for (int i = 0; i < d; ++i) {
+    const double share = 1 / (precision(i, i) * covariance(i, i));
+    if (share < least * (1 - 1e-9)) {
+      least = share;
+      axes.line = i;
+    }
+  }
+  Eigen::Matrix3d block;
+  for (int i = 0, at = 0; i < d; ++i) {
+    if (i != axes.line) axes.rest[static_cast<std::size_t>(at++)] = i;
+  }
+  for (int i = 0; i < outer; ++i) {
+    axes.center[i] = whitening.center[axes.rest[i]];
+    for (int j = 0; j < outer; ++j) block(i, j) = covariance(axes.rest[i], axes.rest[j]);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(block);
+  axes.scale = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().asDiagonal();
+  axes.line_center = whitening.center[axes.line];
+  axes.line_scale = 1 / std::sqrt(precision(axes.line, axes.line));
+  return axes;
+}
+
+// One line: the fourth coordinate is middle + width t at t = 0, +-step, +-2 step, ...
+struct Line {
+  Index index{};
+  double middle = 0, width = 1;
+  int first = 0;               // t of the first value over the step
+  std::vector<double> values;  // log density less the reference
+  double highest = -INFINITY;
+};
+
+class Lattice {
+ public:
+  Lattice(const Posterior& posterior, const Axes& axes, double step, double line_step)
+      : posterior_(posterior), axes_(axes), step_(step), line_step_(line_step) {
+    Line center;
+    center.middle = axes.line_center;
+    reference_ = posterior_.value(at(center, 0));
+  }
+
+  // Empty, or why it stopped.
+  std::string fill() {
+    std::vector<Line> ring(1);
+    ring.front().middle = axes_.line_center;
+    ring.front().width = axes_.line_scale;
+    known_.emplace(key(ring.front().index), 0);
+    while (!ring.empty()) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ring.size(), 8), [&](const auto& part) {
+        for (std::size_t i = part.begin(); i != part.end(); ++i) integrate(ring[i]);
+      });
+      for (const Line& line : ring) {
+        nodes_ += static_cast<long>(line.values.size());
+        highest_ = std::max(highest_, line.highest);
+      }
+      if (highest_ > 300) return "the density grows without bound";
+      const std::size_t before = lines_.size();
+      std::move(ring.begin(), ring.end(), std::back_inserter(lines_));
+      ring.clear();
+      for (std::size_t i = before; i < lines_.size(); ++i) {
+        const Line& line = lines_[i];
+        if (line.highest < highest_ + log_negligible) continue;
+        for (int a = 0; a < outer; ++a) {
+          for (const int way : {-1, 1}) {
+            Line next;
+            next.index = line.index;
+            next.index[a] = static_cast<std::int16_t>(next.index[a] + way);
+            if (std::abs(next.index[a]) > farthest) {
+              return "its mass does not end: it is improper or far too wide";
+            }
+            next.middle = line.middle;
+            next.width = line.width;
+            if (known_.emplace(key(next.index), lines_.size() + ring.size()).second) {
+              ring.push_back(std::move(next));
+            }
+          }
+        }
+      }
+      if (nodes_ > most_nodes) return fmt::format("no convergence in {} evaluations", nodes_);
+    }
+    return {};
+  }
+
+  long nodes() const { return nodes_; }
+
+  // Sums of mass and second moments over the half lattices: of the lines by the parity of their
+  // index, and along the lines. Relative differences, the largest.
+  double error(bool moments) const {
+    Eigen::Matrix<double, 2 * d + 1, 4> sums = Eigen::Matrix<double, 2 * d + 1, 4>::Zero();
+    const Eigen::VectorXd middle = natural(at(lines_.front(), 0));
+    for (const Line& line : lines_) {
+      const int parity = (line.index[0] + line.index[1] + line.index[2]) & 1;
+      for (std::size_t j = 0; j < line.values.size(); ++j) {
+        const int t = line.first + static_cast<int>(j);
+        const double mass = std::exp(line.values[j]) * line.width;
+        if (mass == 0) continue;
+        Eigen::Matrix<double, 2 * d + 1, 1> terms = Eigen::Matrix<double, 2 * d + 1, 1>::Zero();
+        terms[0] = mass;
+        if (moments) {
+          const Eigen::VectorXd x = natural(at(line, t)) - middle;
+          terms.segment<d>(1) = mass * x;
+          terms.segment<d>(1 + d) = mass * x.cwiseAbs2();
+        }
+        sums.col(parity) += terms;
+        sums.col(2 + (t & 1)) += terms;
+      }
+    }
+    const Eigen::Matrix<double, 2 * d + 1, 1> all = sums.col(0) + sums.col(1);
+    double worst = 0;
+    for (int i = 0; i < 2 * d + 1; ++i) {
+      // First moments are judged by the size of the second.
+      const double size = i == 0 || i > d ? all[i] : std::sqrt(all[0] * all[i + d]);
+      if (!(size > 0)) continue;
+      for (const int pair : {0, 2}) {
+        worst = std::max(worst, std::abs(sums(i, pair) - sums(i, pair + 1)) / size);
+      }
+    }
+    return worst;
+  }
+
+  ExactPosterior result(bool moments) const {
+    double mass = 0;
+    for (const Line& line : lines_) {
+      for (const double v : line.values) mass += std::exp(v) * line.width;
+    }
+    std::vector<std::pair<const Line*, int>> kept;
+    for (const Line& line : lines_) {
+      for (std::size_t j = 0; j < line.values.size(); ++j) {
+        if (std::exp(line.values[j]) * line.width > negligible_share * mass) {
+          kept.emplace_back(&line, line.first + static_cast<int>(j));
+        }
+      }
+    }
+    ExactPosterior exact;
+    const auto n = static_cast<Eigen::Index>(kept.size());
+    WeightedDraws& nodes = exact.nodes;
+    nodes.values.resize(n, d);
+    nodes.weights.resize(n);
+    nodes.cell_weights.resize(n);
+    nodes.lower.assign(d, Points(n, d));
+    nodes.upper.assign(d, Points(n, d));
+    tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, n, 256), [&](const auto& part) {
+      for (Eigen::Index row = part.begin(); row != part.end(); ++row) {
+        const auto [line, t] = kept[static_cast<std::size_t>(row)];
+        nodes.values.row(row) = natural(at(*line, t));
+        const double weight = node_mass(*line, t);
+        double held =
+            weight - (node_mass(*line, t - 1) - 2 * weight + node_mass(*line, t + 1)) / 24;
+        nodes.lower[outer].row(row) = natural(at(*line, t - 0.5));
+        nodes.upper[outer].row(row) = natural(at(*line, t + 0.5));
+        for (int a = 0; a < outer; ++a) {
+          const Line& below = neighbour(*line, a, -1);
+          const Line& above = neighbour(*line, a, 1);
+          held -= (mass_in(below, *line, t) - 2 * weight + mass_in(above, *line, t)) / 24;
+          const auto axis = static_cast<std::size_t>(a);
+          nodes.lower[axis].row(row) = natural(between(*line, below, a, -0.5, t));
+          nodes.upper[axis].row(row) = natural(between(*line, above, a, 0.5, t));
+        }
+        nodes.weights[row] = weight;
+        nodes.cell_weights[row] = std::max(0.0, held);
+      }
+    });
+    nodes.weights /= nodes.weights.sum();
+    nodes.cell_weights /= nodes.cell_weights.sum();
+    exact.mean = nodes.values.transpose() * nodes.weights;
+    const Eigen::MatrixXd centered = nodes.values.rowwise() - exact.mean.transpose();
+    exact.covariance = centered.transpose() * nodes.weights.asDiagonal() * centered;
+    if (!moments) exact.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
+    exact.sd = exact.covariance.diagonal().cwiseSqrt();
+    bool proper = true;
+    for (const Parameter& parameter : posterior_.parameters()) proper &= parameter.prior.proper;
+    if (proper) {
+      exact.log_evidence = reference_ + std::log(mass * line_step_) + outer * std::log(step_) +
+                           std::log(std::abs(axes_.scale.determinant()));
+    }
+    return exact;
+  }
+
+ private:
+  // The real line's coordinates at u = step (index + shift along one axis) and on a line.
+  Z place(const Index& index, int axis, double shift, double on_line) const {
+    Eigen::Vector3d u(index[0], index[1], index[2]);
+    if (axis >= 0) u[axis] += shift;
+    const Eigen::Vector3d three = axes_.center + axes_.scale * (step_ * u);
+    Z z;
+    for (int i = 0; i < outer; ++i) z[static_cast<std::size_t>(axes_.rest[i])] = three[i];
+    z[static_cast<std::size_t>(axes_.line)] = on_line;
+    return z;
+  }
+  Z at(const Line& line, double t) const {
+    return place(line.index, -1, 0, line.middle + line.width * line_step_ * t);
+  }
+  // Half way to a neighbour, at the same place across the ridge.
+  Z between(const Line& line, const Line& other, int axis, double shift, int t) const {
+    return place(
+        line.index, axis, shift,
+        0.5 * (line.middle + other.middle) + 0.5 * (line.width + other.width) * line_step_ * t);
+  }
+
+  Eigen::VectorXd natural(const Z& z) const {
+    Eigen::VectorXd x(d);
+    posterior_.to_natural(z, view(x));
+    return x;
+  }
+
+  const Line& neighbour(const Line& line, int axis, int way) const {
+    Index index = line.index;
+    index[axis] = static_cast<std::int16_t>(index[axis] + way);
+    const auto found = known_.find(key(index));
+    return found == known_.end() ? line : lines_[found->second];
+  }
+
+  double node_mass(const Line& line, int t) const {
+    const int j = t - line.first;
+    if (j < 0 || j >= static_cast<int>(line.values.size())) return 0;
+    return std::exp(line.values[static_cast<std::size_t>(j)]) * line.width;
+  }
+  // Beyond the outermost lines there is nothing.
+  double mass_in(const Line& other, const Line& line, int t) const {
+    return &other == &line ? 0 : node_mass(other, t);
+  }
+
+  // Finds the line's mode by parabolas from its neighbour's, then walks outward on both sides.
+  void integrate(Line& line) const {
+    const auto value = [&](double on_line) {
+      return posterior_.value(place(line.index, -1, 0, on_line)) - reference_;
+    };
+    double middle = value(line.middle);
+    for (int iteration = 0; iteration < 6; ++iteration) {
+      const double reach = 0.7 * line.width;
+      const double below = value(line.middle - reach), above = value(line.middle + reach);
+      const double bend = 2 * middle - below - above;
+      if (!std::isfinite(bend) || !(bend > 1e-8)) break;
+      const double slope = 0.5 * (above - below);
+      const double width = reach / std::sqrt(bend);
+      // Far from the mode the parabola is only a direction.
+      const double move = std::clamp(slope / bend * reach, -8 * line.width, 8 * line.width);
+      const double there = value(line.middle + move);
+      if (!(there >= middle)) break;
+      line.middle += move;
+      line.width = std::clamp(width, 0.25 * line.width, 4 * line.width);
+      middle = there;
+      if (std::abs(move) < 0.05 * line.width) break;
+    }
+    std::vector<double> below;
+    line.values = {middle};
+    line.highest = middle;
+    for (const int way : {-1, 1}) {
+      std::vector<double>& side = way < 0 ? below : line.values;
+      for (int t = 1; t <= most_across; ++t) {
+        const double v = value(line.middle + way * t * line_step_ * line.width);
+        side.push_back(v);
+        line.highest = std::max(line.highest, v);
+        if (!(v > std::max(line.highest, highest_) + log_negligible)) break;
+      }
+    }
+    line.first = -static_cast<int>(below.size());
+    line.values.insert(line.values.begin(), below.rbegin(), below.rend());
+  }
+
+  const Posterior& posterior_;
+  const Axes& axes_;
+  double step_, line_step_;
+  double reference_;
+  double highest_ = -INFINITY;
+  long nodes_ = 0;
+  std::vector<Line> lines_;
+  std::unordered_map<std::uint64_t, std::size_t> known_;
+};
+
+}  // namespace
+
+ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
+                                    const ExactSettings& settings) {
+  const Axes axes = axes_at(whitening);
+  ExactPosterior exact;
+  long evaluations = 0;
+  for (double step = 1; evaluations < settings.max_evaluations; step /= std::sqrt(2.0)) {
+    Lattice lattice(posterior, axes, step, std::min(step, 0.8));
+    exact.failure = lattice.fill();
+    evaluations += lattice.nodes();
+    exact.evaluations = evaluations;
+    if (!exact.failure.empty()) return exact;
+    const double error = lattice.error(settings.second_moments);
+    if (error > settings.tolerance) continue;
+    exact = lattice.result(settings.second_moments);
+    exact.error = error;
+    exact.evaluations = evaluations;
+    return exact;
+  }
+  exact.failure = fmt::format("no convergence in {} evaluations", evaluations);
+  return exact;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "wearwell/math/dual.h"
+
+namespace wearwell {
+
+/// A law on the whole line without location and scale, of which lives are made: log life, or life
+/// itself, is location + scale times a standard variable. The smallest extreme value law of log
+/// life is the Weibull law of life.
+enum class StandardLaw { normal, smallest_extreme_value };
+
+/// A function's value and its derivative.
+struct ValueAndSlope {
+  double value = 0;
+  double slope = 0;
+};
+
+/// Logarithms of the density, of the distribution function P(Z <= z) and of survival P(Z > z). All
+/// digits stay, however far out: at z = 300 the normal log survival is -45006.62...
+ValueAndSlope log_density_and_slope(StandardLaw law, double z);
+ValueAndSlope log_cdf_and_slope(StandardLaw law, double z);
+ValueAndSlope log_survival_and_slope(StandardLaw law, double z);
+
+/// log P(a < Z <= b) for a < b, with its derivatives by both.
+struct LogBetween {
+  double value = 0;
+  double slope_a = 0;
+  double slope_b = 0;
+};
+LogBetween log_between_and_slopes(StandardLaw law, double a, double b);
+
+double cdf(StandardLaw law, double z);
+
+/// The z with P(Z <= z) = p, 0 < p < 1.
+double quantile(StandardLaw law, double p);
+
+/// The same for a formula's scalar: double or Dual.
+template <class T>
+T log_density(StandardLaw law, const T& z) {
+  const ValueAndSlope y = log_density_and_slope(law, scalar(z));
+  return chained(z, y.value, y.slope);
+}
+template <class T>
+T log_cdf(StandardLaw law, const T& z) {
+  const ValueAndSlope y = log_cdf_and_slope(law, scalar(z));
+  return chained(z, y.value, y.slope);
+}
+template <class T>
+T log_survival(StandardLaw law, const T& z) {
+  const ValueAndSlope y = log_survival_and_slope(law, scalar(z));
+  return chained(z, y.value, y.slope);
+}
+template <class T>
+T log_between(StandardLaw law, const T& a, const T& b) {
+  const LogBetween y = log_between_and_slopes(law, scalar(a), scalar(b));
+  return chained(a, y.value, y.slope_a) + chained(b, 0, y.slope_b);
+}
+
+}  // namespace wearwell
