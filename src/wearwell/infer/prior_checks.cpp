@@ -116,7 +116,9 @@ Check prior_cut(const Posterior& posterior, const Fit& fit) {
         parameter.name);
     const Posterior wider =
         with_cut_moved(posterior, i, fit.exact->mean[static_cast<Eigen::Index>(i)]);
-    const ExactPosterior exact = integrate(wider, whitening_of(wider, posterior, fit));
+    // A thousandth of a standard deviation is enough to see a quarter.
+    const ExactPosterior exact =
+        integrate(wider, whitening_of(wider, posterior, fit), {.tolerance = 1e-3});
     if (!exact.failure.empty()) {
       findings.add(
           dependence_on(parameter),

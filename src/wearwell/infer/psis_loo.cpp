@@ -217,6 +217,7 @@ double exact_elpd(const Posterior& posterior, const Whitening& whitening, std::s
   const Posterior others(posterior.parameters(),
                          std::make_shared<Without>(posterior.likelihood(), term));
   ExactSettings settings;
+  settings.tolerance = 1e-3;
   settings.max_evaluations = 4'000'000;
   settings.second_moments = false;
   const ExactPosterior exact = integrate(others, whitening, settings);

@@ -72,7 +72,7 @@ double exact_elpd(const Posterior& posterior, const Whitening& whitening, std::s
 /// Says which observations have a k-hat above the threshold; `noun` is what they are ("row").
 Check loo_check(const Loo& loo, const std::string& noun);
 
-/// elpd of a less that of b, with the standard error of the difference: sqrt(n) times the standard
+/// elpd of a less that of b (0 of itself), with the standard error of the difference: sqrt(n) times the standard
 /// deviation of the differences observation by observation.
 struct ElpdDifference {
   double value = 0;

@@ -123,7 +123,7 @@ Comparison compare(std::vector<std::pair<std::string, StudyResult>> results) {
     });
     for (auto& each : studies) {
       each.behind =
-          elpd_difference(each.result.loo->loo.terms, studies.front().result.loo->loo.terms);
+          elpd_difference(studies.front().result.loo->loo.terms, each.result.loo->loo.terms);
     }
   }
   comparison.cautions = cautions_of(comparison);
@@ -147,7 +147,7 @@ std::string comparison_text(const Comparison& comparison) {
       const auto mode = mode_of(result);
       row.insert(row.end(),
                  {fmt::format("{:.2f}", loo.elpd()), fmt::format("{:.2f}", loo.se()),
-                  fmt::format("{:.2f}", -behind->value), fmt::format("{:.2f}", behind->se),
+                  fmt::format("{:.2f}", behind->value), fmt::format("{:.2f}", behind->se),
                   fmt::format("{:.1f}", loo.p_loo()), fmt::format("{:.2f}", loo.khat_max()),
                   mode ? fmt::format("{:.2f}", mode->aic) : "-",
                   mode ? fmt::format("{:.2f}", mode->bic) : "-"});
@@ -201,7 +201,7 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
                      {"p_loo", loo.p_loo()},
                      {"khat_max", loo.khat_max()}};
     }
-    if (behind) each["behind"] = {{"elpd", -behind->value}, {"se", behind->se}};
+    if (behind) each["behind"] = {{"elpd", behind->value}, {"se", behind->se}};
     if (const auto mode = mode_of(result)) {
       each["mode"] = {{"log_likelihood", mode->log_likelihood},
                       {"maximum_likelihood", mode->maximum_likelihood},

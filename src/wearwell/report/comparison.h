@@ -14,7 +14,7 @@ struct Comparison {
   struct Entry {
     std::string name;  ///< as its user calls it: the folder
     StudyResult result;
-    /// elpd less that of the best, with the standard error of the difference; only where
+    /// elpd of the best less its own, with the standard error of the difference; only where
     /// `comparable`.
     std::optional<ElpdDifference> behind;
   };

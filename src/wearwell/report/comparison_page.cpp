@@ -35,7 +35,7 @@ std::string verdict_section(const Comparison& comparison) {
     for (const auto& [name, result, behind] : comparison.studies) {
       const Loo& loo = result.loo->loo;
       const bool mode = result.mode && result.mode->problem.empty();
-      table.rows.push_back({escape(name), fixed(loo.elpd()), fixed(loo.se()), fixed(-behind->value),
+      table.rows.push_back({escape(name), fixed(loo.elpd()), fixed(loo.se()), fixed(behind->value),
                             fixed(behind->se), fmt::format("{:.1f}", loo.p_loo()),
                             fixed(loo.khat_max()), mode ? fixed(result.mode->aic) : "–",
                             mode ? fixed(result.mode->bic) : "–",

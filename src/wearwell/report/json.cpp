@@ -1,5 +1,7 @@
 #include "wearwell/report/json.h"
 
+#include <cmath>
+
 namespace wearwell {
 namespace {
 
@@ -76,7 +78,7 @@ Json to_json(const ModeSummary& mode) {
           {"maximum_likelihood", mode.maximum_likelihood},
           {"aic", mode.aic},
           {"bic", mode.bic},
-          {"observations", mode.observations},
+          {"observations", std::llround(mode.observations)},
           {"starts", mode.starts},
           {"reached", mode.reached}};
 }
@@ -96,7 +98,7 @@ Json to_json(const LooSummary& summary) {
           {"khat_max", loo.khat_max()},
           {"khat_threshold", loo.threshold},
           {"observation", summary.observation},
-          {"observations", loo.observations()},
+          {"observations", std::llround(loo.observations())},
           {"pointwise", terms}};
 }
 
