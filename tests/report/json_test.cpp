@@ -57,6 +57,28 @@ TEST(SummaryJson, HoldsWhatWasFound) {
   EXPECT_THAT(verdicts, testing::ElementsAre("pass", "warn", "fail"));
 }
 
+TEST(SummaryJson, HoldsTheModeAndLeaveOneOut) {
+  StudyResult result = sample_result();
+  const Json json = Json::parse(to_json(result).dump());
+  const Json& mode = json["mode"];
+  EXPECT_EQ(mode["parameters"]["k"]["value"].get<double>(), 7.4e-4);
+  EXPECT_EQ(mode["parameters"]["k"]["standard_error"].get<double>(), 9e-6);
+  EXPECT_EQ(mode["parameters"]["sigma"]["at"], "upper bound");
+  EXPECT_TRUE(mode["parameters"]["sigma"]["standard_error"].is_null());
+  EXPECT_EQ(mode["log_likelihood"].get<double>(), -20.5);
+  EXPECT_EQ(mode["aic"].get<double>(), 45);
+  EXPECT_EQ(mode["maximum_likelihood"], false);
+  const Json& loo = json["loo"];
+  EXPECT_EQ(loo["elpd"].get<double>(), -7.5);  // the second was seen twice
+  EXPECT_EQ(loo["p_loo"].get<double>(), 2.25);
+  EXPECT_EQ(loo["khat_max"].get<double>(), 0.875);
+  EXPECT_EQ(loo["pointwise"][1]["count"].get<int>(), 2);
+  EXPECT_EQ(loo["pointwise"][1]["refitted"], true);
+  EXPECT_EQ(json["data"]["fingerprint"], "da39a3ee");
+  result.mode->problem = "the density still rises";
+  EXPECT_EQ(to_json(result)["mode"], (Json{{"problem", "the density still rises"}}));
+}
+
 TEST(SummaryJson, WhatIsNoNumberIsNull) {
   StudyResult result = sample_result();
   result.parameters[0].rhat = std::nan("");

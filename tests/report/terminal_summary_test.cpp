@@ -23,6 +23,7 @@ TEST(TerminalSummary, SaysWhatWasFound) {
   const std::string text = terminal_summary(sample_result(), {});
   for (const char* part : {"Pin joint\n", "joint.csv: 2 data sets", "k [mm^3/(N m)]", "0.00075",
                            "0.000751", "91.5", "88.5 .. 94.5", "80.5 .. 101.5", "-> reparametrize",
+                           "Mode of the posterior", "on its upper bound", "AIC 45.00", "elpd -7.50",
                            "B10 22000", "21500 .. never", "1 % risk", "NOT TRUSTED"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }

@@ -28,6 +28,10 @@ class LogDensity {
   /// The logarithm of each factor of a likelihood that is a product over independent observations;
   /// empty for any other density.
   virtual std::vector<double> pointwise(std::span<const double>) const { return {}; }
+
+  /// How many observations each of these stands for, where some were seen alike; empty when each is
+  /// one.
+  virtual std::vector<int> pointwise_counts() const { return {}; }
 };
 
 }  // namespace wearwell

@@ -46,6 +46,20 @@ class Observations {
     return sum;
   }
 
+  /// The same, measurement by measurement.
+  template <class Mean>
+  std::vector<double> pointwise(const Mean& mean, double sd) const {
+    std::vector<double> terms;
+    for (std::size_t i = 0; i < y_.size(); ++i) {
+      const double mu = mean(i);
+      terms.push_back(family_ == ObservationFamily::normal
+                          ? normal_log_density(y_[i], mu, 1 / sd, std::log(sd))
+                      : mu > 0 ? lognormal_log_density(y_[i], mu, sd)
+                               : -std::numeric_limits<double>::infinity());
+    }
+    return terms;
+  }
+
  private:
   ObservationFamily family_;
   std::vector<double> y_;  // log y for the lognormal family

@@ -97,6 +97,17 @@ double Posterior::natural_value(std::span<const double> x) const {
   return in_support(log_prior(x) + likelihood_->value(x));
 }
 
+double Posterior::natural_value_and_gradient(std::span<const double> x,
+                                             std::span<double> gradient) const {
+  double sum = likelihood_->value_and_gradient(x, gradient);
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const LogDensityAndSlope prior = log_density(parameters_[i].prior, x[i]);
+    sum += prior.value;
+    gradient[i] += prior.slope;
+  }
+  return in_support(sum);
+}
+
 void Posterior::to_natural(std::span<const double> z, std::span<double> x) const {
   for (std::size_t i = 0; i < parameters_.size(); ++i) x[i] = transforms_[i].from_real(z[i]).x;
 }

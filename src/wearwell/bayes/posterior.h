@@ -30,6 +30,9 @@ class Posterior final : public LogDensity {
   /// log prior + log likelihood of natural parameters, -infinity outside the support.
   double natural_value(std::span<const double> x) const;
 
+  /// The same with its derivatives by natural parameters; x lies inside the support.
+  double natural_value_and_gradient(std::span<const double> x, std::span<double> gradient) const;
+
   /// Natural parameters of z.
   void to_natural(std::span<const double> z, std::span<double> x) const;
 

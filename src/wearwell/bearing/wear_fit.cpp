@@ -13,6 +13,7 @@ namespace wearwell::bearing {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double half_log_two_pi = 0.91893853320467274178;
 
 double value_of(double x) {
   return x;
@@ -81,6 +82,15 @@ class Group {
     const double x = value_of(log_k);
     const HermiteTable::Point squares = squares_.covers(x) ? squares_(x) : sum_of_squares(x);
     return -0.5 * chain(squares, log_k) / (sigma * sigma);
+  }
+
+  /// log of the density of each depth at ln k.
+  std::vector<double> pointwise(double log_k, double sigma) const {
+    if (!(log_k <= limit_)) return std::vector<double>(size(), -infinity);
+    const auto mean = [&](std::size_t i) { return laws_[i].depth(log_k); };
+    const ObservationFamily family =
+        observations_ ? ObservationFamily::lognormal : ObservationFamily::normal;
+    return Observations(family, depths_).pointwise(mean, sigma);
   }
 
   /// log of the integral over z ~ N(0, 1) of the likelihood of log_k + scatter z.
@@ -216,6 +226,20 @@ class WearLikelihood final : public LogDensity {
                                            gradient);
   }
 
+  // Of bearings where they differ, else of inspections.
+  std::vector<double> pointwise(std::span<const double> x) const override {
+    const double log_k = std::log(x[0]), sigma = model_.sigma(x.data());
+    if (!model_.has_scatter) return groups_.front().pointwise(log_k, sigma);
+    const double log_scale =
+        model_.family == ObservationFamily::normal ? std::log(sigma) + half_log_two_pi : 0;
+    std::vector<double> terms;
+    for (const Group& group : groups_) {
+      terms.push_back(group.log_integral(log_k, sigma, model_.scatter(x.data())) -
+                      static_cast<double>(group.size()) * log_scale);
+    }
+    return terms;
+  }
+
  private:
   template <class T>
   T formula(const T* x) const {
@@ -231,7 +255,6 @@ class WearLikelihood final : public LogDensity {
       if (value_of(sum) == -infinity) return sum;
     }
     if (model_.family == ObservationFamily::normal) {
-      constexpr double half_log_two_pi = 0.91893853320467274178;
       sum -= static_cast<double>(count) * (log(sigma) + half_log_two_pi);
     }
     return sum;

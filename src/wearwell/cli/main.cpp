@@ -6,6 +6,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/cli/bearing.h"
 #include "wearwell/cli/check.h"
+#include "wearwell/cli/compare.h"
 #include "wearwell/cli/fit.h"
 #include "wearwell/cli/new.h"
 #include "wearwell/cli/report.h"
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
   add_bearing_command(app);
   add_select_command(app, exit_code);
   add_check_command(app, exit_code);
+  add_compare_command(app, exit_code);
   add_new_command(app, exit_code);
   add_report_command(app, exit_code);
 

@@ -40,10 +40,14 @@ class SnLikelihood final : public LogDensity {
   std::vector<double> pointwise(std::span<const double> x) const override {
     const Shared<double> shared(law_, x.data());
     std::vector<double> terms;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      terms.insert(terms.end(), static_cast<std::size_t>(tests_[i].count), term(shared, i));
-    }
+    for (std::size_t i = 0; i < rows_.size(); ++i) terms.push_back(term(shared, i));
     return terms;
+  }
+
+  std::vector<int> pointwise_counts() const override {
+    std::vector<int> counts;
+    for (const LifeTest& test : tests_) counts.push_back(test.count);
+    return counts;
   }
 
  private:

@@ -99,10 +99,10 @@ class Lattice {
         nodes_ += static_cast<long>(line.values.size());
         highest_ = std::max(highest_, line.highest);
       }
-      if (highest_ > 300) return "the density grows without bound";
       const std::size_t before = lines_.size();
       std::move(ring.begin(), ring.end(), std::back_inserter(lines_));
       ring.clear();
+      if (highest_ > 300 && !set_reference()) return "the density grows without bound";
       for (std::size_t i = before; i < lines_.size(); ++i) {
         const Line& line = lines_[i];
         if (line.highest < highest_ + log_negligible) continue;
@@ -266,6 +266,20 @@ class Lattice {
     return &other == &line ? 0 : node_mass(other, t);
   }
 
+  // Makes the highest density so far the reference: the walk began far below the mode. False when
+  // it was moved so often that there is none.
+  bool set_reference() {
+    constexpr int most = 20;
+    if (++moves_ > most || !std::isfinite(highest_)) return false;
+    for (Line& line : lines_) {
+      line.highest -= highest_;
+      for (double& value : line.values) value -= highest_;
+    }
+    reference_ += highest_;
+    highest_ = 0;
+    return true;
+  }
+
   // Finds the line's mode by parabolas from its neighbour's, then walks outward on both sides.
   void integrate(Line& line) const {
     const auto value = [&](double on_line) {
@@ -310,6 +324,7 @@ class Lattice {
   double reference_;
   double highest_ = -INFINITY;
   long nodes_ = 0;
+  int moves_ = 0;  // of the reference
   std::vector<Line> lines_;
   std::unordered_map<std::uint64_t, std::size_t> known_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/infer/climb.h"
 #include "wearwell/math/minimizer.h"
 #include "wearwell/math/view.h"
 
@@ -40,7 +41,14 @@ Mode find_mode(const LogDensity& density, const Eigen::VectorXd& start) {
     for (double& slope : gradient) slope = std::isfinite(value) ? -slope : 0;
     return -value;
   };
-  const Minimum best = minimize(objective, start);
+  Minimum best = minimize(objective, start);
+  if (!best.converged) {
+    const auto n = start.size();
+    const Summit summit =
+        climb(density, start, Eigen::VectorXd::Ones(n),
+              {Eigen::VectorXd::Constant(n, -INFINITY), Eigen::VectorXd::Constant(n, INFINITY)});
+    best = {summit.x, -summit.value, summit.converged};
+  }
   Mode mode{start, density.value(view(start)), {}, false};
   if ((best.position - start).cwiseAbs().maxCoeff() < far) {
     mode.position = best.position;

@@ -77,6 +77,15 @@ Posterior with_cut_moved(const Posterior& posterior, std::size_t index, double m
   return Posterior(std::move(parameters), posterior.likelihood());
 }
 
+// Other bounds have other transforms: the same parameters lie elsewhere on the real line.
+Whitening whitening_of(const Posterior& wider, const Posterior& posterior, const Fit& fit) {
+  Eigen::VectorXd x(posterior.dimension());
+  posterior.to_natural(view(fit.whitening.center), view(x));
+  const Eigen::VectorXd center = wider.to_real(view(x));
+  const Mode mode = find_mode(wider, center);
+  return mode.found ? whitening_at(mode) : Whitening{center, fit.whitening.scale};
+}
+
 bool has_cut(const Parameter& parameter) {
   const Law& prior = parameter.prior;
   const bool flat =
@@ -107,7 +116,9 @@ Check prior_cut(const Posterior& posterior, const Fit& fit) {
         parameter.name);
     const Posterior wider =
         with_cut_moved(posterior, i, fit.exact->mean[static_cast<Eigen::Index>(i)]);
-    const ExactPosterior exact = integrate(wider, fit.whitening);
+    // A thousandth of a standard deviation is enough to see a quarter.
+    const ExactPosterior exact =
+        integrate(wider, whitening_of(wider, posterior, fit), {.tolerance = 1e-3});
     if (!exact.failure.empty()) {
       findings.add(
           dependence_on(parameter),

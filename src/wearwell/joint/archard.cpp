@@ -23,6 +23,11 @@ class ArchardLikelihood final : public LogDensity {
                                            gradient);
   }
 
+  std::vector<double> pointwise(std::span<const double> x) const override {
+    return observations_.pointwise(
+        [&](std::size_t i) { return law_.mean_volume(x.data(), work_[i]); }, x[1]);
+  }
+
  private:
   template <class T>
   T formula(const T* x) const {

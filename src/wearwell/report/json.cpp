@@ -1,5 +1,7 @@
 #include "wearwell/report/json.h"
 
+#include <cmath>
+
 namespace wearwell {
 namespace {
 
@@ -80,6 +82,43 @@ Json to_json(const Life& life) {
           {"q05", life.q05}, {"q95", life.q95}, {"inspect_within", life.inspect_within}};
 }
 
+Json to_json(const ModeSummary& mode) {
+  if (!mode.problem.empty()) return {{"problem", mode.problem}};
+  Json parameters = Json::object();
+  for (const ModeParameter& p : mode.parameters) {
+    parameters[p.name] = {
+        {"unit", p.unit}, {"value", p.value}, {"standard_error", p.standard_error}, {"at", p.at}};
+  }
+  return {{"parameters", parameters},
+          {"log_likelihood", mode.log_likelihood},
+          {"log_posterior", mode.log_posterior},
+          {"maximum_likelihood", mode.maximum_likelihood},
+          {"aic", mode.aic},
+          {"bic", mode.bic},
+          {"observations", std::llround(mode.observations)},
+          {"starts", mode.starts},
+          {"reached", mode.reached}};
+}
+
+Json to_json(const LooSummary& summary) {
+  const Loo& loo = summary.loo;
+  Json terms = Json::array();
+  for (const LooTerm& term : loo.terms) {
+    Json each = {{"elpd", term.elpd}, {"lpd", term.lpd}, {"khat", term.khat}};
+    if (term.count != 1) each["count"] = term.count;
+    if (term.refitted) each["refitted"] = true;
+    terms.push_back(std::move(each));
+  }
+  return {{"elpd", loo.elpd()},
+          {"se", loo.se()},
+          {"p_loo", loo.p_loo()},
+          {"khat_max", loo.khat_max()},
+          {"khat_threshold", loo.threshold},
+          {"observation", summary.observation},
+          {"observations", std::llround(loo.observations())},
+          {"pointwise", terms}};
+}
+
 Json to_json(const LifeSummary& life) {
   Json json = {{"unit", life.unit},
                {"limit", life.limit},
@@ -136,7 +175,10 @@ Json to_json(const StudyResult& result) {
                {"title", result.title},
                {"model", result.model},
                {"equation", result.equation},
-               {"data", {{"file", result.data_file}, {"rows", result.data_rows}}},
+               {"data",
+                {{"file", result.data_file},
+                 {"rows", result.data_rows},
+                 {"fingerprint", result.data_fingerprint}}},
                {"sampler",
                 {{"method", result.method},
                  {"chains", result.chains},
@@ -144,6 +186,8 @@ Json to_json(const StudyResult& result) {
                  {"draws", result.draws},
                  {"seed", result.seed}}},
                {"parameters", to_json(result.parameters)}};
+  if (result.mode) json["mode"] = to_json(*result.mode);
+  if (result.loo) json["loo"] = to_json(*result.loo);
   Json stages = Json::array();
   for (const StageSummary& stage : result.stages) stages.push_back(to_json(stage));
   json["stages"] = stages;

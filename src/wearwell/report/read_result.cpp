@@ -135,6 +135,40 @@ CoverageTable read_coverage(const Json& json) {
   return table;
 }
 
+ModeSummary read_mode(const Json& json) {
+  ModeSummary mode;
+  if (json.contains("problem")) {
+    mode.problem = text(json, "problem");
+    return mode;
+  }
+  for (const auto& [name, each] : json.at("parameters").items()) {
+    mode.parameters.push_back({name, text(each, "unit"), number(each, "value"),
+                               number(each, "standard_error"), text(each, "at")});
+  }
+  mode.log_likelihood = number(json, "log_likelihood");
+  mode.log_posterior = number(json, "log_posterior");
+  mode.maximum_likelihood = json.at("maximum_likelihood").get<bool>();
+  mode.aic = number(json, "aic");
+  mode.bic = number(json, "bic");
+  mode.observations = number(json, "observations");
+  mode.starts = json.at("starts").get<int>();
+  mode.reached = json.at("reached").get<int>();
+  return mode;
+}
+
+LooSummary read_loo(const Json& json) {
+  LooSummary summary{text(json, "observation"), {}};
+  summary.loo.threshold = number(json, "khat_threshold");
+  for (const Json& each : json.at("pointwise")) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    LooTerm term{number(each, "elpd"), number(each, "lpd"), number(each, "khat", unknown)};
+    if (each.contains("count")) term.count = each["count"].get<int>();
+    term.refitted = each.contains("refitted");
+    summary.loo.terms.push_back(term);
+  }
+  return summary;
+}
+
 Life read_life(const Json& json) {
   constexpr double never = std::numeric_limits<double>::infinity();
   return {number(json, "b1", never),  number(json, "b10", never),
@@ -187,6 +221,7 @@ StudyResult read_summary(const Json& json) {
   result.equation = text(json, "equation");
   result.data_file = text(data, "file");
   result.data_rows = data.at("rows").get<std::size_t>();
+  if (data.contains("fingerprint")) result.data_fingerprint = text(data, "fingerprint");
   result.method = text(sampler, "method");
   result.chains = sampler.at("chains").get<int>();
   result.warmup = sampler.at("warmup").get<int>();
@@ -199,6 +234,8 @@ StudyResult read_summary(const Json& json) {
                              read_predictions(stage.at("predictions")),
                              read_checks(stage.at("checks")), stage.at("trusted").get<bool>()});
   }
+  if (json.contains("mode")) result.mode = read_mode(json["mode"]);
+  if (json.contains("loo")) result.loo = read_loo(json["loo"]);
   result.predictions = read_predictions(json.at("predictions"));
   if (json.contains("quantities")) result.quantities = read_quantities(json["quantities"]);
   if (json.contains("life")) result.life = read_life_summary(json["life"]);

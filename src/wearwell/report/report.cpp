@@ -221,7 +221,7 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
 std::string bound_table(const std::vector<QuantitySummary>& quantities) {
   html::Table table;
   for (const QuantitySummary& each : quantities) {
-    const QuantityQuantiles& q = best(each);
+    const QuantityQuantiles& q = each.best();
     if (!q.predictive) continue;
     if (table.heading.empty()) {
       table.heading = {"Quantity",
@@ -299,6 +299,53 @@ std::string prediction_section(const StudyResult& result, const Plots& plots) {
   return out;
 }
 
+std::string mode_table(const ModeSummary& mode) {
+  if (!mode.problem.empty()) {
+    return fmt::format("<p>The posterior has no mode: {}.</p>\n", escape(mode.problem));
+  }
+  html::Table table{mode.maximum_likelihood
+                        ? "Maximum likelihood: where the density is highest under these flat priors"
+                        : "Mode: where the posterior density is highest",
+                    {"Parameter", "Mode", "Standard error"},
+                    {}};
+  for (const ModeParameter& p : mode.parameters) {
+    table.rows.push_back({with_unit(p.name, p.unit), number(p.value),
+                          p.at == "inside" ? number(p.standard_error, 3) : "on its " + p.at});
+  }
+  return html::table(table) +
+         fmt::format(
+             "<p>Log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f} ({} observations, densities in SI "
+             "units{}). Standard errors are those of the curvature there; a parameter on its bound "
+             "counts as known.</p>\n",
+             mode.log_likelihood, mode.aic, mode.bic, given(mode.observations),
+             mode.maximum_likelihood ? "" : "; the likelihood at the mode, not at its own maximum");
+}
+
+std::string loo_table(const LooSummary& summary) {
+  const Loo& loo = summary.loo;
+  html::Table table{
+      fmt::format("How well each {} is predicted from all others", summary.observation),
+      {html::capital(summary.observation), "Log density", "Log density with itself", "Pareto k"},
+      {}};
+  for (std::size_t i = 0; i < loo.terms.size(); ++i) {
+    const LooTerm& term = loo.terms[i];
+    table.rows.push_back(
+        {fmt::format("{}{}", i + 1, term.count == 1 ? "" : fmt::format(" ({}×)", term.count)),
+         fmt::format("{:.3f}", term.elpd), fmt::format("{:.3f}", term.lpd),
+         fmt::format("{:.2f}{}", term.khat,
+                     term.refitted        ? ", fitted anew"
+                     : loo.doubtful(term) ? ", too large"
+                                          : "")});
+  }
+  return fmt::format(
+             "<p>Leave-one-out: expected log predictive density {:.2f}, standard error {:.2f}, "
+             "{:.1f} "
+             "effective parameters (natural logarithms, densities in SI units). Pareto k up to "
+             "{:.2f} is good.</p>\n",
+             loo.elpd(), loo.se(), loo.p_loo(), loo.threshold) +
+         html::details(fmt::format("Every {} left out", summary.observation), html::table(table));
+}
+
 std::string parameter_section(const StudyResult& result, const Plots& plots) {
   html::Table table{
       "Parameters after all data sets",
@@ -316,6 +363,7 @@ std::string parameter_section(const StudyResult& result, const Plots& plots) {
                            escape(html::raised(plots.parameters[i].prior_in_words))});
   }
   std::string out = html::table(table) + html::table(priors);
+  if (result.mode) out += mode_table(*result.mode);
   if (!result.stages.empty()) {
     html::Table stages{"Parameters, data set by data set", {"Data sets"}, {}};
     for (const ParameterSummary& p : result.parameters) {
@@ -374,6 +422,7 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
     }
     out += html::table(pointwise);
   }
+  if (result.loo) out += loo_table(*result.loo);
   return out + exhibits(plots, "fit");
 }
 

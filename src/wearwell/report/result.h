@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wearwell/bayes/draws.h"
+#include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/report/plots.h"
@@ -83,6 +84,34 @@ struct CoverageTable {
   std::vector<CoverageRow> rows;
 };
 
+/// One parameter at the mode of the posterior (infer/natural_mode.h).
+struct ModeParameter {
+  std::string name;
+  std::string unit;
+  double value = 0;
+  double standard_error = 0;  ///< NaN where a bound holds the parameter
+  std::string at;             ///< "inside", "lower bound" or "upper bound"
+};
+
+/// Where the posterior is highest in the parameters' own units.
+struct ModeSummary {
+  std::string
+      problem;  ///< why there is no mode; empty when there is one, else nothing below is set
+  std::vector<ModeParameter> parameters;
+  double log_likelihood = 0;        ///< natural logarithm, data in SI
+  double log_posterior = 0;         ///< up to a constant where a prior is improper
+  double aic = 0, bic = 0;          ///< of the likelihood there
+  bool maximum_likelihood = false;  ///< all priors are flat or uniform, so it is that as well
+  double observations = 0;          ///< of which BIC takes the logarithm
+  int starts = 0, reached = 0;      ///< searches, and how many ended here
+};
+
+/// Leave-one-out cross-validation (infer/psis_loo.h).
+struct LooSummary {
+  std::string observation;  ///< what is left out: "row", "bearing"
+  Loo loo;
+};
+
 struct LifeSummary {
   std::string unit;  ///< "cycles"
   double limit = 0;  ///< what is reached
@@ -134,6 +163,10 @@ struct StudyResult {
   Draws posterior_draws;  ///< in the parameters' units
 
   std::optional<Plots> plots{};  ///< when a report was asked for
+
+  std::string data_fingerprint{};  ///< of what was observed: equal for the same data
+  std::optional<ModeSummary> mode{};
+  std::optional<LooSummary> loo{};  ///< of a proper posterior
 };
 
 }  // namespace wearwell

@@ -36,6 +36,31 @@ std::string parameter_table(const std::vector<ParameterSummary>& parameters) {
   return text_table(rows);
 }
 
+std::string mode_lines(const ModeSummary& mode) {
+  if (!mode.problem.empty()) return fmt::format("  there is none: {}\n", mode.problem);
+  std::vector<std::vector<std::string>> rows = {{"", "at", "standard error"}};
+  for (const ModeParameter& p : mode.parameters) {
+    rows.push_back({with_unit(p.name, p.unit), number(p.value),
+                    p.at == "inside" ? number(p.standard_error) : "on its " + p.at});
+  }
+  return text_table(rows) + fmt::format("  log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f}{}\n",
+                                        mode.log_likelihood, mode.aic, mode.bic,
+                                        mode.maximum_likelihood ? "" : ", all at the mode");
+}
+
+std::string mode_title(const ModeSummary& mode) {
+  return mode.maximum_likelihood ? "Maximum likelihood (mode under flat priors)"
+                                 : "Mode of the posterior";
+}
+
+std::string loo_lines(const LooSummary& summary) {
+  const Loo& loo = summary.loo;
+  return fmt::format(
+      "  each {} from all others: elpd {:.2f} (standard error {:.2f}), effective parameters "
+      "{:.1f}\n",
+      summary.observation, loo.elpd(), loo.se(), loo.p_loo());
+}
+
 // The draws of one parameter between their smallest and largest 0.5 %, in blocks of eight heights.
 std::string histogram(const Draws& draws, Eigen::Index parameter) {
   static constexpr const char* blocks[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
@@ -126,7 +151,7 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
 std::string bound_table(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows;
   for (const QuantitySummary& each : quantities) {
-    const QuantityQuantiles& q = each.exact ? *each.exact : each.drawn;
+    const QuantityQuantiles& q = each.best();
     if (!q.predictive) continue;
     if (rows.empty()) {
       rows.push_back({"", "of the", "posterior predictive",
@@ -229,6 +254,9 @@ std::string terminal_summary(const StudyResult& result, const TerminalStyle& sty
     out += '\n';
     out += histogram_lines(result);
   }
+  if (result.mode)
+    out += fmt::format("\n{}\n", mode_title(*result.mode)) + mode_lines(*result.mode);
+  if (result.loo) out += "\nLeave-one-out prediction\n" + loo_lines(*result.loo);
   if (result.pointwise)
     out += "\nWear coefficient of each measurement\n" + pointwise_table(*result.pointwise);
   if (!result.stages.empty())

@@ -89,6 +89,8 @@ void read_bearing_study(const TomlReader& root, const std::filesystem::path& fol
   study.equation = in_words(model, data);
   study.data_rows = data.inspections.depth.size();
   study.quantity = "wear depth";
+  study.observed = data.inspections.depth;
+  if (model.has_scatter) study.observation = "bearing";
   study.meanings = {"specific wear rate"};
   if (!model.depth_error) study.meanings.push_back("scatter of one measured depth");
   if (model.has_scatter) study.meanings.push_back("scatter of ln k between bearings");

@@ -10,6 +10,18 @@
 
 namespace wearwell {
 
+namespace {
+
+std::string digits(boost::uuids::detail::sha1& hash) {
+  boost::uuids::detail::sha1::digest_type digest;
+  hash.get_digest(digest);
+  std::string text;
+  for (const unsigned int word : digest) text += fmt::format("{:08x}", word);
+  return text;
+}
+
+}  // namespace
+
 std::string sha1(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   boost::uuids::detail::sha1 hash;
@@ -19,11 +31,15 @@ std::string sha1(const std::filesystem::path& file) {
     hash.process_bytes(buffer.data(), static_cast<std::size_t>(stream.gcount()));
   }
   if (!stream.eof()) throw InputError(fmt::format("cannot read {}", file.string()));
-  boost::uuids::detail::sha1::digest_type digest;
-  hash.get_digest(digest);
-  std::string text;
-  for (const unsigned int word : digest) text += fmt::format("{:08x}", word);
-  return text;
+  return digits(hash);
+}
+
+std::string fingerprint(const std::string& quantity, const std::vector<double>& observed) {
+  std::string text = quantity;
+  for (const double value : observed) text += fmt::format("\n{:.12g}", value);
+  boost::uuids::detail::sha1 hash;
+  hash.process_bytes(text.data(), text.size());
+  return digits(hash);
 }
 
 }  // namespace wearwell

@@ -244,6 +244,7 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
   study.data_rows = data.cycles.size();
   study.pointwise = data.pointwise;
   study.quantity = "worn volume";
+  study.observed = data.inspections.volume;
   study.meanings = {"wear coefficient", "scatter of one measurement"};
   if (law.has_constant) study.meanings.push_back("volume before any work");
   if (law.has_exponent) study.meanings.push_back("exponent of the work");

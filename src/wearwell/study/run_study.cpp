@@ -3,13 +3,18 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/fit.h"
+#include "wearwell/infer/natural_mode.h"
+#include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/predict/scattered.h"
+#include "wearwell/study/fingerprint.h"
 #include "wearwell/study/plot_study.h"
 
 namespace wearwell {
@@ -159,8 +164,41 @@ LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
   return summary;
 }
 
-std::vector<Check> all_checks(const Study& study, const Posterior& posterior, const Fit& fit) {
+ModeSummary summarize_mode(const Posterior& posterior, const Fit& fit, double observations) {
+  const NaturalMode mode = natural_mode(posterior, fit);
+  ModeSummary summary;
+  summary.problem = mode.problem;
+  if (!mode.problem.empty()) return summary;
+  static constexpr const char* places[] = {"inside", "lower bound", "upper bound"};
+  for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
+    const Parameter& parameter = posterior.parameters()[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    summary.parameters.push_back(
+        {parameter.name, parameter.unit.text, from_si(parameter.unit, mode.position[at]),
+         mode.standard_error[at] / parameter.unit.scale, places[static_cast<int>(mode.place[i])]});
+  }
+  const double deviance = -2 * mode.log_likelihood;
+  const auto unknowns = static_cast<double>(posterior.dimension());
+  summary.log_likelihood = mode.log_likelihood;
+  summary.log_posterior = mode.log_posterior;
+  summary.aic = deviance + 2 * unknowns;
+  summary.bic = deviance + unknowns * std::log(observations);
+  summary.maximum_likelihood = mode.maximum;
+  summary.observations = observations;
+  summary.starts = mode.starts;
+  summary.reached = mode.reached;
+  return summary;
+}
+
+bool proper(const Fit& fit) {
+  return std::all_of(fit.tails.begin(), fit.tails.end(),
+                     [](const Tail& tail) { return tail.integrable(); });
+}
+
+std::vector<Check> all_checks(const Study& study, const Posterior& posterior, const Fit& fit,
+                              const std::optional<LooSummary>& loo) {
   std::vector<Check> checks = trust_checks(posterior, fit);
+  if (loo) checks.push_back(loo_check(loo->loo, loo->observation));
   if (study.checks) {
     for (Check& check : study.checks(fit)) checks.push_back(std::move(check));
   }
@@ -252,6 +290,14 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
   std::optional<Plots> plots;
   if (with_plots) plots = plot_study(study, posterior, final);
 
+  std::optional<LooSummary> loo;
+  if (proper(final)) {
+    Loo each = leave_one_out(posterior, final);
+    if (!each.terms.empty()) loo = {study.observation, std::move(each)};
+  }
+  const ModeSummary mode = summarize_mode(
+      posterior, final, loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
+
   StudyResult result{WEARWELL_VERSION,
                      study.title,
                      study.model,
@@ -271,10 +317,13 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      study.pointwise,
                      {},
                      final.exact ? final.exact->log_evidence : std::nullopt,
-                     all_checks(study, posterior, final),
+                     all_checks(study, posterior, final, loo),
                      true,
                      in_units(study, std::move(final.draws))};
   result.trusted = trusted(result.checks);
+  result.data_fingerprint = fingerprint(study.quantity, study.observed);
+  result.mode = mode;
+  result.loo = std::move(loo);
   if (study.life) result.life = summarize(*study.life, final);
   if (study.coverage) {
     result.coverage = study.coverage(final.exact ? final.exact->nodes : final.pooled);

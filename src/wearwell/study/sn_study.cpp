@@ -243,6 +243,11 @@ void read_sn_study(const TomlReader& root, const std::filesystem::path& folder, 
   study.equation = in_words(law);
   study.data_rows = data.tests.size();
   study.quantity = "life";
+  for (const LifeTest& test : data.tests) {
+    const double seen[] = {static_cast<double>(test.outcome), test.life, test.until,
+                           static_cast<double>(test.count)};
+    study.observed.insert(study.observed.end(), std::begin(seen), std::end(seen));
+  }
   study.meanings = meanings(law);
   study.likelihood = [=, tests = data.tests](std::size_t rows) {
     return fatigue::sn_likelihood(law, tests, rows);

@@ -82,6 +82,9 @@ struct Study {
   std::filesystem::path file;  ///< the study file
   std::string data_file;       ///< as the study file names it
   std::size_t data_rows = 0;   ///< data sets; the posterior can be updated after each
+  /// What was observed, row by row in SI: what the likelihood is a density of.
+  std::vector<double> observed;
+  std::string observation = "row";  ///< what the likelihood's factors are of: "row", "bearing"
   std::vector<Parameter> parameters;
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
   bool stages = false;  ///< the posterior after 1, 2, ... data sets as well

@@ -1,0 +1,173 @@
+#include "wearwell/infer/natural_mode.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/infer/climb.h"
+#include "wearwell/math/view.h"
+
+namespace wearwell {
+namespace {
+
+constexpr int draws_to_start_from = 10;
+
+// A maximum farther than this from the posterior, in its widths, is an asymptote.
+constexpr double far = 1e3;
+
+// Curvature in units of the posterior's width below which a direction is a plateau.
+constexpr double least_curvature = 1e-7;
+
+// Of the posterior along each parameter, to first order.
+Eigen::VectorXd widths(const Posterior& posterior, const Whitening& whitening) {
+  const int d = posterior.dimension();
+  Eigen::VectorXd center(d), x(d), squares = Eigen::VectorXd::Zero(d);
+  posterior.to_natural(view(whitening.center), view(center));
+  for (int a = 0; a < d; ++a) {
+    const Eigen::VectorXd moved = whitening.center + 0.3 * whitening.scale.col(a);
+    posterior.to_natural(view(moved), view(x));
+    squares += ((x - center) / 0.3).cwiseAbs2();
+  }
+  return squares.cwiseSqrt();
+}
+
+// The posterior as a density of the natural parameters.
+class Natural final : public LogDensity {
+ public:
+  explicit Natural(const Posterior& posterior) : posterior_(posterior) {}
+  int dimension() const override { return posterior_.dimension(); }
+  double value(std::span<const double> x) const override { return posterior_.natural_value(x); }
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    return posterior_.natural_value_and_gradient(x, gradient);
+  }
+
+ private:
+  const Posterior& posterior_;
+};
+
+// Just inside the support: on its very bound a density may be no number.
+Box box_of(const Posterior& posterior, const Eigen::VectorXd& width) {
+  constexpr double inset = 1e-9;
+  Box box{width, width};
+  for (Eigen::Index i = 0; i < width.size(); ++i) {
+    const Law& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
+    const double size = std::min(width[i], prior.upper - prior.lower);
+    const auto gap = [&](double bound) {
+      constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+      return std::isfinite(bound) ? inset * size + rounding * std::abs(bound) : 0;
+    };
+    box.lower[i] = prior.lower + gap(prior.lower);
+    box.upper[i] = prior.upper - gap(prior.upper);
+  }
+  return box;
+}
+
+std::vector<Eigen::VectorXd> starts(const Posterior& posterior, const Fit& fit) {
+  std::vector<Eigen::VectorXd> all;
+  Eigen::VectorXd x(posterior.dimension());
+  for (const Eigen::VectorXd& z : {posterior.start(), fit.whitening.center}) {
+    posterior.to_natural(view(z), view(x));
+    all.push_back(x);
+  }
+  const Chain* chain = nullptr;
+  Eigen::Index row = 0;
+  double most = -INFINITY;
+  for (const Chain& each : fit.draws) {
+    const auto highest = std::max_element(each.log_density.begin(), each.log_density.end());
+    if (highest == each.log_density.end() || !(*highest > most)) continue;
+    most = *highest;
+    chain = &each;
+    row = highest - each.log_density.begin();
+  }
+  if (chain) all.push_back(chain->values.row(row));
+  const Points& draws = fit.pooled.values;
+  for (Eigen::Index i = 0; i < draws_to_start_from; ++i) {
+    all.push_back(draws.row((2 * i + 1) * draws.rows() / (2 * draws_to_start_from)));
+  }
+  return all;
+}
+
+// Why the highest point found is no mode; empty when it is one.
+std::string problem_of(const Posterior& posterior, const Box& box, const Summit& best,
+                       const Eigen::VectorXd& center, const Eigen::VectorXd& width) {
+  if (!std::isfinite(best.value)) return "the search found no point of positive density";
+  for (Eigen::Index i = 0; i < best.x.size(); ++i) {
+    const Parameter& parameter = posterior.parameters()[static_cast<std::size_t>(i)];
+    const bool lower = best.x[i] <= box.lower[i], upper = best.x[i] >= box.upper[i];
+    const double bound = lower ? parameter.prior.lower : parameter.prior.upper;
+    // A density like a power of the distance to the bound: its log slope times the distance.
+    if ((lower || upper) && std::abs(best.gradient[i] * (best.x[i] - bound)) > 0.01) {
+      return fmt::format("the density grows without end as {} nears its {} bound", parameter.name,
+                         lower ? "lower" : "upper");
+    }
+    if (std::abs(best.x[i] - center[i]) > far * width[i]) {
+      return fmt::format("the density still rises with {} at {:.3g} {}", parameter.name,
+                         from_si(parameter.unit, best.x[i]), parameter.unit.text);
+    }
+  }
+  if (!best.converged) return "the search did not come to an end";
+  return {};
+}
+
+}  // namespace
+
+NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
+  const Eigen::VectorXd width = widths(posterior, fit.whitening);
+  Eigen::VectorXd center(posterior.dimension());
+  posterior.to_natural(view(fit.whitening.center), view(center));
+  const Natural density(posterior);
+  const Box box = box_of(posterior, width);
+  NaturalMode mode;
+  std::vector<Summit> summits;
+  for (const Eigen::VectorXd& start : starts(posterior, fit)) {
+    summits.push_back(climb(density, start, width, box));
+  }
+  const auto best =
+      std::max_element(summits.begin(), summits.end(),
+                       [](const Summit& a, const Summit& b) { return a.value < b.value; });
+  mode.problem = problem_of(posterior, box, *best, center, width);
+  if (!mode.problem.empty()) return mode;
+
+  mode.starts = static_cast<int>(summits.size());
+  mode.reached =
+      static_cast<int>(std::count_if(summits.begin(), summits.end(), [&](const Summit& each) {
+        return each.value > best->value - 1e-6 * (1 + std::abs(best->value));
+      }));
+  mode.position = best->x;
+  mode.log_posterior = best->value;
+  mode.log_likelihood = best->value - posterior.log_prior(view(best->x));
+  mode.maximum = true;
+  std::vector<Eigen::Index> inside;
+  for (Eigen::Index i = 0; i < width.size(); ++i) {
+    const Law& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
+    mode.maximum &=
+        std::holds_alternative<Flat>(prior.family) || std::holds_alternative<Uniform>(prior.family);
+    const bool lower = best->x[i] <= box.lower[i], upper = best->x[i] >= box.upper[i];
+    mode.place.push_back(lower ? Place::lower_bound : upper ? Place::upper_bound : Place::inside);
+    if (lower) mode.position[i] = prior.lower;
+    if (upper) mode.position[i] = prior.upper;
+    if (!lower && !upper) inside.push_back(i);
+  }
+  mode.standard_error =
+      Eigen::VectorXd::Constant(width.size(), std::numeric_limits<double>::quiet_NaN());
+  if (inside.empty()) return mode;
+  const Eigen::VectorXd unit = width(inside);
+  const Eigen::MatrixXd scaled =
+      unit.asDiagonal() * best->curvature(inside, inside) * unit.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+  if (!(eigen.eigenvalues()[0] > least_curvature)) {
+    Eigen::Index flat = 0;
+    eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&flat);
+    mode.problem = fmt::format(
+        "the density is a plateau along {}",
+        posterior.parameters()[static_cast<std::size_t>(inside[static_cast<std::size_t>(flat)])]
+            .name);
+    return mode;
+  }
+  mode.standard_error(inside) = scaled.inverse().diagonal().cwiseSqrt().cwiseProduct(unit);
+  return mode;
+}
+
+}  // namespace wearwell
