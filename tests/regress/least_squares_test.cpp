@@ -45,7 +45,7 @@ Case read_case(const std::string& name, int rows, int count) {
 }
 
 /// Every statistic of `fit` under the names of regress.R.
-std::map<std::string, Eigen::VectorXd> statistics_of(const Fit& fit) {
+std::map<std::string, Eigen::VectorXd> statistics_of(const LinearFit& fit) {
   const auto one = [](double value) { return Eigen::VectorXd::Constant(1, value); };
   return {{"coefficient", fit.coefficients},
           {"standard_error", fit.standard_errors},
@@ -62,7 +62,7 @@ std::map<std::string, Eigen::VectorXd> statistics_of(const Fit& fit) {
           {"bic", one(fit.bic)}};
 }
 
-void expect_as_in_r(const std::string& name, const Fit& fit, double tolerance) {
+void expect_as_in_r(const std::string& name, const LinearFit& fit, double tolerance) {
   const auto statistics = statistics_of(fit);
   int compared = 0;
   for (const auto& row : read_golden("regress_expected.csv")) {

@@ -6,6 +6,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/cli/bearing.h"
 #include "wearwell/cli/check.h"
+#include "wearwell/cli/clutch.h"
 #include "wearwell/cli/fit.h"
 #include "wearwell/cli/new.h"
 #include "wearwell/cli/report.h"
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", WEARWELL_VERSION);
   add_fit_command(app, exit_code);
   add_bearing_command(app);
+  add_clutch_command(app, exit_code);
   add_check_command(app, exit_code);
   add_new_command(app, exit_code);
   add_report_command(app, exit_code);

@@ -52,7 +52,7 @@ double deviance(double rss, const Eigen::VectorXd& root_weight) {
 
 }  // namespace
 
-Fit fit_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
+LinearFit fit_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
                       const Eigen::VectorXd& weights, const std::vector<std::string>& names,
                       double tolerance) {
   const Index n = columns.rows(), k = columns.cols();
@@ -66,7 +66,7 @@ Fit fit_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& res
   const Eigen::ArrayXd least = tolerance * scaled.colwise().norm().transpose().array();
   if (!(pivots > least).all()) refuse_dependence(scaled, names, tolerance);
 
-  Fit fit;
+  LinearFit fit;
   fit.coefficients = qr.solve(root.cwiseProduct(response));
   fit.fitted = columns * fit.coefficients;
   fit.residuals = response - fit.fitted;

@@ -16,7 +16,7 @@ inline constexpr double leverage_tolerance = 1e-8;
 
 /// Weighted least squares: y_i = x_i'b + error_i, var(error_i) = sigma^2 / w_i. With n rows, k
 /// columns, residuals e_i, leverages h_i (diagonal of W^1/2 X (X'WX)^-1 X' W^1/2):
-struct Fit {
+struct LinearFit {
   Eigen::VectorXd coefficients;
   Eigen::MatrixXd covariance;       ///< sigma^2 (X'WX)^-1
   Eigen::VectorXd standard_errors;  ///< of the coefficients
@@ -41,7 +41,7 @@ struct Fit {
 /// Fits by Householder QR. `weights` may be empty (all 1). `names`, for messages, may be empty.
 /// Throws InputError for weights that are not positive, fewer rows than columns + 1, or columns
 /// that are linearly dependent (named, with those that they depend on).
-Fit fit_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
+LinearFit fit_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
                       const Eigen::VectorXd& weights = {},
                       const std::vector<std::string>& names = {},
                       double tolerance = rank_tolerance);

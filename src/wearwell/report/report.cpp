@@ -7,7 +7,7 @@
 
 #include "wearwell/report/figures.h"
 #include "wearwell/report/html.h"
-#include "wearwell/report/resources.h"
+#include "wearwell/report/page.h"
 
 namespace wearwell {
 namespace {
@@ -365,61 +365,20 @@ std::string method_section(const StudyResult& result, const Plots& plots) {
                                                        escape(plots.study_text)));
 }
 
-std::string script(std::string_view code) {
-  return fmt::format("<script>{}</script>\n", code);
-}
-
-// The licences ask that their text goes with the code.
-std::string licence(const char* name, std::string_view text) {
-  return fmt::format("<!-- {} in this page:\n{}\n-->\n", name, text);
-}
-
 }  // namespace
 
 std::string html_report(const StudyResult& result) {
   const Plots& plots = *result.plots;
-  static constexpr std::pair<const char*, const char*> contents[] = {
-      {"verdict", "Verdict"}, {"predictions", "Predictions"}, {"parameters", "Parameters"},
-      {"fit", "Fit"},         {"checks", "Checks"},           {"method", "Method"}};
-  std::string navigation;
-  for (const auto& [id, title] : contents) {
-    navigation += fmt::format("<li><a href=\"#{}\">{}</a></li>", id, title);
-  }
-  std::string page = fmt::format(
-      R"(<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<meta name="generator" content="wearwell {}">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'; img-src data: blob:">
-<title>{}</title>
-<style>{}</style>
-</head>
-<body>
-<header><h1>{}</h1><p>{}, {} data sets of {}</p>
-<nav aria-label="Contents"><ul>{}</ul></nav></header>
-<main>
-)",
-      escape(result.version), escape(result.title), resource::page_css(), escape(result.title),
-      escape(result.model), result.data_rows, escape(result.data_file), navigation);
-  page += html::section("verdict", "Verdict", verdict_section(result, plots));
-  page += html::section("predictions", "Predictions", prediction_section(result, plots));
-  page += html::section("parameters", "Parameters", parameter_section(result, plots));
-  page += html::section("fit", "Fit", fit_section(result, plots));
-  page += html::section("checks", "Checks", check_section(result, plots));
-  page += html::section("method", "Method and reproducibility", method_section(result, plots));
-  page += fmt::format("</main>\n<footer><p>Written by wearwell {}.</p></footer>\n",
-                      escape(result.version));
-  page += licence("vega", resource::vega_license());
-  page += script(resource::vega());
-  page += licence("vega-lite", resource::vega_lite_license());
-  page += script(resource::vega_lite());
-  page += licence("vega-embed", resource::vega_embed_license());
-  page += script(resource::vega_embed());
-  page += script(resource::page_js());
-  return page + "</body>\n</html>\n";
+  return html_page(
+      {result.version,
+       result.title,
+       fmt::format("{}, {} data sets of {}", result.model, result.data_rows, result.data_file),
+       {{"verdict", "Verdict", verdict_section(result, plots)},
+        {"predictions", "Predictions", prediction_section(result, plots)},
+        {"parameters", "Parameters", parameter_section(result, plots)},
+        {"fit", "Fit", fit_section(result, plots)},
+        {"checks", "Checks", check_section(result, plots)},
+        {"method", "Method", method_section(result, plots), "Method and reproducibility"}}});
 }
 
 }  // namespace wearwell

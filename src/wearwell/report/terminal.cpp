@@ -10,27 +10,10 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "wearwell/report/text_table.h"
+
 namespace wearwell {
 namespace {
-
-// Rows of cells, the first row being the heading; the first column is aligned left, the others
-// right.
-std::string table(const std::vector<std::vector<std::string>>& rows) {
-  std::vector<std::size_t> width;
-  for (const auto& row : rows) {
-    width.resize(std::max(width.size(), row.size()));
-    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
-  }
-  std::string out;
-  for (const auto& row : rows) {
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      out += c == 0 ? fmt::format("  {:<{}}", row[c], width[c])
-                    : fmt::format("  {:>{}}", row[c], width[c]);
-    }
-    out += '\n';
-  }
-  return out;
-}
 
 std::string number(double x) {
   return fmt::format("{:.4g}", x);
@@ -50,7 +33,7 @@ std::string parameter_table(const std::vector<ParameterSummary>& parameters) {
                     fmt::format("{:.3f}", p.rhat), p.exact ? number(p.exact->mean) : "-",
                     p.exact ? number(p.exact->sd) : "-"});
   }
-  return table(rows);
+  return text_table(rows);
 }
 
 // The draws of one parameter between their smallest and largest 0.5 %, in blocks of eight heights.
@@ -110,7 +93,7 @@ std::string stage_table(const std::vector<StageSummary>& stages) {
     }
     rows.back().push_back(stage.trusted ? "yes" : "no");
   }
-  return table(rows);
+  return text_table(rows);
 }
 
 std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
@@ -125,7 +108,7 @@ std::string prediction_table(const std::vector<PredictionSummary>& predictions) 
                     fmt::format("{:.4g} .. {:.4g}", p.pi05, p.pi95),
                     each.measured ? number(*each.measured) : "-"});
   }
-  return table(rows);
+  return text_table(rows);
 }
 
 std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
@@ -139,7 +122,7 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
       rows.back().push_back(each.is_life ? number(b) : "-");
     }
   }
-  return table(rows);
+  return text_table(rows);
 }
 
 std::string count(double x) {
@@ -164,7 +147,7 @@ std::string pointwise_table(const PointwiseTable& p) {
     rows.push_back({fmt::format("{}", row.cycles), number(row.force), number(row.slip),
                     number(row.volume), number(row.k)});
   }
-  return table(rows);
+  return text_table(rows);
 }
 
 std::string painted(Verdict verdict, bool colour) {
