@@ -86,8 +86,13 @@ std::vector<SequenceResult> predict_sequences(const ClutchStudy& study, const Cl
     const PlateWear& wear = sum.plates().back();
     const double measured =
         (sequence.weighings.empty() ? 0 : sequence.weighings.back().measured) + block.volume;
-    SequenceResult::Weighing weighing{wear.last_number, wear.energy,    measured, wear.volume,
-                                      wear.sd(),        wear.full_sd(r.model.plate_sd), {}};
+    SequenceResult::Weighing weighing{wear.last_number,
+                                      wear.energy,
+                                      measured,
+                                      wear.volume,
+                                      wear.sd(),
+                                      wear.full_sd(r.model.plate_sd),
+                                      {}};
     for (const Realized& each : study.realized) {
       if (each.plate == block.plate && each.cycle == wear.last_number)
         weighing.realized = each.volume;
@@ -112,9 +117,10 @@ Check run_in_check(const RunInFit& fit) {
                                value / mm3_per_MJ, error / mm3_per_MJ),
                    "One exponential may do, or run-in was weighed too rarely.");
   }
-  return findings.result(fmt::format("{} of {} starts agree; both modes are more than two "
-                                     "standard errors above 0",
-                                     fit.agreeing, fit.starts));
+  return findings.result(
+      fmt::format("{} of {} starts agree; both modes are more than two "
+                  "standard errors above 0",
+                  fit.agreeing, fit.starts));
 }
 
 Check map_check(const std::vector<WearMap>& maps) {
@@ -126,10 +132,10 @@ Check map_check(const std::vector<WearMap>& maps) {
                  "missing, or run longer points.");
   for (std::size_t i = 1; i < maps.size(); ++i) {
     if (!(r2p > maps[i].fit.r2p))
-      findings.add(Verdict::warn,
-                   fmt::format("the {} model predicts as well (R2p {:.3f})", maps[i].name,
-                               maps[i].fit.r2p),
-                   "Prefer the simpler model.");
+      findings.add(
+          Verdict::warn,
+          fmt::format("the {} model predicts as well (R2p {:.3f})", maps[i].name, maps[i].fit.r2p),
+          "Prefer the simpler model.");
   }
   return findings.result(
       fmt::format("R2p {:.3f}, above linear ({:.3f}), full cubic ({:.3f}) and temperature alone "
@@ -170,9 +176,10 @@ Check scatter_check(const ScatterFit& fit) {
                    fmt::format("{}: scaled residuals are not normal, p = {:.3g}", name, test.p),
                    "Look at the normal probability plot; intervals rest on it.");
   }
-  return findings.result(fmt::format("scaled residuals are normal (Kolmogorov-Smirnov p = {:.3f}, "
-                                     "Lilliefors p = {:.3f})",
-                                     fit.kolmogorov.p, fit.lilliefors.p));
+  return findings.result(
+      fmt::format("scaled residuals are normal (Kolmogorov-Smirnov p = {:.3f}, "
+                  "Lilliefors p = {:.3f})",
+                  fit.kolmogorov.p, fit.lilliefors.p));
 }
 
 Check sequence_check(const std::vector<SequenceResult>& sequences) {
@@ -253,21 +260,21 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads) {
   r.held_out = wear_points(study.campaign, r.blocks.blocks, r.run_in, true);
   constexpr Index least_points = 25;  // more than the full cubic has terms
   if (r.points.size() < least_points)
-    throw InputError(fmt::format("{} points to model with; at least {} are needed",
-                                 r.points.size(), least_points));
+    throw InputError(fmt::format("{} points to model with; at least {} are needed", r.points.size(),
+                                 least_points));
   r.correlations = correlations(r.points);
   r.search = search_exponents(r.points, Surrogate::distance, study.exponents, threads);
   for (const Surrogate surrogate : surrogates) {
-    r.surrogates.push_back(
-        try_surrogate(study, r.points, surrogate,
-                      surrogate == Surrogate::distance ? &r.search : nullptr, threads));
+    r.surrogates.push_back(try_surrogate(study, r.points, surrogate,
+                                         surrogate == Surrogate::distance ? &r.search : nullptr,
+                                         threads));
   }
   const PairBest& best = r.search.pairs[r.search.best];
   const auto fitted = [&](const char* name, int degree, const std::vector<int>& terms) {
     return fit_map(name, r.points, Surrogate::distance, best.r, best.q, degree, terms);
   };
-  r.maps = {fitted("selected", 3, best.terms), fitted("linear", 1, {}),
-            fitted("full cubic", 3, {}), fit_temperature_map(r.points)};
+  r.maps = {fitted("selected", 3, best.terms), fitted("linear", 1, {}), fitted("full cubic", 3, {}),
+            fit_temperature_map(r.points)};
   const WearMap& map = r.maps.front();
   r.scatter = fit_scatter(r.points, map);
   r.model = make_model(study.title, r.points, map, r.run_in, r.scatter, study.worn_out);
@@ -275,8 +282,7 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads) {
       draw_replicates(r.points, map, point_sd(r.model.scatter, r.points, map.fit.fitted), r.run_in,
                       study.exponents, study.replicates, study.seed, threads);
   r.validation = validate(map, r.model.covariance, r.model.scatter, r.held_out);
-  r.averaging =
-      averaging_effect(r.model.polynomial(), study.campaign.cycles, r.blocks.blocks);
+  r.averaging = averaging_effect(r.model.polynomial(), study.campaign.cycles, r.blocks.blocks);
   r.sequences = predict_sequences(study, r);
   for (const auto& [name, at] : study.life_points) {
     const Cycle cycle{1, 1, at, closing_energy(at)};

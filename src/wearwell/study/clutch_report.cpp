@@ -94,16 +94,13 @@ Figure exponent_figure(const ExponentSearch& search) {
           fmt::format("R2p of the best submodel at each pair of exponents of ds = ω₀^r t₂^q: the "
                       "darker, the higher, from {:.3f} to {:.3f}. The point is the best.",
                       low, high),
-          plot::plot("R2p over the exponents r and q", {"r"}, {"q"},
-                     {plot::cells({{"x", x},
-                                   {"x2", x2},
-                                   {"y", y},
-                                   {"y2", y2},
-                                   {"density", density},
-                                   {"r2p", r2p}},
-                                  {colour::posterior}),
-                      plot::points({{"x", {best.r}}, {"y", {best.q}}, {"r2p", {best.r2p}}},
-                                   {colour::measured, "best"})})};
+          plot::plot(
+              "R2p over the exponents r and q", {"r"}, {"q"},
+              {plot::cells(
+                   {{"x", x}, {"x2", x2}, {"y", y}, {"y2", y2}, {"density", density}, {"r2p", r2p}},
+                   {colour::posterior}),
+               plot::points({{"x", {best.r}}, {"y", {best.q}}, {"r2p", {best.r2p}}},
+                            {colour::measured, "best"})})};
 }
 
 /// Figs. 13 and 14: measured against predicted.
@@ -125,9 +122,9 @@ Figure parity_figure(const ClutchResult& r) {
                     {"predicted", fitted}},
                    {colour::posterior, "modelled with", 0.7})};
   if (!x.empty())
-    marks.push_back(plot::points(
-        {{"x", x}, {"y", y}, {"point", point}, {"measured", y}, {"predicted", x}},
-        {colour::measured, "held out", 0.9}));
+    marks.push_back(
+        plot::points({{"x", x}, {"y", y}, {"point", point}, {"measured", y}, {"predicted", x}},
+                     {colour::measured, "held out", 0.9}));
   return {"parity", "Measured and predicted wear rates",
           "Each point of the design, compensated for run-in and plate. Held-out points were not "
           "fitted to.",
@@ -183,9 +180,10 @@ std::vector<Figure> map_figures(const ClutchStudy& study, const ClutchResult& r)
     figures.push_back(
         {fmt::format("map-{:.0f}", grid.temperature),
          fmt::format("Wear rate at {:g} °C", grid.temperature),
-         fmt::format("At a closing time of {:.3g} s: from {:.3g} to {:.3g} mm³/MJ here; the darkest "
-                     "of all temperatures is {:.3g}.",
-                     at.closing_time, *low, *high, most),
+         fmt::format(
+             "At a closing time of {:.3g} s: from {:.3g} to {:.3g} mm³/MJ here; the darkest "
+             "of all temperatures is {:.3g}.",
+             at.closing_time, *low, *high, most),
          plot::plot(fmt::format("Wear rate at {:g} degrees", grid.temperature),
                     {"slip speed [rpm]"}, {"torque [N m]"},
                     {plot::cells({{"x", grid.x},
@@ -201,8 +199,7 @@ std::vector<Figure> map_figures(const ClutchStudy& study, const ClutchResult& r)
 
 /// Figs. 7 and 17: normal probability plot of scaled residuals.
 Figure normal_figure(const ClutchResult& r) {
-  const Eigen::VectorXd scaled =
-      scaled_residuals(r.points, r.maps.front(), r.scatter_fit().law);
+  const Eigen::VectorXd scaled = scaled_residuals(r.points, r.maps.front(), r.scatter_fit().law);
   const NormalPlot points = normal_plot({scaled.begin(), scaled.end()});
   return {"normal", "Are scaled residuals normal?",
           "Residuals over their standard deviation in order, against normal quantiles: on the line "
@@ -222,24 +219,22 @@ Figure scatter_figure(const ClutchResult& r) {
     x.push_back(mean[j] / mm3_per_MJ);
     size.push_back(std::abs(r.maps.front().fit.residuals[j]) * std::sqrt(r.points.cycles[j]) /
                    mm3_per_MJ);
-    sigma.push_back(
-        r.scatter_fit().law.formula(mean[j], r.points.at[static_cast<std::size_t>(j)]) /
-        mm3_per_MJ);
+    sigma.push_back(r.scatter_fit().law.formula(mean[j], r.points.at[static_cast<std::size_t>(j)]) /
+                    mm3_per_MJ);
   }
-  return {"scatter", "Scatter of one cycle",
-          fmt::format("Residuals times the root of their cycles, and sigma_w = {}.",
-                      formula_of(r.scatter_fit().law.kind)),
-          plot::plot("Scatter against wear rate", {w_title}, {"scatter [mm³/MJ]"},
-                     {plot::points({{"x", x}, {"y", size}},
-                                   {colour::measured, "|residual| √n", 0.6}),
-                      plot::points({{"x", x}, {"y", sigma}},
-                                   {colour::posterior, "sigma_w", 1, 0, false, 30})})};
+  return {
+      "scatter", "Scatter of one cycle",
+      fmt::format("Residuals times the root of their cycles, and sigma_w = {}.",
+                  formula_of(r.scatter_fit().law.kind)),
+      plot::plot("Scatter against wear rate", {w_title}, {"scatter [mm³/MJ]"},
+                 {plot::points({{"x", x}, {"y", size}}, {colour::measured, "|residual| √n", 0.6}),
+                  plot::points({{"x", x}, {"y", sigma}},
+                               {colour::posterior, "sigma_w", 1, 0, false, 30})})};
 }
 
 /// Fig. 18: worn volume along a sequence.
 Figure sequence_figure(const SequenceResult& s) {
-  Numbers x = {0}, mean = {0}, low = {0}, high = {0}, full_low = {0}, full_high = {0}, at,
-          measured;
+  Numbers x = {0}, mean = {0}, low = {0}, high = {0}, full_low = {0}, full_high = {0}, at, measured;
   for (const auto& w : s.weighings) {
     x.push_back(static_cast<double>(w.cycle));
     mean.push_back(w.predicted / mm3);
@@ -316,9 +311,9 @@ std::string verdict_section(const ClutchStudy& study, const ClutchResult& r) {
                          "This campaign was simulated from a known truth; no measurement stands "
                          "behind it.");
   const WearMap& map = r.maps.front();
-  std::string sentence = fmt::format(
-      "The wear rate follows {} terms of slip, temperature and torque with R2p {:.3f}",
-      map.terms.size(), map.fit.r2p);
+  std::string sentence =
+      fmt::format("The wear rate follows {} terms of slip, temperature and torque with R2p {:.3f}",
+                  map.terms.size(), map.fit.r2p);
   for (const SequenceResult& s : r.sequences)
     sentence += fmt::format("; the {} sequence ends {:+.1f} % from what was weighed", s.name,
                             100 * s.final_error());
@@ -342,11 +337,11 @@ std::string verdict_section(const ClutchStudy& study, const ClutchResult& r) {
                      fmt::format("to {:g} % worn; volume known to ± {}", 100 * at.level,
                                  percent(at.full_relative))});
   }
-  tiles.push_back({"R2p", fmt::format("{:.3f}", map.fit.r2p), "",
-                   fmt::format("linear {:.3f}, full cubic {:.3f}", r.maps[1].fit.r2p,
-                               r.maps[2].fit.r2p)});
-  tiles.push_back({"Plate to plate", percent(r.run_in.plate_sd), "",
-                   "standard deviation of a plate's factor"});
+  tiles.push_back(
+      {"R2p", fmt::format("{:.3f}", map.fit.r2p), "",
+       fmt::format("linear {:.3f}, full cubic {:.3f}", r.maps[1].fit.r2p, r.maps[2].fit.r2p)});
+  tiles.push_back(
+      {"Plate to plate", percent(r.run_in.plate_sd), "", "standard deviation of a plate's factor"});
   return out + html::tiles(tiles);
 }
 
@@ -355,9 +350,10 @@ std::string prediction_section(const ClutchResult& r) {
   for (const SequenceResult& s : r.sequences) figures.push_back(sequence_figure(s));
   if (!r.lives.empty()) figures.push_back(width_figure(r));
   std::string out = html::figures(figures);
-  html::Table table{"Life", {"Operating point", "Worn", "Cycles", "Without run-in",
-                             "95 %, scatter [mm³]", "of the volume", "95 %, all [mm³]",
-                             "of the volume"}, {}};
+  html::Table table{"Life",
+                    {"Operating point", "Worn", "Cycles", "Without run-in", "95 %, scatter [mm³]",
+                     "of the volume", "95 %, all [mm³]", "of the volume"},
+                    {}};
   for (const NamedLife& each : r.lives) {
     for (const LifeAtLevel& at : each.life.levels)
       table.rows.push_back({escape(each.name), percent(at.level, 0),
@@ -367,9 +363,10 @@ std::string prediction_section(const ClutchResult& r) {
                             "± " + number(2 * at.full_sd / mm3, 3), percent(at.full_relative)});
   }
   if (!table.rows.empty()) out += html::table(table);
-  return out + fmt::format("<p>Averaging the inputs over a point instead of summing its cycles "
-                           "changes the predicted volume of the whole campaign by {}.</p>\n",
-                           percent(r.averaging.total, 3));
+  return out + fmt::format(
+                   "<p>Averaging the inputs over a point instead of summing its cycles "
+                   "changes the predicted volume of the whole campaign by {}.</p>\n",
+                   percent(r.averaging.total, 3));
 }
 
 std::string map_section(const ClutchStudy& study, const ClutchResult& r) {
@@ -379,31 +376,32 @@ std::string map_section(const ClutchStudy& study, const ClutchResult& r) {
   html::Table correlations{"Correlation of the wear rate with each input", {"Input", "r"}, {}};
   for (std::size_t i = 0; i < inputs.size(); ++i)
     correlations.rows.push_back({inputs[i].symbol, fmt::format("{:.3f}", r.correlations[i])});
-  html::Table models{"Models", {"Model", "R2", "R2p", "RMSE, relative", "RMSEp, relative", "Terms"},
-                     {}};
+  html::Table models{
+      "Models", {"Model", "R2", "R2p", "RMSE, relative", "RMSEp, relative", "Terms"}, {}};
   const double unit = r.maps.front().fit.rmse;
   for (const WearMap& map : r.maps)
-    models.rows.push_back({escape(map.name), fmt::format("{:.3f}", map.fit.r2),
-                           fmt::format("{:.3f}", map.fit.r2p),
-                           fmt::format("{:.3f}", map.fit.rmse / unit),
-                           fmt::format("{:.3f}", map.fit.rmsep / unit),
-                           fmt::format("{}", map.terms.size())});
+    models.rows.push_back(
+        {escape(map.name), fmt::format("{:.3f}", map.fit.r2), fmt::format("{:.3f}", map.fit.r2p),
+         fmt::format("{:.3f}", map.fit.rmse / unit), fmt::format("{:.3f}", map.fit.rmsep / unit),
+         fmt::format("{}", map.terms.size())});
   html::Table terms{"Selected terms, each scaled to [0, 1]",
-                    {"Term", "Coefficient [mm³/MJ]", "Standard error"}, {}};
+                    {"Term", "Coefficient [mm³/MJ]", "Standard error"},
+                    {}};
   for (std::size_t j = 0; j < r.model.terms.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
     terms.rows.push_back({escape(r.model.terms[j].name),
                           number(r.model.terms[j].coefficient / mm3_per_MJ),
                           number(std::sqrt(r.model.covariance(at, at)) / mm3_per_MJ, 3)});
   }
-  html::Table surrogate{"Surrogate inputs, best R2p", {"Surrogate", "r", "q", "R2p",
-                        "Mean over temperature levels"}, {}};
+  html::Table surrogate{"Surrogate inputs, best R2p",
+                        {"Surrogate", "r", "q", "R2p", "Mean over temperature levels"},
+                        {}};
   for (const SurrogateResult& s : r.surrogates)
     surrogate.rows.push_back({name_of(s.surrogate), fmt::format("{:.1f}", s.best.r),
                               fmt::format("{:.1f}", s.best.q), fmt::format("{:.3f}", s.best.r2p),
                               s.r2p.empty() ? "–" : fmt::format("{:.3f}", s.mean_r2p)});
-  out += html::table(correlations) + html::table(models) + html::table(terms) +
-         html::table(surrogate);
+  out +=
+      html::table(correlations) + html::table(models) + html::table(terms) + html::table(surrogate);
   if (r.validation.points.empty()) return out;
   html::Table validation{"Held-out points",
                          {"Point", "Measured [mm³/MJ]", "Predicted", "Studentized residual", ""},
@@ -435,15 +433,17 @@ std::string run_in_section(const ClutchResult& r) {
   }
   html::Table plates{"Plates", {"Plate", "Factor fitted", "Relative error", "Factor used"}, {}};
   for (const PlateFactor& p : r.run_in.plates)
-    plates.rows.push_back({fmt::format("{}", p.plate), fmt::format("{:.3f}", std::exp(p.log_factor)),
-                           percent(p.standard_error), fmt::format("{:.3f}", p.factor())});
+    plates.rows.push_back({fmt::format("{}", p.plate),
+                           fmt::format("{:.3f}", std::exp(p.log_factor)), percent(p.standard_error),
+                           fmt::format("{:.3f}", p.factor())});
   return out + html::table(constants) + html::table(plates);
 }
 
 std::string scatter_section(const ClutchResult& r) {
   std::string out = html::figures({normal_figure(r), scatter_figure(r)});
   html::Table table{"Candidates for the scatter of one cycle",
-                    {"sigma_w", "−log L", "AIC", "Kolmogorov-Smirnov p", "Lilliefors p"}, {}};
+                    {"sigma_w", "−log L", "AIC", "Kolmogorov-Smirnov p", "Lilliefors p"},
+                    {}};
   for (const ScatterFit& fit : r.scatter.candidates)
     table.rows.push_back({escape(html::raised(formula_of(fit.law.kind))),
                           fmt::format("{:.2f}", fit.negative_log_likelihood),
@@ -467,9 +467,10 @@ std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
   for (const auto& file : study.files) fact(file.filename().string(), "SHA-1 " + sha1(file));
   out += "</dl>\n";
   if (!r.closings.empty()) {
-    html::Table table{"Closings found in the raw traces",
-                      {"Plate", "Closing", "ω₀ [rpm]", "t₂ [s]", "M [N m]", "T [°C]", "E [kJ]",
-                       "Flag"}, {}};
+    html::Table table{
+        "Closings found in the raw traces",
+        {"Plate", "Closing", "ω₀ [rpm]", "t₂ [s]", "M [N m]", "T [°C]", "E [kJ]", "Flag"},
+        {}};
     for (const Closing& c : r.closings)
       table.rows.push_back({fmt::format("{}", c.cycle.plate), fmt::format("{}", c.cycle.number),
                             number(c.cycle.at.slip_speed / rpm), number(c.cycle.at.closing_time, 3),
@@ -480,25 +481,25 @@ std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
   std::ifstream stream(study.file);
   std::stringstream text;
   text << stream.rdbuf();
-  return out + html::details("Study file", fmt::format("<pre tabindex=\"0\">{}</pre>\n",
-                                                       escape(text.str())));
+  return out + html::details("Study file",
+                             fmt::format("<pre tabindex=\"0\">{}</pre>\n", escape(text.str())));
 }
 
 }  // namespace
 
 std::string clutch_report(const ClutchStudy& study, const ClutchResult& r) {
-  return html_page({r.version,
-                    study.title,
-                    fmt::format("clutch-wear, {} cycles, {} weighings{}",
-                                study.campaign.cycles.size(), study.campaign.weighings.size(),
-                                study.simulated ? ", simulated" : ""),
-                    {{"verdict", "Verdict", verdict_section(study, r)},
-                     {"predictions", "Predictions", prediction_section(r)},
-                     {"map", "Wear rate", map_section(study, r)},
-                     {"run-in-section", "Run-in", run_in_section(r)},
-                     {"scatter-section", "Scatter", scatter_section(r)},
-                     {"checks", "Checks", checks_table(r)},
-                     {"method", "Method", method_section(study, r), "Method and reproducibility"}}});
+  return html_page(
+      {r.version,
+       study.title,
+       fmt::format("clutch-wear, {} cycles, {} weighings{}", study.campaign.cycles.size(),
+                   study.campaign.weighings.size(), study.simulated ? ", simulated" : ""),
+       {{"verdict", "Verdict", verdict_section(study, r)},
+        {"predictions", "Predictions", prediction_section(r)},
+        {"map", "Wear rate", map_section(study, r)},
+        {"run-in-section", "Run-in", run_in_section(r)},
+        {"scatter-section", "Scatter", scatter_section(r)},
+        {"checks", "Checks", checks_table(r)},
+        {"method", "Method", method_section(study, r), "Method and reproducibility"}}});
 }
 
 }  // namespace wearwell::clutch

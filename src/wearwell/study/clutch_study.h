@@ -57,9 +57,7 @@ struct SequenceResult {
   };
   std::vector<Weighing> weighings;
 
-  double final_error() const {
-    return weighings.back().predicted / weighings.back().measured - 1;
-  }
+  double final_error() const { return weighings.back().predicted / weighings.back().measured - 1; }
 };
 
 /// Best R2p with a surrogate: of all points, and the mean over the temperature levels (Table A1).

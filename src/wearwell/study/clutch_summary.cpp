@@ -20,8 +20,7 @@ constexpr double run_in_units[] = {mm3_per_MJ, mm3_per_MJ, mm3_per_MJ, MJ, MJ};
 
 std::vector<std::string> term_names(const WearMap& map) {
   std::vector<std::string> names;
-  for (const int t : map.terms)
-    names.push_back(map.design.terms[static_cast<std::size_t>(t)].name);
+  for (const int t : map.terms) names.push_back(map.design.terms[static_cast<std::size_t>(t)].name);
   return names;
 }
 
@@ -122,7 +121,9 @@ std::string percent(double share) {
 }  // namespace
 
 Json summary_json(const ClutchStudy& study, const ClutchResult& r) {
-  Json json = {{"title", study.title}, {"model", "clutch-wear"}, {"simulated", study.simulated},
+  Json json = {{"title", study.title},
+               {"model", "clutch-wear"},
+               {"simulated", study.simulated},
                {"version", r.version}};
   json["units"] = {{"w", "mm^3/MJ"}, {"volume", "mm^3"}, {"energy", "MJ"}};
   Json files = Json::array();
@@ -196,18 +197,16 @@ std::string sequences_csv(const ClutchResult& r) {
 }
 
 std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
-  std::string out = fmt::format("{}\n{} cycles, {} weighings; {} points to model with, {} held out\n",
-                                study.title, study.campaign.cycles.size(),
-                                study.campaign.weighings.size(), r.points.size(),
-                                r.held_out.size());
+  std::string out =
+      fmt::format("{}\n{} cycles, {} weighings; {} points to model with, {} held out\n",
+                  study.title, study.campaign.cycles.size(), study.campaign.weighings.size(),
+                  r.points.size(), r.held_out.size());
   if (study.simulated) out += "Simulated: the truth is known, no measurement stands behind it.\n";
-  const auto section = [&](const char* title,
-                           const std::vector<std::vector<std::string>>& rows) {
+  const auto section = [&](const char* title, const std::vector<std::vector<std::string>>& rows) {
     out += fmt::format("\n{}\n{}", title, text_table(rows));
   };
-  std::vector<std::vector<std::string>> rows = {{"", "w0", "w1", "w2", "eps1", "eps2"},
-                                                {"fitted"},
-                                                {"standard error"}};
+  std::vector<std::vector<std::string>> rows = {
+      {"", "w0", "w1", "w2", "eps1", "eps2"}, {"fitted"}, {"standard error"}};
   for (int i = 0; i < RunInFit::size; ++i) {
     rows[1].push_back(fmt::format("{:.4g}", r.run_in.parameters[i] / run_in_units[i]));
     rows[2].push_back(
