@@ -7,6 +7,7 @@
 
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/exact.h"
+#include "wearwell/infer/fit.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/run_chains.h"
 #include "wearwell/joint/archard.h"
@@ -25,15 +26,6 @@ Posterior joint() {
       {{"k", "m^3/(N m)", si, "flat", make_law(Flat{}, 0, INFINITY), 7e-13, 7e-13, 0, INFINITY},
        {"sigma", "m^3", si, "uniform", make_law(Uniform{}, 0, 15e-9), 3e-9, 3e-9, 0, INFINITY}},
       joint::archard_likelihood({}, ObservationFamily::normal, inspections, 5));
-}
-
-double effective_draws_of_k(const Draws& draws) {
-  Chains chains;
-  for (const Chain& chain : draws) {
-    chains.draws.emplace_back(chain.values.col(0).data(),
-                              static_cast<std::size_t>(chain.values.rows()));
-  }
-  return ess_bulk(chains);
 }
 
 double seconds_of(const auto& work) {
@@ -61,7 +53,7 @@ void nuts(benchmark::State& state) {
     });
     state.PauseTiming();
     warmup += seconds_of([&] { run_nuts(posterior, whitening, settings, {4, 1000, 10, seed, 0}); });
-    effective += effective_draws_of_k(draws);
+    effective += ess_bulk(chains_of(draws, 0));
     state.ResumeTiming();
   }
   state.counters["effective_draws"] = effective / static_cast<double>(seed);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -102,6 +103,29 @@ TEST(IncludeOrder, FilesIncludeOnlyWhatTheirFolderUses) {
     }
   }
   EXPECT_GT(includes(source).size(), 100u);  // the reading itself works
+}
+
+// Two structs of one name in one namespace are one to the linker: whose destructor is called?
+TEST(Architecture, NoTwoHeadersDefineTypesOfOneName) {
+  std::map<std::string, fs::path> known;
+  for (const auto& entry : fs::recursive_directory_iterator(source)) {
+    if (entry.path().extension() != ".h") continue;
+    std::ifstream stream(entry.path());
+    std::string space;
+    for (std::string line; std::getline(stream, line);) {
+      std::istringstream words(line);
+      std::string kind, name;
+      words >> kind >> name;
+      if (kind == "namespace") space = name;
+      // Nested types are indented; a declaration alone ends with a semicolon.
+      const bool type = line.starts_with("struct ") || line.starts_with("class ");
+      if (!type || line.back() == ';') continue;
+      const auto [at, is_new] = known.try_emplace(space + "::" + name, entry.path());
+      EXPECT_TRUE(is_new) << at->first << " is defined in " << at->second << " and "
+                          << entry.path();
+    }
+  }
+  EXPECT_GT(known.size(), 50u);
 }
 
 }  // namespace

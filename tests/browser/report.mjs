@@ -1,13 +1,13 @@
 // Opens reports in headless Chromium and refuses what a reader would stumble over: an error on the console, a request to
 // the network, a plot without marks, a violation of WCAG AA, a page wider than the screen.
 //
-//   node report.mjs NODE_MODULES SCREENSHOTS REPORT.html...
+//   node report.mjs NODE_MODULES SCREENSHOTS LEAST_PLOTS REPORT.html...
 import {createRequire} from 'node:module';
 import {mkdirSync, readFileSync} from 'node:fs';
 import {basename, dirname, join, resolve} from 'node:path';
 import {pathToFileURL} from 'node:url';
 
-const [modules, screenshots, ...reports] = process.argv.slice(2);
+const [modules, screenshots, least, ...reports] = process.argv.slice(2);
 const require = createRequire(join(resolve(modules), 'any.js'));
 const {chromium} = require('playwright-core');
 const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
@@ -20,10 +20,10 @@ const views = [
 
 // What is wrong with the plots, in words.
 function plotFaults(page) {
-  return page.evaluate(() => {
+  return page.evaluate((atLeast) => {
     const wrong = [];
     const figures = [...document.querySelectorAll('figure')];
-    if (figures.length < 10) wrong.push(`only ${figures.length} plots`);
+    if (figures.length < atLeast) wrong.push(`only ${figures.length} plots`);
     for (const figure of figures) {
       // A mark counts when it is seen: some length on the screen.
       const marks = [...figure.querySelectorAll('svg .role-mark path, svg .role-mark line')];
@@ -39,7 +39,7 @@ function plotFaults(page) {
     }
     if (document.documentElement.scrollWidth > innerWidth) wrong.push('the page is wider than the screen');
     return wrong;
-  });
+  }, Number(least));
 }
 
 async function accessibilityFaults(page) {

@@ -233,6 +233,8 @@ TEST(BearingCommand, ImpossibleRequestsExitWithTwoAndOneSentence) {
       {"rate --contact radial", "--contact: 'radial' is not one of"},
       {"rate", "--contact is missing"},
       {"chart --sigma 0,1e-3", "clearance/radius is 0; a bearing needs a clearance above 0"},
+      {"chart -o chart.pdf", "--output: chart.pdf must end in .html or .csv"},
+      {"chart -o /nowhere/chart.html", "cannot write to /nowhere"},
       {"chart --delta 1e-3:1e-4:5", "--delta: '1e-3:1e-4:5' is not FROM:TO:COUNT"},
       {"chart --radius '20 mm' --clearance '20 um'", "depth is missing"},
   };

@@ -6,6 +6,7 @@
 
 #include "infer/test_posteriors.h"
 #include "wearwell/infer/diagnostics.h"
+#include "wearwell/infer/fit.h"
 #include "wearwell/infer/metropolis.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/nuts.h"
@@ -16,20 +17,11 @@
 namespace wearwell {
 namespace {
 
-Chains chains_of(const Draws& draws, int parameter) {
-  Chains chains;
-  for (const Chain& chain : draws) {
-    chains.draws.emplace_back(chain.values.col(parameter).data(),
-                              static_cast<std::size_t>(chain.values.rows()));
-  }
-  return chains;
-}
-
 // Four Monte Carlo standard errors: with about 60 comparisons in this file a correct sampler
 // passes 99.6 % of all seeds, and the seed is fixed.
 void expect_agreement(const KnownPosterior& known, const Draws& draws) {
   for (std::size_t i = 0; i < known.mean.size(); ++i) {
-    const Chains chains = chains_of(draws, static_cast<int>(i));
+    const Chains chains = chains_of(draws, static_cast<Eigen::Index>(i));
     double mean = 0, square = 0, count = 0;
     for (const auto& chain : chains.draws) {
       for (const double x : chain) {

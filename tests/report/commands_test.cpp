@@ -69,6 +69,15 @@ TEST_F(ReportCommands, CheckSaysWhatWillBeFitted) {
 }
 
 TEST_F(ReportCommands, NewStudyRunsAsItIs) {
+  const fs::path bearing = folder() / "bearing";
+  ASSERT_EQ(run_wearwell("new bearing '" + bearing.string() + "'").exit_code, 0);
+  const CommandResult check = run_wearwell("check '" + (bearing / "study.toml").string() + "'");
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  for (const char* words : {"24 data sets of wear depth", "k_scatter  scatter of ln k between",
+                            "life [h] of a new bearing to 80 um at 1.5 MPa, 60 rpm"}) {
+    EXPECT_THAT(check.out, HasSubstr(words));
+  }
+
   const fs::path mine = folder() / "mine";
   ASSERT_EQ(run_wearwell("new joint '" + mine.string() + "'").exit_code, 0);
   EXPECT_EQ(content(mine / "study.toml"), content(study));

@@ -71,7 +71,12 @@ struct ObservationLaw {
   }
 
   /// P(measurement <= y), where `t` is y, or log y for the lognormal family.
-  double cdf(double t) const { return 0.5 * std::erfc((location - t) / (scale * std::sqrt(2.0))); }
+  double cdf(double t) const {
+    const double z = (location - t) / (scale * std::sqrt(2.0));
+    if (z > 6) return 0;  // erfc(6) = 2e-17; mixtures ask for many that are 0 or 1
+    if (z < -6) return 1;
+    return 0.5 * std::erfc(z);
+  }
 };
 
 }  // namespace wearwell

@@ -5,6 +5,7 @@
 #include <boost/algorithm/string/classification.hpp>
 #include <boost/algorithm/string/split.hpp>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,10 @@
 #include "wearwell/base/unit.h"
 #include "wearwell/bearing/solve.h"
 #include "wearwell/cli/bearing_options.h"
+#include "wearwell/report/html.h"
+#include "wearwell/report/page.h"
+#include "wearwell/report/plot.h"
+#include "wearwell/report/result_folder.h"
 
 namespace wearwell::bearing {
 namespace {
@@ -22,6 +27,15 @@ struct ChartOptions {
   BearingOptions point;
   std::string sigma = "2e-4,5e-4,10e-4,20e-4";
   std::string delta = "2e-4:20e-4:181";
+  std::filesystem::path file;
+};
+
+/// One curve a sigma.
+struct Chart {
+  Contact contact;
+  std::vector<double> sigma, delta;
+  std::vector<std::vector<double>> wear_number;  ///< [sigma][delta]
+  std::optional<Solution> point;
 };
 
 double read_number(const std::string& text) {
@@ -60,28 +74,95 @@ std::optional<Solution> user_point(const UncertainBearing& bearing) {
   return b.rate ? solve(Quantity::depth, b) : geometry(b);
 }
 
-void run(const ChartOptions& options) {
-  const std::vector<double> sigmas = read_values("--sigma", options.sigma);
-  const std::vector<double> deltas = read_values("--delta", options.delta);
+Chart compute(const ChartOptions& options) {
   const UncertainBearing bearing = options.point.read();
-  // All rows before the first is printed: a value out of range must leave nothing half-written.
-  std::string csv = "sigma,delta,wear_number,kind\n";
-  for (const double sigma : sigmas) {
-    for (const double delta : deltas) {
-      csv +=
-          fmt::format("{},{},{},curve\n", sigma, delta, wear_number(bearing.contact, sigma, delta));
+  Chart chart{bearing.contact,
+              read_values("--sigma", options.sigma),
+              read_values("--delta", options.delta),
+              {},
+              user_point(bearing)};
+  for (const double sigma : chart.sigma) {
+    auto& curve = chart.wear_number.emplace_back();
+    for (const double delta : chart.delta) {
+      curve.push_back(wear_number(chart.contact, sigma, delta));
     }
   }
-  if (const auto point = user_point(bearing))
-    csv += fmt::format("{},{},{},point\n", point->sigma, point->delta, point->wear_number);
-  fmt::print("{}", csv);
+  return chart;
+}
+
+std::string csv(const Chart& chart) {
+  std::string out = "sigma,delta,wear_number,kind\n";
+  for (std::size_t s = 0; s < chart.sigma.size(); ++s) {
+    for (std::size_t d = 0; d < chart.delta.size(); ++d) {
+      out +=
+          fmt::format("{},{},{},curve\n", chart.sigma[s], chart.delta[d], chart.wear_number[s][d]);
+    }
+  }
+  if (chart.point) {
+    out += fmt::format("{},{},{},point\n", chart.point->sigma, chart.point->delta,
+                       chart.point->wear_number);
+  }
+  return out;
+}
+
+std::string page(const Chart& chart) {
+  std::vector<plot::Json> marks;
+  for (std::size_t s = 0; s < chart.sigma.size(); ++s) {
+    // Around half the circle of hues, from blue to orange.
+    const double share = chart.sigma.size() > 1
+                             ? static_cast<double>(s) / static_cast<double>(chart.sigma.size() - 1)
+                             : 0;
+    marks.push_back(plot::line({{"x", chart.delta},
+                                {"y", chart.wear_number[s]},
+                                {"delta", chart.delta},
+                                {"wear number", chart.wear_number[s]}},
+                               {fmt::format("hsl({:.0f}, 60%, 48%)", std::lerp(215, 30, share)),
+                                fmt::format("sigma = {}", html::number(chart.sigma[s], 3))}));
+  }
+  std::string caption =
+      "p_a k n, the product of apparent pressure, specific wear rate and revolutions, against "
+      "delta "
+      "= depth/radius, for each sigma = clearance/radius.";
+  if (chart.point) {
+    const Solution& p = *chart.point;
+    marks.push_back(plot::points({{"x", {p.delta}},
+                                  {"y", {p.wear_number}},
+                                  {"delta", {p.delta}},
+                                  {"wear number", {p.wear_number}}},
+                                 {plot::colour::limit, "this bearing", 1, 0, false, 90}));
+    caption +=
+        fmt::format(" This bearing: sigma {}, delta {}, wear number {}.", html::number(p.sigma),
+                    html::number(p.delta), html::number(p.wear_number));
+  }
+  const std::string title =
+      fmt::format("Wear number against depth, contact: {}", contact_name(chart.contact));
+  return html_page({WEARWELL_VERSION,
+                    title,
+                    "Ligterink and de Gee, Tribotest 3-1 (1996), Figures 4 and 5",
+                    {{"chart", "Chart",
+                      html::figure({"chart", title, caption,
+                                    plot::plot(title, {"delta = depth/radius"}, {"p_a k n"}, marks,
+                                               480, true)})}}});
+}
+
+void run(const ChartOptions& options) {
+  const std::string kind = options.file.extension().string();
+  if (!options.file.empty() && kind != ".html" && kind != ".csv") {
+    throw InputError(fmt::format("--output: {} must end in .html or .csv", options.file.string()));
+  }
+  const Chart chart = compute(options);
+  if (options.file.empty()) {
+    fmt::print("{}", csv(chart));
+  } else {
+    replace_file(options.file, kind == ".html" ? page(chart) : csv(chart));
+  }
 }
 
 }  // namespace
 
 void add_chart_command(CLI::App& bearing) {
   CLI::App* sub = bearing.add_subcommand(
-      "chart", "wear number p_a k n against depth for several clearances, as CSV");
+      "chart", "wear number p_a k n against depth for several clearances, as CSV or HTML");
   const auto options = std::make_shared<ChartOptions>();
   options->point.contact = contact_name(Contact::stationary);
   options->point.add_to(*sub);
@@ -91,9 +172,13 @@ void add_chart_command(CLI::App& bearing) {
   sub->add_option("--delta", options->delta, "depth/radius: A,B,C or FROM:TO:COUNT")
       ->type_name("LIST")
       ->capture_default_str();
+  sub->add_option("-o,--output", options->file,
+                  "write to FILE.html or FILE.csv, not to the terminal")
+      ->type_name("FILE");
   sub->footer(
       "As it stands it prints Figure 4 of Ligterink and de Gee (1996); for their Figure 5 say\n"
       "  wearwell bearing chart --delta 2e-4:100e-4:491\n"
+      "and to look at it, add -o chart.html.\n"
       "A bearing given by radius, clearance and depth (or rate, pressure and revolutions) becomes "
       "a last\n"
       "row, of the kind 'point'.");

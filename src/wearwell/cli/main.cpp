@@ -10,6 +10,7 @@
 #include "wearwell/cli/fit.h"
 #include "wearwell/cli/new.h"
 #include "wearwell/cli/report.h"
+#include "wearwell/cli/select.h"
 
 namespace {
 
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
   add_fit_command(app, exit_code);
   add_bearing_command(app);
   add_clutch_command(app, exit_code);
+  add_select_command(app, exit_code);
   add_check_command(app, exit_code);
   add_new_command(app, exit_code);
   add_report_command(app, exit_code);

@@ -23,15 +23,6 @@ WeightedDraws pool(const Draws& draws) {
   return pooled;
 }
 
-Chains chains_of(const Draws& draws, Eigen::Index parameter) {
-  Chains chains;
-  for (const Chain& chain : draws) {
-    chains.draws.emplace_back(chain.values.col(parameter).data(),
-                              static_cast<std::size_t>(chain.values.rows()));
-  }
-  return chains;
-}
-
 Draws draw(const Posterior& posterior, const Fit& fit, const FitSettings& settings) {
   switch (fit.method) {
     case Method::exact:
@@ -46,6 +37,15 @@ Draws draw(const Posterior& posterior, const Fit& fit, const FitSettings& settin
 }
 
 }  // namespace
+
+Chains chains_of(const Draws& draws, Eigen::Index parameter) {
+  Chains chains;
+  for (const Chain& chain : draws) {
+    chains.draws.emplace_back(chain.values.col(parameter).data(),
+                              static_cast<std::size_t>(chain.values.rows()));
+  }
+  return chains;
+}
 
 Fit fit(const Posterior& posterior, const FitSettings& settings) {
   const Mode mode = find_mode(posterior, posterior.start());

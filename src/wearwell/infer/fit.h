@@ -38,6 +38,9 @@ struct Fit {
   int max_treedepth = 0;                 ///< that NUTS was allowed
 };
 
+/// The draws of one parameter, as diagnostics take them: views, valid while the draws live.
+Chains chains_of(const Draws& draws, Eigen::Index parameter);
+
 /// Finds the mode, examines the tails, integrates exactly when there are at most
 /// `max_exact_dimension` parameters and the posterior is proper, and draws.
 Fit fit(const Posterior& posterior, const FitSettings& settings);

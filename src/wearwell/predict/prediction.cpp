@@ -44,10 +44,8 @@ struct Mixture {
 };
 
 Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function& sd,
-                ObservationFamily family, const ItemFunction& item) {
+                ObservationFamily family, const ItemFunction& item, std::size_t points) {
   const Heaviest heaviest(draws);
-  // Enough points that their steps do not show in a quantile.
-  constexpr std::size_t points = 50'000;
   const std::size_t n = heaviest.rows.size();
   const std::size_t strata = item ? std::clamp<std::size_t>(points / n, 1, 100) : 1;
   std::vector<double> z = {0};
@@ -89,9 +87,9 @@ Heaviest::Heaviest(const WeightedDraws& draws) {
 }
 
 Prediction predict(const WeightedDraws& draws, const Function& mean, const Function& sd,
-                   ObservationFamily family, const ItemFunction& item) {
+                   ObservationFamily family, const ItemFunction& item, std::size_t points) {
   const Distribution truth(draws, mean);
-  const Mixture measurement = mixture(draws, mean, sd, family, item);
+  const Mixture measurement = mixture(draws, mean, sd, family, item, points);
   return {truth.mean(), truth.quantile(0.05), truth.quantile(0.95), measurement.quantile(0.05),
           measurement.quantile(0.95)};
 }

@@ -53,8 +53,8 @@ double deviance(double rss, const Eigen::VectorXd& root_weight) {
 }  // namespace
 
 LinearFit fit_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
-                      const Eigen::VectorXd& weights, const std::vector<std::string>& names,
-                      double tolerance) {
+                            const Eigen::VectorXd& weights, const std::vector<std::string>& names,
+                            double tolerance) {
   const Index n = columns.rows(), k = columns.cols();
   if (response.size() != n)
     throw InputError(fmt::format("{} responses for {} rows", response.size(), n));

@@ -42,9 +42,9 @@ struct LinearFit {
 /// Throws InputError for weights that are not positive, fewer rows than columns + 1, or columns
 /// that are linearly dependent (named, with those that they depend on).
 LinearFit fit_least_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
-                      const Eigen::VectorXd& weights = {},
-                      const std::vector<std::string>& names = {},
-                      double tolerance = rank_tolerance);
+                            const Eigen::VectorXd& weights = {},
+                            const std::vector<std::string>& names = {},
+                            double tolerance = rank_tolerance);
 
 /// Mallows' Cp = rss / s2 - n + 2 k, where s2 = rss / (n - rank) of all candidate columns.
 double mallows_cp(double rss, int terms, int rows, double s2);

@@ -19,6 +19,7 @@ void Submodel::start(const SearchProblem& problem, TermSet candidates) {
   residuals_.assign(problem.response.begin(), problem.response.end());
   complements_.assign(rows_, 1.0);
   least_complement_ = 1;
+  rss_ = dot(residuals(), residuals(), rows_);
   const auto terms = terms_of(candidates);
   storage_.resize(terms.size() * rows_);
   candidates_.clear();
@@ -44,7 +45,7 @@ void Submodel::join(const Submodel& from, int position, int first) {
 
   residuals_.resize(rows_);
   complements_.resize(rows_);
-  subtract(from.residuals(), joining.along * inverse, q, residuals_.data(), rows_);
+  rss_ = subtract(from.residuals(), joining.along * inverse, q, residuals_.data(), rows_);
   least_complement_ = shrink_complement(from.complements(), q, inverse, complements_.data(), rows_);
 
   storage_.resize(std::max(storage_.size(), from.candidates_.size() * rows_));
@@ -68,13 +69,9 @@ TermSet Submodel::candidates() const {
   return set;
 }
 
-double Submodel::rss() const {
-  return dot(residuals(), residuals(), rows_);
-}
-
 double Submodel::rss_with(int position) const {
   const Candidate& joining = candidates_[position];
-  return rss() - joining.along * joining.along / joining.length2;
+  return rss_ - joining.along * joining.along / joining.length2;
 }
 
 double Submodel::press() const {

@@ -35,7 +35,7 @@ class Submodel {
   const double* complements() const { return complements_.data(); }
   int rows() const { return rows_; }
 
-  double rss() const;
+  double rss() const { return rss_; }
   double rss_with(int position) const;  ///< after a candidate joins
   double press() const;                 ///< infinite where the model is not estimable
   double press_with(int position) const;
@@ -60,6 +60,7 @@ class Submodel {
   TermSet model_ = 0;
   int model_size_ = 0;
   double least_complement_ = 1;
+  double rss_ = 0;
   std::vector<double> storage_, residuals_, complements_, joining_;
   std::vector<Candidate> candidates_, next_;
 };

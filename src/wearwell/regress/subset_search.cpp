@@ -114,7 +114,7 @@ SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorX
   result.lower_bound =
       problem.score.value(best.empty() ? open : std::min(open, best.front().score));
   result.truncated = pool.truncated();
-  result.submodels = std::ldexp(1.0, free_count);
+  result.submodels = std::ldexp(1.0, free_count) - (forced == 0 ? 1 : 0);
   for (const auto& model : best)
     result.models.push_back(describe(model, problem, columns, response, weights));
   // All models up to this score have been kept.

@@ -63,7 +63,7 @@ struct SearchResult {
   bool truncated = false;  ///< more than near_most models within `near`
   double nodes = 0;  ///< branches looked at; models of an exhaustive search. Depends on threads.
   double seconds = 0;
-  double submodels = 0;  ///< all there are, 2^free
+  double submodels = 0;  ///< all there are, but for the empty one
   Cloud cloud;
   std::vector<Dependence> dependences;  ///< among all columns; models with such terms are skipped
 };

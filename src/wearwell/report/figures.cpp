@@ -91,14 +91,15 @@ Figure history_figure(const StudyResult& result, const Plots& plots) {
   if (result.life) {
     marks.push_back(plot::level(result.life->limit, {colour::limit, "limit", 1, 1.5, true}));
   }
-  marks.push_back(plot::points({{"x", plots.replicated.at},
+  marks.push_back(plot::points({{"x", plots.history_at},
                                 {"y", plots.measured},
-                                {at, plots.replicated.at},
+                                {at, plots.history_at},
                                 {"measured", plots.measured}},
                                {colour::measured, "measured", 1, 0, false, 60}));
   std::string caption = fmt::format(
       "The line is the mean; the inner band holds the true mean, the outer band one measurement, "
-      "with 90 % probability.");
+      "with 90 % probability. {}",
+      plots.history_note);
   return {"history", fmt::format("{} against {}", capital(plots.quantity), at), caption,
           plot::plot(fmt::format("{} against {} with its bands and the measured points",
                                  capital(plots.quantity), at),

@@ -84,6 +84,7 @@ Json ticks(const Axis& axis) {
     return {{"values", values},
             {"grid", false},
             {"labelOverlap", false},
+            {"labelAngle", axis.names.size() > 8 ? -60 : 0},
             {"tickCount", values.size() + 1},
             {"labelExpr", Json(axis.names).dump() + "[datum.value - 1]"}};
   }

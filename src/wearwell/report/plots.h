@@ -59,10 +59,12 @@ struct Plots {
   std::optional<DensityGrid> joint;  ///< of the first two parameters
   std::vector<Curve> stages;         ///< density of the first parameter after 1, 2, ... data sets
   History history;
-  History replicated;            ///< each data set as the final posterior would predict it
-  std::vector<double> measured;  ///< those data sets
-  std::optional<Curve> life;     ///< probability that the limit is reached by then
-  std::string study_text;        ///< the study file
+  std::vector<double> history_at;  ///< where each data set lies along it
+  std::string history_note;        ///< what to know of it
+  History replicated;              ///< each data set as the final posterior would predict it
+  std::vector<double> measured;    ///< those data sets
+  std::optional<Curve> life;       ///< probability that the limit is reached by then
+  std::string study_text;          ///< the study file
   std::vector<DataFile> files;
   double seconds = 0;                        ///< that the study took
   std::map<std::string, Exhibits> exhibits;  ///< by section: "predictions", "parameters" or "fit"

@@ -59,6 +59,8 @@ void fields(Io& io, T& each) {
     io("joint", each.joint);
     io("stages", each.stages);
     io("history", each.history);
+    io("history_at", each.history_at);
+    io("history_note", each.history_note);
     io("replicated", each.replicated);
     io("measured", each.measured);
     io("life", each.life);

@@ -75,6 +75,17 @@ std::string life_number(double x, int digits = 4) {
   return number(x, std::min(digits, whole));
 }
 
+const QuantityQuantiles& best(const QuantitySummary& summary) {
+  return summary.exact ? *summary.exact : summary.drawn;
+}
+
+// The life that the verdict tells where there is none until a limit: the last that was asked for.
+const QuantitySummary* told_life(const StudyResult& result) {
+  const auto& all = result.quantities;
+  const auto last = std::find_if(all.rbegin(), all.rend(), [](const auto& q) { return q.is_life; });
+  return result.life || last == all.rend() ? nullptr : &*last;
+}
+
 // What a tribologist would say.
 std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
   std::string sentence;
@@ -86,6 +97,15 @@ std::string verdict_sentence(const StudyResult& result, const Plots& plots) {
     add(fmt::format("the {} reaches the limit of {} after about {} {} (90 % interval {})",
                     plots.quantity, given(result.life->limit, result.life->limit_unit),
                     life_number(life.b50, 3), result.life->unit, range(life.q05, life.q95, 3)));
+  }
+  if (const QuantitySummary* life = told_life(result)) {
+    const QuantityQuantiles& q = best(*life);
+    const std::string in = unit(life->unit);
+    add(
+        fmt::format("the {} of a {} {} is {} {} in the median (90 % interval {} to {}), and one in "
+                    "ten has less than {} {}",
+                    life->name, life->of, life->at, life_number(q.q50, 3), in,
+                    life_number(q.q05, 3), life_number(q.q95, 3), life_number(q.b10, 3), in));
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
@@ -125,10 +145,6 @@ std::string quantity_value(const QuantitySummary& summary, double x, int digits 
   return summary.is_life ? life_number(x, digits) : number(x, digits);
 }
 
-const QuantityQuantiles& best(const QuantitySummary& summary) {
-  return summary.exact ? *summary.exact : summary.drawn;
-}
-
 std::string verdict_section(const StudyResult& result, const Plots& plots) {
   std::string out =
       fmt::format("<p class=\"verdict\">{}</p>\n", escape(verdict_sentence(result, plots)));
@@ -143,6 +159,10 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
     tiles.push_back({"Inspect again within", life_number(life.inspect_within, 3), summary.unit,
                      fmt::format("after {}; risk of reaching the limit before: {} %",
                                  given(summary.now), given(100 * summary.risk))});
+  }
+  if (const QuantitySummary* told = told_life(result)) {
+    tiles.push_back({"Life B10", life_number(best(*told).b10, 3), unit(told->unit),
+                     fmt::format("{} {}", told->of, told->at)});
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();

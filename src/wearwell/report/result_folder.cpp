@@ -16,8 +16,8 @@ namespace {
 
 // All that a result may hold: a folder with anything else in it is not ours to replace.
 bool is_result(const std::string& name) {
-  for (const char* file :
-       {"summary.json", "predictions.csv", "plots.json", "report.html", "study.toml"}) {
+  for (const char* file : {"summary.json", "predictions.csv", "plots.json", "report.html",
+                           "study.toml", "models.csv"}) {
     if (name == file) return true;
   }
   if (name == "model.json") return true;

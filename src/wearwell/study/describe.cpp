@@ -86,9 +86,13 @@ std::string study_in_words(const Study& study) {
                        study.parameters.size() <= max_exact_dimension ? ", beside quadrature" : "");
   }
   out += fmt::format("; seed {}\n", run.seed);
-  if (!study.predictions.empty() || study.life) out += "\nWill be predicted\n";
+  if (!study.predictions.empty() || !study.quantities.empty() || study.life)
+    out += "\nWill be predicted\n";
   for (const PredictionRequest& p : study.predictions) {
     out += fmt::format("  {} [{}] at {} {}\n", study.quantity, p.unit.text, p.at, p.at_name);
+  }
+  for (const QuantityRequest& q : study.quantities) {
+    out += fmt::format("  {} [{}] of a {} {}\n", q.name, q.unit.text, q.of, q.at);
   }
   if (study.life) {
     const LifeRequest& life = *study.life;

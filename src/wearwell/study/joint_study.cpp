@@ -8,6 +8,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/joint/archard.h"
 #include "wearwell/joint/inspection.h"
+#include "wearwell/joint/work_history.h"
 #include "wearwell/study/columns.h"
 #include "wearwell/study/prior.h"
 #include "wearwell/table/table.h"
@@ -250,38 +251,18 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
     return joint::archard_likelihood(law, family, inspections, rows);
   };
 
-  // Work at any number of cycles: along the constant rate, or from the last inspection on at the
-  // rate given for what comes.
+  // Where the work per cycle is constant, it is so past and to come.
   const auto predict = root.table("predict");
   std::optional<double> rate = data.work_per_cycle;
-  double cycles_then = 0, work_then = 0;
   if (predict && !rate) {
     if (const auto future = predict->quantity("work_per_cycle", "N m")) {
       if (!(future->si() > 0)) predict->fail("work_per_cycle", "must be positive");
       rate = future->si();
-      const auto last = std::max_element(data.cycles.begin(), data.cycles.end());
-      cycles_then = *last;
-      work_then = work[static_cast<std::size_t>(last - data.cycles.begin())];
     }
   }
-  // Between inspections, work grows evenly.
-  const auto work_until = [&](double cycles) {
-    if (data.work_per_cycle) return cycles * *data.work_per_cycle;
-    double before = 0, work_before = 0, after = INFINITY, work_after = 0;
-    for (std::size_t i = 0; i < work.size(); ++i) {
-      if (data.cycles[i] <= cycles && data.cycles[i] >= before) {
-        before = data.cycles[i];
-        work_before = work[i];
-      } else if (data.cycles[i] > cycles && data.cycles[i] < after) {
-        after = data.cycles[i];
-        work_after = work[i];
-      }
-    }
-    if (std::isfinite(after)) {
-      return work_before + (cycles - before) / (after - before) * (work_after - work_before);
-    }
-    return work_before + (rate ? (cycles - before) * *rate : 0);
-  };
+  const joint::WorkHistory history = data.work_per_cycle
+                                         ? joint::WorkHistory({}, {}, rate)
+                                         : joint::WorkHistory(data.cycles, work, rate);
   const auto request = [=](double cycles, double at_work, std::optional<double> measured) {
     return PredictionRequest{"cycles",
                              cycles,
@@ -309,14 +290,14 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
     }
     if (const auto limit = predict->quantity("limit", "m^3")) {
       const double k = joint::least_squares(data.inspections).k;
-      const double reached = cycles_then + (limit->si() / k - work_then) / *rate;
+      const double reached = history.cycles_at(limit->si() / k);
       if (reached > 0) end = std::max(end, std::min(reached, 3 * end));
     }
     end *= 1.1;
   }
   for (int i = 0; i <= points; ++i) {
     const double cycles = end * std::max<double>(i, 1e-3) / points;
-    study.history.push_back(request(cycles, work_until(cycles), {}));
+    study.history.push_back(request(cycles, history.work_at(cycles), {}));
   }
   if (!predict) return;
 
@@ -325,15 +306,12 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
   };
   for (const Quantity& cycles : predict->quantities("cycles", "1")) {
     need_rate("cycles");
-    if (!(cycles.si() >= cycles_then)) {
-      predict->fail("cycles", fmt::format("{} must be {} or more", cycles.value, cycles_then));
-    }
+    if (!(cycles.si() >= 0)) predict->fail("cycles", "must be 0 or more");
     std::optional<double> measured;
     for (std::size_t i = 0; i < data.cycles.size(); ++i) {
       if (data.cycles[i] == cycles.si()) measured = data.inspections.volume[i];
     }
-    study.predictions.push_back(
-        request(cycles.si(), work_then + (cycles.si() - cycles_then) * *rate, measured));
+    study.predictions.push_back(request(cycles.si(), history.work_at(cycles.si()), measured));
   }
   const auto risk = predict->quantity("risk", "1");
   if (risk && !(risk->si() > 0 && risk->si() < 1))
@@ -347,7 +325,7 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
                              *std::max_element(data.cycles.begin(), data.cycles.end()),
                              risk ? risk->si() : 0.01,
                              [=, limit = limit->si()](const double* x) {
-                               return cycles_then + (law.work_at(x, limit) - work_then) / *rate;
+                               return history.cycles_at(law.work_at(x, limit));
                              }};
   } else if (risk) {
     predict->fail("risk", "needs predict.limit");

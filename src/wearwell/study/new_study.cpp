@@ -13,6 +13,8 @@ namespace resource {
 // Files of examples/ that the program carries with it (cmake/resources.cmake).
 std::string_view joint_study();
 std::string_view joint_data();
+std::string_view bearing_study();
+std::string_view bearing_data();
 
 }  // namespace resource
 
@@ -28,12 +30,14 @@ struct StudyFile {
 
 // The study comes first.
 constexpr StudyFile files[] = {{"joint", "study.toml", resource::joint_study},
-                               {"joint", "joint_wear.csv", resource::joint_data}};
+                               {"joint", "joint_wear.csv", resource::joint_data},
+                               {"bearing", "study.toml", resource::bearing_study},
+                               {"bearing", "inspections.csv", resource::bearing_data}};
 
 }  // namespace
 
 std::vector<std::string> new_study_trades() {
-  return {"joint"};
+  return {"joint", "bearing"};
 }
 
 fs::path write_new_study(const std::string& trade, const fs::path& folder) {

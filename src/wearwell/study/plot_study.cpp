@@ -17,6 +17,7 @@ namespace wearwell {
 namespace {
 
 constexpr int curve_points = 120, bins = 40, grid_cells = 56, life_points = 120;
+constexpr std::size_t item_points = 20'000;
 
 struct Range {
   double low, high;
@@ -187,8 +188,8 @@ WeightedDraws thinned(const WeightedDraws& draws) {
 History predict_all(const std::vector<PredictionRequest>& requests, const WeightedDraws& draws) {
   std::vector<Prediction> predictions(requests.size());
   tbb::parallel_for(std::size_t{0}, requests.size(), [&](std::size_t i) {
-    predictions[i] =
-        predict(draws, requests[i].mean, requests[i].sd, requests[i].family, requests[i].item);
+    predictions[i] = predict(draws, requests[i].mean, requests[i].sd, requests[i].family,
+                             requests[i].item, item_points);
   });
   History history;
   for (std::size_t i = 0; i < requests.size(); ++i) {
@@ -263,6 +264,8 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
       plots.measured.push_back(from_si(observed.back().unit, *observed.back().measured));
     }
     plots.replicated = predict_all(observed, few);
+    plots.history_at = study.history_at.empty() ? plots.replicated.at : study.history_at;
+    plots.history_note = study.history_note;
   }
   if (study.exhibits) plots.exhibits = study.exhibits(fit);
   if (study.life) plots.life = life_curve(*study.life, fit);

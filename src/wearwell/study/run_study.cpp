@@ -137,17 +137,26 @@ std::vector<Check> all_checks(const Study& study, const Posterior& posterior, co
   return checks;
 }
 
-// What is kept of the posterior of one stage: `density`, when given, takes its points.
+// What is kept of the posterior of one stage.
+StageSummary summarize_stage(const Study& study, std::size_t rows,
+                             std::vector<ParameterSummary> parameters, std::vector<Check> checks,
+                             const Fit& fit) {
+  std::vector<PredictionRequest> requests = study.stage_predictions(rows);
+  requests.insert(requests.end(), study.predictions.begin(), study.predictions.end());
+  StageSummary summary{rows, std::move(parameters), summarize(requests, fit), std::move(checks),
+                       true};
+  summary.trusted = trusted(summary.checks);
+  return summary;
+}
+
+// `density`, when given, takes the points of the posterior.
 StageSummary run_stage(const Study& study, FitSettings settings, std::size_t rows,
                        WeightedDraws* density) {
   settings.run.first_stream = rows * max_chains;
   const Posterior posterior(study.parameters, study.likelihood(rows));
   Fit stage = fit(posterior, settings);
-  std::vector<PredictionRequest> requests = study.stage_predictions(rows);
-  requests.insert(requests.end(), study.predictions.begin(), study.predictions.end());
-  StageSummary summary{rows, summarize_parameters(posterior, stage), summarize(requests, stage),
-                       trust_checks(posterior, stage), true};
-  summary.trusted = trusted(summary.checks);
+  StageSummary summary = summarize_stage(study, rows, summarize_parameters(posterior, stage),
+                                         trust_checks(posterior, stage), stage);
   if (density) *density = std::move(stage.exact ? stage.exact->nodes : stage.pooled);
   return summary;
 }
@@ -204,7 +213,7 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
   FitSettings settings = fit_settings(study, choice);
   if (progress && settings.method != Method::exact) {
     const RunSettings& run = settings.run;
-    const long long fits = 1 + (study.stages ? static_cast<long long>(study.data_rows) : 0);
+    const long long fits = study.stages ? static_cast<long long>(study.data_rows) : 1;
     progress->expect(fits * run.chains * (run.warmup + run.draws));
     settings.run.progress = progress;
   }
@@ -237,12 +246,19 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
   result.trusted = trusted(result.checks);
   if (study.life) result.life = summarize(*study.life, final);
   if (study.stages) {
+    // After the last data set the stage is the whole.
+    const std::size_t last = study.data_rows - 1;
     result.stages.resize(study.data_rows);
+    result.stages[last] =
+        summarize_stage(study, study.data_rows, result.parameters, result.checks, final);
     std::vector<WeightedDraws> densities(plots ? study.data_rows : 0);
-    tbb::parallel_for(std::size_t{0}, study.data_rows, [&](std::size_t i) {
+    tbb::parallel_for(std::size_t{0}, last, [&](std::size_t i) {
       result.stages[i] = run_stage(study, settings, i + 1, plots ? &densities[i] : nullptr);
     });
-    if (plots) plots->stages = stage_densities(study.parameters.front(), 0, densities);
+    if (plots) {
+      densities[last] = final.exact ? std::move(final.exact->nodes) : std::move(final.pooled);
+      plots->stages = stage_densities(study.parameters.front(), 0, densities);
+    }
   }
   if (plots) {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;

@@ -85,6 +85,8 @@ struct Study {
   std::vector<QuantityRequest> quantities;
   std::optional<LifeRequest> life;
   std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
+  std::vector<double> history_at;  ///< where each data set lies along it; where it was if empty
+  std::string history_note;        ///< what to know of that curve
   std::optional<PointwiseTable> pointwise;
   std::string quantity;               ///< what is measured, in words: "worn volume"
   std::vector<std::string> meanings;  ///< of the parameters: "wear coefficient"

@@ -1,0 +1,67 @@
+#include "wearwell/regress/k_fold.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/rng.h"
+#include "wearwell/regress/least_squares.h"
+
+namespace wearwell {
+namespace {
+
+using Index = Eigen::Index;
+
+/// 0 .. rows - 1 in random order (Fisher and Yates).
+std::vector<Index> shuffled(Index rows, Rng& rng) {
+  std::vector<Index> order(static_cast<std::size_t>(rows));
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = order.size() - 1; i > 0; --i)
+    std::swap(order[i],
+              order[static_cast<std::size_t>(rng.uniform() * static_cast<double>(i + 1))]);
+  return order;
+}
+
+}  // namespace
+
+double k_fold_press(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
+                    const Eigen::VectorXd& weights, int folds, int repeats, std::uint64_t seed) {
+  const Index n = columns.rows(), k = columns.cols();
+  if (folds < 2 || folds > n)
+    throw InputError(fmt::format("{} folds; there may be 2 to {}, the number of rows", folds, n));
+  if (repeats < 1) throw InputError(fmt::format("{} repeats of the folds; need 1", repeats));
+  // Whether a model close to dependence counts as one is for the search to judge.
+  const LinearFit fit = fit_least_squares(columns, response, weights, {}, 0.5 * rank_tolerance);
+  Eigen::VectorXd root = Eigen::VectorXd::Ones(n);
+  if (weights.size() != 0) root = weights.cwiseSqrt();
+  const Eigen::MatrixXd scaled = root.asDiagonal() * columns;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(scaled);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(n, k);
+  const Eigen::VectorXd residuals = root.cwiseProduct(fit.residuals);
+
+  double sum = 0;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    Rng rng(seed, static_cast<std::uint64_t>(repeat));
+    const auto order = shuffled(n, rng);
+    for (int fold = 0; fold < folds; ++fold) {
+      const auto first = order.begin() + fold * n / folds;
+      const std::vector<Index> out(first, order.begin() + (fold + 1) * n / folds);
+      // Predicted without them, rows B miss by (I - Q_B Q_B')^-1 e_B (as leave-one-out for one).
+      const Eigen::MatrixXd part = q(out, Eigen::all);
+      const auto size = static_cast<Index>(out.size());
+      const Eigen::LDLT<Eigen::MatrixXd> rest(Eigen::MatrixXd::Identity(size, size) -
+                                              part * part.transpose());
+      if (!(rest.vectorD().minCoeff() > leverage_tolerance))
+        return std::numeric_limits<double>::infinity();
+      sum += rest.solve(residuals(out)).squaredNorm();
+    }
+  }
+  return sum / repeats;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "wearwell/regress/subset_search.h"
+#include "wearwell/regress/terms.h"
+
+namespace wearwell {
+
+struct SelectionSettings {
+  SearchSettings search;
+  int folds = 0;  ///< k-fold cross-validation of the models found; 0: none
+  int fold_repeats = 20;
+  std::uint64_t seed = 1;  ///< of the folds
+};
+
+/// How sure the choice of one term is.
+struct TermSupport {
+  double inclusion = 0;  ///< share of the models found (those near the best) that hold it
+  double weight = 0;     ///< sum of the stacking weights of the models that hold it
+};
+
+/// A subset search and what follows from its models.
+struct Selection {
+  SearchResult search;
+  LinearFit fit;  ///< of the best model
+  OriginalCoefficients original;
+  /// Stacking weights of the first models of `search.models` by their leave-one-out residuals;
+  /// models that cannot be left one out have none. At most `most_stacked`.
+  static constexpr std::size_t most_stacked = 200;
+  std::vector<double> weights;
+  std::vector<TermSupport> support;  ///< by term of the design
+  std::vector<double> k_fold_press;  ///< by model, the first `most_stacked`; empty without folds
+};
+
+/// Searches the terms of `design` and describes the outcome. Throws InputError as search_subsets.
+/// Where a search was stopped before it found any model, `search.models` is empty, and the rest.
+Selection select_terms(const Design& design, const Eigen::VectorXd& response,
+                       const Eigen::VectorXd& weights, const SelectionSettings& settings);
+
+}  // namespace wearwell
