@@ -4,6 +4,7 @@
 
 #include "wearwell/clutch/design.h"
 #include "wearwell/clutch/tribometer.h"
+#include "wearwell/clutch/wear_model.h"
 
 namespace wearwell::clutch {
 
@@ -22,7 +23,8 @@ inline DesignRequest paper_design() {
 }
 
 /// Truth with the structure that the paper found: its ten terms, its proportions of run-in, a
-/// scatter with which R2 is about 0.88. The same as examples/clutch/truth.toml (a test compares).
+/// scatter with which R2 is about 0.88. The same as examples/clutch/truth.toml (a test in
+/// tests/study compares).
 inline Truth paper_like_truth() {
   Truth truth;
   truth.r = 1.2;
@@ -44,6 +46,25 @@ inline Truth paper_like_truth() {
   truth.run_out_cycles = 1500;
   truth.worn_out = 10e-6;
   return truth;
+}
+
+/// One campaign of that truth and design, simulated once.
+inline const Simulation& paper_like_campaign() {
+  static const Simulation simulation = simulate(plan(paper_design()), paper_like_truth(), 1);
+  return simulation;
+}
+
+/// A model of a wear rate w0, m^3/J, that depends on nothing.
+inline WearModel constant_model(double w0, double sigma, const RunIn& run_in) {
+  WearModel model;
+  model.terms = {{"1", 0, 0, 0, 0, 1, w0}};
+  model.covariance = Eigen::MatrixXd::Zero(1, 1);
+  model.run_in = run_in;
+  model.scatter = {ScatterKind::linear, {sigma, 0}};
+  model.lowest = {100, 20, 100, 0.5};
+  model.highest = {300, 80, 250, 4};
+  model.worn_out = 10e-6;
+  return model;
 }
 
 }  // namespace wearwell::clutch

@@ -1,6 +1,9 @@
 #include "wearwell/cli/clutch_fit.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
 
 #include "wearwell/report/result_folder.h"
 #include "wearwell/study/clutch_model_file.h"
@@ -13,7 +16,11 @@ namespace wearwell::clutch {
 int fit_clutch_study(const FitRequest& request) {
   const ClutchStudy study = read_clutch_study(request.study);
   ResultFolder folder(request.output);
-  const ClutchResult result = run_clutch_study(study, request.threads);
+  const ClutchResult result = [&] {
+    const bool shown = !request.quiet && isatty(STDERR_FILENO);
+    Progress progress(shown ? stderr : nullptr, "exact searches");
+    return run_clutch_study(study, request.threads, &progress);
+  }();
   const std::string summary = summary_json(study, result).dump(2) + "\n";
   folder.write("summary.json", summary);
   folder.write("model.json", to_json(result.model).dump(1) + "\n");

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/progress.h"
 #include "wearwell/cli/clutch_fit.h"
 #include "wearwell/report/csv.h"
@@ -32,8 +33,13 @@ int run_fit(const FitOptions& options) {
       options.output.empty() ? std::filesystem::path(options.study.stem().string() + "-results")
                              : options.output;
   if (clutch::is_clutch_study(options.study)) {
-    return clutch::fit_clutch_study({options.study, output, options.threads, options.json,
-                                     options.quiet, options.no_report});
+    const SamplerChoice& sampler = options.sampler;
+    if (sampler.method || sampler.chains || sampler.draws || sampler.warmup || sampler.seed)
+      throw InputError(
+          "--method, --chains, --draws, --warmup and --seed are for studies that sample a "
+          "posterior; a clutch study has its seeds in the study file");
+    return clutch::fit_clutch_study(
+        {options.study, output, options.threads, options.json, options.quiet, options.no_report});
   }
   const Study study = read_study(options.study);
   ResultFolder folder(output);

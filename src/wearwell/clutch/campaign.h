@@ -35,6 +35,8 @@ struct Campaign {
   std::vector<Weighing> weighings;  ///< by plate, then by cycle
   double density = 0;               ///< of the lining, kg/m^3
   double balance_sd = 0;            ///< standard deviation of one weighing, kg
+  /// Where cycles and weighings come from, row by row, for messages.
+  std::string cycles_source = "cycles", weighings_source = "weighings";
 };
 
 /// One sample of a raw trace.

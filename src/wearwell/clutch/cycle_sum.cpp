@@ -16,15 +16,24 @@ constexpr unsigned negative_map = 1u << inputs.size();
 /// exp(-x) beyond this is nothing beside 1.
 constexpr double negligible = 40;
 
-/// One polynomial at many cycles, by powers of ds with coefficients in Td and Mz.
+/// Logarithm, one beyond the end until the length is a multiple of the machine's vectors: the last
+/// numbers of an array are otherwise computed by another routine, with other last bits.
+ArrayXd padded_log(const ArrayXd& x) {
+  constexpr Index vector = 8;
+  ArrayXd padded = ArrayXd::Ones((x.size() + vector - 1) / vector * vector);
+  padded.head(x.size()) = x;
+  return padded.log();
+}
+
+/// One polynomial at many cycles, by powers of ds with coefficients in Td and Mz. Logarithms and
+/// `out` are padded.
 void evaluate(const WearPolynomial& polynomial, const ArrayXd& log_speed, const ArrayXd& log_time,
               const ArrayXd& temperature, const ArrayXd& torque, ArrayXd& distance, ArrayXd& out) {
   distance = (polynomial.r * log_speed + polynomial.q * log_time).exp();
   double c[4][4][4] = {};
   for (const auto& m : polynomial.monomials) c[m.ds][m.temperature][m.torque] += m.coefficient;
-  const Index n = distance.size();
-  out.resize(n);
-  for (Index i = 0; i < n; ++i) {
+  out.setZero(distance.size());
+  for (Index i = 0; i < temperature.size(); ++i) {
     const double s = distance[i], t = temperature[i], m = torque[i];
     // All twenty terms of a cubic cost less than choosing among them.
     const double c0 = c[0][0][0] + m * (c[0][0][1] + m * (c[0][0][2] + m * c[0][0][3])) +
@@ -63,21 +72,24 @@ CycleSum::CycleSum(const WearModel& model, bool with_replicates)
 
 void CycleSum::rates(const CycleColumns& cycles, Rates& rates) const {
   const Index n = cycles.size();
-  const ArrayXd log_speed = cycles.slip_speed.log(), log_time = cycles.closing_time.log();
+  const ArrayXd log_speed = padded_log(cycles.slip_speed),
+                log_time = padded_log(cycles.closing_time);
   ArrayXd distance;
   evaluate(polynomial_, log_speed, log_time, cycles.temperature, cycles.torque, distance, rates.w);
 
   const auto& law = model_.scatter;
   if (law.kind == ScatterKind::exponential) {
     rates.sigma = law.p[0] * (law.p[1] * rates.w).exp();
+    rates.sigma.conservativeResize(n);
   } else if (law.kind == ScatterKind::conditions) {
     rates.sigma = law.p[0] + law.p[1] * cycles.temperature + law.p[2] * cycles.slip_speed +
                   law.p[3] * cycles.torque + law.p[4] * cycles.closing_time;
   } else {
-    rates.sigma = law.p[0] + law.p[1] * rates.w;
-    if (law.kind == ScatterKind::quadratic) rates.sigma += law.p[2] * rates.w.square();
+    rates.sigma = law.p[0] + law.p[1] * rates.w.head(n);
+    if (law.kind == ScatterKind::quadratic) rates.sigma += law.p[2] * rates.w.head(n).square();
   }
   rates.sigma = rates.sigma.max(model_.scatter_floor);
+  rates.w.conservativeResize(n);
 
   rates.outside.assign(static_cast<std::size_t>(n), 0);
   const ArrayXd* columns[] = {&cycles.slip_speed, &cycles.torque, &cycles.temperature,
@@ -104,15 +116,15 @@ void CycleSum::rates(const CycleColumns& cycles, Rates& rates) const {
   for (Index b = 0; b < rates.replicates.cols(); ++b) {
     evaluate(model_.replicates[static_cast<std::size_t>(b)].w, log_speed, log_time,
              cycles.temperature, cycles.torque, distance, w);
-    rates.replicates.col(b) = w.max(0);
+    rates.replicates.col(b) = w.head(n).max(0);
   }
 }
 
 PlateWear& CycleSum::plate(int number) {
   if (current_ < plates_.size() && plates_[current_].plate == number) return plates_[current_];
-  for (current_ = 0; current_ < plates_.size(); ++current_) {
-    if (plates_[current_].plate == number) return plates_[current_];
-  }
+  const auto [at, is_new] = place_.try_emplace(number, plates_.size());
+  current_ = at->second;
+  if (!is_new) return plates_[current_];
   plates_.push_back({});
   plates_.back().plate = number;
   if (with_replicates_) plates_.back().replicates = ArrayXd::Zero(slow_.size());
@@ -161,6 +173,8 @@ void CycleSum::add(const CycleColumns& cycles, const Rates& rates, std::size_t f
 
 void CycleSum::restore(std::vector<PlateWear> plates) {
   plates_ = std::move(plates);
+  place_.clear();
+  for (std::size_t i = 0; i < plates_.size(); ++i) place_[plates_[i].plate] = i;
   current_ = 0;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <unordered_map>
 #include <vector>
 
 #include "wearwell/clutch/wear_model.h"
@@ -38,7 +39,7 @@ struct PlateWear {
 ///   V_k = V_{k-1} + g(Ec) w_mu E_k,   var_k = var_{k-1} + (w_sigma E_k)^2,
 ///
 /// for any number of plates. First `rates` of some cycles (any thread), then `add` in the order of
-/// the cycles.
+/// the cycles. How the cycles are cut into pieces changes no bit of the result.
 class CycleSum {
  public:
   /// Without replicates it is about ten times as fast, and full_sd lacks their part.
@@ -73,6 +74,7 @@ class CycleSum {
   bool with_replicates_;
   Eigen::ArrayXd slow_, fast_, slow_energy_, fast_energy_;  ///< of the replicates
   std::vector<PlateWear> plates_;
+  std::unordered_map<int, std::size_t> place_;  ///< in plates_
   std::size_t current_ = 0;
 };
 

@@ -57,7 +57,7 @@ class Plate {
     at.closing_time = rounded(set.closing_time * (1 + time_jitter * rng_.normal()), 1000);
     const double energy = rounded(closing_energy(at), 1);
     const double w = truth_.w(at), sigma = truth_.scatter.formula(w, at);
-    if (!(w > truth_.least_w))
+    if (!(w > 0))
       throw InputError(fmt::format(
           "the true wear rate is {:.4g} mm^3/MJ at {:.0f} rpm, {:.1f} N m, "
           "{:.1f} degC, {:.2f} s; it must be positive",

@@ -32,7 +32,6 @@ struct Truth {
   double least_mass = 0.3e-3;    ///< worn at a design point, kg
   double worn_out = 0;           ///< volume at which a plate is worn out, m^3: sequences end there
   int sequence_weighings = 12;
-  double least_w = 0;  ///< a wear rate below this is not credible: refused, m^3/J
 
   double w(const OperatingPoint& at) const;
 };

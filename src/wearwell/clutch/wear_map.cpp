@@ -93,7 +93,7 @@ std::vector<double> paper_exponents() {
 
 ExponentSearch search_exponents(const WearPoints& points, Surrogate surrogate,
                                 const std::vector<double>& exponents, int threads,
-                                bool drop_temperature) {
+                                bool drop_temperature, Progress* progress) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::string> names = input_names(surrogate);
   if (drop_temperature) names.erase(names.begin() + 1);
@@ -121,6 +121,7 @@ ExponentSearch search_exponents(const WearPoints& points, Surrogate surrogate,
     pair.r2 = best.r2;
     pair.r2p = best.r2p;
     pair.terms = best.terms;
+    if (progress) progress->advance(1);
   };
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, search.pairs.size(), solve); });

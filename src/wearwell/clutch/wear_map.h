@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/base/progress.h"
 #include "wearwell/clutch/operating_point.h"
 #include "wearwell/regress/least_squares.h"
 #include "wearwell/regress/terms.h"
@@ -60,10 +61,11 @@ std::vector<double> paper_exponents();
 /// At every pair of exponents the best of all submodels of the cubic polynomial by leave-one-out,
 /// exactly (regress/subset_search.h): 2^20 - 1 submodels for three inputs. `drop_temperature`
 /// leaves Td out, for points of one temperature. Ties go to the smaller r, then q. Does not depend
-/// on the number of threads. Throws InputError for points that no polynomial can be fitted to.
+/// on the number of threads. `progress`, where there is one, advances by one a pair. Throws
+/// InputError for points that no polynomial can be fitted to.
 ExponentSearch search_exponents(const WearPoints& points, Surrogate surrogate,
                                 const std::vector<double>& exponents, int threads = 0,
-                                bool drop_temperature = false);
+                                bool drop_temperature = false, Progress* progress = nullptr);
 
 /// A fitted polynomial of wear rates.
 struct WearMap {

@@ -188,7 +188,7 @@ WearModel make_model(const std::string& title, const WearPoints& points, const W
 std::vector<Replicate> draw_replicates(const WearPoints& points, const WearMap& map,
                                        const VectorXd& sd, const RunInFit& run_in,
                                        const std::vector<double>& exponents, int count,
-                                       std::uint64_t seed, int threads) {
+                                       std::uint64_t seed, int threads, Progress* progress) {
   std::vector<double> tried = spread_out(exponents, map.r);
   const std::vector<double> others = spread_out(exponents, map.q);
   tried.insert(tried.end(), others.begin(), others.end());
@@ -200,7 +200,8 @@ std::vector<Replicate> draw_replicates(const WearPoints& points, const WearMap& 
     WearPoints simulated = points;
     for (Index j = 0; j < simulated.size(); ++j)
       simulated.w[j] = map.fit.fitted[j] + sd[j] * rng.normal();
-    const ExponentSearch search = search_exponents(simulated, map.surrogate, tried, 1);
+    const ExponentSearch search =
+        search_exponents(simulated, map.surrogate, tried, 1, false, progress);
     const PairBest& best = search.pairs[search.best];
     replicates[b] = {
         unscaled(fit_map("replicate", simulated, map.surrogate, best.r, best.q, 3, best.terms)),

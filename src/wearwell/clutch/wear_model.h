@@ -88,7 +88,8 @@ WearModel make_model(const std::string& title, const WearPoints& points, const W
 std::vector<Replicate> draw_replicates(const WearPoints& points, const WearMap& map,
                                        const Eigen::VectorXd& sd, const RunInFit& run_in,
                                        const std::vector<double>& exponents, int count,
-                                       std::uint64_t seed, int threads = 0);
+                                       std::uint64_t seed, int threads = 0,
+                                       Progress* progress = nullptr);
 
 /// One held-out point.
 struct ValidationPoint {

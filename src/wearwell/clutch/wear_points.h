@@ -29,11 +29,11 @@ struct WornBlocks {
   std::vector<std::string> flags;  ///< what is odd but possible, a sentence each
 };
 
-/// Wear of every block (Haramina et al. 2025, section 2.3). Throws InputError, naming plate and
+/// Wear of every block (Haramina et al. 2025, section 2.3). Throws InputError, naming row, plate and
 /// cycle, for a plate without a first weighing, two weighings at one cycle, cycles or weighings out
 /// of order, cycles missing from a block or an energy that is not positive, and for a plate that
-/// gained more mass than the balance could err (4 standard deviations of a difference); a smaller
-/// gain is flagged and kept.
+/// gained more mass than the balance could err (4 standard deviations of a difference). A smaller
+/// gain is flagged and kept; cycles that no weighing follows are flagged.
 WornBlocks worn_blocks(const Campaign& campaign);
 
 }  // namespace wearwell::clutch

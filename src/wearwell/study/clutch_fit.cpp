@@ -42,11 +42,12 @@ std::vector<double> temperature_levels(const Campaign& campaign) {
 }
 
 SurrogateResult try_surrogate(const ClutchStudy& study, const WearPoints& points,
-                              Surrogate surrogate, const ExponentSearch* done, int threads) {
+                              Surrogate surrogate, const ExponentSearch* done, int threads,
+                              Progress* progress) {
   SurrogateResult result;
   result.surrogate = surrogate;
   const ExponentSearch search =
-      done ? *done : search_exponents(points, surrogate, study.exponents, threads);
+      done ? *done : search_exponents(points, surrogate, study.exponents, threads, false, progress);
   result.best = search.pairs[search.best];
   for (const double level : temperature_levels(study.campaign)) {
     std::vector<Index> rows;
@@ -56,7 +57,7 @@ SurrogateResult try_surrogate(const ClutchStudy& study, const WearPoints& points
     }
     if (std::ssize(rows) < least_points_of_level) continue;
     const ExponentSearch at_level =
-        search_exponents(chosen(points, rows), surrogate, study.exponents, threads, true);
+        search_exponents(chosen(points, rows), surrogate, study.exponents, threads, true, progress);
     result.levels.push_back(level);
     result.r2p.push_back(at_level.pairs[at_level.best].r2p);
     result.mean_r2p += result.r2p.back();
@@ -200,10 +201,20 @@ Check sequence_check(const std::vector<SequenceResult>& sequences) {
                                            : fmt::format("{}", fmt::join(good, "; ")));
 }
 
-Check data_check(const ClutchResult& r) {
+Check data_check(const Campaign& campaign, const ClutchResult& r) {
   Findings findings("data");
+  std::set<int> run;
+  for (const WornBlock& block : r.blocks.blocks) run.insert(block.point);
+  std::vector<int> missing;
+  for (const DesignPoint& point : campaign.design) {
+    if (!run.count(point.number)) missing.push_back(point.number);
+  }
+  if (!missing.empty())
+    findings.add(Verdict::warn,
+                 fmt::format("points {} of the design were not run", fmt::join(missing, ", ")),
+                 "The map knows less there; run them, or strike them from the design.");
   for (const std::string& flag : r.blocks.flags)
-    findings.add(Verdict::warn, flag, "Weigh longer blocks.");
+    findings.add(Verdict::warn, flag, "Look at the rows named; weigh longer blocks.");
   for (const Closing& closing : r.closings) {
     if (!closing.flag.empty())
       findings.add(Verdict::warn,
@@ -249,7 +260,7 @@ WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& b
   return points;
 }
 
-ClutchResult run_clutch_study(const ClutchStudy& study, int threads) {
+ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* progress) {
   const auto start = std::chrono::steady_clock::now();
   ClutchResult r;
   r.version = WEARWELL_VERSION;
@@ -263,11 +274,12 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads) {
     throw InputError(fmt::format("{} points to model with; at least {} are needed", r.points.size(),
                                  least_points));
   r.correlations = correlations(r.points);
-  r.search = search_exponents(r.points, Surrogate::distance, study.exponents, threads);
+  r.search =
+      search_exponents(r.points, Surrogate::distance, study.exponents, threads, false, progress);
   for (const Surrogate surrogate : surrogates) {
     r.surrogates.push_back(try_surrogate(study, r.points, surrogate,
                                          surrogate == Surrogate::distance ? &r.search : nullptr,
-                                         threads));
+                                         threads, progress));
   }
   const PairBest& best = r.search.pairs[r.search.best];
   const auto fitted = [&](const char* name, int degree, const std::vector<int>& terms) {
@@ -280,7 +292,7 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads) {
   r.model = make_model(study.title, r.points, map, r.run_in, r.scatter, study.worn_out);
   r.model.replicates =
       draw_replicates(r.points, map, point_sd(r.model.scatter, r.points, map.fit.fitted), r.run_in,
-                      study.exponents, study.replicates, study.seed, threads);
+                      study.exponents, study.replicates, study.seed, threads, progress);
   r.validation = validate(map, r.model.covariance, r.model.scatter, r.held_out);
   r.averaging = averaging_effect(r.model.polynomial(), study.campaign.cycles, r.blocks.blocks);
   r.sequences = predict_sequences(study, r);
@@ -288,12 +300,9 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads) {
     const Cycle cycle{1, 1, at, closing_energy(at)};
     r.lives.push_back({name, at, predict_life(r.model, {cycle}, study.levels)});
   }
-  r.checks = {data_check(r),
-              run_in_check(r.run_in),
-              map_check(r.maps),
-              scatter_check(r.scatter_fit()),
-              validation_check(r.validation),
-              sequence_check(r.sequences)};
+  r.checks = {
+      data_check(study.campaign, r),  run_in_check(r.run_in),         map_check(r.maps),
+      scatter_check(r.scatter_fit()), validation_check(r.validation), sequence_check(r.sequences)};
   for (const Check& check : r.checks) r.trusted = r.trusted && check.verdict != Verdict::fail;
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return r;

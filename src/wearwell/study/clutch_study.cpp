@@ -44,6 +44,8 @@ void read_data(const TomlReader& root, const TomlReader& table, ClutchStudy& stu
   study.campaign.design = read_design(study.files[0]);
   study.campaign.cycles = read_cycles(study.files[1]);
   study.campaign.weighings = read_weighings(study.files[2]);
+  study.campaign.cycles_source = study.files[1].string();
+  study.campaign.weighings_source = study.files[2].string();
   if (const auto traces = table.text("traces")) {
     study.files.push_back(beside(study.file, *traces));
     study.traces = read_traces(study.files.back());

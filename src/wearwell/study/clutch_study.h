@@ -103,7 +103,8 @@ WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& b
                        const RunInFit& run_in, bool held_out);
 
 /// Features, run-in, map, scatter, validation, prediction and life in one go. `threads`: 0 for all;
-/// the result does not depend on it.
-ClutchResult run_clutch_study(const ClutchStudy& study, int threads = 0);
+/// the result does not depend on it. `progress`, where there is one, counts exact searches.
+ClutchResult run_clutch_study(const ClutchStudy& study, int threads = 0,
+                              Progress* progress = nullptr);
 
 }  // namespace wearwell::clutch

@@ -15,6 +15,9 @@ std::string_view joint_study();
 std::string_view joint_data();
 std::string_view bearing_study();
 std::string_view bearing_data();
+std::string_view clutch_study();
+std::string_view clutch_design();
+std::string_view clutch_truth();
 
 }  // namespace resource
 
@@ -32,12 +35,15 @@ struct StudyFile {
 constexpr StudyFile files[] = {{"joint", "study.toml", resource::joint_study},
                                {"joint", "joint_wear.csv", resource::joint_data},
                                {"bearing", "study.toml", resource::bearing_study},
-                               {"bearing", "inspections.csv", resource::bearing_data}};
+                               {"bearing", "inspections.csv", resource::bearing_data},
+                               {"clutch", "study.toml", resource::clutch_study},
+                               {"clutch", "design.csv", resource::clutch_design},
+                               {"clutch", "truth.toml", resource::clutch_truth}};
 
 }  // namespace
 
 std::vector<std::string> new_study_trades() {
-  return {"joint", "bearing"};
+  return {"joint", "bearing", "clutch"};
 }
 
 fs::path write_new_study(const std::string& trade, const fs::path& folder) {
