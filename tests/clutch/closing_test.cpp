@@ -14,8 +14,8 @@ namespace {
 using testing::HasSubstr;
 
 // Sampled once a second: torque comes on at 1 s, slip has ended at 4 s.
-const std::vector<Sample> trace = {{1, 0, 100, 0, 150},  {1, 1, 90, 10, 150}, {1, 2, 60, 20, 160},
-                                   {1, 3, 30, 20, 170},  {1, 4, 0, 20, 180},  {1, 5, 0, 0, 180},
+const std::vector<Sample> trace = {{1, 0, 100, 0, 150}, {1, 1, 90, 10, 150}, {1, 2, 60, 20, 160},
+                                   {1, 3, 30, 20, 170}, {1, 4, 0, 20, 180},  {1, 5, 0, 0, 180},
                                    {1, 6, 100, 0, 180}};
 
 // Haramina et al. (2025), section 2.3: E = sum of M omega (t_i - t_(i-1)) over the samples after the
@@ -41,8 +41,8 @@ TEST(Closings, EnergyTendsToItsIntegral) {
   constexpr int steps = 20'000;
   for (int i = -10; i <= steps + 10; ++i) {
     const double share = static_cast<double>(i) / steps;
-    fine.push_back({1, 2 * share, 200 * std::min(1.0, 1 - share), share < 0 || share > 1 ? 0.0 : 50.0,
-                    170});
+    fine.push_back(
+        {1, 2 * share, 200 * std::min(1.0, 1 - share), share < 0 || share > 1 ? 0.0 : 50.0, 170});
   }
   const auto closings = find_closings(fine);
   ASSERT_EQ(closings.size(), 1u);

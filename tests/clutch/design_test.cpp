@@ -44,7 +44,9 @@ TEST(Design, IsThePapersPlan) {
       EXPECT_GE(x, request.lowest[c] - 1e-9);
       EXPECT_LE(x, request.highest[c] + 1e-9);
       beyond = beyond || x < levels.front() || x > levels.back();
-      if (p.role == Role::model) EXPECT_EQ(std::count(levels.begin(), levels.end(), x), 1);
+      if (p.role == Role::model) {
+        EXPECT_EQ(std::count(levels.begin(), levels.end(), x), 1);
+      }
     }
     EXPECT_EQ(beyond, p.role == Role::extrapolation) << p.number;
     EXPECT_LE(closing_energy(p.at), request.most_energy);
@@ -52,7 +54,7 @@ TEST(Design, IsThePapersPlan) {
   EXPECT_EQ(count[0], 81);
   EXPECT_EQ(count[1], 20);
   EXPECT_EQ(count[2], 20);
-  EXPECT_EQ(least_distance(request, design, Role::model) > 0, true) << "a point is there twice";
+  EXPECT_GT(least_distance(request, design, Role::model), 0) << "a point is there twice";
 }
 
 TEST(Design, IsTheSameForOneSeed) {
@@ -97,7 +99,8 @@ TEST(Design, TwoPointsInsideAreAsFarApartAsAnyTwo) {
   const auto design = plan(request);
   std::vector<OperatingPoint> grid, corners;
   for (int code = 0; code < 256; ++code) {
-    const OperatingPoint at{code % 4 / 3.0, code / 4 % 4 / 3.0, code / 16 % 4 / 3.0, code / 64 / 3.0};
+    const OperatingPoint at{code % 4 / 3.0, code / 4 % 4 / 3.0, code / 16 % 4 / 3.0,
+                            code / 64 / 3.0};
     grid.push_back(at);
   }
   for (int i = 0; i < 16; ++i) corners.push_back(design[static_cast<std::size_t>(i)].at);
@@ -138,7 +141,9 @@ TEST(Design, RefusesWhatCannotBe) {
     return message_of<InputError>([&] { plan(request); });
   };
   EXPECT_THAT(refused([](auto& r) { r.levels[1] = {50}; }), HasSubstr("torque needs at least two"));
-  EXPECT_THAT(refused([](auto& r) { r.levels[2] = {170, 120}; }),
+  EXPECT_THAT(refused([](auto& r) {
+                r.levels[2] = {170, 120};
+              }),
               HasSubstr("levels of temperature must ascend"));
   EXPECT_THAT(refused([](auto& r) { r.highest[3] = 3; }),
               HasSubstr("feasible range of closing_time"));

@@ -42,7 +42,8 @@ TEST(Tribometer, RunsThePapersCampaign) {
     EXPECT_LE(points[p], 14);
     EXPECT_EQ(run_outs[p], 1);
   }
-  EXPECT_GE(simulation.realized.back().volume, 10e-6) << "a sequence ends when the plate is worn out";
+  EXPECT_GE(simulation.realized.back().volume, 10e-6)
+      << "a sequence ends when the plate is worn out";
 }
 
 // What the balance says of a plate is what it lost, within the balance's error: 2 weighings of

@@ -22,8 +22,8 @@ WearPoints random_points(int count, std::uint64_t seed) {
   points.balance_sd = Eigen::VectorXd::Zero(count);
   for (int j = 0; j < count; ++j) {
     points.number.push_back(j + 1);
-    points.at.push_back({rng.uniform(120, 300), rng.uniform(25, 75), rng.uniform(120, 240),
-                         rng.uniform(0.9, 3.4)});
+    points.at.push_back(
+        {rng.uniform(120, 300), rng.uniform(25, 75), rng.uniform(120, 240), rng.uniform(0.9, 3.4)});
     const OperatingPoint& at = points.at.back();
     const double ds = std::pow(at.slip_speed, 0.8) * std::pow(at.closing_time, 0.4) / 100;
     points.w[j] = (5 + 8 * ds * at.torque / 50 - 3 * ds * ds + 2 * rng.normal()) * mm3_per_MJ;
@@ -88,10 +88,8 @@ TEST(ExponentSearch, AgreesWithBruteForceAtEveryPair) {
     for (const PairBest& pair : search.pairs) {
       Eigen::MatrixXd values = input_values(surrogate, pair.r, pair.q, points.at);
       if (drop_temperature) values = values(Eigen::all, std::vector<int>{0, 2}).eval();
-      const Eigen::MatrixXd columns =
-          make_design(polynomial_terms({"a", "b"}, 3), values).columns;
-      EXPECT_NEAR(pair.press / brute_force(columns, points.w), 1, 1e-8)
-          << pair.r << ' ' << pair.q;
+      const Eigen::MatrixXd columns = make_design(polynomial_terms({"a", "b"}, 3), values).columns;
+      EXPECT_NEAR(pair.press / brute_force(columns, points.w), 1, 1e-8) << pair.r << ' ' << pair.q;
       const LinearFit fit = fit_least_squares(columns(Eigen::all, pair.terms), points.w);
       EXPECT_NEAR(pair.press / fit.press, 1, 1e-8);
       EXPECT_NEAR(pair.r2p, fit.r2p, 1e-8);
@@ -119,8 +117,7 @@ TEST(ExponentSearch, FindsTheTruthWithoutNoise) {
     const double ds = std::pow(at.slip_speed, 1.2) * std::pow(at.closing_time, 0.5) / 1000;
     points.w[j] = (3 + ds * at.temperature / 50 + at.torque * at.torque / 1000) * mm3_per_MJ;
   }
-  const ExponentSearch search =
-      search_exponents(points, Surrogate::distance, {0.6, 0.9, 1.2, 0.5});
+  const ExponentSearch search = search_exponents(points, Surrogate::distance, {0.6, 0.9, 1.2, 0.5});
   const PairBest& best = search.pairs[search.best];
   EXPECT_EQ(best.r, 1.2);
   EXPECT_EQ(best.q, 0.5);
@@ -144,8 +141,7 @@ TEST(WearMap, HasThePapersBaselines) {
   EXPECT_LT((some.predict(points.at) - some.fit.fitted).cwiseAbs().maxCoeff(), 1e-9 * mm3_per_MJ);
 }
 
-// R: cor(c(1, 2, 4), c(10, 20, 10)) is 0.1889822 squared ... by hand: with w = 1, 2, 4 and
-// x = 10, 20, 10, r = -1/sqrt(28) = -0.188982236504614.
+// By hand: w = 1, 2, 4 less their mean are -4/3, -1/3, 5/3.
 TEST(Correlation, ByHand) {
   WearPoints points;
   points.w = Eigen::Vector3d(1, 2, 4);

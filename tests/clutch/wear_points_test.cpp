@@ -18,8 +18,7 @@ using testing::IsEmpty;
 /// Four cycles of 10 kJ on plate 7, weighed after two and after four.
 Campaign small_campaign() {
   Campaign campaign;
-  for (int i = 1; i <= 4; ++i)
-    campaign.cycles.push_back({7, i, {200.0 + i, 50, 170, 2}, 10e3});
+  for (int i = 1; i <= 4; ++i) campaign.cycles.push_back({7, i, {200.0 + i, 50, 170, 2}, 10e3});
   campaign.weighings = {{7, 0, 0.25, Block::start, 0, {}},
                         {7, 2, 0.25 - 3e-6, Block::run_in, 0, {}},
                         {7, 4, 0.25 - 4e-6, Block::point, 17, {}}};

@@ -23,6 +23,8 @@ struct RunInFit {
   static constexpr int size = 5;
   /// w0, w1, w2 [m^3/J], eps1, eps2 [J]; eps1 > eps2.
   Eigen::Matrix<double, size, 1> parameters;
+  /// By linearization at the fit. Errors of eps1 and eps2 are near normal on the logarithm only,
+  /// where their standard error is the relative one.
   Eigen::Matrix<double, size, size> covariance;
   RunIn run_in;
   /// Covariance of slow, fast, slow_energy, fast_energy of `run_in`.

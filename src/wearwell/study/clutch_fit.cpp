@@ -110,9 +110,16 @@ Check run_in_check(const RunInFit& fit) {
                  fmt::format("{} of {} starts reach the best fit{}", fit.agreeing, fit.starts,
                              fit.converged ? "" : ", which did not converge"),
                  "Weigh more often during run-in, or run it longer.");
-  for (int i = 1; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const double value = fit.parameters[i], error = std::sqrt(fit.covariance(i, i));
-    if (!(value > 2 * error))
+    if (value > 2 * error) continue;
+    if (i == 0)
+      findings.add(Verdict::fail,
+                   fmt::format("the settled rate w0 is {:.3g} +- {:.3g} mm^3/MJ",
+                               value / mm3_per_MJ, error / mm3_per_MJ),
+                   "Plates were not run until their wear settled: run them longer before the "
+                   "run-out.");
+    else
       findings.add(Verdict::warn,
                    fmt::format("w{} is {:.3g} +- {:.3g} mm^3/MJ, no more than 0 with certainty", i,
                                value / mm3_per_MJ, error / mm3_per_MJ),
