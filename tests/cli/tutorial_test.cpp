@@ -58,9 +58,12 @@ TEST_P(Tutorial, PrintsWhatItShows) {
   std::filesystem::remove_all(folder);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , Tutorial, testing::Values("README.md", "docs/bearing.md", "docs/joint.md", "docs/select.md"),
-    [](const auto& each) { return std::filesystem::path(each.param).stem().string(); });
+INSTANTIATE_TEST_SUITE_P(, Tutorial,
+                         testing::Values("README.md", "docs/bearing.md", "docs/clutch.md",
+                                         "docs/joint.md", "docs/select.md"),
+                         [](const auto& each) {
+                           return std::filesystem::path(each.param).stem().string();
+                         });
 
 }  // namespace
 }  // namespace wearwell

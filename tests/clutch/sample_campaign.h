@@ -1,14 +1,10 @@
 #pragma once
 
-#include <numbers>
-
 #include "wearwell/clutch/design.h"
 #include "wearwell/clutch/tribometer.h"
 #include "wearwell/clutch/wear_model.h"
 
 namespace wearwell::clutch {
-
-inline constexpr double rpm = std::numbers::pi / 30;
 
 /// The paper's plan: Haramina et al. (2025), section 2.2.
 inline DesignRequest paper_design() {

@@ -66,6 +66,7 @@ TEST_F(ColumnStreamTest, RefusesByName) {
   };
   EXPECT_THAT(refused(folder() / "none.csv", "v"), HasSubstr("no such file"));
   EXPECT_THAT(refused(write("e.csv", ""), "v"), HasSubstr("is empty"));
+  EXPECT_THAT(refused(write("h.csv", "v\n"), "v"), HasSubstr("h.csv has no rows"));
   EXPECT_THAT(refused(write("t.csv", "v\none\ntwo\n"), "v"),
               HasSubstr("column 'v' does not hold numbers"));
   // Far down, after the type of the column was guessed.

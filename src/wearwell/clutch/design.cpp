@@ -77,11 +77,13 @@ std::vector<OperatingPoint> draw_candidates(const DesignRequest& request, bool i
   return candidates;
 }
 
-/// Distance to the nearest of `points`, leaving out the one numbered `without`.
+/// Distance to the nearest of `points`, leaving out the one numbered `without`; or any that is no
+/// more than `useless`, if one is.
 double nearest(const DesignRequest& request, const OperatingPoint& at,
-               const std::vector<OperatingPoint>& points, std::size_t without) {
+               const std::vector<OperatingPoint>& points, std::size_t without,
+               double useless = -1) {
   double least = INFINITY;
-  for (std::size_t p = 0; p < points.size(); ++p) {
+  for (std::size_t p = 0; p < points.size() && least > useless; ++p) {
     if (p != without) least = std::min(least, design_distance(request, at, points[p]));
   }
   return least;
@@ -94,7 +96,7 @@ void spread(const DesignRequest& request, const std::vector<OperatingPoint>& can
     const OperatingPoint* best = nullptr;
     double most = -1;
     for (const OperatingPoint& candidate : candidates) {
-      const double distance = nearest(request, candidate, points, without);
+      const double distance = nearest(request, candidate, points, without, most);
       if (distance > most) {
         most = distance;
         best = &candidate;

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <string>
 #include <vector>
 
 namespace wearwell::clutch {
+
+/// One revolution per minute, in rad/s.
+inline constexpr double rpm = std::numbers::pi / 30;
 
 /// Conditions of one closing of the clutch, or their mean over many (Haramina et al. 2025, section
 /// 2). SI but for the temperature: submodels of a polynomial depend on where an input has its zero,

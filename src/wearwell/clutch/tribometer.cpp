@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
@@ -12,7 +11,6 @@
 namespace wearwell::clutch {
 namespace {
 
-constexpr double rpm = std::numbers::pi / 30;  // rad/s
 // Standard deviations of one cycle's conditions about the set values, relative but for temperature.
 constexpr double speed_jitter = 0.005, torque_jitter = 0.01, temperature_jitter = 1.5,
                  time_jitter = 0.01;

@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <numbers>
 #include <set>
 
 #include "wearwell/study/clutch_tables.h"
 
 namespace wearwell::clutch {
 namespace {
-
-constexpr double rpm = std::numbers::pi / 30;
 
 std::string point_in_words(const OperatingPoint& at) {
   return fmt::format("{:.6g} rpm, {:.6g} N m, {:.6g} degC, {:.6g} s", at.slip_speed / rpm,

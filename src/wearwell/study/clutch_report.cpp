@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <sstream>
 
 #include "wearwell/report/html.h"
@@ -25,7 +24,7 @@ using html::number;
 using plot::Json;
 using Numbers = std::vector<double>;
 
-constexpr double MJ = 1e6, rpm = std::numbers::pi / 30;
+constexpr double MJ = 1e6;
 constexpr const char* w_title = "wear rate w [mm³/MJ]";
 
 Numbers told(const Eigen::VectorXd& w) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "wearwell/report/text_table.h"
 #include "wearwell/study/clutch_tables.h"

@@ -5,15 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <set>
 
 #include "wearwell/base/error.h"
 
 namespace wearwell::clutch {
 namespace {
-
-constexpr double rpm = std::numbers::pi / 30;
 
 /// A column in SI, temperatures in degrees Celsius.
 std::vector<double> column(const Table& table, const Input& input) {

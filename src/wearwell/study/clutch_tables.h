@@ -29,10 +29,10 @@ std::string traces_csv(const std::vector<Sample>& samples);
 std::string closings_csv(const std::vector<Closing>& closings);
 std::string realized_csv(const std::vector<Realized>& realized);
 
-/// The unit "degC" to degrees Celsius as OperatingPoint holds them.
+/// 0 degC in K: tables are read in SI, OperatingPoint holds degrees Celsius.
 inline constexpr double celsius_zero = 273.15;
 
-/// "12.5 mm^3/MJ": how this trade's files and reports write its quantities.
+/// One mm^3 in m^3.
 inline constexpr double mm3 = 1e-9;
 
 }  // namespace wearwell::clutch

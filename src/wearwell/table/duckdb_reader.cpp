@@ -64,6 +64,15 @@ class Result {
   std::string name(idx_t column) { return duckdb_column_name(&result_, column); }
   duckdb_type type(idx_t column) { return duckdb_column_type(&result_, column); }
   duckdb_data_chunk next() { return duckdb_fetch_chunk(result_); }
+  /// Of a query for one count.
+  long long first_count() {
+    duckdb_data_chunk chunk = next();
+    const auto* count =
+        static_cast<const int64_t*>(duckdb_vector_get_data(duckdb_data_chunk_get_vector(chunk, 0)));
+    const long long value = *count;
+    duckdb_destroy_data_chunk(&chunk);
+    return value;
+  }
 
  private:
   duckdb_result result_;
@@ -263,8 +272,13 @@ void ColumnStream::select(const std::vector<std::string>& columns) {
   for (const std::string& column : columns) {
     const auto at = std::find(state_->headings.begin(), state_->headings.end(), column);
     if (at == state_->headings.end() ||
-        !state_->is_numeric[static_cast<std::size_t>(at - state_->headings.begin())])
-      throw InputError(fmt::format("{}: column '{}' does not hold numbers", source(), column));
+        !state_->is_numeric[static_cast<std::size_t>(at - state_->headings.begin())]) {
+      // Without rows there is nothing to tell numbers by.
+      Result any(state_->database, "select count(*) from (select 1 from data limit 1)", source());
+      throw InputError(any.first_count() == 0 ? fmt::format("{} has no rows", source())
+                                              : fmt::format("{}: column '{}' does not hold numbers",
+                                                            source(), column));
+    }
     selected.push_back(fmt::format("cast({} as double)", quoted(column, '"')));
   }
   const std::string query = fmt::format("select {} from data", fmt::join(selected, ", "));

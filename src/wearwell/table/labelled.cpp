@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 
@@ -33,9 +35,12 @@ LabelledColumn find_labelled(const std::vector<std::string>& headings, std::stri
       throw InputError(fmt::format("{}, column '{}': {}", source, heading, error.what()));
     }
   }
+  std::vector<std::string> names;
+  for (const std::string& heading : headings) names.emplace_back(name_part(heading));
+  const auto nearest = std::find(names.begin(), names.end(), nearest_name(name, names));
   throw InputError(fmt::format("{} has no column '{}{}' (nearest: '{}')", source, name,
                                si == "1" ? "" : fmt::format(" [{}]", si),
-                               nearest_name(name, headings)));
+                               headings[static_cast<std::size_t>(nearest - names.begin())]));
 }
 
 LabelledColumn find_labelled(const Table& table, std::string_view name, std::string_view si) {
