@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "wearwell/study/clutch_describe.h"
 #include "wearwell/study/describe.h"
 
 namespace wearwell {
@@ -16,7 +17,9 @@ void add_check_command(CLI::App& app, int& exit_code) {
   check->add_option("STUDY", *study, "Study file (TOML)")->required();
   check->footer("Example:\n  wearwell check examples/joint/study.toml");
   check->callback([study, &exit_code] {
-    fmt::print("{}", study_in_words(read_study(*study)));
+    fmt::print("{}", clutch::is_clutch_study(*study)
+                         ? clutch::study_in_words(clutch::read_clutch_study(*study))
+                         : study_in_words(read_study(*study)));
     exit_code = 0;
   });
 }

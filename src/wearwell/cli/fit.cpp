@@ -6,13 +6,16 @@
 #include <cstdio>
 #include <memory>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/progress.h"
+#include "wearwell/cli/clutch_fit.h"
 #include "wearwell/report/csv.h"
 #include "wearwell/report/json.h"
 #include "wearwell/report/plots_json.h"
 #include "wearwell/report/report.h"
 #include "wearwell/report/result_folder.h"
 #include "wearwell/report/terminal.h"
+#include "wearwell/study/clutch_study.h"
 #include "wearwell/study/run_study.h"
 
 namespace wearwell {
@@ -26,10 +29,20 @@ struct FitOptions {
 };
 
 int run_fit(const FitOptions& options) {
+  const std::filesystem::path output =
+      options.output.empty() ? std::filesystem::path(options.study.stem().string() + "-results")
+                             : options.output;
+  if (clutch::is_clutch_study(options.study)) {
+    const SamplerChoice& sampler = options.sampler;
+    if (sampler.method || sampler.chains || sampler.draws || sampler.warmup || sampler.seed)
+      throw InputError(
+          "--method, --chains, --draws, --warmup and --seed are for studies that sample a "
+          "posterior; a clutch study has its seeds in the study file");
+    return clutch::fit_clutch_study(
+        {options.study, output, options.threads, options.json, options.quiet, options.no_report});
+  }
   const Study study = read_study(options.study);
-  ResultFolder folder(options.output.empty()
-                          ? std::filesystem::path(options.study.stem().string() + "-results")
-                          : options.output);
+  ResultFolder folder(output);
   const StudyResult result = [&] {
     const bool shown = !options.quiet && isatty(STDERR_FILENO);
     Progress progress(shown ? stderr : nullptr, "iterations");

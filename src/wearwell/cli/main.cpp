@@ -6,6 +6,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/cli/bearing.h"
 #include "wearwell/cli/check.h"
+#include "wearwell/cli/clutch.h"
 #include "wearwell/cli/compare.h"
 #include "wearwell/cli/fit.h"
 #include "wearwell/cli/new.h"
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", WEARWELL_VERSION);
   add_fit_command(app, exit_code);
   add_bearing_command(app);
+  add_clutch_command(app, exit_code);
   add_select_command(app, exit_code);
   add_check_command(app, exit_code);
   add_compare_command(app, exit_code);

@@ -14,6 +14,10 @@ namespace wearwell {
 namespace {
 
 void rebuild(const std::filesystem::path& folder) {
+  if (std::filesystem::exists(folder / "model.json"))
+    throw InputError(fmt::format(
+        "{} holds a clutch study, whose report is written by wearwell fit only: fit it again",
+        folder.string()));
   const StudyResult result = read_result(folder);
   if (!result.plots) {
     throw InputError(

@@ -20,6 +20,7 @@ bool is_result(const std::string& name) {
                            "study.toml", "models.csv"}) {
     if (name == file) return true;
   }
+  if (name == "model.json") return true;
   return name.starts_with("draws_") && name.ends_with(".csv");
 }
 

@@ -15,6 +15,9 @@ std::string_view joint_study();
 std::string_view joint_data();
 std::string_view bearing_study();
 std::string_view bearing_data();
+std::string_view clutch_study();
+std::string_view clutch_design();
+std::string_view clutch_truth();
 std::string_view fatigue_study();
 std::string_view fatigue_data();
 
@@ -35,13 +38,16 @@ constexpr StudyFile files[] = {{"joint", "study.toml", resource::joint_study},
                                {"joint", "joint_wear.csv", resource::joint_data},
                                {"bearing", "study.toml", resource::bearing_study},
                                {"bearing", "inspections.csv", resource::bearing_data},
+                               {"clutch", "study.toml", resource::clutch_study},
+                               {"clutch", "design.csv", resource::clutch_design},
+                               {"clutch", "truth.toml", resource::clutch_truth},
                                {"fatigue", "study.toml", resource::fatigue_study},
                                {"fatigue", "tests.csv", resource::fatigue_data}};
 
 }  // namespace
 
 std::vector<std::string> new_study_trades() {
-  return {"joint", "bearing", "fatigue"};
+  return {"joint", "bearing", "clutch", "fatigue"};
 }
 
 fs::path write_new_study(const std::string& trade, const fs::path& folder) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/replace.hpp>
@@ -11,6 +12,7 @@
 #include <set>
 
 #include "wearwell/base/error.h"
+#include "wearwell/table/column_stream.h"
 #include "wearwell/table/table.h"
 
 namespace wearwell {
@@ -62,6 +64,15 @@ class Result {
   std::string name(idx_t column) { return duckdb_column_name(&result_, column); }
   duckdb_type type(idx_t column) { return duckdb_column_type(&result_, column); }
   duckdb_data_chunk next() { return duckdb_fetch_chunk(result_); }
+  /// Of a query for one count.
+  long long first_count() {
+    duckdb_data_chunk chunk = next();
+    const auto* count =
+        static_cast<const int64_t*>(duckdb_vector_get_data(duckdb_data_chunk_get_vector(chunk, 0)));
+    const long long value = *count;
+    duckdb_destroy_data_chunk(&chunk);
+    return value;
+  }
 
  private:
   duckdb_result result_;
@@ -147,8 +158,12 @@ void check_readable(const std::filesystem::path& file, const std::string& source
 void append_numbers(duckdb_vector vector, idx_t count, std::vector<double>& out) {
   const auto* data = static_cast<const double*>(duckdb_vector_get_data(vector));
   uint64_t* valid = duckdb_vector_get_validity(vector);
+  if (!valid) {
+    out.insert(out.end(), data, data + count);
+    return;
+  }
   for (idx_t i = 0; i < count; ++i) {
-    const bool present = !valid || duckdb_validity_row_is_valid(valid, i);
+    const bool present = duckdb_validity_row_is_valid(valid, i);
     out.push_back(present ? data[i] : std::numeric_limits<double>::quiet_NaN());
   }
 }
@@ -163,22 +178,27 @@ void append_text(duckdb_vector vector, idx_t count, std::vector<std::string>& ou
   }
 }
 
-}  // namespace
-
-Table read_table(const std::filesystem::path& file, const std::optional<std::string>& sql) {
+/// Makes the file the view `data`.
+void open_view(const Database& database, const std::filesystem::path& file,
+               const std::string& source) {
   const std::string path = file.string();
-  Table table;
-  table.source = path;
-  check_readable(file, table.source);
-
-  const Database database;
-  if (is_csv(path)) refuse_duplicate_names(database, path, table.source);
+  check_readable(file, source);
+  if (is_csv(path)) refuse_duplicate_names(database, path, source);
   const std::string literal = quoted(path, '\'');
   const std::string reader =
       is_csv(path) ? fmt::format("read_csv({}, header = true, auto_type_candidates = {})", literal,
                                  csv_types)
                    : literal;
-  Result(database, fmt::format("create view data as select * from {}", reader), table.source);
+  Result(database, fmt::format("create view data as select * from {}", reader), source);
+}
+
+}  // namespace
+
+Table read_table(const std::filesystem::path& file, const std::optional<std::string>& sql) {
+  Table table;
+  table.source = file.string();
+  const Database database;
+  open_view(database, file, table.source);
   const std::string query = sql ? *sql : "select * from data";
   if (sql) table.source += " (through sql)";
   Result(database, "create temp table result as " + query, table.source);
@@ -211,6 +231,90 @@ Table read_table(const std::filesystem::path& file, const std::optional<std::str
   }
   if (table.rows == 0) throw InputError(fmt::format("{} has no rows", table.source));
   return table;
+}
+
+/// Rows come as they are asked for instead of all at once.
+struct ColumnStream::State {
+  std::string source;
+  Database database;
+  std::vector<std::string> headings;
+  std::vector<bool> is_numeric;
+  duckdb_prepared_statement statement = nullptr;
+  duckdb_result result{};
+  bool running = false;
+  std::size_t rows_seen = 0;
+
+  ~State() {
+    if (running) duckdb_destroy_result(&result);
+    if (statement) duckdb_destroy_prepare(&statement);
+  }
+  [[noreturn]] void fail(const char* message) const {
+    throw InputError(fmt::format("{}: {}", source, first_line(message)));
+  }
+};
+
+ColumnStream::ColumnStream(const std::filesystem::path& file) : state_(std::make_unique<State>()) {
+  state_->source = file.string();
+  open_view(state_->database, file, state_->source);
+  Result header(state_->database, "select * from data limit 0", state_->source);
+  for (idx_t c = 0; c < header.columns(); ++c) {
+    state_->headings.push_back(header.name(c));
+    state_->is_numeric.push_back(is_number(header.type(c)));
+  }
+}
+
+ColumnStream::~ColumnStream() = default;
+
+const std::string& ColumnStream::source() const {
+  return state_->source;
+}
+const std::vector<std::string>& ColumnStream::headings() const {
+  return state_->headings;
+}
+
+void ColumnStream::select(const std::vector<std::string>& columns) {
+  std::vector<std::string> selected;
+  for (const std::string& column : columns) {
+    const auto at = std::find(state_->headings.begin(), state_->headings.end(), column);
+    if (at == state_->headings.end() ||
+        !state_->is_numeric[static_cast<std::size_t>(at - state_->headings.begin())]) {
+      // Without rows there is nothing to tell numbers by.
+      Result any(state_->database, "select count(*) from (select 1 from data limit 1)", source());
+      throw InputError(any.first_count() == 0 ? fmt::format("{} has no rows", source())
+                                              : fmt::format("{}: column '{}' does not hold numbers",
+                                                            source(), column));
+    }
+    selected.push_back(fmt::format("cast({} as double)", quoted(column, '"')));
+  }
+  const std::string query = fmt::format("select {} from data", fmt::join(selected, ", "));
+  if (duckdb_prepare(state_->database.connection(), query.c_str(), &state_->statement) !=
+      DuckDBSuccess)
+    state_->fail(duckdb_prepare_error(state_->statement));
+  if (duckdb_execute_prepared_streaming(state_->statement, &state_->result) != DuckDBSuccess) {
+    const std::string message = first_line(duckdb_result_error(&state_->result));
+    duckdb_destroy_result(&state_->result);
+    state_->fail(message.c_str());
+  }
+  state_->running = true;
+}
+
+bool ColumnStream::next(Batch& batch) {
+  duckdb_data_chunk chunk = duckdb_fetch_chunk(state_->result);
+  if (!chunk) {
+    const char* message = duckdb_result_error(&state_->result);
+    if (message && *message) state_->fail(message);
+    return false;
+  }
+  batch.first_row = state_->rows_seen;
+  batch.rows = duckdb_data_chunk_get_size(chunk);
+  batch.columns.resize(duckdb_data_chunk_get_column_count(chunk));
+  for (idx_t c = 0; c < batch.columns.size(); ++c) {
+    batch.columns[c].clear();
+    append_numbers(duckdb_data_chunk_get_vector(chunk, c), batch.rows, batch.columns[c]);
+  }
+  state_->rows_seen += batch.rows;
+  duckdb_destroy_data_chunk(&chunk);
+  return batch.rows > 0 || next(batch);
 }
 
 }  // namespace wearwell

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace wearwell {
+
+/// `wearwell clutch design|simulate|features|predict|life|compare`.
+void add_clutch_command(CLI::App& app, int& exit_code);
+
+}  // namespace wearwell

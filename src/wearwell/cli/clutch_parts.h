@@ -1,0 +1,15 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// The subcommands of `wearwell clutch`, one file each.
+namespace wearwell::clutch {
+
+void add_design_command(CLI::App& clutch);
+void add_simulate_command(CLI::App& clutch);
+void add_features_command(CLI::App& clutch, int& exit_code);
+void add_predict_command(CLI::App& clutch);
+void add_life_command(CLI::App& clutch);
+void add_compare_command(CLI::App& clutch);
+
+}  // namespace wearwell::clutch

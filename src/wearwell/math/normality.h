@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace wearwell {
+
+struct KolmogorovTest {
+  double distance = 0;  ///< largest between the empirical and the normal distribution function
+  double p = 0;         ///< probability of a larger one when the law is right
+};
+
+/// Kolmogorov-Smirnov test of values against N(0, 1). The p value is exact (Marsaglia, Tsang and
+/// Wang 2003, J. Stat. Software 8(18)). `values` is not empty.
+KolmogorovTest kolmogorov_test(std::vector<double> values);
+
+/// The same distance after the values are standardized by their own mean and standard deviation
+/// (Lilliefors 1967); its p value is the share of 10,000 normal samples with a larger one, so it
+/// has a standard error of up to 0.005. At least four values that are not all the same.
+KolmogorovTest lilliefors_test(std::vector<double> values, std::uint64_t seed = 1);
+
+/// Points of a normal probability plot: values in ascending order against the normal quantiles of
+/// (i - 1/2)/n.
+struct NormalPlot {
+  std::vector<double> quantile, value;
+};
+NormalPlot normal_plot(std::vector<double> values);
+
+/// P(D_n < d) of the two-sided Kolmogorov statistic of n values.
+double kolmogorov_cdf(int n, double d);
+
+}  // namespace wearwell

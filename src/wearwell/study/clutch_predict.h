@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "wearwell/clutch/cycle_sum.h"
+
+namespace wearwell::clutch {
+
+/// Runs the cycles of a file (columns of read_cycles; CSV, Parquet, JSON) through `sum`, in
+/// batches: memory does not grow with the file. `trace`, when not null, takes one line of CSV for
+/// every `every`-th cycle of the file: plate, cycle, volume, sd by scatter, inputs outside the range
+/// of validity. `threads`: 0 for all. Returns the number of cycles. Throws InputError naming file,
+/// row and column; then `sum` holds part of the file.
+std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum, std::FILE* trace = nullptr,
+                       std::size_t every = 1, int threads = 0);
+
+/// Cycles as CycleSum takes them.
+CycleColumns columns_of(const std::vector<Cycle>& cycles, std::size_t first, std::size_t last);
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,504 @@
+#include "wearwell/study/clutch_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "wearwell/report/html.h"
+#include "wearwell/report/page.h"
+#include "wearwell/report/plot.h"
+#include "wearwell/study/clutch_tables.h"
+#include "wearwell/study/fingerprint.h"
+
+namespace wearwell::clutch {
+namespace {
+
+namespace colour = plot::colour;
+using html::escape;
+using html::Figure;
+using html::number;
+using plot::Json;
+using Numbers = std::vector<double>;
+
+constexpr double MJ = 1e6;
+constexpr const char* w_title = "wear rate w [mm³/MJ]";
+
+Numbers told(const Eigen::VectorXd& w) {
+  Numbers values;
+  for (const double each : w) values.push_back(each / mm3_per_MJ);
+  return values;
+}
+
+Numbers as_numbers(const std::vector<int>& values) {
+  return {values.begin(), values.end()};
+}
+
+std::string percent(double share, int digits = 1) {
+  return fmt::format("{:.{}f}\u00a0%", 100 * share, digits);
+}
+
+/// Fig. 6: wear rates during run-in, each relative to its plate, and the fitted curve.
+Figure run_in_figure(const ClutchResult& r) {
+  Numbers energy, w;
+  for (const WornBlock& b : r.blocks.blocks) {
+    if (b.block != Block::run_in) continue;
+    double factor = 1;
+    for (const PlateFactor& p : r.run_in.plates) {
+      if (p.plate == b.plate) factor = p.factor();
+    }
+    energy.push_back((b.energy_before + 0.5 * b.energy) / MJ);
+    w.push_back(b.w / factor / mm3_per_MJ);
+  }
+  const double most = energy.empty() ? 1 : *std::max_element(energy.begin(), energy.end());
+  Numbers x, y;
+  for (int i = 0; i <= 300; ++i) {
+    x.push_back(most * std::pow(i / 300.0, 2));
+    y.push_back(r.run_in.parameters[0] * r.run_in.run_in.g(x.back() * MJ) / mm3_per_MJ);
+  }
+  return {"run-in", "Run-in",
+          "Wear rate of each weighed block against the energy that its plate has taken up, and the "
+          "curve w0 + w1 exp(−Ec/eps1) + w2 exp(−Ec/eps2) fitted to all plates together.",
+          plot::plot("Wear rate falls with energy during run-in", {"energy Ec [MJ]"}, {w_title},
+                     {plot::points({{"x", energy}, {"y", w}, {"energy", energy}, {"rate", w}},
+                                   {colour::measured, "measured", 0.55}),
+                      plot::line({{"x", x}, {"y", y}}, {colour::posterior, "fitted"})})};
+}
+
+/// Fig. 11: the best R2p at every pair of exponents.
+Figure exponent_figure(const ExponentSearch& search) {
+  Numbers x, x2, y, y2, density, r, q, r2p;
+  double low = INFINITY, high = -INFINITY;
+  for (const PairBest& pair : search.pairs) {
+    low = std::min(low, pair.r2p);
+    high = std::max(high, pair.r2p);
+  }
+  const auto& e = search.exponents;
+  const double half = e.size() > 1 ? 0.5 * (e[1] - e[0]) : 0.05;
+  for (const PairBest& pair : search.pairs) {
+    x.push_back(pair.r - half);
+    x2.push_back(pair.r + half);
+    y.push_back(pair.q - half);
+    y2.push_back(pair.q + half);
+    density.push_back(high > low ? 0.05 + 0.95 * (pair.r2p - low) / (high - low) : 1);
+    r.push_back(pair.r);
+    q.push_back(pair.q);
+    r2p.push_back(pair.r2p);
+  }
+  const PairBest& best = search.pairs[search.best];
+  return {"exponents", "Exponents of the surrogate input",
+          fmt::format("R2p of the best submodel at each pair of exponents of ds = ω₀^r t₂^q: the "
+                      "darker, the higher, from {:.3f} to {:.3f}. The point is the best.",
+                      low, high),
+          plot::plot(
+              "R2p over the exponents r and q", {"r"}, {"q"},
+              {plot::cells(
+                   {{"x", x}, {"x2", x2}, {"y", y}, {"y2", y2}, {"density", density}, {"r2p", r2p}},
+                   {colour::posterior}),
+               plot::points({{"x", {best.r}}, {"y", {best.q}}, {"r2p", {best.r2p}}},
+                            {colour::measured, "best"})})};
+}
+
+/// Figs. 13 and 14: measured against predicted.
+Figure parity_figure(const ClutchResult& r) {
+  const Numbers fitted = told(r.maps.front().fit.fitted), measured = told(r.points.w);
+  Numbers x, y, point;
+  for (const ValidationPoint& p : r.validation.points) {
+    x.push_back(p.predicted / mm3_per_MJ);
+    y.push_back(p.measured / mm3_per_MJ);
+    point.push_back(p.number);
+  }
+  const double high = *std::max_element(measured.begin(), measured.end());
+  std::vector<Json> marks = {
+      plot::line({{"x", {0, high}}, {"y", {0, high}}}, {colour::prior, "equal", 1, 1.5, true}),
+      plot::points({{"x", fitted},
+                    {"y", measured},
+                    {"point", as_numbers(r.points.number)},
+                    {"measured", measured},
+                    {"predicted", fitted}},
+                   {colour::posterior, "modelled with", 0.7})};
+  if (!x.empty())
+    marks.push_back(
+        plot::points({{"x", x}, {"y", y}, {"point", point}, {"measured", y}, {"predicted", x}},
+                     {colour::measured, "held out", 0.9}));
+  return {"parity", "Measured and predicted wear rates",
+          "Each point of the design, compensated for run-in and plate. Held-out points were not "
+          "fitted to.",
+          plot::plot("Measured against predicted wear rates", {"predicted [mm³/MJ]"},
+                     {"measured [mm³/MJ]"}, std::move(marks))};
+}
+
+/// Fig. 15, as heat maps: wear rate over slip speed and torque at each temperature.
+std::vector<Figure> map_figures(const ClutchStudy& study, const ClutchResult& r) {
+  const WearPolynomial w = r.model.polynomial();
+  OperatingPoint at = r.model.lowest;
+  at.closing_time = 0.5 * (r.model.lowest.closing_time + r.model.highest.closing_time);
+  std::vector<double> temperatures;
+  for (const DesignPoint& p : study.campaign.design) {
+    const double t = p.at.temperature;
+    if (p.role == Role::model &&
+        std::find(temperatures.begin(), temperatures.end(), t) == temperatures.end())
+      temperatures.push_back(t);
+  }
+  std::sort(temperatures.begin(), temperatures.end());
+  constexpr int cells = 24;
+  struct Grid {
+    double temperature;
+    Numbers x, x2, y, y2, rate;
+  };
+  std::vector<Grid> grids;
+  double most = 0;
+  for (const double temperature : temperatures) {
+    Grid grid{temperature, {}, {}, {}, {}, {}};
+    at.temperature = temperature;
+    for (int i = 0; i < cells; ++i) {
+      for (int j = 0; j < cells; ++j) {
+        const auto edge = [&](double OperatingPoint::*value, double share) {
+          return std::lerp(r.model.lowest.*value, r.model.highest.*value, share / cells);
+        };
+        at.slip_speed = edge(&OperatingPoint::slip_speed, i + 0.5);
+        at.torque = edge(&OperatingPoint::torque, j + 0.5);
+        grid.x.push_back(edge(&OperatingPoint::slip_speed, i) / rpm);
+        grid.x2.push_back(edge(&OperatingPoint::slip_speed, i + 1) / rpm);
+        grid.y.push_back(edge(&OperatingPoint::torque, j));
+        grid.y2.push_back(edge(&OperatingPoint::torque, j + 1));
+        grid.rate.push_back(w(at) / mm3_per_MJ);
+        most = std::max(most, grid.rate.back());
+      }
+    }
+    grids.push_back(std::move(grid));
+  }
+  std::vector<Figure> figures;
+  for (const Grid& grid : grids) {
+    Numbers density;
+    for (const double rate : grid.rate) density.push_back(std::clamp(rate / most, 0.0, 1.0));
+    const auto [low, high] = std::minmax_element(grid.rate.begin(), grid.rate.end());
+    figures.push_back(
+        {fmt::format("map-{:.0f}", grid.temperature),
+         fmt::format("Wear rate at {:g} °C", grid.temperature),
+         fmt::format(
+             "At a closing time of {:.3g} s: from {:.3g} to {:.3g} mm³/MJ here; the darkest "
+             "of all temperatures is {:.3g}.",
+             at.closing_time, *low, *high, most),
+         plot::plot(fmt::format("Wear rate at {:g} degrees", grid.temperature),
+                    {"slip speed [rpm]"}, {"torque [N m]"},
+                    {plot::cells({{"x", grid.x},
+                                  {"x2", grid.x2},
+                                  {"y", grid.y},
+                                  {"y2", grid.y2},
+                                  {"density", density},
+                                  {"rate", grid.rate}},
+                                 {colour::measured})})});
+  }
+  return figures;
+}
+
+/// Figs. 7 and 17: normal probability plot of scaled residuals.
+Figure normal_figure(const ClutchResult& r) {
+  const Eigen::VectorXd scaled = scaled_residuals(r.points, r.maps.front(), r.scatter_fit().law);
+  const NormalPlot points = normal_plot({scaled.begin(), scaled.end()});
+  return {"normal", "Are scaled residuals normal?",
+          "Residuals over their standard deviation in order, against normal quantiles: on the line "
+          "when the scatter is right.",
+          plot::plot("Normal probability plot", {"normal quantile"}, {"scaled residual"},
+                     {plot::line({{"x", {-3, 3}}, {"y", {-3, 3}}},
+                                 {colour::prior, "N(0, 1)", 1, 1.5, true}),
+                      plot::points({{"x", points.quantile}, {"y", points.value}},
+                                   {colour::posterior, "points of the design"})})};
+}
+
+/// Fig. 16: size of residuals and the fitted scatter.
+Figure scatter_figure(const ClutchResult& r) {
+  const Eigen::VectorXd& mean = r.maps.front().fit.fitted;
+  Numbers x, size, sigma;
+  for (Eigen::Index j = 0; j < mean.size(); ++j) {
+    x.push_back(mean[j] / mm3_per_MJ);
+    size.push_back(std::abs(r.maps.front().fit.residuals[j]) * std::sqrt(r.points.cycles[j]) /
+                   mm3_per_MJ);
+    sigma.push_back(r.scatter_fit().law.formula(mean[j], r.points.at[static_cast<std::size_t>(j)]) /
+                    mm3_per_MJ);
+  }
+  return {
+      "scatter", "Scatter of one cycle",
+      fmt::format("Residuals times the root of their cycles, and sigma_w = {}.",
+                  formula_of(r.scatter_fit().law.kind)),
+      plot::plot("Scatter against wear rate", {w_title}, {"scatter [mm³/MJ]"},
+                 {plot::points({{"x", x}, {"y", size}}, {colour::measured, "|residual| √n", 0.6}),
+                  plot::points({{"x", x}, {"y", sigma}},
+                               {colour::posterior, "sigma_w", 1, 0, false, 30})})};
+}
+
+/// Fig. 18: worn volume along a sequence.
+Figure sequence_figure(const SequenceResult& s) {
+  Numbers x = {0}, mean = {0}, low = {0}, high = {0}, full_low = {0}, full_high = {0}, at, measured;
+  for (const auto& w : s.weighings) {
+    x.push_back(static_cast<double>(w.cycle));
+    mean.push_back(w.predicted / mm3);
+    low.push_back((w.predicted - 2 * w.sd) / mm3);
+    high.push_back((w.predicted + 2 * w.sd) / mm3);
+    full_low.push_back((w.predicted - 2 * w.full_sd) / mm3);
+    full_high.push_back((w.predicted + 2 * w.full_sd) / mm3);
+    at.push_back(x.back());
+    measured.push_back(w.measured / mm3);
+  }
+  return {"sequence-" + s.name, fmt::format("Worn volume, {} sequence", s.name),
+          fmt::format("Predicted cycle by cycle from the new plate. At the end the prediction is "
+                      "off by {}. The inner band is the scatter of cycles, the outer one all that "
+                      "is uncertain (95 %).",
+                      percent(s.final_error())),
+          plot::plot("Worn volume against cycles", {"cycles"}, {"worn volume [mm³]"},
+                     {plot::area({{"x", x}, {"y", full_high}, {"y2", full_low}},
+                                 {colour::wide, "95 %, all", 0.28}),
+                      plot::area({{"x", x}, {"y", high}, {"y2", low}},
+                                 {colour::posterior, "95 %, scatter", 0.38}),
+                      plot::line({{"x", x}, {"y", mean}}, {colour::posterior}),
+                      plot::points({{"x", at}, {"y", measured}, {"measured", measured}},
+                                   {colour::measured, "weighed"})},
+                     280, true)};
+}
+
+/// Fig. 20: relative width of the interval against the wear level.
+Figure width_figure(const ClutchResult& r) {
+  std::vector<Json> marks;
+  std::size_t c = 0;
+  for (const NamedLife& each : r.lives) {
+    Numbers levels;
+    for (int i = 1; i <= 60; ++i) levels.push_back(i / 50.0);
+    const Cycle cycle{1, 1, each.at, closing_energy(each.at)};
+    const Life life = predict_life(r.model, {cycle}, levels);
+    Numbers x, scatter, full;
+    for (const LifeAtLevel& at : life.levels) {
+      x.push_back(100 * at.level);
+      scatter.push_back(100 * at.relative);
+      full.push_back(100 * at.full_relative);
+    }
+    const char* paint = colour::chains[c++ % std::size(colour::chains)];
+    marks.push_back(plot::line({{"x", x}, {"y", scatter}}, {paint, each.name + ", scatter"}));
+    marks.push_back(
+        plot::line({{"x", x}, {"y", full}}, {paint, each.name + ", all", 0.7, 2, true}));
+  }
+  return {"width", "Width of the interval",
+          "Half width of the 95 % interval of the volume, relative to the volume, when a level of "
+          "wear is reached. The scatter of cycles averages out; what is not known of the map, the "
+          "run-in and the plate does not.",
+          plot::plot("Relative interval width against wear level", {"worn [%]"},
+                     {"± of the volume [%]"}, std::move(marks))};
+}
+
+std::string checks_table(const ClutchResult& r) {
+  static constexpr const char* kinds[] = {"pass", "warn", "fail"};
+  static constexpr const char* words[] = {"Passed", "Warning", "Failed"};
+  html::Table table{"Checks", {"Check", "Verdict", "What was found"}, {}, true};
+  for (const Check& check : r.checks) {
+    const auto v = static_cast<std::size_t>(check.verdict);
+    std::string found = escape(html::raised(check.detail));
+    if (!check.advice.empty()) found += fmt::format("<br><em>{}</em>", escape(check.advice));
+    table.rows.push_back({escape(check.name),
+                          fmt::format("<span class=\"badge {}\">{}</span>", kinds[v], words[v]),
+                          found});
+  }
+  return html::table(table);
+}
+
+std::string verdict_section(const ClutchStudy& study, const ClutchResult& r) {
+  std::string out;
+  if (study.simulated)
+    out += html::callout("warn", "Simulated.",
+                         "This campaign was simulated from a known truth; no measurement stands "
+                         "behind it.");
+  const WearMap& map = r.maps.front();
+  std::string sentence =
+      fmt::format("The wear rate follows {} terms of slip, temperature and torque with R2p {:.3f}",
+                  map.terms.size(), map.fit.r2p);
+  for (const SequenceResult& s : r.sequences)
+    sentence += fmt::format("; the {} sequence ends {:+.1f} % from what was weighed", s.name,
+                            100 * s.final_error());
+  out += fmt::format("<p class=\"verdict\">{}.</p>\n", escape(sentence));
+  std::string failed;
+  bool warned = false;
+  for (const Check& check : r.checks) {
+    if (check.verdict == Verdict::fail) failed += (failed.empty() ? "" : ", ") + check.name;
+    warned = warned || check.verdict == Verdict::warn;
+  }
+  out += !r.trusted ? html::callout("fail", "Not trusted.", "Failed: " + failed + ".")
+         : warned   ? html::callout("warn", "Trusted, with a warning.",
+                                    "No check failed; look at those that warn.")
+                    : html::callout("pass", "Trusted.",
+                                    fmt::format("All {} checks passed.", r.checks.size()));
+  std::vector<html::Tile> tiles;
+  for (const NamedLife& each : r.lives) {
+    const LifeAtLevel& at = each.life.levels.back();
+    tiles.push_back({fmt::format("Life, {}", each.name), fmt::format("{:.0f}", at.repetitions),
+                     "cycles",
+                     fmt::format("to {:g} % worn; volume known to ± {}", 100 * at.level,
+                                 percent(at.full_relative))});
+  }
+  tiles.push_back(
+      {"R2p", fmt::format("{:.3f}", map.fit.r2p), "",
+       fmt::format("linear {:.3f}, full cubic {:.3f}", r.maps[1].fit.r2p, r.maps[2].fit.r2p)});
+  tiles.push_back(
+      {"Plate to plate", percent(r.run_in.plate_sd), "", "standard deviation of a plate's factor"});
+  return out + html::tiles(tiles);
+}
+
+std::string prediction_section(const ClutchResult& r) {
+  std::vector<Figure> figures;
+  for (const SequenceResult& s : r.sequences) figures.push_back(sequence_figure(s));
+  if (!r.lives.empty()) figures.push_back(width_figure(r));
+  std::string out = html::figures(figures);
+  html::Table table{"Life",
+                    {"Operating point", "Worn", "Cycles", "Without run-in", "95 %, scatter [mm³]",
+                     "of the volume", "95 %, all [mm³]", "of the volume"},
+                    {}};
+  for (const NamedLife& each : r.lives) {
+    for (const LifeAtLevel& at : each.life.levels)
+      table.rows.push_back({escape(each.name), percent(at.level, 0),
+                            fmt::format("{:.0f}", at.repetitions),
+                            fmt::format("{:.0f}", at.without_run_in),
+                            "± " + number(2 * at.sd / mm3, 3), percent(at.relative),
+                            "± " + number(2 * at.full_sd / mm3, 3), percent(at.full_relative)});
+  }
+  if (!table.rows.empty()) out += html::table(table);
+  return out + fmt::format(
+                   "<p>Averaging the inputs over a point instead of summing its cycles "
+                   "changes the predicted volume of the whole campaign by {}.</p>\n",
+                   percent(r.averaging.total, 3));
+}
+
+std::string map_section(const ClutchStudy& study, const ClutchResult& r) {
+  std::vector<Figure> figures = {parity_figure(r), exponent_figure(r.search)};
+  for (Figure& each : map_figures(study, r)) figures.push_back(std::move(each));
+  std::string out = html::figures(figures);
+  html::Table correlations{"Correlation of the wear rate with each input", {"Input", "r"}, {}};
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    correlations.rows.push_back({inputs[i].symbol, fmt::format("{:.3f}", r.correlations[i])});
+  html::Table models{
+      "Models", {"Model", "R2", "R2p", "RMSE, relative", "RMSEp, relative", "Terms"}, {}};
+  const double unit = r.maps.front().fit.rmse;
+  for (const WearMap& map : r.maps)
+    models.rows.push_back(
+        {escape(map.name), fmt::format("{:.3f}", map.fit.r2), fmt::format("{:.3f}", map.fit.r2p),
+         fmt::format("{:.3f}", map.fit.rmse / unit), fmt::format("{:.3f}", map.fit.rmsep / unit),
+         fmt::format("{}", map.terms.size())});
+  html::Table terms{"Selected terms, each scaled to [0, 1]",
+                    {"Term", "Coefficient [mm³/MJ]", "Standard error"},
+                    {}};
+  for (std::size_t j = 0; j < r.model.terms.size(); ++j) {
+    const auto at = static_cast<Eigen::Index>(j);
+    terms.rows.push_back({escape(r.model.terms[j].name),
+                          number(r.model.terms[j].coefficient / mm3_per_MJ),
+                          number(std::sqrt(r.model.covariance(at, at)) / mm3_per_MJ, 3)});
+  }
+  html::Table surrogate{"Surrogate inputs, best R2p",
+                        {"Surrogate", "r", "q", "R2p", "Mean over temperature levels"},
+                        {}};
+  for (const SurrogateResult& s : r.surrogates)
+    surrogate.rows.push_back({name_of(s.surrogate), fmt::format("{:.1f}", s.best.r),
+                              fmt::format("{:.1f}", s.best.q), fmt::format("{:.3f}", s.best.r2p),
+                              s.r2p.empty() ? "–" : fmt::format("{:.3f}", s.mean_r2p)});
+  out +=
+      html::table(correlations) + html::table(models) + html::table(terms) + html::table(surrogate);
+  if (r.validation.points.empty()) return out;
+  html::Table validation{"Held-out points",
+                         {"Point", "Measured [mm³/MJ]", "Predicted", "Studentized residual", ""},
+                         {}};
+  for (const ValidationPoint& p : r.validation.points)
+    validation.rows.push_back({fmt::format("{}", p.number), number(p.measured / mm3_per_MJ, 3),
+                               number(p.predicted / mm3_per_MJ, 3), fmt::format("{:+.2f}", p.t),
+                               p.outlier ? "outlier" : ""});
+  html::Table measures{"Held-out points together", {"", "Points", "R2", "RMSE [mm³/MJ]"}, {}};
+  const auto add = [&](const char* name, const Validation::Metrics& m) {
+    measures.rows.push_back({name, fmt::format("{}", m.points), fmt::format("{:.3f}", m.r2),
+                             number(m.rmse / mm3_per_MJ, 3)});
+  };
+  add("All", r.validation.all);
+  if (r.validation.without_outliers.points < r.validation.all.points)
+    add("Without outliers", r.validation.without_outliers);
+  return out + html::table(measures) + html::table(validation);
+}
+
+std::string run_in_section(const ClutchResult& r) {
+  std::string out = html::figures({run_in_figure(r)});
+  static constexpr const char* names[] = {"w0 [mm³/MJ]", "w1 [mm³/MJ]", "w2 [mm³/MJ]", "eps1 [MJ]",
+                                          "eps2 [MJ]"};
+  html::Table constants{"Constants of run-in", {"Constant", "Fitted", "Standard error"}, {}};
+  for (int i = 0; i < RunInFit::size; ++i) {
+    const double unit = i < 3 ? mm3_per_MJ : MJ;
+    constants.rows.push_back({names[i], number(r.run_in.parameters[i] / unit),
+                              number(std::sqrt(r.run_in.covariance(i, i)) / unit, 3)});
+  }
+  html::Table plates{"Plates", {"Plate", "Factor fitted", "Relative error", "Factor used"}, {}};
+  for (const PlateFactor& p : r.run_in.plates)
+    plates.rows.push_back({fmt::format("{}", p.plate),
+                           fmt::format("{:.3f}", std::exp(p.log_factor)), percent(p.standard_error),
+                           fmt::format("{:.3f}", p.factor())});
+  return out + html::table(constants) + html::table(plates);
+}
+
+std::string scatter_section(const ClutchResult& r) {
+  std::string out = html::figures({normal_figure(r), scatter_figure(r)});
+  html::Table table{"Candidates for the scatter of one cycle",
+                    {"sigma_w", "−log L", "AIC", "Kolmogorov-Smirnov p", "Lilliefors p"},
+                    {}};
+  for (const ScatterFit& fit : r.scatter.candidates)
+    table.rows.push_back({escape(html::raised(formula_of(fit.law.kind))),
+                          fmt::format("{:.2f}", fit.negative_log_likelihood),
+                          fmt::format("{:.2f}", fit.aic), fmt::format("{:.3f}", fit.kolmogorov.p),
+                          fmt::format("{:.3f}", fit.lilliefors.p)});
+  return out + html::table(table);
+}
+
+std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
+  std::string out = "<dl class=\"facts\">\n";
+  const auto fact = [&](const std::string& name, const std::string& value) {
+    out += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", escape(name), escape(value));
+  };
+  fact("Program", "wearwell " + r.version);
+  fact("Model", "clutch-wear");
+  fact("Search", fmt::format("{} exact searches of {:.0f} submodels each", r.search.pairs.size(),
+                             r.search.submodels));
+  fact("Time of the search", fmt::format("{:.1f} s", r.search.seconds));
+  fact("Time taken", fmt::format("{:.1f} s", r.seconds));
+  fact(study.file.filename().string(), "SHA-1 " + sha1(study.file));
+  for (const auto& file : study.files) fact(file.filename().string(), "SHA-1 " + sha1(file));
+  out += "</dl>\n";
+  if (!r.closings.empty()) {
+    html::Table table{
+        "Closings found in the raw traces",
+        {"Plate", "Closing", "ω₀ [rpm]", "t₂ [s]", "M [N m]", "T [°C]", "E [kJ]", "Flag"},
+        {}};
+    for (const Closing& c : r.closings)
+      table.rows.push_back({fmt::format("{}", c.cycle.plate), fmt::format("{}", c.cycle.number),
+                            number(c.cycle.at.slip_speed / rpm), number(c.cycle.at.closing_time, 3),
+                            number(c.cycle.at.torque, 3), number(c.cycle.at.temperature, 4),
+                            number(c.cycle.energy / 1e3), escape(c.flag)});
+    out += html::table(table);
+  }
+  std::ifstream stream(study.file);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return out + html::details("Study file",
+                             fmt::format("<pre tabindex=\"0\">{}</pre>\n", escape(text.str())));
+}
+
+}  // namespace
+
+std::string clutch_report(const ClutchStudy& study, const ClutchResult& r) {
+  return html_page(
+      {r.version,
+       study.title,
+       fmt::format("clutch-wear, {} cycles, {} weighings{}", study.campaign.cycles.size(),
+                   study.campaign.weighings.size(), study.simulated ? ", simulated" : ""),
+       {{"verdict", "Verdict", verdict_section(study, r)},
+        {"predictions", "Predictions", prediction_section(r)},
+        {"map", "Wear rate", map_section(study, r)},
+        {"run-in-section", "Run-in", run_in_section(r)},
+        {"scatter-section", "Scatter", scatter_section(r)},
+        {"checks", "Checks", checks_table(r)},
+        {"method", "Method", method_section(study, r), "Method and reproducibility"}}});
+}
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,101 @@
+#include "wearwell/math/normality.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "wearwell/base/rng.h"
+
+namespace wearwell {
+namespace {
+
+/// Rows of a golden file, without the header.
+std::vector<std::vector<std::string>> read_golden(const std::string& name) {
+  std::ifstream file(PROJECT_SOURCE_DIR "/tests/golden/" + name);
+  std::vector<std::vector<std::string>> rows;
+  std::string line;
+  for (std::getline(file, line); std::getline(file, line);) {
+    std::istringstream fields(line);
+    rows.emplace_back();
+    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
+  }
+  return rows;
+}
+
+// tests/golden/normality.R: distances to all digits, exact p values to seven, those of Lilliefors
+// within four standard errors of both simulations.
+TEST(Normality, AgreesWithR) {
+  std::map<std::string, std::vector<double>> samples;
+  for (const auto& row : read_golden("normality.csv")) samples[row[0]].push_back(std::stod(row[1]));
+  const auto expected = read_golden("normality_expected.csv");
+  ASSERT_EQ(expected.size(), 9u);
+  for (const auto& row : expected) {
+    const std::vector<double>& sample = samples.at(row[0]);
+    const KolmogorovTest ks = kolmogorov_test(sample);
+    EXPECT_NEAR(ks.distance, std::stod(row[1]), 1e-10) << row[0];
+    EXPECT_NEAR(ks.p, std::stod(row[2]), 1e-7) << row[0];
+    const KolmogorovTest lilliefors = lilliefors_test(sample);
+    EXPECT_NEAR(lilliefors.distance, std::stod(row[3]), 1e-10) << row[0];
+    const double p = std::stod(row[4]);
+    const double error = std::sqrt(std::max(p * (1 - p), 1e-4) * (1 / 1e4 + 1 / 2e5));
+    EXPECT_NEAR(lilliefors.p, p, 4 * error) << row[0];
+  }
+}
+
+// P(D_n < d) of one value is 2d - 1 between 1/2 and 1.
+TEST(Normality, ClosedFormOfOneValue) {
+  for (const double d : {0.5, 0.6, 0.75, 0.99}) EXPECT_NEAR(kolmogorov_cdf(1, d), 2 * d - 1, 1e-14);
+  EXPECT_EQ(kolmogorov_cdf(1, 0.4), 0);
+  EXPECT_EQ(kolmogorov_cdf(10, 0), 0);
+  EXPECT_EQ(kolmogorov_cdf(10, 1), 1);
+}
+
+// Where the exact matrix gives way to the tail's formula the two meet.
+TEST(Normality, TailMeetsTheExactValues) {
+  for (const int n : {10, 100, 1000}) {
+    const double s = n > 99 ? 3.76 : 7.24;
+    const double below = kolmogorov_cdf(n, std::sqrt((s - 1e-9) / n)),
+                 above = kolmogorov_cdf(n, std::sqrt((s + 1e-9) / n));
+    EXPECT_NEAR(below, above, 1e-6) << n;
+    EXPECT_LE(below, 1);
+  }
+}
+
+// p values of normal samples are even: 400 samples, each tenth holds 40 on average.
+TEST(Normality, PValuesAreEven) {
+  constexpr int runs = 400, bins = 10;
+  int ks[bins] = {}, lilliefors[bins] = {};
+  for (std::uint64_t run = 0; run < runs; ++run) {
+    Rng rng(9, run);
+    std::vector<double> sample(25);
+    for (double& x : sample) x = rng.normal();
+    const auto count = [](int* counts, double p) {
+      ++counts[std::min(bins - 1, static_cast<int>(bins * p))];
+    };
+    count(ks, kolmogorov_test(sample).p);
+    if (run < 200) count(lilliefors, lilliefors_test(sample, run).p);
+  }
+  double chi2_ks = 0, chi2_lilliefors = 0;
+  for (int b = 0; b < bins; ++b) {
+    chi2_ks += std::pow(ks[b] - 40, 2) / 40;
+    chi2_lilliefors += std::pow(lilliefors[b] - 20, 2) / 20;
+  }
+  EXPECT_LT(chi2_ks, 27.9);  // R: qchisq(0.999, 9) = 27.88
+  EXPECT_LT(chi2_lilliefors, 27.9);
+}
+
+// R 4.2.2: qnorm((1:3 - 0.5)/3)
+TEST(Normality, PlotHasNormalQuantiles) {
+  const NormalPlot plot = normal_plot({5, -1, 2});
+  EXPECT_EQ(plot.value, (std::vector<double>{-1, 2, 5}));
+  EXPECT_NEAR(plot.quantile[0], -0.967421566101701, 1e-12);
+  EXPECT_NEAR(plot.quantile[1], 0, 1e-12);
+  EXPECT_NEAR(plot.quantile[2], 0.967421566101701, 1e-12);
+}
+
+}  // namespace
+}  // namespace wearwell
