@@ -185,8 +185,8 @@ std::string coverage_table(const CoverageTable& table) {
          : row.inside()    ? ""
                            : "outside"});
   }
-  return fmt::format("{}  {} of {} failures lie inside the 90 % intervals\n", text_table(rows),
-                     inside, failures);
+  return fmt::format("{}  {} of {} failures lie inside the 90 % intervals\n",
+                     text_table(rows, true), inside, failures);
 }
 
 std::string count(double x) {
