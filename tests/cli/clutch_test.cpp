@@ -309,9 +309,10 @@ TEST_F(Clutch, FitRefusesBadCampaigns) {
               HasSubstr("weighings.csv, row 2: plate 1: 9 cycles are logged between the weighings "
                         "at 0 and 10, where 10 ran"));
   bad = c;
-  replace(bad[0], "temperature [degC]", "temp [degC]");
-  EXPECT_THAT(fit_refusal(bad, w),
-              HasSubstr("cycles.csv has no column 'temperature [K]' (nearest: 'temp [degC]')"));
+  replace(bad[0], "temperature [degC]", "temperatur [degC]");
+  EXPECT_THAT(
+      fit_refusal(bad, w),
+      HasSubstr("cycles.csv has no column 'temperature [K]' (nearest: 'temperatur [degC]')"));
   bad = w;
   replace(bad[0], "mass [g]", "mass [mm]");
   EXPECT_THAT(fit_refusal(c, bad), HasSubstr("weighings.csv, column 'mass [mm]'"));
