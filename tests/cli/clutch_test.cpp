@@ -59,8 +59,8 @@ class Clutch : public ScratchTest {
     replace(truth, "\"78 MJ\"", "\"10 MJ\"");
     replace(truth, "\"6 MJ\"", "\"1 MJ\"");
     replace(truth, "run_out_cycles = 1500", "run_out_cycles = 200");
-    replace(truth, "p1 = \"65 mm^3/MJ\"", "p1 = \"6.5 mm^3/MJ\"");
-    replace(truth, "p2 = 2", "p2 = 0.2");
+    replace(truth, "p1 = \"75 mm^3/MJ\"", "p1 = \"6.5 mm^3/MJ\"");
+    replace(truth, "p2 = 2.2", "p2 = 0.2");
     replace(truth, "least_cycles = 750", "least_cycles = 100");
     replace(truth, "\"0.3 g\"", "\"0 g\"");
     replace(truth, "depth = \"1 mm\"", "depth = \"0.05 mm\"");
@@ -309,9 +309,10 @@ TEST_F(Clutch, FitRefusesBadCampaigns) {
               HasSubstr("weighings.csv, row 2: plate 1: 9 cycles are logged between the weighings "
                         "at 0 and 10, where 10 ran"));
   bad = c;
-  replace(bad[0], "temperature [degC]", "temp [degC]");
-  EXPECT_THAT(fit_refusal(bad, w),
-              HasSubstr("cycles.csv has no column 'temperature [K]' (nearest: 'temp [degC]')"));
+  replace(bad[0], "temperature [degC]", "temperatur [degC]");
+  EXPECT_THAT(
+      fit_refusal(bad, w),
+      HasSubstr("cycles.csv has no column 'temperature [K]' (nearest: 'temperatur [degC]')"));
   bad = w;
   replace(bad[0], "mass [g]", "mass [mm]");
   EXPECT_THAT(fit_refusal(c, bad), HasSubstr("weighings.csv, column 'mass [mm]'"));

@@ -32,7 +32,7 @@ inline Truth paper_like_truth() {
                  {1, 1, 1, 14 * mm3_per_MJ},   {2, 1, 0, 5 * mm3_per_MJ},
                  {2, 0, 1, -2.5 * mm3_per_MJ}, {0, 2, 1, 31 * mm3_per_MJ}};
   truth.run_in = {0.4, 4, 78e6, 6e6};
-  truth.scatter = {ScatterKind::linear, {65 * mm3_per_MJ, 2}};
+  truth.scatter = {ScatterKind::linear, {75 * mm3_per_MJ, 2.2}};
   truth.plate_sd = 0.04;
   truth.plates = 13;
   truth.density = 2200;

@@ -291,7 +291,7 @@ Figure width_figure(const ClutchResult& r) {
 std::string checks_table(const ClutchResult& r) {
   static constexpr const char* kinds[] = {"pass", "warn", "fail"};
   static constexpr const char* words[] = {"Passed", "Warning", "Failed"};
-  html::Table table{"Checks", {"Check", "Verdict", "What was found"}, {}, true};
+  html::Table table{"All checks", {"Check", "Verdict", "What was found"}, {}, true};
   for (const Check& check : r.checks) {
     const auto v = static_cast<std::size_t>(check.verdict);
     std::string found = escape(html::raised(check.detail));
@@ -402,14 +402,15 @@ std::string map_section(const ClutchStudy& study, const ClutchResult& r) {
   out +=
       html::table(correlations) + html::table(models) + html::table(terms) + html::table(surrogate);
   if (r.validation.points.empty()) return out;
-  html::Table validation{"Held-out points",
-                         {"Point", "Measured [mm³/MJ]", "Predicted", "Studentized residual", ""},
-                         {}};
+  html::Table validation{
+      "Held-out points",
+      {"Point", "Measured [mm³/MJ]", "Predicted", "Studentized residual", "Verdict"},
+      {}};
   for (const ValidationPoint& p : r.validation.points)
     validation.rows.push_back({fmt::format("{}", p.number), number(p.measured / mm3_per_MJ, 3),
                                number(p.predicted / mm3_per_MJ, 3), fmt::format("{:+.2f}", p.t),
-                               p.outlier ? "outlier" : ""});
-  html::Table measures{"Held-out points together", {"", "Points", "R2", "RMSE [mm³/MJ]"}, {}};
+                               p.outlier ? "outlier" : "–"});
+  html::Table measures{"Held-out points together", {"Which", "Points", "R2", "RMSE [mm³/MJ]"}, {}};
   const auto add = [&](const char* name, const Validation::Metrics& m) {
     measures.rows.push_back({name, fmt::format("{}", m.points), fmt::format("{:.3f}", m.r2),
                              number(m.rmse / mm3_per_MJ, 3)});
