@@ -418,6 +418,8 @@ TEST_F(FatigueStudy, RefusesContradictionsAndGapsByKey) {
          "give the stress in one way");
   expect(study + "[predict]\nb_lives = [10]\n", "predict.b_lives: needs stresses");
   expect(study + "[predict]\ntypes = \"A\"\n", "predict.types: 'A' is no type of the data");
+  expect(head + "label = \"end\"\n" + columns + law + prior + "[predict]\ntypes = [\"F\", \"G\"]\n",
+         "predict.types: 'G' is no type of the data; possible are all, F");
   expect(study + "[predict]\ntypes = \"all\"\nb_lives = [0, 10]\n",
          "predict.b_lives: are percentages between 0 and 100");
   expect(study + "[predict]\nrequired_life = 1e5\n", "predict.required_life: needs the other");
@@ -431,6 +433,29 @@ TEST_F(FatigueStudy, RefusesContradictionsAndGapsByKey) {
   expect(study + "[predict.stress]\nx = { mean_stress = \"1 MPa\" }\n",
          "give the stress in one way");
   expect(study + "[predict]\ntipes = \"all\"\n", "did you mean 'types'?");
+}
+
+// All that a report of lives shows is kept beside it.
+TEST_F(FatigueStudy, ReportIsWrittenAgainTheSame) {
+  const std::string out = (folder() / "out").string();
+  const CommandResult run = run_wearwell("fit '" PROJECT_SOURCE_DIR
+                                         "/examples/fatigue/study.toml' --quiet --method exact "
+                                         "--draws 100 -o '" +
+                                         out + "'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto content = [&] {
+    std::stringstream text;
+    text << std::ifstream(out + "/report.html").rdbuf();
+    return text.str();
+  };
+  const std::string first = content();
+  for (const char* expected :
+       {"Life against stress", "Life of the next one, by stress", "Haigh diagram of",
+        "Posterior predictive", "90 % lower bound", "Every test, and the life", "run-outs"}) {
+    EXPECT_THAT(first, HasSubstr(expected));
+  }
+  ASSERT_EQ(run_wearwell("report '" + out + "'").exit_code, 0);
+  EXPECT_TRUE(content() == first);
 }
 
 TEST_F(FatigueStudy, NewStudyRunsAndIsSaidInWords) {

@@ -63,6 +63,15 @@ law = "flat"
   EXPECT_FALSE(root.table("absent"));
 }
 
+TEST_F(TomlReaderTest, ReadsOneTextOrAList) {
+  const TomlReader root = parse("one = \"A\"\nmore = [\"A\", \"B\"]\nmixed = [\"A\", 2]\n");
+  EXPECT_THAT(root.texts("one"), ElementsAre("A"));
+  EXPECT_THAT(root.texts("more"), ElementsAre("A", "B"));
+  EXPECT_TRUE(root.texts("absent").empty());
+  EXPECT_THAT(message_of<InputError>([&] { root.texts("mixed"); }),
+              HasSubstr("mixed: must be a text in quotes, or a list of them"));
+}
+
 TEST_F(TomlReaderTest, FilesThatAreNoStudies) {
   const auto message = [](const std::filesystem::path& file) {
     return message_of<InputError>([&] { TomlReader::parse_file(file); });

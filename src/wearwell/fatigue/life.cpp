@@ -176,6 +176,8 @@ double survival(const SnLaw& law, const double* x, const Stress& stress, double 
 
 double log10_reversed_allowed(const SnLaw& law, const double* x, double life, double reliability) {
   const double scatter = x[law.sigma_index()] * wearwell::quantile(law.standard(), 1 - reliability);
+  // Normal lives may scatter so far that this share outlasts it even about a mean of 0.
+  if (!law.logarithmic() && scatter >= life) return infinity;
   const double log10_life =
       law.logarithmic() ? std::log10(life) - scatter : std::log10(life - scatter);
   const double unlimited = x[0] + x[1] * log10_life;
@@ -197,6 +199,7 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
 
 double alternating_allowed(const SnLaw& law, const double* x, const StressLine& line,
                            double log10_reversed) {
+  if (log10_reversed == infinity) return infinity;
   const double strength =
       law.has_strength() ? std::pow(10, x[law.strength_index()]) : law.strength.value_or(1);
   const double gamma = law.has_gamma() ? x[law.gamma_index()] : law.gamma.value_or(1);

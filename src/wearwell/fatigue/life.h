@@ -67,7 +67,7 @@ double cycles(const SnLaw& law, double at);
 double survival(const SnLaw& law, const double* x, const Stress& stress, double life);
 
 /// log10 of the fully reversed stress [Pa] under which a share `reliability` of items outlasts
-/// `life` [cycles].
+/// `life` [cycles]; infinite where they do under any.
 double log10_reversed_allowed(const SnLaw& law, const double* x, double life, double reliability);
 
 /// The alternating stress [Pa] along a line that is as harmful as a fully reversed one.

@@ -15,7 +15,6 @@
 namespace wearwell {
 namespace {
 
-using fatigue::LifeFamily;
 using fatigue::LifeTest;
 using fatigue::MeanStress;
 using fatigue::MixedLife;
@@ -70,8 +69,8 @@ std::vector<StressPoint> points_of_types(const TomlReader& predict, const SnLaw&
 using Reduction = std::function<void(const double* x, double* y)>;
 
 // A posterior in terms of `count` numbers that follow from its parameters. A lattice's nodes lie in
-// the middle of their cells; there the mean of a bent function is Simpson's, a third as far from
-// its middle as the mean of its ends, which is where the ends are moved to.
+// the middle of their cells, over which the mean of a bent function is Simpson's: a third as far
+// from the node's value as the mean of the ends is. The ends are moved to have that mean.
 WeightedDraws reduced(const WeightedDraws& draws, Eigen::Index count, const Reduction& reduction) {
   const auto reduce = [&](const Points& points) {
     Points values(points.rows(), count);
