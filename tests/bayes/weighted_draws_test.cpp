@@ -211,5 +211,26 @@ TEST(WeightedSampler, ChoosesPointsByWeight) {
   EXPECT_NEAR(count[1], 0.3 * n, 5 * std::sqrt(0.21 * n));
 }
 
+// One cell of even mass along y = x^2 from x = -1 to 1, its node in the middle: the mean of y is
+// 1/3, and draws lie on the parabola.
+TEST(WeightedDraws, CentredCellsBend) {
+  WeightedDraws draws;
+  draws.values = Points::Zero(1, 2);
+  draws.weights = draws.cell_weights = Eigen::VectorXd::Ones(1);
+  draws.lower = {Points(1, 2)};
+  draws.upper = {Points(1, 2)};
+  draws.lower[0] << -1, 1;
+  draws.upper[0] << 1, 1;
+  EXPECT_DOUBLE_EQ(Distribution(draws, [](const double* x) { return x[1]; }).mean(), 1. / 3);
+  EXPECT_DOUBLE_EQ(Distribution(draws, [](const double* x) { return x[0] * x[0]; }).mean(), 1. / 3);
+  const WeightedSampler sample(draws);
+  Rng rng(1, 0);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::VectorXd x = sample(rng);
+    EXPECT_LE(std::abs(x[0]), 1);
+    EXPECT_NEAR(x[1], x[0] * x[0], 1e-14);
+  }
+}
+
 }  // namespace
 }  // namespace wearwell

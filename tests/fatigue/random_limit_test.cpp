@@ -9,7 +9,7 @@
 namespace wearwell::fatigue {
 namespace {
 
-// tests/golden/random_limit.py: the law as printed, integrated over the limit with 40 digits.
+// tests/golden/random_limit.py: the law as printed, integrated over the limit with 25 digits.
 TEST(RandomLimit, TenDigitsOfTheIntegral) {
   const std::map<std::string, StandardLaw> laws = {{"normal", StandardLaw::normal},
                                                    {"sev", StandardLaw::smallest_extreme_value}};

@@ -81,6 +81,53 @@ KnownPosterior correlated(const std::string& name, int d, double correlation) {
           means};
 }
 
+// Four normals with a correlation of 0.9 between neighbours, of sizes from 1e-13 to 1e6.
+KnownPosterior scaled() {
+  const Eigen::Vector4d mean(7e-13, 0, 2, -3e6), sd(1e-13, 1e-9, 1, 1e6);
+  Eigen::Matrix4d covariance;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) covariance(i, j) = sd[i] * sd[j] * std::pow(0.9, std::abs(i - j));
+  }
+  const std::vector<double> means(mean.begin(), mean.end());
+  const auto make = [=] {
+    std::vector<Parameter> parameters = multivariate_normal(mean, covariance).parameters();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      parameters[i].start = mean[at] + 0.5 * sd[at];
+    }
+    return Posterior(parameters, multivariate_normal(mean, covariance).likelihood());
+  };
+  return {"Scaled4", make, means, {sd.begin(), sd.end()}, means};
+}
+
+// A narrow ridge that bends: x1 ~ N(0, 1), x2 | x1 ~ N(x1^2/2, 0.25), x3 | x2 ~ N(x2, 0.5), x4 ~
+// N(0, 1). E x2 = 1/2, var x2 = 1/2 + 1/16, var x3 = var x2 + 1/4.
+Posterior bent_ridge() {
+  return formula_posterior(
+      {flat_parameter("x1", 0.1, 1), flat_parameter("x2", 0.1, 1), flat_parameter("x3", 0.1, 1),
+       flat_parameter("x4", 0.1, 1)},
+      [](std::span<const double> x, std::span<double> gradient) {
+        const double two = x[1] - 0.5 * x[0] * x[0], three = x[2] - x[1];
+        gradient[0] = -x[0] + 16 * x[0] * two;
+        gradient[1] = -16 * two + 4 * three;
+        gradient[2] = -4 * three;
+        gradient[3] = -x[3];
+        return -0.5 * (x[0] * x[0] + 16 * two * two + 4 * three * three + x[3] * x[3]);
+      });
+}
+
+// Four independent normals, each cut to [0.5, 2].
+Posterior truncated() {
+  std::vector<Parameter> parameters;
+  for (int i = 1; i <= 4; ++i) {
+    parameters.push_back(with_law(fmt::format("x{}", i), Normal{0, 1}, 0.5, 2, 1));
+  }
+  return formula_posterior(parameters, [](auto, std::span<double> gradient) {
+    for (double& each : gradient) each = 0;
+    return 0.0;
+  });
+}
+
 // x1 ~ N(0, 1), x2 | x1 ~ N(x1^2/2, 1): E x2 = 1/2, var x2 = 1/2 + 1.
 Posterior banana() {
   return formula_posterior({flat_parameter("x1", 0.1, 1), flat_parameter("x2", 0.1, 1)},
@@ -135,6 +182,16 @@ const std::vector<KnownPosterior>& known_posteriors() {
       correlated("Normal", 1, 0),
       correlated("Correlated2", 2, 0.95),
       correlated("Correlated5", 5, 0.7),
+      correlated("Correlated4", 4, 0.9),
+      scaled(),
+      {"BentRidge4",
+       bent_ridge,
+       {0, 0.5, 0.5, 0},
+       {1, std::sqrt(0.5625), std::sqrt(0.8125), 1},
+       {}},
+      // As "Truncated" below, four times.
+      {"Truncated4", truncated, std::vector<double>(4, 1.04299333414245),
+       std::vector<double>(4, 0.387661606931559), std::vector<double>(4, 0.971523471729424)},
       {"Banana", banana, {0, 0.5}, {1, std::sqrt(1.5)}, {}},
       {"Bimodal", bimodal, {0}, {std::sqrt(5.0)}, {0}},
       {"HalfBounded",

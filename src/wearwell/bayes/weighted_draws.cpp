@@ -15,6 +15,9 @@ Distribution::Distribution(const WeightedDraws& draws,
   struct Point {
     double center, half_width, weight;
   };
+  // A node in the middle of its cell counts for four of Simpson's six parts, so that a quantity that
+  // bends within the cell keeps its mean.
+  const double of_ends = draws.centered() ? 1.0 / 3 : 1;
   std::vector<Point> points;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
     if (draws.cell_weight(i) == 0) continue;  // 0 times an infinite life is no number
@@ -24,7 +27,7 @@ Distribution::Distribution(const WeightedDraws& draws,
       const double a = quantity(draws.lower[axis].row(i).data());
       const double b = quantity(draws.upper[axis].row(i).data());
       if (!std::isfinite(a) || !std::isfinite(b)) continue;
-      middle += 0.5 * (a + b) - at_node;
+      middle += of_ends * (0.5 * (a + b) - at_node);
       variance += 0.25 * (b - a) * (b - a);
     }
     points.push_back({middle, std::sqrt(variance), draws.cell_weight(i)});
@@ -107,10 +110,11 @@ Eigen::VectorXd WeightedSampler::operator()(Rng& rng) const {
   const Eigen::Index i = found - cumulated_.begin();
   Eigen::VectorXd x = draws_.values.row(i);
   for (std::size_t axis = 0; axis < draws_.lower.size(); ++axis) {
-    const double t = rng.uniform();
-    x +=
-        ((1 - t) * draws_.lower[axis].row(i) + t * draws_.upper[axis].row(i) - draws_.values.row(i))
-            .transpose();
+    const double t = rng.uniform() - 0.5;
+    const auto lower = draws_.lower[axis].row(i), upper = draws_.upper[axis].row(i),
+               node = draws_.values.row(i);
+    const double of_ends = draws_.centered() ? 4 * t * t : 1;  // a parabola through the three
+    x += (t * (upper - lower) + of_ends * (0.5 * (upper + lower) - node)).transpose();
   }
   return x;
 }

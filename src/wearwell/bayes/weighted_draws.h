@@ -21,8 +21,10 @@ struct WeightedDraws {
   std::vector<Points> lower;  ///< one per axis, like `values`; empty for draws
   std::vector<Points> upper;
   /// What each cell holds when its mass is spread evenly over it, where that is not its node's
-  /// weight; sum to 1.
+  /// weight; sum to 1. Given for nodes in the middle of their cells.
   Eigen::VectorXd cell_weights = {};
+
+  bool centered() const { return cell_weights.size() > 0; }
 
   /// The weight of point i where it stands for its cell.
   double cell_weight(Eigen::Index i) const {

@@ -375,8 +375,12 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
   if (posterior.dimension() > max_exact_dimension) {
     throw std::logic_error("integrate: too many parameters");
   }
-  // Boxes multiply too fast in four dimensions.
-  if (posterior.dimension() == 4) return integrate_on_lattice(posterior, whitening, settings);
+  // Boxes multiply too fast on a ridge in four dimensions, a lattice where the posterior opens like a
+  // funnel.
+  if (posterior.dimension() == 4) {
+    ExactPosterior exact = integrate_on_lattice(posterior, whitening, settings);
+    if (exact.failure.empty()) return exact;
+  }
   return Integrator(posterior, whitening, settings).run();
 }
 

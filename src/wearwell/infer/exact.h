@@ -34,7 +34,7 @@ struct ExactPosterior {
 };
 
 /// Integrates a posterior with up to `max_exact_dimension` parameters: four on a lattice
-/// (lattice.h), fewer by adaptive boxes. Works on the whitened real
+/// (lattice.h), fewer, or where that does not converge, by adaptive boxes. Works on the whitened real
 /// line: boxes are halved along the axis that resolves worst until the estimated error of mass and
 /// second moments is below the tolerance, and the region grows where mass or second moments still
 /// lie at its edge.

@@ -20,6 +20,7 @@ using Z = std::array<double, d>;
 
 constexpr double log_negligible = -22;     // of the highest density
 constexpr double negligible_share = 1e-9;  // nodes with less of the mass are left out
+constexpr double good_enough = 1e-3;       // where evaluations end before the tolerance is met
 constexpr long most_nodes = 6'000'000;
 constexpr int farthest = 3000;   // steps along an axis: beyond, the mass has no end
 constexpr int most_across = 80;  // steps along a line on either side of its mode
@@ -169,12 +170,19 @@ class Lattice {
     for (const Line& line : lines_) {
       for (const double v : line.values) mass += std::exp(v) * line.width;
     }
+    const Eigen::VectorXd middle = natural(at(lines_.front(), 0));
+    Eigen::VectorXd first = Eigen::VectorXd::Zero(d);
+    Eigen::MatrixXd second = Eigen::MatrixXd::Zero(d, d);
     std::vector<std::pair<const Line*, int>> kept;
     for (const Line& line : lines_) {
       for (std::size_t j = 0; j < line.values.size(); ++j) {
-        if (std::exp(line.values[j]) * line.width > negligible_share * mass) {
-          kept.emplace_back(&line, line.first + static_cast<int>(j));
-        }
+        const double here = std::exp(line.values[j]) * line.width;
+        if (here == 0) continue;
+        const int t = line.first + static_cast<int>(j);
+        if (here > negligible_share * mass) kept.emplace_back(&line, t);
+        const Eigen::VectorXd x = natural(at(line, t)) - middle;
+        first += here / mass * x;
+        second += here / mass * (x * x.transpose());
       }
     }
     ExactPosterior exact;
@@ -195,12 +203,11 @@ class Lattice {
         nodes.lower[outer].row(row) = natural(at(*line, t - 0.5));
         nodes.upper[outer].row(row) = natural(at(*line, t + 0.5));
         for (int a = 0; a < outer; ++a) {
-          const Line& below = neighbour(*line, a, -1);
-          const Line& above = neighbour(*line, a, 1);
+          const Line &below = neighbour(*line, a, -1), &above = neighbour(*line, a, 1);
           held -= (mass_in(below, *line, t) - 2 * weight + mass_in(above, *line, t)) / 24;
           const auto axis = static_cast<std::size_t>(a);
-          nodes.lower[axis].row(row) = natural(between(*line, below, a, -0.5, t));
-          nodes.upper[axis].row(row) = natural(between(*line, above, a, 0.5, t));
+          nodes.lower[axis].row(row) = natural(between(*line, below, above, a, -0.5, t));
+          nodes.upper[axis].row(row) = natural(between(*line, above, below, a, 0.5, t));
         }
         nodes.weights[row] = weight;
         nodes.cell_weights[row] = std::max(0.0, held);
@@ -208,9 +215,8 @@ class Lattice {
     });
     nodes.weights /= nodes.weights.sum();
     nodes.cell_weights /= nodes.cell_weights.sum();
-    exact.mean = nodes.values.transpose() * nodes.weights;
-    const Eigen::MatrixXd centered = nodes.values.rowwise() - exact.mean.transpose();
-    exact.covariance = centered.transpose() * nodes.weights.asDiagonal() * centered;
+    exact.mean = middle + first;
+    exact.covariance = second - first * first.transpose();
     if (!moments) exact.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
     exact.sd = exact.covariance.diagonal().cwiseSqrt();
     bool proper = true;
@@ -236,11 +242,16 @@ class Lattice {
   Z at(const Line& line, double t) const {
     return place(line.index, -1, 0, line.middle + line.width * line_step_ * t);
   }
-  // Half way to a neighbour, at the same place across the ridge.
-  Z between(const Line& line, const Line& other, int axis, double shift, int t) const {
-    return place(
-        line.index, axis, shift,
-        0.5 * (line.middle + other.middle) + 0.5 * (line.width + other.width) * line_step_ * t);
+  // Half way to a neighbour, at the same place across the ridge, which bends like the parabola
+  // through it and the neighbour on the other side.
+  Z between(const Line& line, const Line& other, const Line& opposite, int axis, double shift,
+            int t) const {
+    const auto half_way = [](double here, double there, double back) {
+      return 0.375 * there + 0.75 * here - 0.125 * back;
+    };
+    return place(line.index, axis, shift,
+                 half_way(line.middle, other.middle, opposite.middle) +
+                     half_way(line.width, other.width, opposite.width) * line_step_ * t);
   }
 
   Eigen::VectorXd natural(const Z& z) const {
@@ -338,18 +349,22 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   long evaluations = 0;
   for (double step = 1; evaluations < settings.max_evaluations; step /= std::sqrt(2.0)) {
     Lattice lattice(posterior, axes, step, std::min(step, 0.8));
-    exact.failure = lattice.fill();
+    const std::string failure = lattice.fill();
     evaluations += lattice.nodes();
-    exact.evaluations = evaluations;
-    if (!exact.failure.empty()) return exact;
+    if (!failure.empty()) {
+      exact.failure = failure;
+      break;
+    }
     const double error = lattice.error(settings.second_moments);
-    if (error > settings.tolerance) continue;
-    exact = lattice.result(settings.second_moments);
-    exact.error = error;
-    exact.evaluations = evaluations;
-    return exact;
+    if (error <= std::max(settings.tolerance, good_enough)) {
+      exact = lattice.result(settings.second_moments);
+      exact.error = error;
+    }
+    if (error <= settings.tolerance) break;
+    exact.failure = fmt::format("no convergence in {} evaluations", evaluations);
   }
-  exact.failure = fmt::format("no convergence in {} evaluations", evaluations);
+  if (exact.error <= good_enough && exact.nodes.values.rows() > 0) exact.failure.clear();
+  exact.evaluations = evaluations;
   return exact;
 }
 

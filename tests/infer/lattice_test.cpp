@@ -1,0 +1,90 @@
+// Quantiles of four parameters on the lattice, where they are known; moments are compared in
+// exact_test.cpp, NUTS in sampler_test.cpp.
+#include "wearwell/infer/lattice.h"
+
+#include <gtest/gtest.h>
+
+#include "infer/test_posteriors.h"
+#include "wearwell/infer/mode.h"
+#include "wearwell/math/view.h"
+#include "wearwell/prob/standard_law.h"
+
+namespace wearwell {
+namespace {
+
+constexpr double probabilities[] = {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
+
+KnownPosterior known(const std::string& name) {
+  for (const KnownPosterior& each : known_posteriors()) {
+    if (each.name == name) return each;
+  }
+  throw std::logic_error("no posterior " + name);
+}
+
+ExactPosterior integrated(const Posterior& posterior) {
+  return integrate_on_lattice(posterior, whitening_at(find_mode(posterior, posterior.start())), {});
+}
+
+double quantile(const ExactPosterior& exact, std::size_t parameter, double p) {
+  return Distribution(exact.nodes, [=](const double* x) { return x[parameter]; }).quantile(p);
+}
+
+TEST(Lattice, QuantilesOfNormals) {
+  for (const char* name : {"Correlated4", "Scaled4"}) {
+    const KnownPosterior normal = known(name);
+    const ExactPosterior exact = integrated(normal.make());
+    ASSERT_EQ(exact.failure, "");
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (const double p : probabilities) {
+        const double z = (quantile(exact, i, p) - normal.mean[i]) / normal.sd[i];
+        EXPECT_NEAR(z, quantile(StandardLaw::normal, p), 3e-3) << name << i << " " << p;
+      }
+    }
+  }
+}
+
+TEST(Lattice, QuantilesOfTruncatedNormals) {
+  const ExactPosterior exact = integrated(known("Truncated4").make());
+  ASSERT_EQ(exact.failure, "");
+  const Law law = make_law(Normal{0, 1}, 0.5, 2);
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (const double p : probabilities) {
+      EXPECT_NEAR(quantile(exact, i, p), quantile(law, p), 1e-2 * 0.388) << i << " " << p;
+    }
+  }
+}
+
+// x2 = x1^2/2 + 0.25 z: its distribution is an integral over x1, here by the midpoint rule.
+TEST(Lattice, QuantilesOfABentRidge) {
+  const ExactPosterior exact = integrated(known("BentRidge4").make());
+  ASSERT_EQ(exact.failure, "");
+  for (const double p : probabilities) {
+    EXPECT_NEAR(quantile(exact, 0, p), quantile(StandardLaw::normal, p), 2e-2) << p;
+    const double x2 = quantile(exact, 1, p);
+    double below = 0;
+    constexpr double step = 1e-3;
+    for (double x1 = -9 + step / 2; x1 < 9; x1 += step) {
+      below += step * std::exp(log_density_and_slope(StandardLaw::normal, x1).value) *
+               cdf(StandardLaw::normal, (x2 - 0.5 * x1 * x1) / 0.25);
+    }
+    EXPECT_NEAR(below, p, 1e-2) << p;
+  }
+}
+
+// A center 40 standard deviations from the mode, where the density is e^-800 of the highest.
+TEST(Lattice, FindsTheMassFromFarAway) {
+  const KnownPosterior normal = known("Correlated4");
+  const Posterior posterior = normal.make();
+  Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
+  whitening.center += 40 * whitening.scale.col(1);
+  const ExactPosterior exact = integrate_on_lattice(posterior, whitening, {});
+  ASSERT_EQ(exact.failure, "");
+  for (int i = 0; i < 4; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    EXPECT_NEAR(exact.mean[i], normal.mean[at], 1e-5 * normal.sd[at]);
+    EXPECT_NEAR(exact.sd[i], normal.sd[at], 1e-4 * normal.sd[at]);
+  }
+}
+
+}  // namespace
+}  // namespace wearwell
