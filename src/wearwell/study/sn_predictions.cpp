@@ -68,9 +68,7 @@ std::vector<StressPoint> points_of_types(const TomlReader& predict, const SnLaw&
 
 using Reduction = std::function<void(const double* x, double* y)>;
 
-// A posterior in terms of `count` numbers that follow from its parameters. A lattice's nodes lie in
-// the middle of their cells, over which the mean of a bent function is Simpson's: a third as far
-// from the node's value as the mean of the ends is. The ends are moved to have that mean.
+// A posterior in terms of `count` numbers that follow from its parameters.
 WeightedDraws reduced(const WeightedDraws& draws, Eigen::Index count, const Reduction& reduction) {
   const auto reduce = [&](const Points& points) {
     Points values(points.rows(), count);
@@ -80,16 +78,8 @@ WeightedDraws reduced(const WeightedDraws& draws, Eigen::Index count, const Redu
     return values;
   };
   WeightedDraws result{reduce(draws.values), draws.weights, {}, {}, draws.cell_weights};
-  for (std::size_t axis = 0; axis < draws.lower.size(); ++axis) {
-    result.lower.push_back(reduce(draws.lower[axis]));
-    result.upper.push_back(reduce(draws.upper[axis]));
-    if (draws.cell_weights.size() == 0) continue;
-    Points& a = result.lower.back();
-    Points& b = result.upper.back();
-    const Points away = (0.5 * (a + b) - result.values) * (2.0 / 3);
-    a -= away;
-    b -= away;
-  }
+  for (const Points& ends : draws.lower) result.lower.push_back(reduce(ends));
+  for (const Points& ends : draws.upper) result.upper.push_back(reduce(ends));
   return result;
 }
 
