@@ -113,9 +113,9 @@ TEST_F(FatigueStudy, CasesAgreeWithTheGridOfR) {
       EXPECT_NEAR(exact["mean"], grid[0], 2e-3 * sd) << study << " " << name;
       EXPECT_NEAR(double(exact["sd"]) / sd, 1, 2e-3) << study << " " << name;
       // Quantiles spread each node of the quadrature over its cell.
-      EXPECT_NEAR(exact["q05"], grid[2], 3e-2 * sd) << study << " " << name;
-      EXPECT_NEAR(exact["q50"], grid[3], 3e-2 * sd) << study << " " << name;
-      EXPECT_NEAR(exact["q95"], grid[4], 3e-2 * sd) << study << " " << name;
+      EXPECT_NEAR(exact["q05"], grid[2], 1e-2 * sd) << study << " " << name;
+      EXPECT_NEAR(exact["q50"], grid[3], 1e-2 * sd) << study << " " << name;
+      EXPECT_NEAR(exact["q95"], grid[4], 1e-2 * sd) << study << " " << name;
       const double here = double(exact["q95"]) - double(exact["q05"]);
       if (study == "case2") {
         EXPECT_LT(here, width[name]) << name << ": more data narrow it";
