@@ -1,5 +1,5 @@
 # Effective draws per second by rstan on case 2 of examples/spring, of the parameter with the fewest: 4 chains of 1000 draws after 1000
-# of warm-up; adapt_delta as wearwell's. Debian: r-cran-rstan, r-cran-bh. The C++ side is bench/spring_bench.cpp.
+# of warm-up; adapt_delta as wearwell's. Debian: r-cran-rstan, r-cran-bh. The C++ side is bench/sampling_bench.cpp.
 suppressMessages(library(rstan))
 rstan_options(boost_lib = "/usr/include")
 folder <- dirname(sub("--file=", "", grep("--file=", commandArgs(FALSE), value = TRUE)))

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "infer/test_posteriors.h"
+#include "support/formula.h"
 #include "wearwell/fatigue/sn_likelihood.h"
 
 namespace wearwell {
@@ -19,25 +20,6 @@ NaturalMode mode_of(const Posterior& posterior) {
   settings.run.draws = 100;
   return natural_mode(posterior, fit(posterior, settings));
 }
-
-// Parameters from formulas: log density and gradient.
-class Formula final : public LogDensity {
- public:
-  using F = std::function<double(std::span<const double> x, std::span<double> gradient)>;
-  Formula(int dimension, F f) : dimension_(dimension), f_(std::move(f)) {}
-  int dimension() const override { return dimension_; }
-  double value(std::span<const double> x) const override {
-    std::vector<double> ignored(x.size());
-    return f_(x, ignored);
-  }
-  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
-    return f_(x, gradient);
-  }
-
- private:
-  int dimension_;
-  F f_;
-};
 
 Parameter of_law(const std::string& name, const Family& family, double lower, double upper,
                  double start) {

@@ -2,32 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "support/formula.h"
 #include "wearwell/joint/archard.h"
 
 namespace wearwell {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// A density from a formula of value and gradient.
-class Formula final : public LogDensity {
- public:
-  using F = std::function<double(std::span<const double> x, std::span<double> gradient)>;
-  Formula(int dimension, F f) : dimension_(dimension), f_(std::move(f)) {}
-
-  int dimension() const override { return dimension_; }
-  double value(std::span<const double> x) const override {
-    std::vector<double> ignored(x.size());
-    return f_(x, ignored);
-  }
-  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
-    return f_(x, gradient);
-  }
-
- private:
-  int dimension_;
-  F f_;
-};
 
 Parameter with_law(const std::string& name, const Family& family, double lower, double upper,
                    double start) {

@@ -3,28 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 
+#include "support/golden.h"
 #include "wearwell/base/rng.h"
 
 namespace wearwell {
 namespace {
-
-/// Rows of a golden file, without the header.
-std::vector<std::vector<std::string>> read_golden(const std::string& name) {
-  std::ifstream file(PROJECT_SOURCE_DIR "/tests/golden/" + name);
-  std::vector<std::vector<std::string>> rows;
-  std::string line;
-  for (std::getline(file, line); std::getline(file, line);) {
-    std::istringstream fields(line);
-    rows.emplace_back();
-    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
-  }
-  return rows;
-}
 
 // tests/golden/normality.R: distances to all digits, exact p values to seven, those of Lilliefors
 // within four standard errors of both simulations.

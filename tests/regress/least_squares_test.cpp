@@ -3,28 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
+#include "support/golden.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
 
 namespace wearwell {
 namespace {
-
-/// Rows of a golden file, without the header.
-std::vector<std::vector<std::string>> read_golden(const std::string& name) {
-  std::ifstream file(PROJECT_SOURCE_DIR "/tests/golden/" + name);
-  std::vector<std::vector<std::string>> rows;
-  std::string line;
-  for (std::getline(file, line); std::getline(file, line);) {
-    std::istringstream fields(line);
-    rows.emplace_back();
-    for (std::string field; std::getline(fields, field, ',');) rows.back().push_back(field);
-  }
-  return rows;
-}
 
 struct Case {
   Eigen::MatrixXd columns;
