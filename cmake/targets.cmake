@@ -1,3 +1,23 @@
+# What most sources include, compiled once: libraries share the first, test programs the second. Headers are held to stand
+# alone by tests/architecture, which compiles each without either.
+function(wearwell_precompiled name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
+  set(source ${CMAKE_BINARY_DIR}/${name}.cpp)
+  file(GENERATE OUTPUT ${source} CONTENT "")
+  add_library(${name} OBJECT ${source})
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+endfunction()
+
+set(common_headers <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <span> <string>
+  <vector> <fmt/format.h> <fmt/ranges.h> <Eigen/Dense>)
+wearwell_precompiled(wearwell_headers
+  HEADERS ${common_headers}
+  LIBRARIES Eigen3::Eigen fmt::fmt Threads::Threads)
+wearwell_precompiled(wearwell_test_headers
+  HEADERS ${common_headers} <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>
+  LIBRARIES Eigen3::Eigen fmt::fmt GTest::gmock rapidcheck Threads::Threads)
+
 # One library per folder, so that an include against the direction of the design fails to link.
 #
 #   wearwell_library(bayes SOURCES posterior.cpp USES prob table LIBRARIES fmt::fmt)
@@ -8,6 +28,7 @@ function(wearwell_library name)
   list(TRANSFORM ARG_USES PREPEND wearwell_)
   if(ARG_SOURCES)
     add_library(wearwell_${name} STATIC ${ARG_SOURCES})
+    target_precompile_headers(wearwell_${name} REUSE_FROM wearwell_headers)
     set(scope PUBLIC)
   else()
     add_library(wearwell_${name} INTERFACE)
@@ -24,6 +45,7 @@ function(wearwell_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;USES;LIBRARIES" ${ARGN})
   list(TRANSFORM ARG_USES PREPEND wearwell_)
   add_executable(test_${name} ${ARG_SOURCES})
+  target_precompile_headers(test_${name} REUSE_FROM wearwell_test_headers)
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE ${ARG_USES} ${ARG_LIBRARIES} GTest::gmock_main rapidcheck)
   target_compile_definitions(test_${name} PRIVATE
