@@ -9,28 +9,57 @@
 
 namespace wearwell {
 
+namespace {
+
+// Where a cell's node lies along one axis and what its mass is spread like, in cell lengths.
+struct Along {
+  double node = 0, mean = 0, square = 1.0 / 12;
+
+  Along(const WeightedDraws& draws, Eigen::Index i, std::size_t axis) {
+    if (!draws.has_cells()) return;
+    const auto a = static_cast<Eigen::Index>(axis);
+    node = draws.cells.node(i, a);
+    mean = draws.cells.mean(i, a);
+    square = draws.cells.square(i, a);
+  }
+
+  // Of the parabola through what a quantity is at the node and at both ends: how much the lower and the
+  // upper end move its value at `at`, whose mean square is `squared`.
+  double of_lower(double at, double squared) const {
+    return (squared - at * (node + 0.5) + 0.5 * node) / (0.5 + node);
+  }
+  double of_upper(double at, double squared) const {
+    return (squared - at * (node - 0.5) - 0.5 * node) / (0.5 - node);
+  }
+};
+
+}  // namespace
+
 Distribution::Distribution(const WeightedDraws& draws,
                            const std::function<double(const double* x)>& quantity)
     : cells_(!draws.lower.empty()) {
   struct Point {
     double center, half_width, weight;
   };
-  // A node in the middle of its cell counts for four of Simpson's six parts, so that a quantity that
-  // bends within the cell keeps its mean.
-  const double of_ends = draws.centered() ? 1.0 / 3 : 1;
   std::vector<Point> points;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
     if (draws.cell_weight(i) == 0) continue;  // 0 times an infinite life is no number
     const double at_node = quantity(draws.values.row(i).data());
-    double middle = at_node, variance = 0;
+    double center = at_node, variance = 0;
     for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
       const double a = quantity(draws.lower[axis].row(i).data());
       const double b = quantity(draws.upper[axis].row(i).data());
       if (!std::isfinite(a) || !std::isfinite(b)) continue;
-      middle += of_ends * (0.5 * (a + b) - at_node);
-      variance += 0.25 * (b - a) * (b - a);
+      const Along along(draws, i, axis);
+      if (draws.has_cells()) {
+        center += along.of_lower(along.mean, along.square) * (a - at_node) +
+                  along.of_upper(along.mean, along.square) * (b - at_node);
+      } else {
+        center += 0.5 * (a + b) - at_node;
+      }
+      variance += (along.square - along.mean * along.mean) * (b - a) * (b - a);
     }
-    points.push_back({middle, std::sqrt(variance), draws.cell_weight(i)});
+    points.push_back({center, std::sqrt(3 * variance), draws.cell_weight(i)});
   }
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.center < b.center; });
@@ -110,11 +139,20 @@ Eigen::VectorXd WeightedSampler::operator()(Rng& rng) const {
   const Eigen::Index i = found - cumulated_.begin();
   Eigen::VectorXd x = draws_.values.row(i);
   for (std::size_t axis = 0; axis < draws_.lower.size(); ++axis) {
-    const double t = rng.uniform() - 0.5;
     const auto lower = draws_.lower[axis].row(i), upper = draws_.upper[axis].row(i),
                node = draws_.values.row(i);
-    const double of_ends = draws_.centered() ? 4 * t * t : 1;  // a parabola through the three
-    x += (t * (upper - lower) + of_ends * (0.5 * (upper + lower) - node)).transpose();
+    if (!draws_.has_cells()) {
+      const double t = rng.uniform() - 0.5;
+      x += (t * (upper - lower) + (0.5 * (upper + lower) - node)).transpose();
+      continue;
+    }
+    const Along along(draws_, i, axis);
+    // Density 1 + tilt t over -1/2..1/2, by inversion.
+    const double tilt = std::clamp(12 * along.mean, -2.0, 2.0), share = rng.uniform();
+    const double root = std::sqrt(std::max(0.0, (1 - 0.5 * tilt) * (1 - 0.5 * tilt) + 2 * tilt * share));
+    const double t = 2 * share / (root + 1 - 0.5 * tilt) - 0.5;
+    x += (along.of_lower(t, t * t) * (lower - node) + along.of_upper(t, t * t) * (upper - node))
+             .transpose();
   }
   return x;
 }

@@ -14,6 +14,13 @@ std::string in_unit(const Parameter& parameter, double si) {
   return fmt::format("{:.4g}{}", from_si(parameter.unit, si), unit);
 }
 
+// What a prior of this parameter may look like where the data do not hold it.
+std::string prior_for(const Parameter& parameter) {
+  if (is_logarithm(parameter.si)) return "normal, or uniform between bounds";
+  if (parameter.natural_lower == 0) return "half-normal, or uniform with an upper bound";
+  return "normal, or uniform between bounds";
+}
+
 Verdict dependence_on(const Parameter& parameter) {
   return std::holds_alternative<Flat>(parameter.prior.family) ? Verdict::fail : Verdict::warn;
 }
@@ -30,9 +37,8 @@ Check proper_posterior(const Posterior& posterior, const Fit& fit) {
                     : tail.upward      ? "large values"
                                        : "minus infinity");
     const std::string give_prior = fmt::format(
-        "Bound {} or give it a proper prior (half-normal, uniform with an upper bound): the data "
-        "alone do not hold it.",
-        parameter.name);
+        "Bound {} or give it a proper prior ({}): the data alone do not hold it.", parameter.name,
+        prior_for(parameter));
     const std::string power =
         tail.towards_bound
             ? fmt::format("its density grows like distance^{:.2f}", -tail.index)
@@ -122,7 +128,7 @@ Check prior_cut(const Posterior& posterior, const Fit& fit) {
     if (!exact.failure.empty()) {
       findings.add(
           dependence_on(parameter),
-          fmt::format("with the bounds of {} at twice the distance the posterior cannot be "
+          fmt::format("with the bounds of {} at twice the distance from its mean the posterior cannot be "
                       "integrated ({})",
                       parameter.name, exact.failure),
           advice);
@@ -134,8 +140,8 @@ Check prior_cut(const Posterior& posterior, const Fit& fit) {
     const double largest = shift.maxCoeff(&worst);
     const Parameter& moved = posterior.parameters()[static_cast<std::size_t>(worst)];
     const std::string detail = fmt::format(
-        "with the bounds of {} at twice the distance, the mean of {} goes from {} to {} ({:.2f} "
-        "standard deviations)",
+        "with the bounds of {} at twice the distance from its mean, the mean of {} goes from {} to {} "
+        "({:.2f} standard deviations)",
         parameter.name, moved.name, in_unit(moved, fit.exact->mean[worst]),
         in_unit(moved, exact.mean[worst]), largest);
     if (largest > tolerated || std::isnan(largest)) {

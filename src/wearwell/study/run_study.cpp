@@ -164,8 +164,8 @@ LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
   return summary;
 }
 
-ModeSummary summarize_mode(const Posterior& posterior, const Fit& fit, double observations) {
-  const NaturalMode mode = natural_mode(posterior, fit);
+ModeSummary summarize_mode(const Posterior& posterior, const NaturalMode& mode,
+                           double observations) {
   ModeSummary summary;
   summary.problem = mode.problem;
   if (!mode.problem.empty()) return summary;
@@ -295,8 +295,12 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
     Loo each = leave_one_out(posterior, final);
     if (!each.terms.empty()) loo = {study.observation, std::move(each)};
   }
+  const NaturalMode natural = natural_mode(posterior, final);
   const ModeSummary mode = summarize_mode(
-      posterior, final, loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
+      posterior, natural, loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
+  for (Shortfall& each : later_shortfalls(posterior, final, natural, loo ? &loo->loo : nullptr)) {
+    final.shortfalls.push_back(std::move(each));
+  }
 
   StudyResult result{WEARWELL_VERSION,
                      study.title,
