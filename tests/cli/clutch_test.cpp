@@ -259,6 +259,25 @@ TEST_F(Clutch, PredictTracesAndFlagsCycles) {
               HasSubstr("slip_speed 1, temperature 1"));
 }
 
+// A speed in revolutions a minute is one in rad/s; cycles are counted in any multiple.
+TEST_F(Clutch, PredictReadsEveryUnit) {
+  const std::string predict = "clutch predict " + model();
+  write("a.csv", heading + "5,1000,1500,50,170,2,9000\n5,2000,1200,50,160,2,8000\n");
+  const CommandResult expected = here(predict + "a.csv --json");
+  ASSERT_EQ(expected.exit_code, 0) << expected.err;
+  const std::string rest = ",torque [Nm],temperature [K],closing_time [ms],energy [kJ]\n";
+  for (const auto& [unit, factor] : {std::pair{"1/min", 1.0}, {"Hz", 1. / 60}, {"deg/s", 6.0}}) {
+    write("b.csv", fmt::format("plate,cycle [kcycles],slip_speed [{}]{}5,1,{:.17g},50,443.15,2000,9"
+                               "\n5,2,{:.17g},50,433.15,2000,8\n",
+                               unit, rest, 1500 * factor, 1200 * factor));
+    const CommandResult run = here(predict + "b.csv --json");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const json a = json::parse(expected.out)["plates"][0], b = json::parse(run.out)["plates"][0];
+    EXPECT_EQ(b["last_cycle"], 2000);
+    EXPECT_NEAR(double(b["volume"]) / double(a["volume"]), 1, 1e-9) << unit;
+  }
+}
+
 TEST_F(Clutch, PredictRefusesBadCycles) {
   const std::string good = "1,1,1700,50,170,2,9000\n";
   EXPECT_THAT(predict_refusal(heading + good + "1,3,1700,50,170,2,9000\n1,2,1700,50,170,2,9000\n"),
@@ -272,11 +291,14 @@ TEST_F(Clutch, PredictRefusesBadCycles) {
               HasSubstr("row 2, column 'closing_time [s]'"));
   EXPECT_THAT(predict_refusal(heading + good + "1,2.5,1700,50,170,2,9000\n"),
               HasSubstr("row 2, column 'cycle': 2.5 must be a whole number"));
+  EXPECT_THAT(predict_refusal(heading + good + "1,2,1700,50,-290,2,9000\n"),
+              HasSubstr("row 2, column 'temperature [degC]': -290 is below absolute zero"));
   EXPECT_THAT(predict_refusal(heading + good + "1,x,1700,50,170,2,9000\n"),
               HasSubstr("column 'cycle' does not hold numbers"));
   EXPECT_THAT(predict_refusal(""), HasSubstr("bad.csv is empty"));
   EXPECT_THAT(predict_refusal(heading), HasSubstr("bad.csv has no rows"));
-  EXPECT_THAT(predict_refusal("plate,cycle\n1,1\n"), HasSubstr("has no column 'slip_speed [1/s]'"));
+  EXPECT_THAT(predict_refusal("plate,cycle\n1,1\n"),
+              HasSubstr("has no column 'slip_speed [rad/s]'"));
   std::string wrong = heading;
   replace(wrong, "torque [N m]", "torque [N]");
   EXPECT_THAT(predict_refusal(wrong + good),
@@ -446,6 +468,10 @@ TEST_F(Clutch, Features) {
   EXPECT_THAT(features({trace[0], "1,0,100,0,150"}).err, HasSubstr("holds no closing"));
   EXPECT_THAT(features({}).err, HasSubstr("t.csv is empty"));
   EXPECT_EQ(here("clutch features t.csv --torque-on '2 kg'").exit_code, 2);
+  EXPECT_THAT(here("clutch features t.csv --slip-off '3 ms'").err,
+              HasSubstr("--slip-off: unit 'ms'"));
+  EXPECT_THAT(here("clutch features t.csv --slip-off '4 1/s'").err,
+              HasSubstr("4 rev/s = 25.13 rad/s, or 4 rad/s = 0.6366 rev/s"));
 }
 
 TEST_F(Clutch, DesignAndSimulate) {
@@ -462,6 +488,10 @@ TEST_F(Clutch, DesignAndSimulate) {
   EXPECT_THAT(refusal("--torque '25, 50, 75'"),
               HasSubstr("--torque: '25, 50, 75': the unit is missing"));
   EXPECT_THAT(refusal("--torque '25, 50 kg'"), HasSubstr("--torque: '25, 50 kg'"));
+  EXPECT_EQ(
+      lines(here("clutch design --inside 3 --outside 2 --slip-speed '1200, 1700, 2800 1/min'").out),
+      lines(design.out));
+  EXPECT_THAT(refusal("--slip-speed '20, 30, 50 1/s'"), HasSubstr("write rev/s"));
   EXPECT_THAT(refusal("--torque '25 N m'"), HasSubstr("torque needs at least two levels"));
   EXPECT_THAT(refusal("--torque '25,, 50 N m'"), HasSubstr("write numbers with commas"));
   EXPECT_THAT(refusal("--feasible-torque '30 .. 80 N m'"), HasSubstr("feasible range of torque"));

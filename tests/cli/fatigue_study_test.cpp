@@ -18,6 +18,7 @@ namespace wearwell {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string example = PROJECT_SOURCE_DIR "/examples/spring/";
@@ -284,6 +285,50 @@ TEST_F(FatigueStudy, UnitsDoNotMatter) {
     return quantity(result, "allowed alternating stress", "specimen")["exact"]["predictive"];
   };
   EXPECT_NEAR(allowed(other) * ksi / allowed(mpa), 1, 1e-6);
+}
+
+// Lives in any unit of counting; the scatter of a life has that unit too.
+TEST_F(FatigueStudy, LivesAreCounted) {
+  const std::string ask =
+      "[predict]\nb_lives = [10]\n[predict.stress]\nhere = { alternating_stress = \"300 MPa\" }\n";
+  const auto lives = [](double unit) {
+    return fmt::format("s,n\n400,{}\n350,{}\n300,{}\n260,{}\n", 31000 / unit, 95000 / unit,
+                       420000 / unit, 1300000 / unit);
+  };
+  const auto fit_lives = [&](const std::string& unit, double size) {
+    write("data.csv", lives(size));
+    return fit_text(head +
+                    "alternating_stress = { column = \"s\", unit = \"MPa\" }\n"
+                    "life = { column = \"n\", unit = \"" +
+                    unit + "\" }\n" + law + prior + ask);
+  };
+  const json expected = fit_lives("1", 1);
+  for (const auto& [unit, size] :
+       {std::pair{"revolutions", 1.0}, {"krev", 1e3}, {"reversals", 0.5}}) {
+    const json result = fit_lives(unit, size);
+    EXPECT_NEAR(double(result["parameters"]["log10_a"]["exact"]["mean"]),
+                double(expected["parameters"]["log10_a"]["exact"]["mean"]), 1e-6)
+        << unit;
+    const json& life = quantity(result, "B10 life", "here");
+    EXPECT_EQ(life["unit"], unit);
+    EXPECT_NEAR(double(life["exact"]["predictive"]) * size /
+                    double(quantity(expected, "B10 life", "here")["exact"]["predictive"]),
+                1, 1e-6)
+        << unit;
+  }
+  write("data.csv", lives(1e5));
+  const auto with_sigma = [&](const std::string& sigma) {
+    return head +
+           "alternating_stress = { column = \"s\", unit = \"MPa\" }\n"
+           "life = { column = \"n\", unit = \"1e5 cycles\" }\n" +
+           law + "[likelihood]\nfamily = \"normal\"\n" + prior.substr(0, prior.find("sigma")) +
+           sigma;
+  };
+  EXPECT_THAT(
+      refusal(with_sigma("sigma = { law = \"half-normal\", scale = 2, unit = \"1e5 cycles\" }\n")),
+      AllOf(HasSubstr("prior.sigma.scale: 2 stands beside '1e5 cycles'"), HasSubstr("= 200000")));
+  EXPECT_THAT(refusal(with_sigma("sigma = { law = \"half-normal\", scale = \"2 rad\" }\n")),
+              HasSubstr("holds an angle"));
 }
 
 // The same cycles of stress, however they are written.

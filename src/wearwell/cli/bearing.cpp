@@ -118,11 +118,8 @@ struct Answer {
 };
 
 Unit answer_unit(const Question& question, const std::string& asked) {
-  if (asked.empty() && question.wanted == Quantity::revolutions) return {question.unit, 1, 0};
   try {
-    Unit unit = read_unit(asked.empty() ? question.unit : asked, question.si);
-    if (question.wanted == Quantity::revolutions && is_angle(unit.text)) unit.scale /= 2 * pi;
-    return unit;
+    return read_unit(asked.empty() ? question.unit : asked, question.si);
   } catch (const InputError& error) {
     throw InputError(fmt::format("--unit: {}", error.what()));
   }
@@ -336,7 +333,7 @@ const std::vector<Question>& questions() {
       {"life",
        "Life",
        Quantity::revolutions,
-       "1",
+       "rev",
        "revolutions",
        "how long until the depth is reached: in revolutions, or in time with --speed",
        {&B::revolutions, &B::time},

@@ -41,7 +41,9 @@ Values read_values(const std::string& flag, std::string text, const Input& input
   const auto fail = [&](const std::string& reason) {
     throw InputError(fmt::format("{}: '{}': {}", flag, text, reason));
   };
-  const std::size_t unit_at = text.find_first_not_of("0123456789+-.eE, \t");
+  std::size_t unit_at = text.find_first_not_of("0123456789+-.eE, \t");
+  if (unit_at != std::string::npos && unit_at > 1 && text.compare(unit_at - 2, 3, " 1/") == 0)
+    --unit_at;  // of 1/min
   if (unit_at == std::string::npos) fail("the unit is missing");
   Unit unit;
   try {

@@ -18,10 +18,18 @@ struct FeatureOptions {
   std::string torque_on = "2 N m", slip_off = "0.5 rad/s";
 };
 
+double threshold(const char* flag, const std::string& text, const char* si) {
+  try {
+    return read_quantity(text, si).si();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", flag, error.what()));
+  }
+}
+
 int run(const FeatureOptions& options) {
   ClosingRule rule;
-  rule.torque_on = read_quantity(options.torque_on, "N m").si();
-  rule.slip_off = read_quantity(options.slip_off, "1/s").si();
+  rule.torque_on = threshold("--torque-on", options.torque_on, "N m");
+  rule.slip_off = threshold("--slip-off", options.slip_off, "rad/s");
   const std::vector<Sample> samples = read_traces(options.traces);
   std::vector<Closing> closings;
   try {

@@ -35,7 +35,7 @@ double required(const char* flag, const std::string& text, const char* si) {
 std::vector<Cycle> read_duty(const LifeOptions& options) {
   if (!options.duty.empty()) return read_cycles(options.duty);
   Cycle cycle;
-  cycle.at = {required("--slip-speed", options.slip_speed, "1/s"),
+  cycle.at = {required("--slip-speed", options.slip_speed, "rad/s"),
               required("--torque", options.torque, "N m"),
               required("--temperature", options.temperature, "K") - celsius_zero,
               required("--closing-time", options.closing_time, "s")};

@@ -35,7 +35,7 @@ class Predictions {
     has_contact_ = predict.has("contact") || data.common.contact;
     radius_ = mine("radius", "m", data.common.radius);
     clearance_ = mine("clearance", "m", data.common.clearance);
-    speed_ = mine("speed", "1/s", data.common.speed);
+    speed_ = mine("speed", "rev/s", data.common.speed);
     force_ = positive_quantity(predict, "force", "N");
     const auto length = positive_quantity(predict, "length", "m");
     pressure_ = mine("pressure", "Pa", data.common.pressure);
@@ -53,10 +53,9 @@ class Predictions {
   }
 
   PredictedBearing read() {
-    const auto revolutions = predict_.quantities("revolutions", "1");
+    const auto revolutions = predict_.quantities("revolutions", "rev");
     const auto times = predict_.quantities("time", "s");
-    for (Quantity n : revolutions) {
-      n.unit = in_turns(n.unit);
+    for (const Quantity& n : revolutions) {
       depth("revolutions", n.si(), fmt::format("after {:.6g} revolutions", n.si()));
     }
     for (const Quantity& time : times) {
@@ -114,14 +113,13 @@ class Predictions {
 
   // The two ways to ask for a life: a number of revolutions, or a time at a speed.
   std::optional<double> required_revolutions() {
-    auto turns = positive_quantity(predict_, "required_revolutions", "1");
+    const auto turns = positive_quantity(predict_, "required_revolutions", "rev");
     const auto time = positive_quantity(predict_, "required_time", "s");
     if (turns && time) {
       predict_.fail("required_time", "is given beside required_revolutions; keep one of the two");
     }
     if (turns) {
       required_key_ = "required_revolutions";
-      turns->unit = in_turns(turns->unit);
       required_words_ = fmt::format("{:.6g} revolutions", turns->si());
       return turns->si();
     }

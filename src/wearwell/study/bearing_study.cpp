@@ -90,6 +90,7 @@ void read_bearing_study(const TomlReader& root, const std::filesystem::path& fol
   study.data_rows = data.inspections.depth.size();
   study.quantity = "wear depth";
   study.observed = data.inspections.depth;
+  study.data_columns = data.columns;
   if (model.has_scatter) study.observation = "bearing";
   study.meanings = {"specific wear rate"};
   if (!model.depth_error) study.meanings.emplace_back("scatter of one measured depth");

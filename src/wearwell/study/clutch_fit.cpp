@@ -9,6 +9,8 @@
 #include "wearwell/base/error.h"
 #include "wearwell/study/clutch_predict.h"
 #include "wearwell/study/clutch_study.h"
+#include "wearwell/study/clutch_tables.h"
+#include "wearwell/study/units_check.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -208,6 +210,18 @@ Check sequence_check(const std::vector<SequenceResult>& sequences) {
                                            : fmt::format("{}", fmt::join(good, "; ")));
 }
 
+/// What was read of the cycles, to find mistaken units.
+std::vector<DataColumn> columns_of(const Campaign& campaign) {
+  std::vector<DataColumn> columns;
+  for (const Input& input : inputs) {
+    const bool celsius = input.value == &OperatingPoint::temperature;
+    columns.push_back({input.name, input.si, read_unit(celsius ? "degC" : input.si, input.si), {}});
+    for (const Cycle& cycle : campaign.cycles)
+      columns.back().values.push_back(cycle.at.*input.value + (celsius ? celsius_zero : 0));
+  }
+  return columns;
+}
+
 Check data_check(const Campaign& campaign, const ClutchResult& r) {
   Findings findings("data");
   std::set<int> run;
@@ -310,6 +324,7 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* p
   r.checks = {
       data_check(study.campaign, r),  run_in_check(r.run_in),         map_check(r.maps),
       scatter_check(r.scatter_fit()), validation_check(r.validation), sequence_check(r.sequences)};
+  if (const auto units = units_check(columns_of(study.campaign))) r.checks.push_back(*units);
   for (const Check& check : r.checks) r.trusted = r.trusted && check.verdict != Verdict::fail;
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return r;

@@ -30,7 +30,7 @@ struct Batch {
 enum Place { plate, number, slip_speed, torque, temperature, closing_time, energy, places };
 constexpr const char* names[places] = {"plate",       "cycle",        "slip_speed", "torque",
                                        "temperature", "closing_time", "energy"};
-constexpr const char* dimensions[places] = {"1", "1", "1/s", "N m", "K", "s", "J"};
+constexpr const char* dimensions[places] = {"1", "cycle", "rad/s", "N m", "K", "s", "J"};
 
 class Reader {
  public:
@@ -66,17 +66,19 @@ class Reader {
       const auto& raw = batch.raw[static_cast<std::size_t>(c)];
       ArrayXd values = unit.offset + unit.scale * Eigen::Map<const ArrayXd>(raw.data(), n);
       if (c == temperature) {
-        values -= celsius_zero;
         if (!values.allFinite()) refuse(batch, c, values, "must be a finite number");
+        if (!(values >= 0).all()) refuse(batch, c, values, "is below absolute zero");
+        values -= celsius_zero;
       } else if (!(values > 0).all() || !values.allFinite()) {
         refuse(batch, c, values, "must be a positive number");
       }
       return values;
     };
     const auto whole = [&](int c) {
-      const auto& raw = batch.raw[static_cast<std::size_t>(c)];
+      auto raw = batch.raw[static_cast<std::size_t>(c)];
       const double most = c == plate ? 2e9 : 9e15;
       for (std::size_t i = 0; i < raw.size(); ++i) {
+        raw[i] *= columns_[static_cast<std::size_t>(c)].unit.scale;
         if (!(raw[i] >= 1 && raw[i] <= most) || raw[i] != std::trunc(raw[i]))
           throw InputError(
               fmt::format("{}, row {}, column '{}': {} must be a whole number of at "
@@ -101,7 +103,7 @@ class Reader {
   [[noreturn]] void refuse(const Batch& batch, int c, const ArrayXd& values,
                            const char* allowed) const {
     Index i = 0;
-    while (std::isfinite(values[i]) && (c == temperature || values[i] > 0)) ++i;
+    while (std::isfinite(values[i]) && (c == temperature ? values[i] >= 0 : values[i] > 0)) ++i;
     const double raw = batch.raw[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)];
     throw InputError(fmt::format("{}, row {}, column '{}': {} {}", stream_.source(),
                                  batch.first_row + static_cast<std::size_t>(i) + 1,

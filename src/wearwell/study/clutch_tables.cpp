@@ -38,7 +38,7 @@ std::vector<OperatingPoint> operating_points(const Table& table) {
 
 std::vector<long long> whole_numbers(const Table& table, std::string_view name, long long least) {
   std::vector<long long> whole;
-  const std::vector<double> values = labelled_numbers(table, name, "1");
+  const std::vector<double> values = labelled_numbers(table, name, name == "cycle" ? "cycle" : "1");
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] != std::round(values[i]) || values[i] < static_cast<double>(least) ||
         values[i] > 9e15)

@@ -10,7 +10,7 @@ std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::st
                                         const std::string& si) {
   if (!columns.has(name)) return {};
   if (columns.is_text(name)) {
-    if (si != "1") {
+    if (!may_be_plain(si)) {
       columns.fail(name, fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}",
                                      name, *columns.text(name), si));
     }
@@ -19,7 +19,8 @@ std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::st
   const TomlReader table = columns.required_table(name);
   ColumnChoice choice{table.required_text("column"), Unit{"1", 1, 0}};
   const auto unit = table.text("unit");
-  if (!unit && si != "1") table.fail("unit", fmt::format("is missing (one like \"{}\")", si));
+  if (!unit && !may_be_plain(si))
+    table.fail("unit", fmt::format("is missing (one like \"{}\")", si));
   if (unit) {
     try {
       choice.unit = read_unit(*unit, si);
@@ -34,7 +35,7 @@ ColumnChoice required_column(const TomlReader& columns, const std::string& name,
                              const std::string& si) {
   const auto choice = read_column(columns, name, si);
   if (!choice) {
-    columns.fail(name, si == "1"
+    columns.fail(name, may_be_plain(si)
                            ? "is missing: which column holds it?"
                            : fmt::format("is missing: {} = {{ column = \"...\", unit = \"{}\" }}",
                                          name, si));

@@ -15,7 +15,7 @@ struct ColumnChoice {
   Unit unit;
 };
 
-/// Reads the choice for `name` from a [columns] table; a dimension other than "1" needs a unit.
+/// Reads the choice for `name` from a [columns] table; a dimension other than a number or a count needs a unit.
 std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::string& name,
                                         const std::string& si);
 ColumnChoice required_column(const TomlReader& columns, const std::string& name,

@@ -28,13 +28,13 @@ class PriorReader {
     }
   }
 
-  double dimensional(const char* key) { return keep(table_.required_quantity(key, spec_.si)); }
+  double dimensional(const char* key) { return keep(key, table_.required_quantity(key, spec_.si)); }
   // Standard deviations and scales: of a logarithm they are plain numbers.
   double size(const char* key) { return is_logarithm(spec_.si) ? plain(key) : dimensional(key); }
   double plain(const char* key) { return table_.required_quantity(key, "1").si(); }
   double bound(const char* key, double none) {
     const auto value = table_.quantity(key, spec_.si);
-    return value ? keep(*value) : none;
+    return value ? keep(key, *value) : none;
   }
 
   Family family(const std::string& law) {
@@ -70,7 +70,7 @@ class PriorReader {
 
   Unit unit() const {
     if (unit_) return *unit_;
-    if (spec_.si == "1") return Unit{"1", 1, 0};
+    if (may_be_plain(spec_.si)) return Unit{"1", 1, 0};
     table_.fail(
         "",
         fmt::format("no quantity here has a unit; add unit = \"{}\", or any other of its dimension",
@@ -98,8 +98,15 @@ class PriorReader {
     }
   }
 
-  double keep(const Quantity& quantity) {
+  double keep(const char* key, const Quantity& quantity) {
     refuse_offset(quantity.unit);
+    if (unit_ && !is_logarithm(spec_.si)) {
+      try {
+        refuse_two_readings(quantity, *unit_);
+      } catch (const InputError& error) {
+        table_.fail(key, error.what());
+      }
+    }
     if (!unit_) unit_ = quantity.unit;
     return quantity.si();
   }

@@ -44,8 +44,16 @@ void read_sampler(const TomlReader& root, Study& study) {
     Eigen::VectorXd widths(static_cast<Eigen::Index>(study.parameters.size()));
     for (std::size_t i = 0; i < study.parameters.size(); ++i) {
       const Parameter& parameter = study.parameters[i];
-      const Quantity width = half_width->required_quantity(parameter.name, parameter.si);
+      // A width is a difference: of a logarithm a plain number.
+      const bool logarithm = is_logarithm(parameter.si);
+      const Quantity width =
+          half_width->required_quantity(parameter.name, logarithm ? "1" : parameter.si);
       if (!(width.si() > 0)) half_width->fail(parameter.name, "must be positive");
+      try {
+        if (!logarithm) refuse_two_readings(width, parameter.unit);
+      } catch (const InputError& error) {
+        half_width->fail(parameter.name, error.what());
+      }
       widths[static_cast<Eigen::Index>(i)] = width.si();
     }
     study.metropolis.half_width = widths;

@@ -199,6 +199,7 @@ std::vector<Check> all_checks(const Study& study, const Posterior& posterior, co
                               const std::optional<LooSummary>& loo) {
   std::vector<Check> checks = trust_checks(posterior, fit);
   if (loo) checks.push_back(loo_check(loo->loo, loo->observation));
+  if (const auto units = units_check(study.data_columns)) checks.push_back(*units);
   if (study.checks) {
     for (Check& check : study.checks(fit)) checks.push_back(std::move(check));
   }

@@ -119,7 +119,8 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
   parameters.push_back(read_prior(priors, {"b", "1", -INFINITY, 0, guess.b}));
   if (log_strength) parameters.push_back(*log_strength);
   if (law.has_gamma()) parameters.push_back(read_prior(priors, {"gamma", "1", 0, 1, 0.5}));
-  parameters.push_back(read_prior(priors, {"sigma", "1", 0, INFINITY, guess.sigma}));
+  const char* sigma_si = law.logarithmic() ? "1" : "cycle";
+  parameters.push_back(read_prior(priors, {"sigma", sigma_si, 0, INFINITY, guess.sigma}));
   if (law.limit) {
     double lowest = INFINITY;
     for (const LifeTest& test : data.tests) {
@@ -253,6 +254,7 @@ void read_sn_study(const TomlReader& root, const std::filesystem::path& folder, 
     return fatigue::sn_likelihood(law, tests, rows);
   };
   study.data_notes = notes(law, data);
+  study.data_columns = data.columns;
   SnPredictions predictions;
   if (const auto predict = root.table("predict")) {
     predictions = read_sn_predictions(*predict, law, data);

@@ -15,6 +15,7 @@
 #include "wearwell/infer/fit.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/report/result.h"
+#include "wearwell/study/units_check.h"
 
 namespace wearwell {
 
@@ -84,7 +85,8 @@ struct Study {
   std::size_t data_rows = 0;   ///< data sets; the posterior can be updated after each
   /// What was observed, row by row in SI: what the likelihood is a density of.
   std::vector<double> observed;
-  std::string observation = "row";  ///< what the likelihood's factors are of: "row", "bearing"
+  std::vector<DataColumn> data_columns;  ///< what was read, to find mistaken units
+  std::string observation = "row";       ///< what the likelihood's factors are of: "row", "bearing"
   std::vector<Parameter> parameters;
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
   bool stages = false;  ///< the posterior after 1, 2, ... data sets as well

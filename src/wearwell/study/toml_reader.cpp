@@ -130,7 +130,7 @@ Quantity read_node(const toml::node& node, std::string_view si) {
   const auto number = node.value<double>();
   if (!number || node.is_boolean()) throw InputError("must be a number, or a text like '1.5 mm'");
   if (!std::isfinite(*number)) throw InputError("must be finite");
-  if (si != "1") {
+  if (!may_be_plain(si)) {
     throw InputError(
         fmt::format("{} has no unit (write one like \"{} {}\")", *number, *number, si));
   }

@@ -37,7 +37,7 @@ class TomlReader {
 
   std::optional<long long> integer(std::string_view key, long long least, long long most) const;
 
-  /// "NUMBER UNIT" of the dimension of `si`; where that is "1", a plain number too.
+  /// "NUMBER UNIT" of the dimension of `si`; where that is a number or a count, a plain number too.
   std::optional<Quantity> quantity(std::string_view key, std::string_view si) const;
   Quantity required_quantity(std::string_view key, std::string_view si) const;
   /// One quantity or a list of them.
