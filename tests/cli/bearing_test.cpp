@@ -1,5 +1,5 @@
 // `wearwell bearing` as its user meets it.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <initializer_list>
@@ -15,6 +15,7 @@ namespace wearwell {
 namespace {
 
 using nlohmann::ordered_json;
+using testing::HasSubstr;
 
 double relative(double value, double expected) {
   return std::abs(value - expected) / std::abs(expected);
