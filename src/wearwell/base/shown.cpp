@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace wearwell {
 namespace {
 
@@ -70,8 +72,11 @@ std::string valid_utf8(std::string_view text) {
 }
 
 std::string shown(std::string_view message) {
+  std::string text = valid_utf8(message);
+  const std::string_view json_class = "[json.exception.";
+  for (std::size_t at = 0; (at = text.find(json_class, at)) != text.npos;)
+    text.erase(at, std::min(text.find("] ", at), text.size() - 2) + 2 - at);
   std::string clean;
-  const std::string text = valid_utf8(message);
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const bool c1 = byte == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0;

@@ -10,8 +10,8 @@ namespace wearwell {
 std::string valid_utf8(std::string_view text);
 
 /// A message as a terminal or a log may show it: valid UTF-8 on one line, control characters as
-/// \x1b, and whatever is longer than a person reads (a value in quotes, a word, the whole) cut with
-/// its length in its place.
+/// \x1b, without the classes of errors of the JSON library, and what is longer than a person reads
+/// (a value in quotes, a word, the whole) cut, with its length in its place.
 std::string shown(std::string_view message);
 
 }  // namespace wearwell

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/unit.h"
 #include "wearwell/cli/clutch_parts.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/clutch/closing.h"
 #include "wearwell/report/result_folder.h"
 #include "wearwell/study/clutch_tables.h"
@@ -20,8 +20,9 @@ struct FeatureOptions {
 
 int run(const FeatureOptions& options) {
   ClosingRule rule;
-  rule.torque_on = read_quantity(options.torque_on, "N m").si();
-  rule.slip_off = read_quantity(options.slip_off, "1/s").si();
+  rule.torque_on =
+      option_value("--torque-on", options.torque_on, "N m", Allowed::not_negative);
+  rule.slip_off = option_value("--slip-off", options.slip_off, "1/s", Allowed::not_negative);
   const std::vector<Sample> samples = read_traces(options.traces);
   std::vector<Closing> closings;
   try {

@@ -200,7 +200,7 @@ std::string in_words(const SnLaw& law) {
 // "9 tests: 8 failures, 1 runout", and what stresses and lives they span.
 std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
   static constexpr const char* outcomes[] = {"failure", "runout", "left-censored", "interval"};
-  int counts[4] = {}, all = 0;
+  long long counts[4] = {}, all = 0;
   std::vector<double> alternating, mean, life;
   for (const LifeTest& test : data.tests) {
     counts[static_cast<int>(test.outcome)] += test.count;

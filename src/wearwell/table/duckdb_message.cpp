@@ -13,7 +13,8 @@ namespace {
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  // Regular expressions of the standard library go down a call a character.
+  for (std::string line; std::getline(stream, line);) lines.push_back(line.substr(0, 2000));
   return lines;
 }
 
