@@ -37,7 +37,7 @@ std::string model_table(const SelectionResult& result) {
       {"rank", "terms", criterion_title(result.settings.search.criterion), "R2", "R2p", "weight"}};
   const bool folds = !selection.k_fold_press.empty();
   if (folds) rows[0].push_back(fmt::format("R2 in {} folds", result.settings.folds));
-  rows[0].push_back("changes from the best");
+  rows[0].emplace_back("changes from the best");
   for (std::size_t m = 0; m < std::min(models.size(), most_models); ++m) {
     rows.push_back({fmt::format("{}", m + 1), fmt::format("{}", models[m].terms.size()),
                     fmt::format("{:.6g}", models[m].criterion), number(models[m].r2),

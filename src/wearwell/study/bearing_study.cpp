@@ -92,8 +92,8 @@ void read_bearing_study(const TomlReader& root, const std::filesystem::path& fol
   study.observed = data.inspections.depth;
   if (model.has_scatter) study.observation = "bearing";
   study.meanings = {"specific wear rate"};
-  if (!model.depth_error) study.meanings.push_back("scatter of one measured depth");
-  if (model.has_scatter) study.meanings.push_back("scatter of ln k between bearings");
+  if (!model.depth_error) study.meanings.emplace_back("scatter of one measured depth");
+  if (model.has_scatter) study.meanings.emplace_back("scatter of ln k between bearings");
   study.likelihood = [=, inspections = data.inspections](std::size_t rows) {
     return bearing::wear_likelihood(model, inspections, rows);
   };

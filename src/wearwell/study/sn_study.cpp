@@ -145,11 +145,11 @@ std::vector<std::string> meanings(const SnLaw& law) {
                         ? "logarithm of the true fracture strength"
                         : "logarithm of the ultimate strength");
   }
-  if (law.has_gamma()) words.push_back("Walker's exponent");
+  if (law.has_gamma()) words.emplace_back("Walker's exponent");
   words.push_back(law.logarithmic() ? "scatter of log10 life" : "scatter of life");
   if (law.limit) {
-    words.push_back("logarithm of the median fatigue limit");
-    words.push_back("scatter of the logarithm of the fatigue limit");
+    words.emplace_back("logarithm of the median fatigue limit");
+    words.emplace_back("scatter of the logarithm of the fatigue limit");
   }
   if (law.limit == StandardLaw::smallest_extreme_value) {
     words[words.size() - 2] = "logarithm of the fatigue limit that 63.2 % stay below";
