@@ -74,8 +74,10 @@ std::string valid_utf8(std::string_view text) {
 std::string shown(std::string_view message) {
   std::string text = valid_utf8(message);
   const std::string_view json_class = "[json.exception.";
-  for (std::size_t at = 0; (at = text.find(json_class, at)) != text.npos;)
-    text.erase(at, std::min(text.find("] ", at), text.size() - 2) + 2 - at);
+  for (std::size_t at = 0; (at = text.find(json_class, at)) != text.npos;) {
+    const std::size_t end = text.find("] ", at);
+    text.erase(at, end == text.npos ? end : end + 2 - at);
+  }
   std::string clean;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
