@@ -48,7 +48,7 @@ std::string shorten(std::string_view text) {
     const bool opens = text.front() == '\'' && text.find('\'', 1) != text.npos;
     if (opens) {
       const std::size_t end = text.find('\'', 1);
-      result += "'" + cut(text.substr(1, end - 1), longest_value) + "'";
+      result += fmt::format("'{}'", cut(text.substr(1, end - 1), longest_value));
       text.remove_prefix(end + 1);
       continue;
     }
