@@ -116,7 +116,13 @@ void check(const SelectData& data) {
 
 SelectionResult read_selection(const SelectData& data) {
   check(data);
-  const Table table = read_table(data.file, data.sql);
+  const Table table = [&] {
+    try {
+      return read_table(data.file, data.sql);
+    } catch (const QueryError& error) {
+      throw InputError(fmt::format("--sql: {}", error.what()));
+    }
+  }();
   SelectionResult result;
   result.data_file = table.source;
   result.data_sha1 = sha1(data.file);

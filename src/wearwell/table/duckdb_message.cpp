@@ -39,8 +39,12 @@ std::string csv_sentence(const std::vector<std::string>& lines, const std::strin
   if (std::regex_search(cause, found, counts)) {
     cause = fmt::format("{} values where the heading has {}", found[2].str(), found[1].str());
   } else if (std::regex_search(cause, found, conversion)) {
-    cause = fmt::format("'{}' in column '{}' is no {}, as those before it are", found[2].str(),
-                        found[1].str(), found[3].str());
+    const std::string type = found[3].str();
+    cause = fmt::format("'{}' in column '{}' is no {}, as the cells before it are", found[2].str(),
+                        found[1].str(),
+                        type == "BIGINT"   ? "whole number"
+                        : type == "DOUBLE" ? "number"
+                                           : type);
   }
   return fmt::format("line {}: {}", number, cause);
 }
@@ -56,6 +60,8 @@ std::string duckdb_sentence(const std::string& message) {
   static const std::regex no_table(R"(Table with name (.*) does not exist!)");
   static const std::regex extension(R"re(with name "(.*)" is not in the catalog, but it exists)re");
   std::smatch found;
+  if (first.starts_with("Error when sniffing file"))
+    return "no table of text can be made of it; do all quotes close?";
   if (std::regex_search(first, found, csv_line)) return csv_sentence(lines, found[1].str());
   if (std::regex_search(first, found, access))
     return fmt::format("it may read no file but the one that is named as data, not '{}'",
