@@ -52,6 +52,11 @@ std::string shorten(std::string_view text) {
       text.remove_prefix(end + 1);
       continue;
     }
+    if (text.front() == ' ') {
+      result += ' ';
+      text.remove_prefix(1);
+      continue;
+    }
     const std::size_t end = std::min(text.find_first_of(" '", 1), text.size());
     result += cut(text.substr(0, end), longest_word);
     text.remove_prefix(end);
