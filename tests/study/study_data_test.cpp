@@ -18,11 +18,11 @@ class StudyDataTest : public ScratchTest {
   /// A study of lives; `life_until` of row 2 is as given.
   std::string sn_refusal(const std::string& data, const std::string& file = "t.csv") const {
     write(file, data);
-    const auto study = write("s.toml", R"(model = "sn"
+    const auto study = write("s.toml", R"toml(model = "sn"
 [law]
 mean_stress = "none"
 [data]
-file = ")" + file + R"("
+file = ")toml" + file + R"toml("
 [data.columns]
 alternating_stress = { column = "s", unit = "MPa" }
 life = "n"
@@ -32,7 +32,7 @@ status = "status"
 log10_a = { law = "flat", unit = "log10(MPa)" }
 b = { law = "flat" }
 sigma = { law = "flat" }
-)");
+)toml");
     return message_of<InputError>([&] { read_study(study); });
   }
 };
