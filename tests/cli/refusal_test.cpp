@@ -62,7 +62,7 @@ sigma = {{ law = "flat", unit = "mm^3", lower = "0 mm^3", upper = "100 mm^3" }}
     return name;
   }
   static constexpr const char* flat =
-      R"({ law = "flat", unit = "mm^3/(N m)", lower = "0 mm^3/(N m)", upper = "1 mm^3/(N m)" })";
+      R"toml({ law = "flat", unit = "mm^3/(N m)", lower = "0 mm^3/(N m)", upper = "1 mm^3/(N m)" })toml";
 };
 
 TEST_F(Refusal, AStudyIsNoProgram) {
@@ -105,7 +105,7 @@ TEST_F(Refusal, WhatFitRefusesCheckRefuses) {
   // All of the prior lies where the likelihood is zero even in logarithms.
   data("cycles,volume\n1,4.44\n100,1e160\n1000,9\n");
   const std::string far =
-      R"({ law = "uniform", lower = "1e-320 mm^3/(N m)", upper = "1e-319 mm^3/(N m)" })";
+      R"toml({ law = "uniform", lower = "1e-320 mm^3/(N m)", upper = "1e-319 mm^3/(N m)" })toml";
   const std::string fit = refused("fit " + study("", far));
   EXPECT_EQ(refused("check " + study("", far)), fit);
 }

@@ -77,8 +77,7 @@ TEST_F(StudyDataTest, PlatesBeyondAnInt) {
   const auto file = write("c.csv", heading + "1,1,1700,50,170,2,9000\n4294967297,2,1700,50,170,2,"
                                              "9000\n");
   EXPECT_THAT(message_of<InputError>([&] { clutch::read_cycles(file); }),
-              HasSubstr("row 2, column 'plate': 4294967297 must be a whole number from 1 to "
-                        "2000000000"));
+              HasSubstr("row 2, column 'plate': 4294967297 is too large; at most 2000000000"));
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ Json parse(const std::filesystem::path& file, const char* format, int version) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) throw InputError("it is a folder, not a file");
   std::ifstream stream(file);
-  if (!stream) throw InputError("it cannot be read; is it there?");
+  if (!stream) throw InputError("cannot read it; is it there?");
   const Json json = Json::parse(stream);
   if (!json.is_object() || json.value("format", "") != format)
     throw InputError(fmt::format("it is no {}", format));

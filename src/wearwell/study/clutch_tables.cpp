@@ -44,11 +44,13 @@ std::vector<long long> whole_numbers(const Table& table, std::string_view name, 
   std::vector<long long> whole;
   const std::vector<double> values = labelled_numbers(table, name, "1");
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] != std::round(values[i]) || values[i] < static_cast<double>(least) ||
-        values[i] > most)
-      throw InputError(fmt::format("{}: {} must be a whole number from {} to {:.0f}",
-                                   place(table, find_labelled(table, name, "1").heading, i),
-                                   values[i], least, most));
+    const auto refuse = [&](const std::string& reason) {
+      const std::string heading = find_labelled(table, name, "1").heading;
+      throw InputError(fmt::format("{}: {} {}", place(table, heading, i), values[i], reason));
+    };
+    if (values[i] != std::round(values[i]) || values[i] < static_cast<double>(least))
+      refuse(fmt::format("must be a whole number of at least {}", least));
+    if (values[i] > most) refuse(fmt::format("is too large; at most {:.0f} is possible", most));
     whole.push_back(static_cast<long long>(values[i]));
   }
   return whole;

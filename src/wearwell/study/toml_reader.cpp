@@ -4,7 +4,8 @@
 #include <fmt/ranges.h>
 
 // Some text that is no TOML ("[.=") breaks an assertion of toml++, and without its assertions the
-// behaviour is undefined. So they are on here, and throw.
+// behaviour is undefined. So they are on here, and throw: in the headers, because Debian's library
+// is built without.
 namespace wearwell {
 namespace {
 struct NoToml {};
@@ -14,6 +15,9 @@ struct NoToml {};
 }  // namespace
 }  // namespace wearwell
 #undef NDEBUG
+#undef TOML_SHARED_LIB
+#undef TOML_HEADER_ONLY
+#define TOML_HEADER_ONLY 1
 #define TOML_ASSERT(expr) ((expr) ? static_cast<void>(0) : wearwell::assertion_failed())
 #define TOML_MAX_NESTED_VALUES 32
 #include <toml++/toml.h>
