@@ -19,6 +19,7 @@
 #include "wearwell/cli/bearing_chart.h"
 #include "wearwell/cli/bearing_options.h"
 #include "wearwell/cli/bearing_profile.h"
+#include "wearwell/cli/option_value.h"
 
 namespace wearwell {
 namespace bearing {
@@ -127,13 +128,7 @@ Unit answer_unit(const Question& question, const std::string& asked) {
 
 std::optional<double> read_limit(const std::string& text) {
   if (text.empty()) return std::nullopt;
-  try {
-    const double limit = read_quantity(text, "m").si();
-    if (!(limit > 0)) throw InputError(fmt::format("'{}' must be positive", text));
-    return limit;
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--limit: {}", error.what()));
-  }
+  return option_value("--limit", text, "m", Allowed::positive);
 }
 
 /// How far the depth stays from its limit, and what else may happen before it is reached.

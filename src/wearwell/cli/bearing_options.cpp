@@ -27,6 +27,8 @@ Uncertain read_input(const InputOption& option, const std::string& text) {
   try {
     const Uncertain value = read_uncertain(text, option.si);
     if (!(value.mean > 0)) throw InputError(fmt::format("'{}' must be positive", value.text));
+    if (!std::isfinite(value.mean) || !std::isfinite(value.sd))
+      throw InputError(fmt::format("'{}' is no finite number in SI units", value.text));
     return value;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", option.flag, error.what()));

@@ -12,6 +12,7 @@
 #include "wearwell/bearing/profile.h"
 #include "wearwell/bearing/wear_number.h"
 #include "wearwell/cli/bearing_options.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/table/table.h"
 
 namespace wearwell::bearing {
@@ -48,13 +49,7 @@ Profile read_profile(const char* flag, const std::string& file, const ProfileOpt
 
 std::optional<double> read_flank(const std::string& text) {
   if (text.empty()) return {};
-  try {
-    const double flank = read_quantity(text, "m").si();
-    if (!(flank > 0)) throw InputError(fmt::format("'{}' must be positive", text));
-    return flank;
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--flank: {}", error.what()));
-  }
+  return option_value("--flank", text, "m", Allowed::positive);
 }
 
 /// A wear rate and what it follows from.

@@ -7,8 +7,17 @@
 
 #include "wearwell/study/clutch_describe.h"
 #include "wearwell/study/describe.h"
+#include "wearwell/study/run_study.h"
 
 namespace wearwell {
+namespace {
+
+std::string words_of(const Study& study) {
+  require_posterior(study);
+  return study_in_words(study);
+}
+
+}  // namespace
 
 void add_check_command(CLI::App& app, int& exit_code) {
   auto study = std::make_shared<std::filesystem::path>();
@@ -19,7 +28,7 @@ void add_check_command(CLI::App& app, int& exit_code) {
   check->callback([study, &exit_code] {
     fmt::print("{}", clutch::is_clutch_study(*study)
                          ? clutch::study_in_words(clutch::read_clutch_study(*study))
-                         : study_in_words(read_study(*study)));
+                         : words_of(read_study(*study)));
     exit_code = 0;
   });
 }

@@ -7,6 +7,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/cli/clutch_parts.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/clutch/design.h"
 #include "wearwell/report/result_folder.h"
 #include "wearwell/study/clutch_tables.h"
@@ -59,7 +60,7 @@ Values read_values(const std::string& flag, std::string text, const Input& input
     try {
       const double x = read_quantity(numbers.substr(from, end - from), "1").value;
       const double offset = input.value == &OperatingPoint::temperature ? celsius_zero : 0;
-      result.values.push_back(to_si(unit, x) - offset);
+      result.values.push_back(checked_option(flag, to_si(unit, x) - offset, Allowed::any));
     } catch (const InputError&) {
       fail("write numbers with commas between them and one unit behind: '1200, 1700, 2800 rpm'");
     }
@@ -89,8 +90,8 @@ DesignRequest read_request(const DesignOptions& options) {
     request.highest[i] = range.values[1];
   }
   if (!options.most_energy.empty()) {
-    request.most_energy = read_quantity(options.most_energy, "J").si();
-    if (!(request.most_energy > 0)) throw InputError("--most-energy must be positive");
+    request.most_energy =
+        option_value("--most-energy", options.most_energy, "J", Allowed::positive);
   }
   return request;
 }

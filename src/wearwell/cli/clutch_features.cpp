@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/unit.h"
 #include "wearwell/cli/clutch_parts.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/clutch/closing.h"
 #include "wearwell/report/result_folder.h"
 #include "wearwell/study/clutch_tables.h"
@@ -18,18 +18,11 @@ struct FeatureOptions {
   std::string torque_on = "2 N m", slip_off = "0.5 rad/s";
 };
 
-double threshold(const char* flag, const std::string& text, const char* si) {
-  try {
-    return read_quantity(text, si).si();
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", flag, error.what()));
-  }
-}
-
 int run(const FeatureOptions& options) {
   ClosingRule rule;
-  rule.torque_on = threshold("--torque-on", options.torque_on, "N m");
-  rule.slip_off = threshold("--slip-off", options.slip_off, "rad/s");
+  rule.torque_on =
+      option_value("--torque-on", options.torque_on, "N m", Allowed::not_negative);
+  rule.slip_off = option_value("--slip-off", options.slip_off, "rad/s", Allowed::not_negative);
   const std::vector<Sample> samples = read_traces(options.traces);
   std::vector<Closing> closings;
   try {

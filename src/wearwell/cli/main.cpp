@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/shown.h"
 #include "wearwell/cli/bearing.h"
 #include "wearwell/cli/check.h"
 #include "wearwell/cli/clutch.h"
@@ -18,7 +20,7 @@ namespace {
 constexpr int bad_request = 2, machine_failed = 3;
 
 int complain(const std::string& message, int exit_code) {
-  fmt::print(stderr, "wearwell: {}\n", message);
+  fmt::print(stderr, "wearwell: {}\n", wearwell::shown(message));
   return exit_code;
 }
 
@@ -50,6 +52,8 @@ int main(int argc, char** argv) {
   } catch (const InputError& error) {
     return complain(error.what(), bad_request);
   } catch (const MachineError& error) {
+    return complain(error.what(), machine_failed);
+  } catch (const std::filesystem::filesystem_error& error) {
     return complain(error.what(), machine_failed);
   } catch (const std::bad_alloc&) {
     return complain("out of memory", machine_failed);

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/cli/search_line.h"
 #include "wearwell/cli/select_data.h"
 #include "wearwell/report/result_folder.h"
@@ -128,9 +129,11 @@ void add_select_command(CLI::App& app, int& exit_code) {
   select->add_option("--keep", search.keep, "How many best models")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  select->add_option("--near", search.near,
-                     "And every model this near to the best: for loo relative (0.01: PRESS 1 % "
-                     "above), else in units of the criterion");
+  select
+      ->add_option("--near", search.near,
+                   "And every model this near to the best: for loo relative (0.01: PRESS 1 % "
+                   "above), else in units of the criterion")
+      ->check(number_between(0, 1e9));
   select->add_option("--force", data.forced, "Terms that every model holds; the constant is 1")
       ->delimiter(',')
       ->type_name("T,T");
@@ -149,7 +152,7 @@ void add_select_command(CLI::App& app, int& exit_code) {
       ->type_name("K");
   select->add_option("--seed", options->settings.seed, "Seed of the folds (default 1)");
   select->add_option("--time", search.seconds, "Stop after so many seconds, proven or not")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_between(0, 1e9))
       ->type_name("S");
   select
       ->add_option("--threads", search.threads,

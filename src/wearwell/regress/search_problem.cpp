@@ -34,6 +34,10 @@ void check(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
   }
   if ((response.array() == response[0]).all())
     throw InputError("the response is the same in every row");
+  require_size("the response", response);
+  for (Index j = 0; j < columns.cols(); ++j)
+    require_size(fmt::format("term {}", j + 1), columns.col(j));
+  if (weights.size() != 0) require_size("the weights", weights);
 }
 
 /// s2 of all terms; only cp needs it.
@@ -51,6 +55,16 @@ double full_variance(const Eigen::MatrixXd& columns, const Eigen::VectorXd& resp
 
 }  // namespace
 
+void require_size(const std::string& name, const Eigen::VectorXd& values) {
+  constexpr double least = 1e-100, most = 1e100;
+  const double size = values.cwiseAbs().maxCoeff();
+  if (size == 0 || (size >= least && size <= most)) return;
+  throw InputError(
+      fmt::format("{}: the largest value is {:.3g}; its squares are no numbers to count with. Write "
+                  "it in a unit in which it lies between {:g} and {:g}",
+                  name, size, least, most));
+}
+
 std::vector<int> terms_of(TermSet set) {
   std::vector<int> terms;
   for (; set != 0; set &= set - 1) terms.push_back(std::countr_zero(set));
@@ -67,6 +81,8 @@ SearchProblem::SearchProblem(const Eigen::MatrixXd& data, const Eigen::VectorXd&
   Eigen::VectorXd w = weights;
   if (w.size() == 0) w.setOnes(rows);
   tss = (w.array() * (observed.array() - w.dot(observed) / w.sum()).square()).sum();
+  if (!(tss > 0) || !std::isfinite(tss))
+    throw InputError("the response varies by less than its digits can tell");
 
   Eigen::MatrixXd all(rows, terms + 1);
   all << w.cwiseSqrt().asDiagonal() * data, w.cwiseSqrt().cwiseProduct(observed);

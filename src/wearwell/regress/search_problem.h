@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "wearwell/regress/criterion.h"
@@ -24,6 +25,10 @@ std::vector<int> terms_of(TermSet set);
 /// Computed bounds and errors are trusted to this relative accuracy: a branch is cut only when its
 /// bound exceeds the limit by more. Rounding stays far below (subset_search.md).
 inline constexpr double bound_slack = 1e-6;
+
+/// Throws InputError that begins with `name` where squares and products of the values would
+/// overflow or vanish.
+void require_size(const std::string& name, const Eigen::VectorXd& values);
 
 /// A regression made ready for the search: rows multiplied by the root of their weight, columns of
 /// unit length (which changes no fit), rows filled up with zeros to a multiple of row_block. For

@@ -32,6 +32,11 @@ int exponent_of(double x) {
   return exponent < -2 || exponent > 6 ? exponent : 0;
 }
 
+// In two steps: the power itself is zero or infinite at the ends of what a double holds.
+double mantissa(double x, int exponent) {
+  return x / std::pow(10.0, exponent / 2) / std::pow(10.0, exponent - exponent / 2);
+}
+
 // Thousands apart, and a true minus.
 std::string spaced(std::string text) {
   std::string sign;
@@ -101,14 +106,14 @@ std::string number(double x, int digits) {
   if (!std::isfinite(x)) return "–";
   const int exponent = exponent_of(x);
   if (exponent == 0) return plain(x, digits);
-  return plain(x / std::pow(10.0, exponent), digits) + power_of_ten(exponent);
+  return plain(mantissa(x, exponent), digits) + power_of_ten(exponent);
 }
 
 std::string given(double x) {
   const int exponent = exponent_of(x);
   if (!std::isfinite(x)) return number(x);
   if (exponent == 0) return spaced(fmt::format("{:.9g}", x));
-  return fmt::format("{:.9g}", x / std::pow(10.0, exponent)) + power_of_ten(exponent);
+  return fmt::format("{:.9g}", mantissa(x, exponent)) + power_of_ten(exponent);
 }
 
 std::string raised(const std::string& text) {

@@ -31,7 +31,7 @@ class Inputs {
       : data_(root.required_table("data")),
         columns_(data_.required_table("columns")),
         conditions_(root.table("conditions")),
-        table_(read_table(folder / data_.required_text("file"), data_.text("sql"))) {}
+        table_(read_table(data_, folder)) {}
 
   const Table& table() const { return table_; }
   const TomlReader& columns() const { return columns_; }

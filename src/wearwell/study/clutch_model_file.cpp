@@ -65,8 +65,16 @@ RunIn read_run_in(const Json& json) {
   return run_in;
 }
 
+/// get<int> would cut off what does not fit.
+int whole(const Json& json, const char* name) {
+  const Json& value = json.at(name);
+  if (!value.is_number_integer() || value.get<double>() != value.get<int>())
+    throw InputError(fmt::format("{} must be a whole number up to 2147483647", name));
+  return value.get<int>();
+}
+
 int power(const Json& json, const char* name) {
-  const int n = json.at(name).get<int>();
+  const int n = whole(json, name);
   if (n < 0 || n > 3) throw InputError(fmt::format("the power of {} must be 0 to 3", name));
   return n;
 }
@@ -94,8 +102,10 @@ WearPolynomial read_polynomial(const Json& json) {
 }
 
 Json parse(const std::filesystem::path& file, const char* format, int version) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) throw InputError("it is a folder, not a file");
   std::ifstream stream(file);
-  if (!stream) throw InputError(fmt::format("cannot read {}", file.string()));
+  if (!stream) throw InputError("cannot read it; is it there?");
   const Json json = Json::parse(stream);
   if (!json.is_object() || json.value("format", "") != format)
     throw InputError(fmt::format("it is no {}", format));
@@ -222,7 +232,7 @@ std::vector<PlateWear> read_state(const std::filesystem::path& file, const std::
     std::vector<PlateWear> plates;
     for (const Json& each : json.at("plates")) {
       PlateWear p;
-      p.plate = each.at("plate").get<int>();
+      p.plate = whole(each, "plate");
       p.cycles = each.at("cycles").get<long long>();
       p.last_number = each.at("last_cycle").get<long long>();
       p.energy = each.at("energy").get<double>();

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/shown.h"
 #include "wearwell/study/clutch_tables.h"
 #include "wearwell/study/clutch_truth.h"
+#include "wearwell/study/columns.h"
 #include "wearwell/study/toml_reader.h"
 
 namespace wearwell::clutch {
@@ -17,14 +19,10 @@ namespace fs = std::filesystem;
 
 constexpr int traced_closings = 3;  // of a simulated campaign
 
-fs::path beside(const fs::path& study, const std::string& name) {
-  return study.parent_path() / name;
-}
-
 void read_simulation(const TomlReader& table, ClutchStudy& study) {
   study.simulated = true;
-  study.files = {beside(study.file, table.required_text("design")),
-                 beside(study.file, table.required_text("truth"))};
+  const fs::path folder = study.file.parent_path();
+  study.files = {required_file(table, "design", folder), required_file(table, "truth", folder)};
   const auto seed = table.integer("seed", 0, std::numeric_limits<long long>::max()).value_or(1);
   study.truth = read_truth(study.files[1]);
   Simulation simulation =
@@ -38,16 +36,16 @@ void read_simulation(const TomlReader& table, ClutchStudy& study) {
 }
 
 void read_data(const TomlReader& root, const TomlReader& table, ClutchStudy& study) {
-  study.files = {beside(study.file, table.required_text("design")),
-                 beside(study.file, table.required_text("cycles")),
-                 beside(study.file, table.required_text("weighings"))};
+  const fs::path folder = study.file.parent_path();
+  study.files = {required_file(table, "design", folder), required_file(table, "cycles", folder),
+                 required_file(table, "weighings", folder)};
   study.campaign.design = read_design(study.files[0]);
   study.campaign.cycles = read_cycles(study.files[1]);
   study.campaign.weighings = read_weighings(study.files[2]);
   study.campaign.cycles_source = study.files[1].string();
   study.campaign.weighings_source = study.files[2].string();
-  if (const auto traces = table.text("traces")) {
-    study.files.push_back(beside(study.file, *traces));
+  if (table.has("traces")) {
+    study.files.push_back(required_file(table, "traces", folder));
     study.traces = read_traces(study.files.back());
   }
   const Lining lining = read_lining(root);
@@ -102,7 +100,7 @@ ClutchStudy read_clutch_study(const fs::path& file) {
   const TomlReader root = TomlReader::parse_file(file);
   ClutchStudy study;
   study.file = file;
-  study.title = root.text("title").value_or(file.stem().string());
+  study.title = root.text("title").value_or(valid_utf8(file.stem().string()));
   root.required_text("model");
   const auto simulation = root.table("simulation");
   const auto data = root.table("data");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/shown.h"
 
 namespace wearwell {
 
@@ -41,6 +42,27 @@ ColumnChoice required_column(const TomlReader& columns, const std::string& name,
                                          name, si));
   }
   return *choice;
+}
+
+std::filesystem::path required_file(const TomlReader& section, const std::string& key,
+                                    const std::filesystem::path& folder) {
+  const std::string name = section.required_text(key);
+  if (name.empty() || name.find('\0') != name.npos) section.fail(key, "names no file");
+  std::filesystem::path file = folder / name;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    section.fail(key, fmt::format("no such file: {}", valid_utf8(file.string())));
+  return file;
+}
+
+Table read_table(const TomlReader& section, const std::filesystem::path& folder) {
+  const std::filesystem::path file = required_file(section, "file", folder);
+  const auto sql = section.text("sql");
+  try {
+    return read_table(file, sql);
+  } catch (const QueryError& error) {
+    section.fail("sql", error.what());
+  }
 }
 
 void require(bool good, const Table& table, const ColumnChoice& choice, std::size_t row,

@@ -34,7 +34,7 @@ double read_profile(const TomlReader& profile, const std::filesystem::path& fold
   const TomlReader columns = profile.required_table("columns");
   const ColumnChoice force = required_column(columns, "force", "N");
   const ColumnChoice slip = required_column(columns, "slip_increment", "m");
-  const Table table = read_table(folder / profile.required_text("file"), profile.text("sql"));
+  const Table table = read_table(profile, folder);
   try {
     return joint::work_per_cycle(
         si_numbers(table, force), si_numbers(table, slip),
@@ -142,8 +142,6 @@ void read_pin_positions(const TomlReader& root, const TomlReader& columns, const
 JointData read_data(const TomlReader& root, const std::filesystem::path& folder,
                     ObservationFamily family) {
   const TomlReader data_table = root.required_table("data");
-  const std::filesystem::path file = folder / data_table.required_text("file");
-  const auto sql = data_table.text("sql");
   const TomlReader columns = data_table.required_table("columns");
   const ColumnChoice cycles = required_column(columns, "cycles", "cycle");
   const bool positions = columns.has("dx") || columns.has("dy");
@@ -151,7 +149,7 @@ JointData read_data(const TomlReader& root, const std::filesystem::path& folder,
     columns.fail("volume", "is given beside pin positions (dx, dy); keep one of the two");
   }
 
-  const Table table = read_table(file, sql);
+  const Table table = read_table(data_table, folder);
   JointData data;
   data.cycles = si_numbers(table, cycles);
   for (std::size_t i = 0; i < table.rows; ++i) {

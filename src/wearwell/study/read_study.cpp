@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/shown.h"
 #include "wearwell/study/bearing_study.h"
 #include "wearwell/study/joint_study.h"
 #include "wearwell/study/sn_study.h"
@@ -66,7 +67,7 @@ Study read_study(const std::filesystem::path& file) {
   const TomlReader root = TomlReader::parse_file(file);
   Study study;
   study.file = file;
-  study.title = root.text("title").value_or(file.stem().string());
+  study.title = root.text("title").value_or(valid_utf8(file.stem().string()));
   const auto model = root.choice("model", {"archard-joint", "bearing-wear", "sn"});
   if (!model) root.fail("model", "is missing: \"archard-joint\", \"bearing-wear\" or \"sn\"");
   study.model = *model;

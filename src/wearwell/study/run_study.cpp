@@ -272,6 +272,11 @@ const char* method_name(Method method) {
   return "nuts";
 }
 
+void require_posterior(const Study& study) {
+  for (std::size_t rows = study.stages ? 1 : study.data_rows; rows <= study.data_rows; ++rows)
+    static_cast<void>(Posterior(study.parameters, study.likelihood(rows)));
+}
+
 StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads, bool with_plots,
                       Progress* progress) {
   const auto start = std::chrono::steady_clock::now();

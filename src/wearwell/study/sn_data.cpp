@@ -236,7 +236,7 @@ SnData read_sn_data(const TomlReader& root, const std::filesystem::path& folder,
   const TomlReader section = root.required_table("data");
   const TomlReader columns = section.required_table("columns");
   const auto conditions = root.table("conditions");
-  const Table table = read_table(folder / section.required_text("file"), section.text("sql"));
+  const Table table = read_table(section, folder);
   SnData data;
   data.source = table.source;
   const std::vector<Stress> stresses = read_stresses(columns, conditions, table, correction, data);
@@ -265,10 +265,14 @@ SnData read_sn_data(const TomlReader& root, const std::filesystem::path& folder,
                                  place(table, status->column, i)));
       }
       // Only intervals have a second life; cells of other rows may be empty.
-      const Column& ends = table.column(until->column);
-      if (!ends.is_number) si_numbers(table, *until);  // says which cell is no number
-      test.until = to_si(until->unit, ends.numbers[i]);
-      require(test.until > test.life, table, *until, i, "more than the life where it begins");
+      const double end = cell_number(table, table.column(until->column), i);
+      if (std::isnan(end)) {
+        throw InputError(fmt::format("{}: no value; an interval ends at a second life",
+                                     place(table, until->column, i)));
+      }
+      test.until = to_si(until->unit, end);
+      require(test.until > test.life && std::isfinite(test.until), table, *until, i,
+              "more than the life where it begins, and finite");
     }
     if (count) {
       require(counts[i] >= 1 && counts[i] == std::floor(counts[i]) && counts[i] <= 1e6, table,

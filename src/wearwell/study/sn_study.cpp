@@ -141,13 +141,13 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
 std::vector<std::string> meanings(const SnLaw& law) {
   std::vector<std::string> words = {"logarithm of the stress at one cycle", "Basquin's exponent"};
   if (law.has_strength()) {
-    words.push_back(law.correction == MeanStress::soderberg ? "logarithm of the yield strength"
+    words.emplace_back(law.correction == MeanStress::soderberg ? "logarithm of the yield strength"
                     : law.correction == MeanStress::morrow
                         ? "logarithm of the true fracture strength"
                         : "logarithm of the ultimate strength");
   }
   if (law.has_gamma()) words.emplace_back("Walker's exponent");
-  words.push_back(law.logarithmic() ? "scatter of log10 life" : "scatter of life");
+  words.emplace_back(law.logarithmic() ? "scatter of log10 life" : "scatter of life");
   if (law.limit) {
     words.emplace_back("logarithm of the median fatigue limit");
     words.emplace_back("scatter of the logarithm of the fatigue limit");
@@ -201,7 +201,7 @@ std::string in_words(const SnLaw& law) {
 // "9 tests: 8 failures, 1 runout", and what stresses and lives they span.
 std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
   static constexpr const char* outcomes[] = {"failure", "runout", "left-censored", "interval"};
-  int counts[4] = {}, all = 0;
+  long long counts[4] = {}, all = 0;
   std::vector<double> alternating, mean, life;
   for (const LifeTest& test : data.tests) {
     counts[static_cast<int>(test.outcome)] += test.count;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <string_view>
+
+namespace wearwell {
+
+enum class Allowed { any, positive, not_negative };
+
+/// A quantity given as an option, in SI. Throws InputError that begins with the option's name: no
+/// number, another dimension, not allowed, or too large to be counted with.
+double option_value(const std::string& option, const std::string& text, std::string_view si,
+                    Allowed allowed = Allowed::any);
+
+/// Throws InputError that begins with the option's name unless `value` is finite and allowed.
+double checked_option(const std::string& option, double value, Allowed allowed);
+
+/// For options that are plain numbers: NaN and infinity lie in no range.
+CLI::Validator number_between(double least, double most);
+
+}  // namespace wearwell
