@@ -56,7 +56,7 @@ class Steps {
   void propose(const Eigen::VectorXd& u, Rng& rng, Eigen::VectorXd& proposal) {
     for (double& each : z_) each = rng.normal();
     proposal = u;
-    proposal.noalias() += std::exp(log_length_) * (factor_.triangularView<Eigen::Lower>() * z_);
+    proposal.noalias() += std::exp(log_length_) * factor_.lazyProduct(z_);
   }
 
   /// After warm-up iteration i, counted from 0.

@@ -318,7 +318,7 @@ std::string mode_table(const ModeSummary& mode) {
   if (profile) {
     const double percent = 100 * profile->level;
     table.heading.push_back(fmt::format("{:.4g} % profile interval from", percent));
-    table.heading.push_back("to");
+    table.heading.emplace_back("to");
   }
   const auto add = [&](std::vector<std::string> row, const std::optional<ProfileSummary>& p) {
     if (profile) {
