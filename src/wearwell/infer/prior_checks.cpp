@@ -1,7 +1,10 @@
 #include "wearwell/infer/prior_checks.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "wearwell/infer/power_scaling.h"
 #include "wearwell/math/view.h"
@@ -94,55 +97,100 @@ bool has_cut(const Parameter& parameter) {
                   (std::isfinite(prior.upper) && prior.upper != parameter.natural_upper));
 }
 
+// Mass that a cut may leave out, and how far that may move a mean, if beyond the cut the density is
+// nowhere higher than at it.
+struct LeftOut {
+  double share = 0;
+  double shift = 0;  // standard deviations
+};
+
+LeftOut left_out(const Posterior& wider, const Posterior& posterior, const Fit& fit,
+                 std::size_t index) {
+  const Distribution marginal(fit.exact->nodes, [index](const double* x) { return x[index]; });
+  const auto at = static_cast<Eigen::Index>(index);
+  const double mean = fit.exact->mean[at], sd = fit.exact->sd[at];
+  const double width = (marginal.quantile(0.95) - marginal.quantile(0.05)) / 20;
+  const Law &cut = posterior.parameters()[index].prior, &moved = wider.parameters()[index].prior;
+  LeftOut all;
+  for (const bool lower : {true, false}) {
+    const double edge = lower ? cut.lower : cut.upper, end = lower ? moved.lower : moved.upper;
+    if (edge == end) continue;
+    const double inside = lower ? marginal.cdf(edge + width) - marginal.cdf(edge)
+                                : marginal.cdf(edge) - marginal.cdf(edge - width);
+    const double share = inside / width * std::abs(end - edge);
+    all.share += share;
+    all.shift += share * std::abs(end - mean) / sd;
+  }
+  return all;
+}
+
+// What moving the cut of one parameter does; nothing where it has none.
+struct CutFinding {
+  std::optional<Verdict> verdict;
+  std::string detail;
+};
+
+CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t index) {
+  constexpr double tolerated = 0.25;      // standard deviations
+  constexpr double without_doubt = 1e-3;  // so little more than which integration would not see
+  const Parameter& parameter = posterior.parameters()[index];
+  if (!has_cut(parameter)) return {};
+  if (!fit.exact) {
+    return {Verdict::warn, fmt::format("the dependence on the bounds of {} was not examined ({})",
+                                       parameter.name, fit.no_exact)};
+  }
+  const Posterior wider =
+      with_cut_moved(posterior, index, fit.exact->mean[static_cast<Eigen::Index>(index)]);
+  const LeftOut out = left_out(wider, posterior, fit, index);
+  if (out.shift < without_doubt) {
+    return {Verdict::pass,
+            fmt::format("the bounds of {} at twice the distance from its mean would take in less "
+                        "than {:.1g} of the posterior",
+                        parameter.name, std::max(out.share, 1e-12))};
+  }
+  // A thousandth of a standard deviation is enough to see a quarter.
+  const ExactPosterior exact =
+      integrate(wider, whitening_of(wider, posterior, fit), {.tolerance = 1e-3});
+  if (!exact.failure.empty()) {
+    return {dependence_on(parameter),
+            fmt::format("with the bounds of {} at twice the distance from its mean the "
+                        "posterior cannot be "
+                        "integrated ({})",
+                        parameter.name, exact.failure)};
+  }
+  const Eigen::VectorXd shift =
+      (exact.mean - fit.exact->mean).cwiseAbs().cwiseQuotient(fit.exact->sd);
+  Eigen::Index worst = 0;
+  const double largest = shift.maxCoeff(&worst);
+  const Parameter& moved = posterior.parameters()[static_cast<std::size_t>(worst)];
+  const bool depends = largest > tolerated || std::isnan(largest);
+  return {depends ? dependence_on(parameter) : Verdict::pass,
+          fmt::format("with the bounds of {} at twice the distance from its mean, the mean of {} "
+                      "goes from {} to {} ({:.2f} standard deviations)",
+                      parameter.name, moved.name, in_unit(moved, fit.exact->mean[worst]),
+                      in_unit(moved, exact.mean[worst]), largest)};
+}
+
 }  // namespace
 
 Check prior_cut(const Posterior& posterior, const Fit& fit) {
-  constexpr double tolerated = 0.25;  // standard deviations
+  std::vector<CutFinding> each(posterior.parameters().size());
+  tbb::parallel_for(std::size_t{0}, each.size(),
+                    [&](std::size_t i) { each[i] = moved_cut(posterior, fit, i); });
   Findings findings("prior-cut");
   std::vector<std::string> passed;
-  for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
-    const Parameter& parameter = posterior.parameters()[i];
-    if (!has_cut(parameter)) continue;
-    if (!fit.exact) {
-      findings.add(Verdict::warn,
-                   fmt::format("the dependence on the bounds of {} was not examined ({})",
-                               parameter.name, fit.no_exact),
-                   "Fit again with other bounds and compare.");
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    if (!each[i].verdict) continue;
+    if (*each[i].verdict == Verdict::pass) {
+      passed.push_back(each[i].detail);
       continue;
     }
-    const std::string advice = fmt::format(
-        "Say what is known of {}: a bound or a law that means something. More data make the bound "
-        "matter less.",
-        parameter.name);
-    const Posterior wider =
-        with_cut_moved(posterior, i, fit.exact->mean[static_cast<Eigen::Index>(i)]);
-    // A thousandth of a standard deviation is enough to see a quarter.
-    const ExactPosterior exact =
-        integrate(wider, whitening_of(wider, posterior, fit), {.tolerance = 1e-3});
-    if (!exact.failure.empty()) {
-      findings.add(
-          dependence_on(parameter),
-          fmt::format("with the bounds of {} at twice the distance the posterior cannot be "
-                      "integrated ({})",
-                      parameter.name, exact.failure),
-          advice);
-      continue;
-    }
-    const Eigen::VectorXd shift =
-        (exact.mean - fit.exact->mean).cwiseAbs().cwiseQuotient(fit.exact->sd);
-    Eigen::Index worst = 0;
-    const double largest = shift.maxCoeff(&worst);
-    const Parameter& moved = posterior.parameters()[static_cast<std::size_t>(worst)];
-    const std::string detail = fmt::format(
-        "with the bounds of {} at twice the distance, the mean of {} goes from {} to {} ({:.2f} "
-        "standard deviations)",
-        parameter.name, moved.name, in_unit(moved, fit.exact->mean[worst]),
-        in_unit(moved, exact.mean[worst]), largest);
-    if (largest > tolerated || std::isnan(largest)) {
-      findings.add(dependence_on(parameter), detail, advice);
-    } else {
-      passed.push_back(detail);
-    }
+    findings.add(
+        *each[i].verdict, each[i].detail,
+        fit.exact ? fmt::format("Say what is known of {}: a bound or a law that means something. "
+                                "More data make the bound matter less.",
+                                posterior.parameters()[i].name)
+                  : "Fit again with other bounds and compare.");
   }
   return findings.result(passed.empty() ? "no flat or uniform prior was cut"
                                         : fmt::format("{}", fmt::join(passed, "; ")));

@@ -82,22 +82,39 @@ Json to_json(const Life& life) {
           {"q05", life.q05}, {"q95", life.q95}, {"inspect_within", life.inspect_within}};
 }
 
+Json to_json(const ProfileSummary& profile) {
+  Json json = {{"level", profile.level}, {"lower", profile.lower}, {"upper", profile.upper}};
+  if (!profile.lower_open.empty()) json["lower_open"] = profile.lower_open;
+  if (!profile.upper_open.empty()) json["upper_open"] = profile.upper_open;
+  return json;
+}
+
 Json to_json(const ModeSummary& mode) {
   if (!mode.problem.empty()) return {{"problem", mode.problem}};
   Json parameters = Json::object();
   for (const ModeParameter& p : mode.parameters) {
     parameters[p.name] = {
         {"unit", p.unit}, {"value", p.value}, {"standard_error", p.standard_error}, {"at", p.at}};
+    if (p.profile) parameters[p.name]["profile"] = to_json(*p.profile);
   }
-  return {{"parameters", parameters},
-          {"log_likelihood", mode.log_likelihood},
-          {"log_posterior", mode.log_posterior},
-          {"maximum_likelihood", mode.maximum_likelihood},
-          {"aic", mode.aic},
-          {"bic", mode.bic},
-          {"observations", std::llround(mode.observations)},
-          {"starts", mode.starts},
-          {"reached", mode.reached}};
+  Json json = {{"parameters", parameters},
+               {"log_likelihood", mode.log_likelihood},
+               {"log_posterior", mode.log_posterior},
+               {"maximum_likelihood", mode.maximum_likelihood},
+               {"aic", mode.aic},
+               {"bic", mode.bic},
+               {"observations", std::llround(mode.observations)},
+               {"starts", mode.starts},
+               {"reached", mode.reached}};
+  for (const ModeQuantity& q : mode.quantities) {
+    json["quantities"].push_back({{"name", q.name},
+                                  {"of", q.of},
+                                  {"at", q.at},
+                                  {"unit", q.unit},
+                                  {"value", q.value},
+                                  {"profile", to_json(q.profile)}});
+  }
+  return json;
 }
 
 Json to_json(const LooSummary& summary) {

@@ -135,6 +135,13 @@ CoverageTable read_coverage(const Json& json) {
   return table;
 }
 
+ProfileSummary read_profile(const Json& json) {
+  const auto why = [&](const char* key) { return json.contains(key) ? text(json, key) : ""; };
+  const double open = std::numeric_limits<double>::quiet_NaN();
+  return {number(json, "level"), number(json, "lower", open), number(json, "upper", open),
+          why("lower_open"), why("upper_open")};
+}
+
 ModeSummary read_mode(const Json& json) {
   ModeSummary mode;
   if (json.contains("problem")) {
@@ -144,6 +151,16 @@ ModeSummary read_mode(const Json& json) {
   for (const auto& [name, each] : json.at("parameters").items()) {
     mode.parameters.push_back({name, text(each, "unit"), number(each, "value"),
                                number(each, "standard_error"), text(each, "at")});
+    if (each.contains("profile")) {
+      mode.parameters.back().profile = read_profile(each.at("profile"));
+    }
+  }
+  if (json.contains("quantities")) {
+    for (const Json& each : json.at("quantities")) {
+      mode.quantities.push_back({text(each, "name"), text(each, "of"), text(each, "at"),
+                                 text(each, "unit"), number(each, "value"),
+                                 read_profile(each.at("profile"))});
+    }
   }
   mode.log_likelihood = number(json, "log_likelihood");
   mode.log_posterior = number(json, "log_posterior");

@@ -308,11 +308,43 @@ std::string mode_table(const ModeSummary& mode) {
                         : "Mode: where the posterior density is highest",
                     {"Parameter", "Mode", "Standard error"},
                     {}};
-  for (const ModeParameter& p : mode.parameters) {
-    table.rows.push_back({with_unit(p.name, p.unit), number(p.value),
-                          p.at == "inside" ? number(p.standard_error, 3) : "on its " + p.at});
+  const auto profile = mode.profile();
+  const auto ends = [](const ProfileSummary& p) {
+    const auto end = [](double value, const std::string& open) {
+      return open.empty() ? number(value) : "open: " + open;
+    };
+    return std::vector<std::string>{end(p.lower, p.lower_open), end(p.upper, p.upper_open)};
+  };
+  if (profile) {
+    const double percent = 100 * profile->level;
+    table.heading.push_back(fmt::format("{:.4g} % profile interval from", percent));
+    table.heading.emplace_back("to");
   }
-  return html::table(table) +
+  const auto add = [&](std::vector<std::string> row, const std::optional<ProfileSummary>& p) {
+    if (profile) {
+      const auto cells = p ? ends(*p) : std::vector<std::string>{"–", "–"};
+      row.insert(row.end(), cells.begin(), cells.end());
+    }
+    table.rows.push_back(std::move(row));
+  };
+  for (const ModeParameter& p : mode.parameters) {
+    add({with_unit(p.name, p.unit), number(p.value),
+         p.at == "inside" ? number(p.standard_error, 3) : "on its " + p.at},
+        p.profile);
+  }
+  for (const ModeQuantity& q : mode.quantities) {
+    add({fmt::format("{} of {}{}{}", with_unit(q.name, q.unit), q.of, q.at.empty() ? "" : " ",
+                     q.at),
+         number(q.value), "–"},
+        q.profile);
+  }
+  const std::string of_profile =
+      profile ? "<p>The profile interval holds all values under which the likelihood, maximized "
+                "over everything else, is not far below its maximum (by chi-square's quantile: "
+                "Venzon and Moolgavkar 1988). It need not be symmetric, and does not change with "
+                "the way in which a parameter is written.</p>\n"
+              : "";
+  return html::table(table) + of_profile +
          fmt::format(
              "<p>Log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f} ({} observations, densities in SI "
              "units{}). Standard errors are those of the curvature there; a parameter on its bound "

@@ -84,6 +84,21 @@ struct CoverageTable {
   std::vector<CoverageRow> rows;
 };
 
+/// Where the likelihood is not far below its maximum (infer/profile.h). An open end is NaN, and
+/// says why.
+struct ProfileSummary {
+  double level = 0;
+  double lower = 0, upper = 0;
+  std::string lower_open, upper_open;
+};
+
+/// A quantity that follows from the parameters, where the likelihood is highest.
+struct ModeQuantity {
+  std::string name, of, at, unit;
+  double value = 0;
+  ProfileSummary profile;
+};
+
 /// One parameter at the mode of the posterior (infer/natural_mode.h).
 struct ModeParameter {
   std::string name;
@@ -91,6 +106,7 @@ struct ModeParameter {
   double value = 0;
   double standard_error = 0;  ///< NaN where a bound holds the parameter
   std::string at;             ///< "inside", "lower bound" or "upper bound"
+  std::optional<ProfileSummary> profile{};  ///< at the maximum of the likelihood
 };
 
 /// Where the posterior is highest in the parameters' own units.
@@ -104,6 +120,12 @@ struct ModeSummary {
   bool maximum_likelihood = false;  ///< all priors are flat or uniform, so it is that as well
   double observations = 0;          ///< of which BIC takes the logarithm
   int starts = 0, reached = 0;      ///< searches, and how many ended here
+  std::vector<ModeQuantity> quantities{};  ///< at the maximum of the likelihood
+
+  /// Any of the profiles; none where the mode is not that of the likelihood.
+  std::optional<ProfileSummary> profile() const {
+    return parameters.empty() ? std::nullopt : parameters.front().profile;
+  }
 };
 
 /// Leave-one-out cross-validation (infer/psis_loo.h).

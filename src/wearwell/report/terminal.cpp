@@ -36,12 +36,27 @@ std::string parameter_table(const std::vector<ParameterSummary>& parameters) {
   return text_table(rows);
 }
 
+std::string profile_ends(const ProfileSummary& profile) {
+  const auto end = [](double value, const std::string& open) {
+    return open.empty() ? number(value) : "open";
+  };
+  return end(profile.lower, profile.lower_open) + " .. " + end(profile.upper, profile.upper_open);
+}
+
 std::string mode_lines(const ModeSummary& mode) {
   if (!mode.problem.empty()) return fmt::format("  there is none: {}\n", mode.problem);
   std::vector<std::vector<std::string>> rows = {{"", "at", "standard error"}};
+  const auto profile = mode.profile();
+  if (profile) rows[0].push_back(fmt::format("{:.4g} % profile interval", 100 * profile->level));
   for (const ModeParameter& p : mode.parameters) {
     rows.push_back({with_unit(p.name, p.unit), number(p.value),
                     p.at == "inside" ? number(p.standard_error) : "on its " + p.at});
+    if (profile) rows.back().push_back(p.profile ? profile_ends(*p.profile) : "-");
+  }
+  for (const ModeQuantity& q : mode.quantities) {
+    rows.push_back({fmt::format("{} of {}{}{}", with_unit(q.name, q.unit), q.of,
+                                q.at.empty() ? "" : " ", q.at),
+                    number(q.value), "-", profile_ends(q.profile)});
   }
   return text_table(rows) + fmt::format("  log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f}{}\n",
                                         mode.log_likelihood, mode.aic, mode.bic,

@@ -164,7 +164,38 @@ LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
   return summary;
 }
 
-ModeSummary summarize_mode(const Posterior& posterior, const Fit& fit, double observations) {
+constexpr double profile_level = 0.9;  // as the posterior's 5 and 95 % beside it
+
+ProfileSummary summarize(const ProfileInterval& interval, const auto& in_unit) {
+  return {profile_level, in_unit(interval.lower.value), in_unit(interval.upper.value),
+          interval.lower.open, interval.upper.open};
+}
+
+void add_profiles(const Study& study, const Posterior& posterior, const Fit& fit,
+                  const NaturalMode& mode, ModeSummary& summary) {
+  const auto intervals = profile_intervals(posterior, fit, mode, profile_level);
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    const Unit& unit = posterior.parameters()[i].unit;
+    summary.parameters[i].profile =
+        summarize(intervals[i], [&](double x) { return from_si(unit, x); });
+  }
+  summary.quantities.resize(study.profiled.size());
+  tbb::parallel_for(std::size_t{0}, study.profiled.size(), [&](std::size_t i) {
+    const ProfileRequest& request = study.profiled[i];
+    const auto in_unit = [&](double x) { return from_si(request.unit, request.si(x)); };
+    summary.quantities[i] = {
+        request.name,
+        request.of,
+        request.at,
+        request.unit.text,
+        in_unit(request.quantity.value(mode.position.data())),
+        summarize(profile_interval(posterior, fit, mode, request.quantity, profile_level),
+                  in_unit)};
+  });
+}
+
+ModeSummary summarize_mode(const Study& study, const Posterior& posterior, const Fit& fit,
+                           double observations) {
   const NaturalMode mode = natural_mode(posterior, fit);
   ModeSummary summary;
   summary.problem = mode.problem;
@@ -175,7 +206,8 @@ ModeSummary summarize_mode(const Posterior& posterior, const Fit& fit, double ob
     const auto at = static_cast<Eigen::Index>(i);
     summary.parameters.push_back(
         {parameter.name, parameter.unit.text, from_si(parameter.unit, mode.position[at]),
-         mode.standard_error[at] / parameter.unit.scale, places[static_cast<int>(mode.place[i])]});
+         mode.standard_error[at] / parameter.unit.scale, places[static_cast<int>(mode.place[i])],
+         {}});
   }
   const double deviance = -2 * mode.log_likelihood;
   const auto unknowns = static_cast<double>(posterior.dimension());
@@ -187,6 +219,7 @@ ModeSummary summarize_mode(const Posterior& posterior, const Fit& fit, double ob
   summary.observations = observations;
   summary.starts = mode.starts;
   summary.reached = mode.reached;
+  if (mode.maximum) add_profiles(study, posterior, fit, mode, summary);
   return summary;
 }
 
@@ -302,7 +335,7 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
     if (!each.terms.empty()) loo = {study.observation, std::move(each)};
   }
   const ModeSummary mode = summarize_mode(
-      posterior, final, loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
+      study, posterior, final, loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
 
   StudyResult result{WEARWELL_VERSION,
                      study.title,

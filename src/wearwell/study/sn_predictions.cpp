@@ -417,6 +417,25 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
   return result;
 }
 
+namespace {
+
+// The life by which a share has failed, on the scale on which lives scatter: it fixes log10_a. Of a
+// random limit it would be an integral.
+ProfiledQuantity life_by_likelihood(const SnLaw& law, const Stress& stress, double share) {
+  const double z = quantile(law.standard(), share);
+  return {0,
+          [=](const double* x) {
+            return life_center(law, x, law.log10_reversed(x, stress)) + z * x[law.sigma_index()];
+          },
+          [=](const double* x, double life) {
+            const double center = life - z * x[law.sigma_index()];
+            const double log10_life = law.logarithmic() ? center : std::log10(center);
+            return law.log10_reversed(x, stress) - x[1] * log10_life;
+          }};
+}
+
+}  // namespace
+
 void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
                        Study& study) {
   const double level = predictions.credible_level;
@@ -438,6 +457,10 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     for (const double percent_failed : predictions.percents) {
       group.requests.push_back(
           request(fmt::format("B{:.6g} life", percent_failed), of, at, data.life_unit));
+      if (law.limit) continue;
+      study.profiled.push_back({group.requests.back().name, of, at, data.life_unit,
+                                life_by_likelihood(law, point.stress, percent_failed / 100),
+                                [=](double life) { return cycles(law, life); }});
     }
     for (const Quantity& to : predictions.survival_to) {
       group.requests.push_back(request("survival to " + in_words(to), of, at, percent()));

@@ -13,6 +13,7 @@
 #include "wearwell/bayes/observation.h"
 #include "wearwell/bayes/parameter.h"
 #include "wearwell/infer/fit.h"
+#include "wearwell/infer/profile.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/report/result.h"
 #include "wearwell/study/units_check.h"
@@ -65,6 +66,14 @@ struct QuantityGroup {
   std::function<std::vector<QuantityQuantiles>(const WeightedDraws& draws)> from_draws;
 };
 
+/// A quantity of which the maximum likelihood value and the profile interval are told.
+struct ProfileRequest {
+  std::string name, of, at;
+  Unit unit;
+  ProfiledQuantity quantity;
+  std::function<double(double)> si;  ///< from the scale on which it is profiled; monotone, rising
+};
+
 inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
 inline constexpr int min_draws = 10;     ///< fewer have no diagnostics
 inline constexpr int max_iterations = 10'000'000;
@@ -96,6 +105,7 @@ struct Study {
   std::function<std::vector<PredictionRequest>(std::size_t rows)> stage_predictions;
   std::vector<QuantityRequest> quantities;
   std::vector<QuantityGroup> quantity_groups;
+  std::vector<ProfileRequest> profiled;
   std::optional<LifeRequest> life;
   std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
   std::vector<double> history_at;  ///< where each data set lies along it; where it was if empty
