@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/cli/bearing.h"
 #include "wearwell/cli/check.h"
 #include "wearwell/cli/clutch.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr int bad_request = 2, machine_failed = 3;
 
 int complain(const std::string& message, int exit_code) {
-  fmt::print(stderr, "wearwell: {}\n", message);
+  fmt::print(stderr, "wearwell: {}\n", printable_lines(message));
   return exit_code;
 }
 
