@@ -1,5 +1,7 @@
 #include "wearwell/base/shown.h"
 
+#include "wearwell/base/printable.h"
+
 #include <gmock/gmock.h>
 
 #include <string>

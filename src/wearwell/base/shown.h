@@ -5,10 +5,6 @@
 
 namespace wearwell {
 
-/// Text with U+FFFD for every byte that is not UTF-8: names of files are bytes, JSON and terminals
-/// want text.
-std::string valid_utf8(std::string_view text);
-
 /// A message as a terminal or a log may show it: valid UTF-8 on one line, control characters as
 /// \x1b, without the classes of errors of the JSON library, and what is longer than a person reads
 /// (a value in quotes, a word, the whole) cut, with its length in its place.

@@ -11,6 +11,7 @@
 #include "wearwell/cli/clutch_fit.h"
 #include "wearwell/report/csv.h"
 #include "wearwell/report/json.h"
+#include "wearwell/report/long_tables.h"
 #include "wearwell/report/plots_json.h"
 #include "wearwell/report/report.h"
 #include "wearwell/report/result_folder.h"
@@ -20,6 +21,8 @@
 
 namespace wearwell {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 struct FitOptions {
   std::filesystem::path study, output;
@@ -49,14 +52,17 @@ int run_fit(const FitOptions& options) {
     return run_study(study, options.sampler, options.threads, !options.no_report, &progress);
   }();
 
-  const std::string summary = to_json(result).dump(2) + "\n";
+  const std::string summary =
+      to_json(result).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   folder.write("summary.json", summary);
   for (std::size_t c = 0; c < result.posterior_draws.size(); ++c) {
     folder.write(fmt::format("draws_{}.csv", c + 1), draws_csv(result, c));
   }
   folder.write("predictions.csv", predictions_csv(result));
+  for (const auto& [name, content] : long_tables(result)) folder.write(name, content);
   if (!options.no_report) {
-    folder.write("plots.json", to_json(*result.plots).dump() + "\n");
+    const Json plots = to_json(*result.plots);
+    folder.write("plots.json", plots.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
     folder.write("report.html", html_report(result));
   }
   folder.copy(options.study, "study.toml");

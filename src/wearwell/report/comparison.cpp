@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/report/text_table.h"
 
 namespace wearwell {
@@ -14,6 +15,11 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::string number(double x) {
   return fmt::format("{:.4g}", x);
+}
+
+bool same_observations(const LooSummary& a, const LooSummary& b) {
+  return std::equal(a.loo.terms.begin(), a.loo.terms.end(), b.loo.terms.begin(), b.loo.terms.end(),
+                    [](const LooTerm& x, const LooTerm& y) { return x.count == y.count; });
 }
 
 // Why elpd, AIC and BIC of these say nothing of one against the other; empty when they do.
@@ -34,8 +40,7 @@ std::string obstacle_of(const std::vector<Comparison::Entry>& studies) {
           "other, and no differences are given; parameters may be compared.",
           first.name, each.name);
     }
-    if (a.loo->observation != b.loo->observation ||
-        a.loo->loo.terms.size() != b.loo->loo.terms.size()) {
+    if (a.loo->observation != b.loo->observation || !same_observations(*a.loo, *b.loo)) {
       return fmt::format(
           "{} leaves out one {} at a time, {} one {}: their elpd are of different predictions, "
           "and no differences are given.",
@@ -160,7 +165,7 @@ std::string comparison_text(const Comparison& comparison) {
   out +=
       (comparison.comparable ? "Prediction of each observation from all others\n" : "Studies\n") +
       text_table(rows);
-  if (!comparison.obstacle.empty()) out += fmt::format("  {}\n", comparison.obstacle);
+  if (!comparison.obstacle.empty()) out += fmt::format("  {}\n", printable(comparison.obstacle));
 
   Rows parameters = {{""}};
   for (const auto& each : comparison.studies) parameters[0].push_back(each.name);
@@ -176,7 +181,9 @@ std::string comparison_text(const Comparison& comparison) {
   }
   out += "\nParameters (mean +- sd)\n" + text_table(parameters);
   if (!comparison.cautions.empty()) out += "\nBear in mind\n";
-  for (const std::string& caution : comparison.cautions) out += fmt::format("  {}\n", caution);
+  for (const std::string& caution : comparison.cautions) {
+    out += fmt::format("  {}\n", printable(caution));
+  }
   return out;
 }
 

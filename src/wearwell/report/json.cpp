@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "wearwell/report/long_tables.h"
+
 namespace wearwell {
 namespace {
 
@@ -64,6 +66,12 @@ Json to_json(const std::vector<QuantitySummary>& quantities) {
 }
 
 Json to_json(const CoverageTable& table) {
+  Json json = {{"unit", table.unit}};
+  if (table.tests > table.rows.size()) json["tests"] = table.tests;
+  if (table.rows.size() > most_rows_inline) {
+    json["table"] = coverage_table_file;
+    return json;
+  }
   Json rows = Json::array();
   for (const CoverageRow& row : table.rows) {
     Json each = {
@@ -74,7 +82,8 @@ Json to_json(const CoverageTable& table) {
     if (row.failed()) each.update({{"inside", row.inside()}, {"below_b10", row.below_b10()}});
     rows.push_back(std::move(each));
   }
-  return {{"unit", table.unit}, {"rows", rows}};
+  json["rows"] = std::move(rows);
+  return json;
 }
 
 Json to_json(const Life& life) {
@@ -119,6 +128,17 @@ Json to_json(const ModeSummary& mode) {
 
 Json to_json(const LooSummary& summary) {
   const Loo& loo = summary.loo;
+  Json json = {{"elpd", loo.elpd()},
+               {"se", loo.se()},
+               {"p_loo", loo.p_loo()},
+               {"khat_max", loo.khat_max()},
+               {"khat_threshold", loo.threshold},
+               {"observation", summary.observation},
+               {"observations", std::llround(loo.observations())}};
+  if (loo.terms.size() > most_rows_inline) {
+    json["table"] = loo_table_file;
+    return json;
+  }
   Json terms = Json::array();
   for (const LooTerm& term : loo.terms) {
     Json each = {{"elpd", term.elpd}, {"lpd", term.lpd}, {"khat", term.khat}};
@@ -126,14 +146,8 @@ Json to_json(const LooSummary& summary) {
     if (term.refitted) each["refitted"] = true;
     terms.push_back(std::move(each));
   }
-  return {{"elpd", loo.elpd()},
-          {"se", loo.se()},
-          {"p_loo", loo.p_loo()},
-          {"khat_max", loo.khat_max()},
-          {"khat_threshold", loo.threshold},
-          {"observation", summary.observation},
-          {"observations", std::llround(loo.observations())},
-          {"pointwise", terms}};
+  json["pointwise"] = std::move(terms);
+  return json;
 }
 
 Json to_json(const LifeSummary& life) {
@@ -169,6 +183,15 @@ Json to_json(const StageSummary& stage) {
 }
 
 Json to_json(const PointwiseTable& table) {
+  Json json = {{"units",
+                {{"force", table.force_unit},
+                 {"slip", table.slip_unit},
+                 {"volume", table.volume_unit},
+                 {"k", table.k_unit}}}};
+  if (table.rows.size() > most_rows_inline) {
+    json["table"] = pointwise_table_file;
+    return json;
+  }
   Json rows = Json::array();
   for (const PointwiseRow& row : table.rows) {
     rows.push_back({{"cycles", row.cycles},
@@ -177,12 +200,8 @@ Json to_json(const PointwiseTable& table) {
                     {"volume", row.volume},
                     {"k", row.k}});
   }
-  return {{"units",
-           {{"force", table.force_unit},
-            {"slip", table.slip_unit},
-            {"volume", table.volume_unit},
-            {"k", table.k_unit}}},
-          {"rows", rows}};
+  json["rows"] = std::move(rows);
+  return json;
 }
 
 }  // namespace

@@ -82,6 +82,7 @@ struct CoverageRow {
 struct CoverageTable {
   std::string unit;
   std::vector<CoverageRow> rows;
+  std::size_t tests = 0;  ///< of the data: where they are more, rows are some of them, evenly
 };
 
 /// Where the likelihood is not far below its maximum (infer/profile.h). An open end is NaN, and

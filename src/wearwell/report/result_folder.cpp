@@ -16,8 +16,9 @@ namespace {
 
 // All that a result may hold: a folder with anything else in it is not ours to replace.
 bool is_result(const std::string& name) {
-  for (const char* file : {"summary.json", "predictions.csv", "plots.json", "report.html",
-                           "study.toml", "models.csv"}) {
+  for (const char* file :
+       {"summary.json", "predictions.csv", "plots.json", "report.html", "study.toml", "models.csv",
+        "loo.csv", "coverage.csv", "pointwise.csv"}) {
     if (name == file) return true;
   }
   if (name == "model.json") return true;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/report/text_table.h"
 
 namespace wearwell {
@@ -150,7 +151,7 @@ std::string selection_text(const SelectionResult& result) {
   if (!search.certified) text += gap_sentence(result) + "\n";
   text += fmt::format("{:.0f} {} in {:.2f} s\n", search.nodes,
                       search.cloud.sizes.empty() ? "nodes" : "models", search.seconds);
-  return text;
+  return printable_lines(text);
 }
 
 }  // namespace wearwell

@@ -294,11 +294,9 @@ std::string checks_table(const ClutchResult& r) {
   html::Table table{"All checks", {"Check", "Verdict", "What was found"}, {}, true};
   for (const Check& check : r.checks) {
     const auto v = static_cast<std::size_t>(check.verdict);
-    std::string found = escape(html::raised(check.detail));
-    if (!check.advice.empty()) found += fmt::format("<br><em>{}</em>", escape(check.advice));
-    table.rows.push_back({escape(check.name),
-                          fmt::format("<span class=\"badge {}\">{}</span>", kinds[v], words[v]),
-                          found});
+    const std::string advice = check.advice.empty() ? "" : "\n" + check.advice;
+    table.rows.push_back({check.name, words[v], html::raised(check.detail) + advice});
+    table.badges.push_back(kinds[v]);
   }
   return html::table(table);
 }
@@ -355,8 +353,7 @@ std::string prediction_section(const ClutchResult& r) {
                     {}};
   for (const NamedLife& each : r.lives) {
     for (const LifeAtLevel& at : each.life.levels)
-      table.rows.push_back({escape(each.name), percent(at.level, 0),
-                            fmt::format("{:.0f}", at.repetitions),
+      table.rows.push_back({each.name, percent(at.level, 0), fmt::format("{:.0f}", at.repetitions),
                             fmt::format("{:.0f}", at.without_run_in),
                             "± " + number(2 * at.sd / mm3, 3), percent(at.relative),
                             "± " + number(2 * at.full_sd / mm3, 3), percent(at.full_relative)});
@@ -380,7 +377,7 @@ std::string map_section(const ClutchStudy& study, const ClutchResult& r) {
   const double unit = r.maps.front().fit.rmse;
   for (const WearMap& map : r.maps)
     models.rows.push_back(
-        {escape(map.name), fmt::format("{:.3f}", map.fit.r2), fmt::format("{:.3f}", map.fit.r2p),
+        {map.name, fmt::format("{:.3f}", map.fit.r2), fmt::format("{:.3f}", map.fit.r2p),
          fmt::format("{:.3f}", map.fit.rmse / unit), fmt::format("{:.3f}", map.fit.rmsep / unit),
          fmt::format("{}", map.terms.size())});
   html::Table terms{"Selected terms, each scaled to [0, 1]",
@@ -388,8 +385,7 @@ std::string map_section(const ClutchStudy& study, const ClutchResult& r) {
                     {}};
   for (std::size_t j = 0; j < r.model.terms.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
-    terms.rows.push_back({escape(r.model.terms[j].name),
-                          number(r.model.terms[j].coefficient / mm3_per_MJ),
+    terms.rows.push_back({r.model.terms[j].name, number(r.model.terms[j].coefficient / mm3_per_MJ),
                           number(std::sqrt(r.model.covariance(at, at)) / mm3_per_MJ, 3)});
   }
   html::Table surrogate{"Surrogate inputs, best R2p",
@@ -445,7 +441,7 @@ std::string scatter_section(const ClutchResult& r) {
                     {"sigma_w", "−log L", "AIC", "Kolmogorov-Smirnov p", "Lilliefors p"},
                     {}};
   for (const ScatterFit& fit : r.scatter.candidates)
-    table.rows.push_back({escape(html::raised(formula_of(fit.law.kind))),
+    table.rows.push_back({html::raised(formula_of(fit.law.kind)),
                           fmt::format("{:.2f}", fit.negative_log_likelihood),
                           fmt::format("{:.2f}", fit.aic), fmt::format("{:.3f}", fit.kolmogorov.p),
                           fmt::format("{:.3f}", fit.lilliefors.p)});
@@ -475,7 +471,7 @@ std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
       table.rows.push_back({fmt::format("{}", c.cycle.plate), fmt::format("{}", c.cycle.number),
                             number(c.cycle.at.slip_speed / rpm), number(c.cycle.at.closing_time, 3),
                             number(c.cycle.at.torque, 3), number(c.cycle.at.temperature, 4),
-                            number(c.cycle.energy / 1e3), escape(c.flag)});
+                            number(c.cycle.energy / 1e3), c.flag});
     out += html::table(table);
   }
   std::ifstream stream(study.file);

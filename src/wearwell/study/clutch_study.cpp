@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/shown.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/study/clutch_tables.h"
 #include "wearwell/study/clutch_truth.h"
 #include "wearwell/study/columns.h"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/shown.h"
+#include "wearwell/base/printable.h"
 
 namespace wearwell {
 

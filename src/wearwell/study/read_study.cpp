@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/shown.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/study/bearing_study.h"
 #include "wearwell/study/joint_study.h"
 #include "wearwell/study/sn_study.h"

@@ -1,5 +1,6 @@
 #include "wearwell/study/run_study.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -320,7 +321,9 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
   FitSettings settings = fit_settings(study, choice);
   if (progress && settings.method != Method::exact) {
     const RunSettings& run = settings.run;
-    const long long fits = study.stages ? static_cast<long long>(study.data_rows) : 1;
+    const long long fits = study.stages && study.data_rows <= most_stages
+                               ? static_cast<long long>(study.data_rows)
+                               : 1;
     progress->expect(fits * run.chains * (run.warmup + run.draws));
     settings.run.progress = progress;
   }
@@ -367,7 +370,14 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
   if (study.coverage) {
     result.coverage = study.coverage(final.exact ? final.exact->nodes : final.pooled);
   }
-  if (study.stages) {
+  if (study.stages && study.data_rows > most_stages) {
+    result.checks.push_back(
+        {"stages", Verdict::warn,
+         fmt::format("none: one fit for each of {} data sets is too much; at most {} are updated "
+                     "one by one",
+                     study.data_rows, most_stages),
+         "Leave update.stages out."});
+  } else if (study.stages) {
     // After the last data set the stage is the whole.
     const std::size_t last = study.data_rows - 1;
     result.stages.resize(study.data_rows);

@@ -75,7 +75,8 @@ struct ProfileRequest {
 };
 
 inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
-inline constexpr int min_draws = 10;     ///< fewer have no diagnostics
+inline constexpr std::size_t most_stages = 300;  ///< more data sets are not updated one by one
+inline constexpr int min_draws = 10;             ///< fewer have no diagnostics
 inline constexpr int max_iterations = 10'000'000;
 
 /// How to draw, as far as somebody said; the rest are the method's defaults.

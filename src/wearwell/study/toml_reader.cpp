@@ -30,7 +30,7 @@ struct NoToml {};
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
-#include "wearwell/base/shown.h"
+#include "wearwell/base/printable.h"
 
 namespace wearwell {
 namespace {

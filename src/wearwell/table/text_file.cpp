@@ -17,7 +17,7 @@
 #include <optional>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/shown.h"
+#include "wearwell/base/printable.h"
 
 namespace wearwell {
 namespace {
