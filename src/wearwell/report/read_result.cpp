@@ -81,6 +81,10 @@ std::vector<PredictionSummary> read_predictions(const Json& json) {
                         {}};
     if (each.contains("exact")) p.exact = read_interval(each["exact"]);
     if (each.contains("measured")) p.measured = number(each, "measured");
+    if (each.contains("mean_of")) {
+      p.mean_of = text(each, "mean_of");
+      p.measured_of = text(each, "pi_of");
+    }
     predictions.push_back(std::move(p));
   }
   return predictions;
@@ -112,6 +116,7 @@ std::vector<QuantitySummary> read_quantities(const Json& json) {
                       {}};
     if (each.contains("exact")) q.exact = read_quantiles(each["exact"]);
     if (each.contains("credible_level")) q.credible_level = number(each, "credible_level");
+    if (each.contains("safe_end")) q.safe_end = number(each, "safe_end");
     quantities.push_back(std::move(q));
   }
   return quantities;
@@ -159,11 +164,14 @@ ModeSummary read_mode(const Json& json) {
 LooSummary read_loo(const Json& json) {
   LooSummary summary{text(json, "observation"), {}};
   summary.loo.threshold = number(json, "khat_threshold");
+  if (json.contains("error")) summary.loo.error = number(json, "error");
+  summary.loo.by_quadrature = json.value("by_quadrature", false);
   for (const Json& each : json.at("pointwise")) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     LooTerm term{number(each, "elpd"), number(each, "lpd"), number(each, "khat", unknown)};
     if (each.contains("count")) term.count = each["count"].get<int>();
     term.refitted = each.contains("refitted");
+    if (each.contains("tail")) term.tail = number(each, "tail");
     summary.loo.terms.push_back(term);
   }
   return summary;
@@ -173,7 +181,8 @@ Life read_life(const Json& json) {
   constexpr double never = std::numeric_limits<double>::infinity();
   return {number(json, "b1", never),  number(json, "b10", never),
           number(json, "b50", never), number(json, "q05", never),
-          number(json, "q95", never), number(json, "inspect_within", never)};
+          number(json, "q95", never), number(json, "inspect_within", never),
+          json.contains("passed") ? number(json, "passed") : std::nan("")};
 }
 
 LifeSummary read_life_summary(const Json& json) {
