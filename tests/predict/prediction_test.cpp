@@ -158,6 +158,13 @@ TEST(PredictLife, InspectionGivenSurvival) {
   EXPECT_EQ(predict_life(even(1000, 2000), mean, 3000, 0.2).inspect_within, 0);
 }
 
+// By hand: half of the lives lie behind 1500, all behind 3000.
+TEST(PredictLife, PassedAlready) {
+  EXPECT_NEAR(predict_life(even(1000, 2000), mean, 1500, 0.01).passed, 0.5, 1e-9);
+  EXPECT_NEAR(predict_life(even(1000, 2000), mean, 3000, 0.01).passed, 1, 1e-9);
+  EXPECT_EQ(predict_life(even(1000, 2000), mean, 900, 0.01).passed, 0);
+}
+
 // All lives lie behind, and the weights add up to something less than 1 in rounding.
 TEST(PredictLife, AllBehind) {
   constexpr Eigen::Index n = 49;  // 49 x (1/49) < 1 in doubles

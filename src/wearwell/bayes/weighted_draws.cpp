@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "wearwell/math/quantile.h"
@@ -18,20 +19,36 @@ Distribution::Distribution(const WeightedDraws& draws,
   // A node in the middle of its cell counts for four of Simpson's six parts, so that a quantity that
   // bends within the cell keeps its mean.
   const double of_ends = draws.centered() ? 1.0 / 3 : 1;
+  // Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
+  constexpr double negligible = 1e-8;
+  const double least = cells_ ? negligible / static_cast<double>(draws.values.rows()) : 0;
   std::vector<Point> points;
+  double total = 0, undefined = 0;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
-    if (draws.cell_weight(i) == 0) continue;  // 0 times an infinite life is no number
+    const double weight = draws.cell_weight(i);
+    if (!(weight > least)) continue;
     const double at_node = quantity(draws.values.row(i).data());
-    double middle = at_node, variance = 0;
+    if (std::isnan(at_node)) {
+      undefined += weight;
+      continue;
+    }
+    double middle = at_node, half_width = 0;
     for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
       const double a = quantity(draws.lower[axis].row(i).data());
       const double b = quantity(draws.upper[axis].row(i).data());
-      if (!std::isfinite(a) || !std::isfinite(b)) continue;
-      middle += of_ends * (0.5 * (a + b) - at_node);
-      variance += 0.25 * (b - a) * (b - a);
+      const double half = 0.5 * b - 0.5 * a;
+      if (!std::isfinite(half)) continue;
+      middle += of_ends * (0.5 * a + 0.5 * b - at_node);
+      half_width = std::hypot(half_width, half);  // its square may be no number
     }
-    points.push_back({middle, std::sqrt(variance), draws.cell_weight(i)});
+    if (!std::isfinite(middle + half_width) || !std::isfinite(middle - half_width)) {
+      middle = at_node;
+      half_width = 0;
+    }
+    total += weight;
+    points.push_back({middle, half_width, weight});
   }
+  if (undefined > negligible * (total + undefined)) points.clear();  // it has no distribution
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.center < b.center; });
   for (const Point& point : points) {
@@ -42,6 +59,7 @@ Distribution::Distribution(const WeightedDraws& draws,
 }
 
 double Distribution::mean() const {
+  if (center_.empty()) return std::nan("");
   return std::inner_product(center_.begin(), center_.end(), weight_.begin(), 0.0);
 }
 
@@ -67,6 +85,7 @@ double Distribution::cdf(double x) const {
 
 double Distribution::quantile(double p) const {
   const std::size_t n = center_.size();
+  if (n == 0) return std::nan("");
   if (!cells_) {
     // Between an end that is never reached (infinity) and a neighbour there is nothing to
     // interpolate.
@@ -78,14 +97,16 @@ double Distribution::quantile(double p) const {
   while (i + 1 < n && below + weight_[i] < p) below += weight_[i++];
   if (!std::isfinite(center_[i])) return center_[i];
   // The root lies between the outermost ends of finite cells, whatever rounding makes of their
-  // total weight; from around cell i outward.
+  // total weight. It is looked for from around cell i outward: how far the others reach says
+  // nothing of it.
   double lowest = center_[i], highest = center_[i];
   for (std::size_t j = 0; j < n && std::isfinite(center_[j]); ++j) {
     lowest = std::min(lowest, center_[j] - half_width_[j]);
     highest = std::max(highest, center_[j] + half_width_[j]);
   }
   const auto excess = [&](double x) { return cdf(x) - p; };
-  double reach = std::max(2 * half_width_[i], 1e-12 * (highest - lowest));
+  double reach = std::max({2 * half_width_[i], 1e-12 * std::abs(center_[i]),
+                           std::numeric_limits<double>::min()});
   double a = std::max(lowest, center_[i] - reach), b = std::min(highest, center_[i] + reach);
   while (a > lowest && excess(a) > 0) a = std::max(lowest, a - (reach *= 2));
   while (b < highest && excess(b) < 0) b = std::min(highest, b + (reach *= 2));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "wearwell/infer/power_scaling.h"
@@ -268,6 +269,49 @@ bool pulled_apart(const Eigen::VectorXd& draws, const std::vector<double>& log_p
   return covariance(log_prior) * covariance(log_likelihood) < 0;
 }
 
+// How improbable a law makes what is as far out as x, on its side, twice for either side: to about
+// 1e-12. 1 where the law calls x plausible: where its density is no less than a hundredth of the
+// highest, however long the other tail is (a half-normal law of a scatter excludes no small one).
+double surprise(const Law& law, double x) {
+  constexpr int stations = 400;
+  constexpr double implausible = 0.01;
+  if (!law.proper || !(law.lower < x && x < law.upper)) return 1;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < stations; ++i) {
+    highest = std::max(highest, log_density(law, quantile(law, (i + 0.5) / stations)).value);
+  }
+  if (!(log_density(law, x).value < highest + std::log(implausible))) return 1;
+  const bool low = x < quantile(law, 0.5);
+  double least = -28, most = 0;  // of the logarithm of the tail's probability
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (least + most), p = std::exp(middle);
+    const double at = quantile(law, low ? p : 1 - p);
+    ((low ? at < x : at > x) ? least : most) = middle;
+  }
+  return std::min(1.0, 2 * std::exp(0.5 * (least + most)));
+}
+
+// The posterior's draw and the data have the joint law of the truth and the data: the quantile of a
+// draw in its prior is uniform. Twice the value that half of the draws have is a p value that holds
+// its level (Meinshausen, Meier, Buhlmann 2009).
+void add_exclusion(const Parameter& parameter, const Eigen::VectorXd& draws, Findings& findings) {
+  constexpr double excluded = 1e-3, far_out = 1e-2;
+  std::vector<double> values(draws.begin(), draws.end());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const double p = std::min(1.0, 2 * surprise(parameter.prior, *middle));
+  if (!(p < far_out)) return;
+  findings.add(
+      p < excluded ? Verdict::fail : Verdict::warn,
+      fmt::format("the data move {} to {}, which its prior {}: so far out with a probability of {}",
+                  parameter.name, in_unit(parameter, *middle),
+                  p < excluded ? "excludes" : "hardly expects",
+                  p < 1e-11 ? "less than 1e-11" : fmt::format("{:.1g}", p)),
+      fmt::format("Prior and data cannot both be right about {}. Ask whether the prior describes "
+                  "this component and these conditions, and look at its units and the data's.",
+                  parameter.name));
+}
+
 }  // namespace
 
 Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
@@ -283,6 +327,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
     const Parameter& parameter = posterior.parameters()[i];
     const Eigen::VectorXd draws = values.col(static_cast<Eigen::Index>(i));
+    add_exclusion(parameter, draws, findings);
     const PowerScaling sensitivity = power_scaling(view(draws), log_prior, log_likelihood);
     const std::string numbers =
         fmt::format("{}: sensitivity to the prior {:.3f}, to the likelihood {:.3f}", parameter.name,

@@ -140,6 +140,14 @@ std::shared_ptr<const LogDensity> archard_likelihood(const Archard& law, Observa
                                              first(inspections.work));
 }
 
+Scores archard_scores(const Archard& law, ObservationFamily family,
+                      const Inspections& inspections) {
+  return [law, observations = Observations(family, inspections.volume),
+          work = inspections.work](const double* x) {
+    return observations.scores([&](std::size_t i) { return law.mean_volume(x, work[i]); }, x[1]);
+  };
+}
+
 LeastSquares least_squares(const Inspections& inspections) {
   const auto& w = inspections.work;
   const auto& v = inspections.volume;

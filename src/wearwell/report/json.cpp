@@ -39,6 +39,7 @@ Json to_json(const std::vector<PredictionSummary>& predictions) {
     Json each = {{p.at_name, p.at}, {"quantity", p.quantity}, {"unit", p.unit}};
     each.update(to_json(p.drawn));
     if (p.measured) each["measured"] = *p.measured;
+    if (!p.mean_of.empty()) each.update({{"mean_of", p.mean_of}, {"pi_of", p.measured_of}});
     if (p.exact) each["exact"] = to_json(*p.exact);
     json.push_back(std::move(each));
   }
@@ -58,6 +59,7 @@ Json to_json(const std::vector<QuantitySummary>& quantities) {
   for (const QuantitySummary& q : quantities) {
     Json each = {{"name", q.name}, {"of", q.of}, {"at", q.at}, {"unit", q.unit}};
     if (q.credible_level) each["credible_level"] = *q.credible_level;
+    if (q.safe_end) each["safe_end"] = *q.safe_end;
     each.update(to_json(q.drawn, q.is_life));
     if (q.exact) each["exact"] = to_json(*q.exact, q.is_life);
     json.push_back(std::move(each));
@@ -88,7 +90,8 @@ Json to_json(const CoverageTable& table) {
 
 Json to_json(const Life& life) {
   return {{"b1", life.b1},   {"b10", life.b10}, {"b50", life.b50},
-          {"q05", life.q05}, {"q95", life.q95}, {"inspect_within", life.inspect_within}};
+          {"q05", life.q05}, {"q95", life.q95}, {"inspect_within", life.inspect_within},
+          {"passed", life.passed}};
 }
 
 Json to_json(const ProfileSummary& profile) {
@@ -130,6 +133,8 @@ Json to_json(const LooSummary& summary) {
   const Loo& loo = summary.loo;
   Json json = {{"elpd", loo.elpd()},
                {"se", loo.se()},
+               {"error", loo.error},
+               {"by_quadrature", loo.by_quadrature},
                {"p_loo", loo.p_loo()},
                {"khat_max", loo.khat_max()},
                {"khat_threshold", loo.threshold},
@@ -144,6 +149,7 @@ Json to_json(const LooSummary& summary) {
     Json each = {{"elpd", term.elpd}, {"lpd", term.lpd}, {"khat", term.khat}};
     if (term.count != 1) each["count"] = term.count;
     if (term.refitted) each["refitted"] = true;
+    if (term.tail < 1) each["tail"] = term.tail;
     terms.push_back(std::move(each));
   }
   json["pointwise"] = std::move(terms);

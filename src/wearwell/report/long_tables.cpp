@@ -11,12 +11,12 @@ namespace wearwell {
 namespace {
 
 std::string loo_csv(const Loo& loo) {
-  std::string out = "observation,elpd,lpd,khat,count,refitted\n";
+  std::string out = "observation,elpd,lpd,khat,count,refitted,tail\n";
   auto end = std::back_inserter(out);
   for (std::size_t i = 0; i < loo.terms.size(); ++i) {
     const LooTerm& term = loo.terms[i];
-    fmt::format_to(end, "{},{},{},{},{},{}\n", i + 1, term.elpd, term.lpd, term.khat, term.count,
-                   term.refitted ? 1 : 0);
+    fmt::format_to(end, "{},{},{},{},{},{},{}\n", i + 1, term.elpd, term.lpd, term.khat, term.count,
+                   term.refitted ? 1 : 0, term.tail);
   }
   return out;
 }
@@ -65,13 +65,13 @@ std::string chosen_tests(const CoverageTable& table) {
 std::vector<LooTerm> read_loo_table(const std::filesystem::path& folder) {
   CsvReader csv(folder / loo_table_file);
   const std::size_t elpd = csv.column("elpd"), lpd = csv.column("lpd"), khat = csv.column("khat"),
-                    count = csv.column("count"), refitted = csv.column("refitted");
+                    count = csv.column("count"), refitted = csv.column("refitted"), tail = csv.column("tail");
   std::vector<LooTerm> terms;
   while (csv.next()) {
     const long long alike = csv.integer(count);
     if (alike < 1 || alike > std::numeric_limits<int>::max()) csv.fail(count, "1 or more");
     terms.push_back({csv.number(elpd), csv.number(lpd), csv.number(khat), static_cast<int>(alike),
-                     csv.flag(refitted)});
+                     csv.flag(refitted), csv.number(tail)});
   }
   return terms;
 }

@@ -78,6 +78,10 @@ PredictionSummary read_prediction(const JsonReader& json) {
                       {}};
   if (const auto exact = json.find("exact")) p.exact = read_interval(*exact);
   if (const auto measured = json.find("measured")) p.measured = measured->number_or(unknown);
+  if (json.find("mean_of")) {
+    p.mean_of = text(json, "mean_of");
+    p.measured_of = text(json, "pi_of");
+  }
   return p;
 }
 
@@ -114,6 +118,7 @@ QuantitySummary read_quantity(const JsonReader& json) {
   if (const auto exact = json.find("exact")) q.exact = read_quantiles(*exact);
   if (const auto level = json.find("credible_level")) q.credible_level = level->number();
   if (q.best().predictive && !q.credible_level) json.at("credible_level");
+  if (const auto safe = json.find("safe_end")) q.safe_end = safe->number();
   return q;
 }
 
@@ -183,6 +188,8 @@ ModeSummary read_mode(const JsonReader& json) {
 LooSummary read_loo(const JsonReader& json, const std::filesystem::path& folder) {
   LooSummary summary{text(json, "observation"), {}};
   summary.loo.threshold = number(json, "khat_threshold");
+  if (json.find("error")) summary.loo.error = number(json, "error");
+  if (const auto exact = json.find("by_quadrature")) summary.loo.by_quadrature = exact->flag();
   if (json.find("table")) {
     summary.loo.terms = read_loo_table(folder);
   } else {
@@ -192,6 +199,7 @@ LooSummary read_loo(const JsonReader& json, const std::filesystem::path& folder)
         term.count = static_cast<int>(alike->integer(1, most));
       }
       term.refitted = each.find("refitted").has_value();
+      if (const auto tail = each.find("tail")) term.tail = tail->number();
       summary.loo.terms.push_back(term);
     }
   }
@@ -202,7 +210,8 @@ LooSummary read_loo(const JsonReader& json, const std::filesystem::path& folder)
 Life read_life(const JsonReader& json) {
   return {number(json, "b1", never),  number(json, "b10", never),
           number(json, "b50", never), number(json, "q05", never),
-          number(json, "q95", never), number(json, "inspect_within", never)};
+          number(json, "q95", never), number(json, "inspect_within", never),
+          json.find("passed") ? number(json, "passed") : unknown};
 }
 
 LifeSummary read_life_summary(const JsonReader& json) {

@@ -145,9 +145,14 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
     tiles.push_back(
         {"Life B10", life_number(life.b10, summary.unit, 3), summary.unit,
          fmt::format("one in ten reaches {} earlier", given(summary.limit, summary.limit_unit))});
+    if (summary.passed_beyond_risk()) {
+      tiles.push_back({"Limit passed already", fmt::format("{:.2g}", 100 * life.passed), "%",
+                       fmt::format("probability after {}; tolerated: {} %", given(summary.now),
+                                   given(100 * summary.risk))});
+    }
     tiles.push_back({"Inspect again within", life_number(life.inspect_within, summary.unit, 3),
                      summary.unit,
-                     fmt::format("after {}; risk of reaching the limit before: {} %",
+                     fmt::format("after {}, unless the limit is passed already; risk of reaching it before: {} %",
                                  given(summary.now), given(100 * summary.risk))});
   }
   if (const QuantitySummary* told = told_life(result)) {
@@ -176,7 +181,10 @@ std::string prediction_table(const std::string& caption,
   const PredictionSummary& first = rows.front().second;
   html::Table table{caption,
                     {"Data sets", first.at_name, with_unit(first.quantity, first.unit),
-                     "90 % of the mean", "90 % of measurements", "Measured"},
+                     "90 % of the " + (first.mean_of.empty() ? "mean" : first.mean_of),
+                     first.mean_of.empty() ? "90 % of measurements"
+                                           : "90 % of measurements of a " + first.measured_of,
+                     "Measured"},
                     {}};
   for (const auto& [data_sets, p] : rows) {
     const Prediction& b = p.best();
@@ -192,16 +200,18 @@ std::string life_table(const LifeSummary& summary) {
   return html::table(
       {fmt::format("Life in {} until {}", summary.unit, given(summary.limit, summary.limit_unit)),
        {"B1", "B10", "B50", "90 % interval",
-        fmt::format("Inspect within [risk {} %]", given(100 * summary.risk))},
+        fmt::format("Passed already [after {}]", given(summary.now)),
+        fmt::format("If not, inspect within [risk {} %]", given(100 * summary.risk))},
        {{life_number(life.b1, summary.unit), life_number(life.b10, summary.unit),
          life_number(life.b50, summary.unit), range(life.q05, life.q95),
+         probability_in_words(life.passed),
          fmt::format("{} after {}", life_number(life.inspect_within, summary.unit),
                      given(summary.now))}}});
 }
 
 std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
   html::Table table{"What follows from the parameters",
-                    {"Quantity", "Of", "Where", "5 %", "50 %", "95 %", "B1", "B10"},
+                    {"Quantity", "Of", "Where", "5 %", "50 %", "95 %", "Safe end", "B1", "B10"},
                     {}};
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
@@ -209,6 +219,7 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
     const auto value = [&](double x) { return quantity_value(each, x); };
     table.rows.push_back({with_unit(each.name, each.unit), each.of, html::raised(each.at),
                           value(q.q05), value(q.q50), value(q.q95),
+                          each.safe_end ? fmt::format("{:.0f} %", 100 * *each.safe_end) : "–",
                           each.is_life ? value(q.b1) : "–", each.is_life ? value(q.b10) : "–"});
   }
   return table.rows.empty() ? "" : html::table(table);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -39,6 +42,9 @@ struct PredictionSummary {
   Prediction drawn;
   std::optional<Prediction> exact;
   std::optional<double> measured;  ///< when the data hold a measurement there
+  /// Whose the mean with its interval is, and whose the measurement: "median bearing", "new bearing"
+  /// where items differ; else empty.
+  std::string mean_of = {}, measured_of = {};
 
   const Prediction& best() const { return exact ? *exact : drawn; }
 };
@@ -61,6 +67,7 @@ struct QuantitySummary {
   QuantityQuantiles drawn;
   std::optional<QuantityQuantiles> exact;
   std::optional<double> credible_level = {};  ///< of the bound
+  std::optional<double> safe_end = {};        ///< 0.05 or 0.95: the quantile to design with
 
   const QuantityQuantiles& best() const { return exact ? *exact : drawn; }
 };
@@ -145,7 +152,19 @@ struct LifeSummary {
   std::optional<Life> exact;
 
   const Life& best() const { return exact ? *exact : drawn; }
+
+  /// The limit is passed by now with a larger probability than the risk that is tolerated.
+  bool passed_beyond_risk() const { return best().passed > risk; }
 };
+
+/// "12 %", "less than 0.01 %".
+inline std::string probability_in_words(double p) {
+  constexpr double least = 1e-4;
+  if (std::isnan(p)) return "unknown";
+  if (p < least) return "less than 0.01 %";
+  if (p > 1 - least) return "more than 99.99 %";
+  return p > 0.99 ? fmt::format("{:.2f} %", 100 * p) : fmt::format("{:.2g} %", 100 * p);
+}
 
 /// The posterior after the first `rows` data sets.
 struct StageSummary {

@@ -74,8 +74,9 @@ std::string loo_lines(const LooSummary& summary) {
   const Loo& loo = summary.loo;
   return fmt::format(
       "  each {} from all others: elpd {:.2f} (standard error {:.2f}), effective parameters "
-      "{:.1f}\n",
-      printable(summary.observation), loo.elpd(), loo.se(), loo.p_loo());
+      "{:.1f}{}\n",
+      printable(summary.observation), loo.elpd(), loo.se(), loo.p_loo(),
+      loo.by_quadrature ? "" : fmt::format(", Monte Carlo error {:.2g}", loo.error));
 }
 
 // The draws of one parameter between their smallest and largest 0.5 %, in blocks of eight heights.
@@ -137,8 +138,11 @@ std::string stage_table(const std::vector<StageSummary>& stages) {
 std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
   const PredictionSummary& first = predictions.front();
   std::vector<std::vector<std::string>> rows = {
-      {first.at_name, with_unit(first.quantity, first.unit), "mean wear 5 %..95 %",
-       "measurement 5 %..95 %", "measured"}};
+      {first.at_name, with_unit(first.quantity, first.unit),
+       first.mean_of.empty() ? "mean wear 5 %..95 %" : first.mean_of + " 5 %..95 %",
+       first.mean_of.empty() ? "measurement 5 %..95 %"
+                             : "measurement of a " + first.measured_of + " 5 %..95 %",
+       "measured"}};
   for (const PredictionSummary& each : predictions) {
     const Prediction& p = each.best();
     rows.push_back({fmt::format("{}", each.at), number(p.mean),
@@ -151,12 +155,13 @@ std::string prediction_table(const std::vector<PredictionSummary>& predictions) 
 
 std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows = {
-      {"", "of the", "5 %", "50 %", "95 %", "B1", "B10", "B50"}};
+      {"", "of the", "5 %", "50 %", "95 %", "safe end", "B1", "B10", "B50"}};
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
     rows.push_back({with_unit(each.name, each.unit) + " " + each.at, each.of, number(q.q05),
-                    number(q.q50), number(q.q95)});
+                    number(q.q50), number(q.q95),
+                    each.safe_end ? fmt::format("{:.0f} %", 100 * *each.safe_end) : "-"});
     for (const double b : {q.b1, q.b10, q.b50}) {
       rows.back().push_back(each.is_life ? number(b) : "-");
     }
@@ -218,17 +223,26 @@ std::string coverage_table(const CoverageTable& table) {
 }
 
 std::string count(double x) {
-  return std::isfinite(x) ? fmt::format("{:.0f}", x) : "never";
+  return std::isnan(x) ? "unknown" : std::isfinite(x) ? fmt::format("{:.0f}", x) : "never";
 }
 
 std::string life_lines(const LifeSummary& summary) {
   const Life& life = summary.best();
-  return fmt::format(
-      "  {0} to {1} {2}:  B1 {3}   B10 {4}   B50 {5}   (5 %..95 %: {6} .. {7})\n"
-      "  after {8} {0}, inspect again within {9} {0}: {10} % risk of reaching the limit before\n",
-      printable(summary.unit), number(summary.limit), printable(summary.limit_unit), count(life.b1),
-      count(life.b10), count(life.b50), count(life.q05), count(life.q95), summary.now,
-      count(life.inspect_within), number(100 * summary.risk));
+  const std::string unit = printable(summary.unit);
+  const std::string lives = fmt::format(
+      "  {} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})\n", unit,
+      number(summary.limit), printable(summary.limit_unit), count(life.b1), count(life.b10),
+      count(life.b50), count(life.q05), count(life.q95));
+  const std::string passed = fmt::format(
+      "  after {} {} the limit is passed already with a probability of {}{}\n", summary.now, unit,
+      probability_in_words(life.passed),
+      summary.passed_beyond_risk()
+          ? fmt::format(": more than the risk of {} % that is tolerated", number(100 * summary.risk))
+          : "");
+  return lives + passed +
+         fmt::format(
+             "  if it is not passed, inspect again within {} {}: {} % risk of reaching it before\n",
+             count(life.inspect_within), unit, number(100 * summary.risk));
 }
 
 std::string pointwise_table(const PointwiseTable& p) {

@@ -133,6 +133,8 @@ class Predictions {
   // A quantity of the bearing in the middle, and of a new one where bearings differ.
   void add(QuantityRequest request) {
     request.driver = [](const double* x) { return x[0]; };
+    // Wear that is faster than thought makes the depth larger and the life shorter.
+    request.safe_end = request.increasing ? 0.95 : 0.05;
     request.of = model_.has_scatter ? "median bearing" : "bearing";
     study_.quantities.push_back(request);
     if (!model_.has_scatter) return;
@@ -147,6 +149,15 @@ class Predictions {
     const Quantity& pressure = need(pressure_, "pressure", key);
     const Duty at = duty(key, revolutions, pressure.si());
     study_.predictions.push_back(depth_request(model_, data_, at, k_, {}));
+    double most = 0;  // p_a n of the inspections
+    for (const Duty& seen : data_.inspections.duty) {
+      most = std::max(most, seen.pressure * seen.revolutions);
+    }
+    study_.reaches.push_back(
+        {fmt::format("the depth {} at {}", when, in_words(pressure)),
+         fmt::format("the largest pressure times revolutions of an inspection is {:.4g} {}",
+                     from_si(data_.pressure_unit, most), data_.pressure_unit.text),
+         pressure.si() * revolutions, most});
     add({"depth",
          "",
          fmt::format("{} at {}", when, in_words(pressure)),
@@ -167,6 +178,12 @@ class Predictions {
       predict_.fail("limit", error.what());
     }
     const std::string to = "to " + in_words(limit);
+    const auto& depths = data_.inspections.depth;
+    const double deepest = *std::max_element(depths.begin(), depths.end());
+    study_.reaches.push_back({"the limit of " + in_words(limit),
+                              fmt::format("the deepest measured is {:.4g} {}",
+                                          from_si(data_.depth_unit, deepest), data_.depth_unit.text),
+                              limit.si(), deepest});
     if (!pressure_ && !required) {
       predict_.fail("limit",
                     "needs predict.pressure for the life until then, or required_revolutions (or "
@@ -249,6 +266,8 @@ PredictionRequest depth_request(const bearing::WearModel& model, const BearingDa
                             measured,
                             {}};
   if (model.has_scatter) {
+    request.mean_of = "median bearing";
+    request.measured_of = "new bearing";
     request.item = [model, depth](const double* x, double z) {
       return depth(x[0] * std::exp(model.scatter(x) * z));
     };

@@ -256,6 +256,13 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
     return joint::archard_likelihood(law, family, inspections, rows);
   };
 
+  study.fit_data = FitData{joint::archard_scores(law, family, data.inspections),
+                           {},
+                           {{"friction work", work}},
+                           Rise{"worn volume grows with friction work", work,
+                                data.inspections.volume, {}, !law.has_constant},
+                           "inspection"};
+
   // Where the work per cycle is constant, it is so past and to come.
   const auto predict = root.table("predict");
   std::optional<double> rate = data.work_per_cycle;
@@ -317,6 +324,9 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
       if (data.cycles[i] == cycles.si()) measured = data.inspections.volume[i];
     }
     study.predictions.push_back(request(cycles.si(), history.work_at(cycles.si()), measured));
+    study.reaches.push_back({fmt::format("the prediction at {:.6g} cycles", cycles.si()),
+                             fmt::format("the last inspection was after {:.6g} cycles", seen),
+                             cycles.si(), seen});
   }
   const auto risk = predict->quantity("risk", "1");
   if (risk && !(risk->si() > 0 && risk->si() < 1))
@@ -324,6 +334,15 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
   if (const auto limit = predict->quantity("limit", "m^3")) {
     need_rate("limit");
     if (!(limit->si() > 0)) predict->fail("limit", "must be positive");
+    const auto& volumes = data.inspections.volume;
+    const double most = *std::max_element(volumes.begin(), volumes.end());
+    if (most > 0) {
+      study.reaches.push_back(
+          {fmt::format("the limit of {:.6g} {}", limit->value, limit->unit.text),
+           fmt::format("the largest volume measured is {:.4g} {}",
+                       from_si(data.volume_unit, most), data.volume_unit.text),
+           limit->si(), most});
+    }
     study.life = LifeRequest{Unit{"1", 1, 0},
                              "cycles",
                              *limit,

@@ -71,6 +71,8 @@ PredictionSummary summarize(const PredictionRequest& request, const Fit& fit) {
                             {}};
   if (fit.exact) summary.exact = predicted(fit.exact->nodes);
   if (request.measured) summary.measured = from_si(request.unit, *request.measured);
+  summary.mean_of = request.mean_of;
+  summary.measured_of = request.measured_of;
   return summary;
 }
 
@@ -114,7 +116,8 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
 
 QuantitySummary summary_of(const QuantityRequest& request, const QuantityQuantiles& drawn) {
   return {request.name,    request.of, request.at, request.unit.text,
-          request.is_life, drawn,      {},         request.credible_level};
+          request.is_life, drawn,      {},         request.credible_level,
+          request.safe_end};
 }
 
 QuantitySummary summarize(const QuantityRequest& request, const Fit& fit) {
@@ -232,8 +235,13 @@ bool proper(const Fit& fit) {
 std::vector<Check> all_checks(const Study& study, const Posterior& posterior, const Fit& fit,
                               const std::optional<LooSummary>& loo) {
   std::vector<Check> checks = trust_checks(posterior, fit);
-  if (loo) checks.push_back(loo_check(loo->loo, loo->observation));
+  if (study.fit_data && proper(fit)) {
+    checks.push_back(
+        fit_check(judge_fit(*study.fit_data, fit.pooled, loo ? loo->loo : Loo{})));
+  }
+  if (loo) checks.push_back(loo_check(loo->loo, loo->observation, posterior.dimension()));
   if (const auto units = units_check(study.data_columns)) checks.push_back(*units);
+  if (!study.reaches.empty()) checks.push_back(extrapolation_check(study.reaches));
   if (study.checks) {
     for (Check& check : study.checks(fit)) checks.push_back(std::move(check));
   }
@@ -334,7 +342,8 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
 
   std::optional<LooSummary> loo;
   if (proper(final)) {
-    Loo each = leave_one_out(posterior, final);
+    const bool scored = study.fit_data && study.fit_data->terms && study.fit_data->cheap;
+    Loo each = leave_one_out(posterior, final, scored ? &study.fit_data->scores : nullptr);
     if (!each.terms.empty()) loo = {study.observation, std::move(each)};
   }
   const ModeSummary mode = summarize_mode(
@@ -362,11 +371,15 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      all_checks(study, posterior, final, loo),
                      true,
                      in_units(study, std::move(final.draws))};
-  result.trusted = trusted(result.checks);
   result.data_fingerprint = fingerprint(study.quantity, study.observed);
   result.mode = mode;
   result.loo = std::move(loo);
-  if (study.life) result.life = summarize(*study.life, final);
+  if (study.life) {
+    result.life = summarize(*study.life, final);
+    result.checks.push_back(limit_check(*result.life));
+  }
+  result.checks.push_back(sense_check(result));
+  result.trusted = trusted(result.checks);
   if (study.coverage) {
     result.coverage = study.coverage(final.exact ? final.exact->nodes : final.pooled);
   }

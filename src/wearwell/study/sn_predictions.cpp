@@ -455,6 +455,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
                            const Unit& unit) {
     QuantityRequest result{name, of, at, unit, true, false, {}, {}, {}};
     result.credible_level = level;
+    result.safe_end = 0.05;  // the shorter life, the smaller share and stress
     return result;
   };
   for (const StressPoint& point : predictions.points) {

@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/fatigue/sn_likelihood.h"
+#include "wearwell/fatigue/sn_scores.h"
 #include "wearwell/study/prior.h"
 #include "wearwell/study/sn_data.h"
 #include "wearwell/study/sn_exhibits.h"
@@ -229,6 +230,29 @@ std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
   return {tests, stresses, "life " + span(life, data.life_unit.text)};
 }
 
+// By what residuals may follow: the stress that the law takes for the cause, at the values where
+// searches start, and the mean stress.
+FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Parameter>& parameters) {
+  std::vector<double> start;
+  for (const Parameter& parameter : parameters) start.push_back(parameter.start);
+  FitData result{fatigue::sn_scores(law, data.tests), {}, {{"stress", {}}}, Rise{}, "row", true,
+                 !law.limit};
+  std::vector<double> mean;
+  Rise& rise = *result.rise;
+  rise.law = "life grows as stress falls";
+  for (const LifeTest& test : data.tests) {
+    const double stress = law.log10_reversed(start.data(), test.stress);
+    result.counts.push_back(test.count);
+    result.drivers[0].value.push_back(stress);
+    mean.push_back(test.stress.mean);
+    if (test.outcome != fatigue::Outcome::failure) continue;
+    rise.driver.push_back(-stress);
+    rise.value.push_back(std::log10(test.life));
+  }
+  if (law.correction != MeanStress::none) result.drivers.push_back({"mean stress", mean});
+  return result;
+}
+
 }  // namespace
 
 void read_sn_study(const TomlReader& root, const std::filesystem::path& folder, Study& study) {
@@ -253,6 +277,7 @@ void read_sn_study(const TomlReader& root, const std::filesystem::path& folder, 
   study.likelihood = [=, tests = data.tests](std::size_t rows) {
     return fatigue::sn_likelihood(law, tests, rows);
   };
+  study.fit_data = fit_data(law, data, study.parameters);
   study.data_notes = notes(law, data);
   study.data_columns = data.columns;
   SnPredictions predictions;

@@ -13,9 +13,11 @@
 #include "wearwell/bayes/observation.h"
 #include "wearwell/bayes/parameter.h"
 #include "wearwell/infer/fit.h"
+#include "wearwell/infer/fit_check.h"
 #include "wearwell/infer/profile.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/report/result.h"
+#include "wearwell/study/sense.h"
 #include "wearwell/study/units_check.h"
 
 namespace wearwell {
@@ -32,6 +34,8 @@ struct PredictionRequest {
   std::optional<double> measured;  ///< SI
   ItemFunction item =
       {};  ///< the mean of one item where items differ; the prediction interval is its
+  /// Whose the mean and the prediction interval are, where these differ: "median bearing".
+  std::string mean_of = {}, measured_of = {};
 };
 
 /// When a limit is reached.
@@ -58,6 +62,8 @@ struct QuantityRequest {
   Function scatter;  ///< standard deviation of ln driver between items, for one not yet seen; else
                      ///< empty
   std::optional<double> credible_level = {};  ///< of `QuantityQuantiles::bound`
+  /// The quantile that a careful engineer designs with: 0.05 of a life, 0.95 of a needed length.
+  std::optional<double> safe_end = {};
 };
 
 /// Quantities that have no single driver: all of them at once from the points of a posterior, SI.
@@ -99,6 +105,8 @@ struct Study {
   std::string observation = "row";       ///< what the likelihood's factors are of: "row", "bearing"
   std::vector<Parameter> parameters;
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
+  std::optional<FitData> fit_data;  ///< by which the fit is checked
+  std::vector<Reach> reaches;       ///< how far what is asked for goes beyond the data
   bool stages = false;  ///< the posterior after 1, 2, ... data sets as well
   std::vector<PredictionRequest> predictions;
   /// What to predict at the stage after `rows` data sets, beside `predictions`: that inspection and
