@@ -40,9 +40,8 @@ Scale scale_for(double typical, const std::string& unit) {
   if (typical == 0 || !std::isfinite(typical)) return {1, shown};
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(typical))));
   if (exponent >= -2 && exponent <= 5) return {1, shown};
-  const std::string power = html::number(std::pow(10.0, exponent), 1);
   return {std::pow(10.0, -exponent),
-          power.substr(power.find("10")) + (shown.empty() ? "" : "\u00a0" + shown)};
+          html::raised(fmt::format("10^{}", exponent)) + (shown.empty() ? "" : "\u00a0" + shown)};
 }
 
 Scale scale_of(const ParameterSummary& p) {
