@@ -196,7 +196,7 @@ k = { law = "lognormal", median = "1e-15 m^3/(N m)", log_sd = 2 }
 )toml";
 const std::string good_data = "b,c,p,n,d\nA,30,1,1e5,15\nB,30,1,1e5,18\n";
 
-// Speeds and revolutions in any unit are the same; what has two readings is refused.
+// Speeds and revolutions in any unit are the same.
 TEST_F(BearingStudy, CountsTurnsWhateverTheUnit) {
   const auto study = [&](const std::string& turns, const std::string& cells) {
     write("data.csv", "b,c,p,n,t,d\nA,30,1," + cells + ",15\nB,30,1," + cells + ",18\n");
@@ -223,9 +223,18 @@ TEST_F(BearingStudy, CountsTurnsWhateverTheUnit) {
                     expected,
                 1, 1e-9)
         << unit;
-  EXPECT_THAT(refusal(study("speed = { column = \"n\", unit = \"1/h\" }" + times, "60,20")),
+}
+
+TEST_F(BearingStudy, RefusesTurnsWithTwoReadings) {
+  write("data.csv", "b,c,p,n,t,d\nA,30,1,60,20,15\nB,30,1,60,20,18\n");
+  const auto study = [&](const std::string& turns) {
+    std::string text = head + columns + conditions + likelihood + prior;
+    return text.replace(text.find("revolutions = \"n\""), 17, turns);
+  };
+  EXPECT_THAT(refusal(study("speed = { column = \"n\", unit = \"1/h\" }\n"
+                            "time = { column = \"t\", unit = \"h\" }")),
               AllOf(HasSubstr("speed.unit: '1/h'"), HasSubstr("rev/s")));
-  EXPECT_THAT(refusal(study("revolutions = { column = \"n\", unit = \"rad\" }", "60,20")),
+  EXPECT_THAT(refusal(study("revolutions = { column = \"n\", unit = \"rad\" }")),
               HasSubstr("holds an angle"));
 }
 

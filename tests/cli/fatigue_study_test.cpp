@@ -287,7 +287,7 @@ TEST_F(FatigueStudy, UnitsDoNotMatter) {
   EXPECT_NEAR(allowed(other) * ksi / allowed(mpa), 1, 1e-6);
 }
 
-// Lives in any unit of counting; the scatter of a life has that unit too.
+// Lives in any unit of counting.
 TEST_F(FatigueStudy, LivesAreCounted) {
   const std::string ask =
       "[predict]\nb_lives = [10]\n[predict.stress]\nhere = { alternating_stress = \"300 MPa\" }\n";
@@ -316,19 +316,22 @@ TEST_F(FatigueStudy, LivesAreCounted) {
                 1, 1e-6)
         << unit;
   }
-  write("data.csv", lives(1e5));
+}
+
+// The scatter of a life that is not a logarithm is a count too.
+TEST_F(FatigueStudy, RefusesAScatterOfLifeWithTwoReadings) {
+  write("data.csv", "s,n\n400,0.31\n350,0.95\n300,4.2\n260,13\n");
   const auto with_sigma = [&](const std::string& sigma) {
     return head +
            "alternating_stress = { column = \"s\", unit = \"MPa\" }\n"
            "life = { column = \"n\", unit = \"1e5 cycles\" }\n" +
            law + "[likelihood]\nfamily = \"normal\"\n" + prior.substr(0, prior.find("sigma")) +
-           sigma;
+           "sigma = { law = \"half-normal\", " + sigma + " }\n";
   };
   EXPECT_THAT(
-      refusal(with_sigma("sigma = { law = \"half-normal\", scale = 2, unit = \"1e5 cycles\" }\n")),
+      refusal(with_sigma("scale = 2, unit = \"1e5 cycles\"")),
       AllOf(HasSubstr("prior.sigma.scale: 2 stands beside '1e5 cycles'"), HasSubstr("= 200000")));
-  EXPECT_THAT(refusal(with_sigma("sigma = { law = \"half-normal\", scale = \"2 rad\" }\n")),
-              HasSubstr("holds an angle"));
+  EXPECT_THAT(refusal(with_sigma("scale = \"2 rad\"")), HasSubstr("holds an angle"));
 }
 
 // The same cycles of stress, however they are written.

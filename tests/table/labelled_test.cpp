@@ -46,7 +46,8 @@ TEST_F(LabelledTest, RefusesByColumn) {
   EXPECT_THAT(refused("torque [s]\n1\n", "torque", "N m"),
               testing::AllOf(HasSubstr("column 'torque [s]'"), HasSubstr("wrong dimension")));
   EXPECT_THAT(refused("slip [1/s]\n1\n", "slip", "rad/s"),
-              testing::AllOf(HasSubstr("column 'slip [1/s]'"), HasSubstr("rev/s or rad/s")));
+              testing::AllOf(HasSubstr("column 'slip [1/s]'"),
+                             HasSubstr("write rev/s (rpm, Hz) or rad/s")));
   EXPECT_THAT(refused("slip\n1\n", "slip", "rad/s"), HasSubstr("name it 'slip [rad/s]'"));
   EXPECT_THAT(refused("n [deg]\n1\n", "n", "cycle"), HasSubstr("holds an angle"));
   EXPECT_THAT(refused("T [degC]\n20\n-300\n", "T", "K"),
