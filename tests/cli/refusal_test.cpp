@@ -166,6 +166,8 @@ TEST_F(Refusal, OptionsThatNoNumberCanBe) {
   for (const char* level : {"inf", "nan", "-1", "0", "1e300"})
     EXPECT_THAT(refused(fmt::format("clutch life model.json --level {}", level)),
                 HasSubstr("--level"));
+  for (const char* seed : {"99999999999999999999", "-1", "1.5"})
+    EXPECT_THAT(refused(fmt::format("clutch design --seed {}", seed)), HasSubstr("--seed"));
   data();
   for (const char* option : {"--near nan", "--near -1", "--time inf", "--time nan"})
     EXPECT_THAT(refused(fmt::format("select runs.csv --response volume --inputs cycles {}", option)),

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
@@ -41,6 +44,20 @@ CLI::Validator number_between(double least, double most) {
                    : fmt::format("{} is no number in the range {}", text, range);
       },
       range, "number");
+}
+
+CLI::Validator seed_number() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint64_t seed = 0;
+        const char* end = text.data() + text.size();
+        const auto [rest, failure] = std::from_chars(text.data(), end, seed);
+        return failure == std::errc{} && rest == end
+                   ? std::string()
+                   : fmt::format("{} is no whole number from 0 to {}", text,
+                                 std::numeric_limits<std::uint64_t>::max());
+      },
+      "", "seed");
 }
 
 }  // namespace wearwell

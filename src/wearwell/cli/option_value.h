@@ -19,4 +19,7 @@ double checked_option(const std::string& option, double value, Allowed allowed);
 /// For options that are plain numbers: NaN and infinity lie in no range.
 CLI::Validator number_between(double least, double most);
 
+/// For seeds: a whole number of 64 bits, where a larger one would be taken for the largest.
+CLI::Validator seed_number();
+
 }  // namespace wearwell
