@@ -71,14 +71,14 @@ TEST_F(Refusal, AStudyIsNoProgram) {
   const std::string target = (folder() / "owned.csv").string();
   for (const std::string& sql :
        {fmt::format("select * from data; copy (select 'owned') to '{}'", target),
-        fmt::format("copy (select 'owned') to '{}'", target),
-        fmt::format("attach '{}'", target), fmt::format("export database '{}'", target)}) {
+        fmt::format("copy (select 'owned') to '{}'", target), fmt::format("attach '{}'", target),
+        fmt::format("export database '{}'", target)}) {
     const std::string file = study(fmt::format("sql = \"{}\"", sql));
     for (const char* command : {"check ", "fit "})
       EXPECT_THAT(refused(command + file), HasSubstr("study.toml:5:7: data.sql: "));
-    EXPECT_THAT(refused(fmt::format("select runs.csv --sql \"{}\" --response volume --inputs cycles",
-                                    sql)),
-                AnyOf(HasSubstr("must be one SELECT"), HasSubstr("may read no file but the one")));
+    EXPECT_THAT(
+        refused(fmt::format("select runs.csv --sql \"{}\" --response volume --inputs cycles", sql)),
+        AnyOf(HasSubstr("must be one SELECT"), HasSubstr("may read no file but the one")));
   }
   for (const char* read : {"read_text('/etc/passwd')", "glob('/etc/*')", "'/etc/passwd'"})
     EXPECT_THAT(refused("check " + study(fmt::format("sql = \"select * from {}\"", read))),
@@ -91,13 +91,13 @@ TEST_F(Refusal, FilesAreNamedWhereTheStudyNamesThem) {
   EXPECT_THAT(refused("check " + study()),
               HasSubstr("runs.csv, line 3: 3 values where the heading has 2: '100,5,1'"));
   data("load;volume;cycles\n2,5;1;35.000\n2,6;2;60.000\n");
-  EXPECT_THAT(refused("fit " + study()),
-              HasSubstr("runs.csv, row 1, column 'cycles': '35.000' can mean 35 or, with a mark for "
-                        "thousands, 35000"));
+  EXPECT_THAT(
+      refused("fit " + study()),
+      HasSubstr("runs.csv, row 1, column 'cycles': '35.000' can mean 35 or, with a mark for "
+                "thousands, 35000"));
   EXPECT_THAT(refused("check /dev/null"), HasSubstr("a pipe or a device"));
-  const CommandResult piped =
-      run_command("cat '" + (folder() / study()).string() + "' | '" WEARWELL_BINARY
-                  "' check /dev/stdin");
+  const CommandResult piped = run_command("cat '" + (folder() / study()).string() +
+                                          "' | '" WEARWELL_BINARY "' check /dev/stdin");
   EXPECT_EQ(piped.exit_code, 2);
   EXPECT_THAT(piped.err, HasSubstr("/dev/stdin is a pipe or a device"));
 }
@@ -114,11 +114,13 @@ TEST_F(Refusal, WhatFitRefusesCheckRefuses) {
 // Laws whose quantiles no double holds, and bounds with nothing between them.
 TEST_F(Refusal, PriorsThatNoNumberCanStartFrom) {
   data();
-  for (const char* law :
-       {R"toml({ law = "student-t", df = 1e-3, location = "0 mm^3/(N m)", scale = "1 mm^3/(N m)" })toml",
-        R"toml({ law = "inverse-gamma", shape = 1e-5, scale = "1 mm^3/(N m)" })toml",
-        R"toml({ law = "uniform", lower = "1 mm^3/(N m)", upper = "1.0000000000000002 mm^3/(N m)" })toml"})
-    EXPECT_THAT(refused("check " + study("", law)), HasSubstr("study.toml:13:5: [prior.k]: ")) << law;
+  for (
+      const char* law :
+      {R"toml({ law = "student-t", df = 1e-3, location = "0 mm^3/(N m)", scale = "1 mm^3/(N m)" })toml",
+       R"toml({ law = "inverse-gamma", shape = 1e-5, scale = "1 mm^3/(N m)" })toml",
+       R"toml({ law = "uniform", lower = "1 mm^3/(N m)", upper = "1.0000000000000002 mm^3/(N m)" })toml"})
+    EXPECT_THAT(refused("check " + study("", law)), HasSubstr("study.toml:13:5: [prior.k]: "))
+        << law;
 }
 
 TEST_F(Refusal, LongAndForeignText) {
@@ -140,12 +142,15 @@ TEST_F(Refusal, LongAndForeignText) {
 // A name is bytes; results hold text.
 TEST_F(Refusal, NamesThatAreNoText) {
   data();
-  study("", flat, "gr\xF6\xDF" "e.toml");
-  const CommandResult run = run_command(
-      "cd '" + folder().string() +
-      "'; sed -i 1d gr*e.toml; '" WEARWELL_BINARY "' fit gr*e.toml -o out --method exact --json");
+  study("", flat,
+        "gr\xF6\xDF"
+        "e.toml");
+  const CommandResult run = run_command("cd '" + folder().string() +
+                                        "'; sed -i 1d gr*e.toml; '" WEARWELL_BINARY
+                                        "' fit gr*e.toml -o out --method exact --json");
   EXPECT_LE(run.exit_code, 1) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("\"gr\xEF\xBF\xBD\xEF\xBF\xBD" "e\""));
+  EXPECT_THAT(run.out, HasSubstr("\"gr\xEF\xBF\xBD\xEF\xBF\xBD"
+                                 "e\""));
 }
 
 TEST_F(Refusal, OptionsThatNoNumberCanBe) {
@@ -170,8 +175,9 @@ TEST_F(Refusal, OptionsThatNoNumberCanBe) {
     EXPECT_THAT(refused(fmt::format("clutch design --seed {}", seed)), HasSubstr("--seed"));
   data();
   for (const char* option : {"--near nan", "--near -1", "--time inf", "--time nan"})
-    EXPECT_THAT(refused(fmt::format("select runs.csv --response volume --inputs cycles {}", option)),
-                HasSubstr(std::string(option).substr(0, 6)));
+    EXPECT_THAT(
+        refused(fmt::format("select runs.csv --response volume --inputs cycles {}", option)),
+        HasSubstr(std::string(option).substr(0, 6)));
 }
 
 TEST_F(Refusal, ModelsThatAreNone) {
@@ -202,10 +208,11 @@ TEST_F(Refusal, ResponsesWhoseSquaresAreNoNumbers) {
 // The fit of y scaled by 1e90 is the fit of y, scaled.
 TEST_F(Refusal, ScalesThatAreNumbersAreFitted) {
   for (const char* factor : {"e90", "e-90", ""}) {
-    write("y.csv", fmt::format("x,y\n1,1.5{0}\n2,2.5{0}\n3,3.4{0}\n4,4.1{0}\n5,5.6{0}\n6,6.5{0}\n",
-                               factor));
+    write("y.csv",
+          fmt::format("x,y\n1,1.5{0}\n2,2.5{0}\n3,3.4{0}\n4,4.1{0}\n5,5.6{0}\n6,6.5{0}\n", factor));
     const CommandResult run =
-        run_command("cd '" + folder().string() + "'; '" WEARWELL_BINARY
+        run_command("cd '" + folder().string() +
+                    "'; '" WEARWELL_BINARY
                     "' select y.csv --response y --inputs x --degree 2 --cloud --json | grep -m1 "
                     "'\"r2p\"'");
     EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -361,7 +361,8 @@ void add_bearing_command(CLI::App& app) {
     sub->add_option("--draws", options->draws, "random draws for the interval")
         ->type_name("N")
         ->capture_default_str();
-    sub->add_option("--seed", options->seed, "seed of the draws")->check(seed_number())
+    sub->add_option("--seed", options->seed, "seed of the draws")
+        ->check(seed_number())
         ->type_name("N")
         ->capture_default_str();
     sub->add_flag("--json", options->json, "print one JSON object");

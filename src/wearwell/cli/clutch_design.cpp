@@ -127,7 +127,9 @@ void add_design_command(CLI::App& clutch) {
   command->add_option("--outside", options->outside, "points beyond the levels")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of the candidates")->check(seed_number())->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the candidates")
+      ->check(seed_number())
+      ->capture_default_str();
   command->add_option("-o,--output", options->output, "file (default: standard output)");
   command->footer(
       "Example:\n  wearwell clutch design --torque '25, 50, 75 N m' --feasible-torque '20 .. 85 N "

@@ -166,10 +166,10 @@ Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
     table->fail("", "the law is so wide or so narrow that its quantiles are no finite numbers");
   }
   if (!(parameter.prior.lower < parameter.start && parameter.start < parameter.prior.upper)) {
-    table->fail("", fmt::format("no number lies between the bounds {:.17g} and {:.17g} {}",
-                                from_si(parameter.unit, parameter.prior.lower),
-                                from_si(parameter.unit, parameter.prior.upper),
-                                parameter.unit.text));
+    table->fail("",
+                fmt::format("no number lies between the bounds {:.17g} and {:.17g} {}",
+                            from_si(parameter.unit, parameter.prior.lower),
+                            from_si(parameter.unit, parameter.prior.upper), parameter.unit.text));
   }
   if (!(parameter.scale > 0 && std::isfinite(parameter.scale))) {
     table->fail("", "the law is so wide or so narrow that its spread is no number to count with");
