@@ -58,7 +58,7 @@ Values read_values(const std::string& flag, std::string text, const Input& input
     try {
       const double x = read_quantity(numbers.substr(from, end - from), "1").value;
       const double offset = input.value == &OperatingPoint::temperature ? celsius_zero : 0;
-      result.values.push_back(checked_option(flag, to_si(unit, x) - offset, Allowed::any));
+      result.values.push_back(checked_option(flag, text, to_si(unit, x) - offset, Allowed::any));
     } catch (const InputError&) {
       fail("write numbers with commas between them and one unit behind: '1200, 1700, 2800 rpm'");
     }

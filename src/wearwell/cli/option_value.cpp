@@ -12,25 +12,25 @@
 
 namespace wearwell {
 
-double checked_option(const std::string& option, double value, Allowed allowed) {
-  if (!std::isfinite(value))
-    throw InputError(fmt::format("{}: the value is no finite number in SI units", option));
-  if (allowed == Allowed::positive && !(value > 0))
-    throw InputError(fmt::format("{} must be positive", option));
-  if (allowed == Allowed::not_negative && !(value >= 0))
-    throw InputError(fmt::format("{} must not be negative", option));
+double checked_option(const std::string& option, const std::string& text, double value,
+                      Allowed allowed) {
+  const char* reason = !std::isfinite(value) ? "is no finite number in SI units"
+                       : allowed == Allowed::positive && !(value > 0)  ? "must be positive"
+                       : allowed == Allowed::not_negative && value < 0 ? "must not be negative"
+                                                                       : nullptr;
+  if (reason) throw InputError(fmt::format("{}: '{}' {}", option, text, reason));
   return value;
 }
 
 double option_value(const std::string& option, const std::string& text, std::string_view si,
                     Allowed allowed) {
+  double value = 0;
   try {
-    return checked_option(option, read_quantity(text, si).si(), allowed);
+    value = read_quantity(text, si).si();
   } catch (const InputError& error) {
-    const std::string message = error.what();
-    throw InputError(message.starts_with(option) ? fmt::format("{} (it is '{}')", message, text)
-                                                 : fmt::format("{}: {}", option, message));
+    throw InputError(fmt::format("{}: {}", option, error.what()));
   }
+  return checked_option(option, text, value, allowed);
 }
 
 CLI::Validator number_between(double least, double most) {
@@ -41,7 +41,8 @@ CLI::Validator number_between(double least, double most) {
         const bool read = CLI::detail::lexical_cast(text, value);
         return read && value >= least && value <= most
                    ? std::string()
-                   : fmt::format("{} is no number in the range {}", text, range);
+                   : fmt::format("'{}' must be {} and at most {:g}", text,
+                                 least > 0 ? "positive" : "0 or more", most);
       },
       range, "number");
 }
