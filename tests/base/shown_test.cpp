@@ -23,7 +23,9 @@ TEST(Shown, OrdinaryMessagesStay) {
 
 TEST(Shown, NothingReachesTheTerminalButText) {
   EXPECT_EQ(shown("a\x1b[31mb\x07\x7f"), "a\\x1b[31mb\\x07\\x7f");
-  EXPECT_EQ(shown("a\xC2\x9B" "31m"), "a\\x9b31m");
+  EXPECT_EQ(shown("a\xC2\x9B"
+                  "31m"),
+            "a\\x9b31m");
   EXPECT_EQ(shown("two\nlines\tand"), "two lines and");
   EXPECT_EQ(shown(std::string("nul\0.", 5)), "nul\\x00.");
 }
@@ -31,7 +33,9 @@ TEST(Shown, NothingReachesTheTerminalButText) {
 // RFC 3629: what is no UTF-8 (a lone byte, an overlong form, a surrogate, beyond U+10FFFF, cut).
 TEST(Shown, WhatIsNoUtf8IsReplacedByteByByte) {
   const std::string no = "\xEF\xBF\xBD";
-  EXPECT_EQ(valid_utf8("Gr\xF6\xDF" "e"), "Gr" + no + no + "e");
+  EXPECT_EQ(valid_utf8("Gr\xF6\xDF"
+                       "e"),
+            "Gr" + no + no + "e");
   EXPECT_EQ(valid_utf8("\xC0\xAF"), no + no);
   EXPECT_EQ(valid_utf8("\xED\xA0\x80"), no + no + no);
   EXPECT_EQ(valid_utf8("\xF4\x90\x80\x80"), no + no + no + no);
@@ -41,8 +45,9 @@ TEST(Shown, WhatIsNoUtf8IsReplacedByteByByte) {
 
 TEST(Shown, LongValuesAreCut) {
   const std::string value(10'000, 'x');
-  EXPECT_EQ(shown("f.toml:1:5: law: '" + value + "' is not possible"),
-            "f.toml:1:5: law: '" + std::string(60, 'x') + "... (10000 characters)' is not possible");
+  EXPECT_EQ(
+      shown("f.toml:1:5: law: '" + value + "' is not possible"),
+      "f.toml:1:5: law: '" + std::string(60, 'x') + "... (10000 characters)' is not possible");
   EXPECT_THAT(shown("key " + value + " is unknown"),
               EndsWith("x... (10000 characters) is unknown"));
   std::string many;

@@ -12,6 +12,7 @@ namespace wearwell {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -70,14 +71,14 @@ TEST_F(Refusal, AStudyIsNoProgram) {
   const std::string target = (folder() / "owned.csv").string();
   for (const std::string& sql :
        {fmt::format("select * from data; copy (select 'owned') to '{}'", target),
-        fmt::format("copy (select 'owned') to '{}'", target),
-        fmt::format("attach '{}'", target), fmt::format("export database '{}'", target)}) {
+        fmt::format("copy (select 'owned') to '{}'", target), fmt::format("attach '{}'", target),
+        fmt::format("export database '{}'", target)}) {
     const std::string file = study(fmt::format("sql = \"{}\"", sql));
     for (const char* command : {"check ", "fit "})
       EXPECT_THAT(refused(command + file), HasSubstr("study.toml:5:7: data.sql: "));
-    EXPECT_THAT(refused(fmt::format("select runs.csv --sql \"{}\" --response volume --inputs cycles",
-                                    sql)),
-                HasSubstr("must be one SELECT"));
+    EXPECT_THAT(
+        refused(fmt::format("select runs.csv --sql \"{}\" --response volume --inputs cycles", sql)),
+        AnyOf(HasSubstr("must be one SELECT"), HasSubstr("may read no file but the one")));
   }
   for (const char* read : {"read_text('/etc/passwd')", "glob('/etc/*')", "'/etc/passwd'"})
     EXPECT_THAT(refused("check " + study(fmt::format("sql = \"select * from {}\"", read))),
@@ -90,13 +91,13 @@ TEST_F(Refusal, FilesAreNamedWhereTheStudyNamesThem) {
   EXPECT_THAT(refused("check " + study()),
               HasSubstr("runs.csv, line 3: 3 values where the heading has 2: '100,5,1'"));
   data("load;volume;cycles\n2,5;1;35.000\n2,6;2;60.000\n");
-  EXPECT_THAT(refused("fit " + study()),
-              HasSubstr("runs.csv, row 1, column 'cycles': '35.000' can mean 35 or, with a mark for "
-                        "thousands, 35000"));
+  EXPECT_THAT(
+      refused("fit " + study()),
+      HasSubstr("runs.csv, row 1, column 'cycles': '35.000' can mean 35 or, with a mark for "
+                "thousands, 35000"));
   EXPECT_THAT(refused("check /dev/null"), HasSubstr("a pipe or a device"));
-  const CommandResult piped =
-      run_command("cat '" + (folder() / study()).string() + "' | '" WEARWELL_BINARY
-                  "' check /dev/stdin");
+  const CommandResult piped = run_command("cat '" + (folder() / study()).string() +
+                                          "' | '" WEARWELL_BINARY "' check /dev/stdin");
   EXPECT_EQ(piped.exit_code, 2);
   EXPECT_THAT(piped.err, HasSubstr("/dev/stdin is a pipe or a device"));
 }
@@ -108,6 +109,18 @@ TEST_F(Refusal, WhatFitRefusesCheckRefuses) {
       R"toml({ law = "uniform", lower = "1e-320 mm^3/(N m)", upper = "1e-319 mm^3/(N m)" })toml";
   const std::string fit = refused("fit " + study("", far));
   EXPECT_EQ(refused("check " + study("", far)), fit);
+}
+
+// Laws whose quantiles no double holds, and bounds with nothing between them.
+TEST_F(Refusal, PriorsThatNoNumberCanStartFrom) {
+  data();
+  for (
+      const char* law :
+      {R"toml({ law = "student-t", df = 1e-3, location = "0 mm^3/(N m)", scale = "1 mm^3/(N m)" })toml",
+       R"toml({ law = "inverse-gamma", shape = 1e-5, scale = "1 mm^3/(N m)" })toml",
+       R"toml({ law = "uniform", lower = "1 mm^3/(N m)", upper = "1.0000000000000002 mm^3/(N m)" })toml"})
+    EXPECT_THAT(refused("check " + study("", law)), HasSubstr("study.toml:13:5: [prior.k]: "))
+        << law;
 }
 
 TEST_F(Refusal, LongAndForeignText) {
@@ -129,12 +142,15 @@ TEST_F(Refusal, LongAndForeignText) {
 // A name is bytes; results hold text.
 TEST_F(Refusal, NamesThatAreNoText) {
   data();
-  study("", flat, "gr\xF6\xDF" "e.toml");
-  const CommandResult run = run_command(
-      "cd '" + folder().string() +
-      "'; sed -i 1d gr*e.toml; '" WEARWELL_BINARY "' fit gr*e.toml -o out --method exact --json");
+  study("", flat,
+        "gr\xF6\xDF"
+        "e.toml");
+  const CommandResult run = run_command("cd '" + folder().string() +
+                                        "'; sed -i 1d gr*e.toml; '" WEARWELL_BINARY
+                                        "' fit gr*e.toml -o out --method exact --json");
   EXPECT_LE(run.exit_code, 1) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("\"gr\xEF\xBF\xBD\xEF\xBF\xBD" "e\""));
+  EXPECT_THAT(run.out, HasSubstr("\"gr\xEF\xBF\xBD\xEF\xBF\xBD"
+                                 "e\""));
 }
 
 TEST_F(Refusal, OptionsThatNoNumberCanBe) {
@@ -144,7 +160,7 @@ TEST_F(Refusal, OptionsThatNoNumberCanBe) {
   EXPECT_THAT(refused("clutch features traces.csv --slip-off '2 s'"), HasSubstr("--slip-off"));
   EXPECT_THAT(refused("clutch features traces.csv --slip-off '-2 rad/s'"), HasSubstr("--slip-off"));
   EXPECT_THAT(refused("clutch features traces.csv --torque-on '1e308 MN m'"),
-              HasSubstr("--torque-on: the value is no finite number"));
+              HasSubstr("--torque-on: '1e308 MN m' is no finite number"));
   EXPECT_THAT(refused("clutch design --most-energy '-1 kJ'"), HasSubstr("--most-energy"));
   EXPECT_THAT(refused("clutch design --torque '1e308, 2e308 MN m'"), HasSubstr("--torque"));
   EXPECT_THAT(refused("bearing chart --sigma 1e300"), HasSubstr("clearance/radius 1e+300"));
@@ -155,10 +171,13 @@ TEST_F(Refusal, OptionsThatNoNumberCanBe) {
   for (const char* level : {"inf", "nan", "-1", "0", "1e300"})
     EXPECT_THAT(refused(fmt::format("clutch life model.json --level {}", level)),
                 HasSubstr("--level"));
+  for (const char* seed : {"99999999999999999999", "-1", "1.5"})
+    EXPECT_THAT(refused(fmt::format("clutch design --seed {}", seed)), HasSubstr("--seed"));
   data();
   for (const char* option : {"--near nan", "--near -1", "--time inf", "--time nan"})
-    EXPECT_THAT(refused(fmt::format("select runs.csv --response volume --inputs cycles {}", option)),
-                HasSubstr(std::string(option).substr(0, 6)));
+    EXPECT_THAT(
+        refused(fmt::format("select runs.csv --response volume --inputs cycles {}", option)),
+        HasSubstr(std::string(option).substr(0, 6)));
 }
 
 TEST_F(Refusal, ModelsThatAreNone) {
@@ -189,10 +208,11 @@ TEST_F(Refusal, ResponsesWhoseSquaresAreNoNumbers) {
 // The fit of y scaled by 1e90 is the fit of y, scaled.
 TEST_F(Refusal, ScalesThatAreNumbersAreFitted) {
   for (const char* factor : {"e90", "e-90", ""}) {
-    write("y.csv", fmt::format("x,y\n1,1.5{0}\n2,2.5{0}\n3,3.4{0}\n4,4.1{0}\n5,5.6{0}\n6,6.5{0}\n",
-                               factor));
+    write("y.csv",
+          fmt::format("x,y\n1,1.5{0}\n2,2.5{0}\n3,3.4{0}\n4,4.1{0}\n5,5.6{0}\n6,6.5{0}\n", factor));
     const CommandResult run =
-        run_command("cd '" + folder().string() + "'; '" WEARWELL_BINARY
+        run_command("cd '" + folder().string() +
+                    "'; '" WEARWELL_BINARY
                     "' select y.csv --response y --inputs x --degree 2 --cloud --json | grep -m1 "
                     "'\"r2p\"'");
     EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -58,8 +58,9 @@ TEST_F(StudyDataTest, FilesAreNamedAtTheirKey) {
     return TomlReader::parse_file(write("s.toml", "title = 1\n[data]\n" + text))
         .required_table("data");
   };
-  EXPECT_THAT(message_of<InputError>([&] { read_table(section("file = \"non.csv\"\n"), folder()); }),
-              AllOf(HasSubstr("s.toml:3:8: data.file: no such file: "), HasSubstr("non.csv")));
+  EXPECT_THAT(
+      message_of<InputError>([&] { read_table(section("file = \"non.csv\"\n"), folder()); }),
+      AllOf(HasSubstr("s.toml:3:8: data.file: no such file: "), HasSubstr("non.csv")));
   write("a.csv", "x\n1\n");
   EXPECT_THAT(message_of<InputError>([&] {
                 read_table(section("file = \"a.csv\"\nsql = \"drop view data\"\n"), folder());
@@ -74,8 +75,9 @@ TEST_F(StudyDataTest, FilesAreNamedAtTheirKey) {
 TEST_F(StudyDataTest, PlatesBeyondAnInt) {
   const std::string heading =
       "plate,cycle,slip_speed [rpm],torque [N m],temperature [degC],closing_time [s],energy [J]\n";
-  const auto file = write("c.csv", heading + "1,1,1700,50,170,2,9000\n4294967297,2,1700,50,170,2,"
-                                             "9000\n");
+  const auto file = write("c.csv", heading +
+                                       "1,1,1700,50,170,2,9000\n4294967297,2,1700,50,170,2,"
+                                       "9000\n");
   EXPECT_THAT(message_of<InputError>([&] { clutch::read_cycles(file); }),
               HasSubstr("row 2, column 'plate': 4294967297 is too large; at most 2000000000"));
 }

@@ -109,9 +109,9 @@ TEST_F(TomlReaderTest, DotsThatAreNoKeys) {
   const std::string dots(1000, '.');
   std::string numbers;
   for (int i = 0; i < 1000; ++i) numbers += "1.5, ";
-  const TomlReader root = parse("# " + dots + "\na = \"" + dots + "\"\nb = '" + dots +
-                                "'\nc = \"\"\"\n" + dots + "\\\"\n" + dots + "\"\"\"\nd = [" + numbers +
-                                "]\n[e.\"" + dots + "\".f]\ng = 1\n");
+  const TomlReader root =
+      parse("# " + dots + "\na = \"" + dots + "\"\nb = '" + dots + "'\nc = \"\"\"\n" + dots +
+            "\\\"\n" + dots + "\"\"\"\nd = [" + numbers + "]\n[e.\"" + dots + "\".f]\ng = 1\n");
   EXPECT_EQ(root.required_text("a"), dots);
   EXPECT_EQ(root.required_text("b"), dots);
   EXPECT_EQ(root.quantities("d", "1").size(), 1000U);

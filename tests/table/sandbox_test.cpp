@@ -138,9 +138,13 @@ TEST_F(SandboxTest, ReadsExactlyTheNamedFile) {
 }
 
 TEST_F(SandboxTest, NamesAreBytes) {
-  const Table table = read_table(write("gr\xF6\xDF""e.csv", "x\n4\n"));
+  const Table table =
+      read_table(write("gr\xF6\xDF"
+                       "e.csv",
+                       "x\n4\n"));
   EXPECT_THAT(table.columns[0].numbers, ElementsAre(4));
-  EXPECT_THAT(table.source, HasSubstr("gr\xEF\xBF\xBD\xEF\xBF\xBD""e.csv"));
+  EXPECT_THAT(table.source, HasSubstr("gr\xEF\xBF\xBD\xEF\xBF\xBD"
+                                      "e.csv"));
 }
 
 }  // namespace

@@ -43,9 +43,11 @@ class TextFileTest : public ScratchTest {
 TEST_F(TextFileTest, RaggedLinesAreNamed) {
   EXPECT_THAT(refused("x,y\n1,2\n3,4,5\n"),
               HasSubstr("a.csv, line 3: 3 values where the heading has 2: '3,4,5'"));
-  EXPECT_THAT(refused("x,y\n1,2\n\n3\n"), HasSubstr("line 4: 1 value where the heading has 2: '3'"));
+  EXPECT_THAT(refused("x,y\n1,2\n\n3\n"),
+              HasSubstr("line 4: 1 value where the heading has 2: '3'"));
   EXPECT_THAT(refused("x,y,z\n1,2\n3,4\n"), HasSubstr("line 2: 2 values where the heading has 3"));
-  EXPECT_THAT(refused("x;y\n1;2;3\n4;5;6\n"), HasSubstr("line 2: 3 values where the heading has 2"));
+  EXPECT_THAT(refused("x;y\n1;2;3\n4;5;6\n"),
+              HasSubstr("line 2: 3 values where the heading has 2"));
   EXPECT_THAT(refused("x,y\n1,2\n\"3,4\n5,6\n"), HasSubstr("line 3: a quote is opened"));
   EXPECT_THAT(refused("v\n1,5\n2,5\n"), HasSubstr("line 2: 2 values where the heading has 1"));
   // Far below what a guess looks at.
@@ -81,9 +83,12 @@ TEST_F(TextFileTest, LinesAreNeitherCommentsNorSkipped) {
 }
 
 TEST_F(TextFileTest, OtherEncodings) {
-  EXPECT_THAT(refused("x,note\n1,Gr\xF6\xDF""e\n"),
+  EXPECT_THAT(refused("x,note\n1,Gr\xF6\xDF"
+                      "e\n"),
               AllOf(HasSubstr("line 2: "), HasSubstr("is not UTF-8; save the file as UTF-8")));
-  EXPECT_THAT(refused("x,Gr\xF6\xDF""e\n1,2\n"), HasSubstr("line 1: "));
+  EXPECT_THAT(refused("x,Gr\xF6\xDF"
+                      "e\n1,2\n"),
+              HasSubstr("line 1: "));
   EXPECT_THAT(refused("\xFF\xFEx\0,\0y\0\n\0"s), HasSubstr("UTF-16"));
   EXPECT_THAT(refused("x\0,\0y\0\n\0001\0,\0002\0\n\0"s), HasSubstr("UTF-16"));
   EXPECT_THAT(refused("x,y\r1,2\r"), HasSubstr("carriage returns"));
@@ -110,7 +115,8 @@ TEST_F(TextFileTest, CutOrDamagedGzip) {
   EXPECT_EQ(read_table(write("a.csv.gz", packed)).rows, 5000u);
   for (const double share : {0.1, 0.35, 0.7, 0.999}) {
     const auto size = static_cast<std::size_t>(share * static_cast<double>(packed.size()));
-    EXPECT_THAT(refusal(write("a.csv.gz", packed.substr(0, size))), HasSubstr("is cut off")) << size;
+    EXPECT_THAT(refusal(write("a.csv.gz", packed.substr(0, size))), HasSubstr("is cut off"))
+        << size;
   }
   EXPECT_THAT(refusal(write("a.csv.gz", packed.substr(0, packed.size() - 1))),
               HasSubstr("is cut off"));

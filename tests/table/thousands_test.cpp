@@ -67,15 +67,18 @@ TEST_F(ThousandsTest, OrdinaryNumbersAreNot) {
 TEST_F(ThousandsTest, OtherMarksAreNoNumbers) {
   const auto expect = [&](const char* cell, const char* meaning) {
     EXPECT_THAT(refused(std::string("n;life\n1;5\n2;\"") + cell + "\"\n"),
-                AllOf(HasSubstr("row 2, column 'life': '"), HasSubstr("is not a number; it may mean"),
-                      HasSubstr(meaning)))
+                AllOf(HasSubstr("row 2, column 'life': '"),
+                      HasSubstr("is not a number; it may mean"), HasSubstr(meaning)))
         << cell;
   };
   expect("1,234,567", "mean 1234567:");
   expect("1.234.567", "mean 1234567:");
   expect("1'234", "mean 1234:");
   expect("35 000", "mean 35000:");
-  expect("35\xC2\xA0""000", "mean 35000:");
+  expect(
+      "35\xC2\xA0"
+      "000",
+      "mean 35000:");
   expect("1,234", "mean 1234 or 1.234:");
   expect("12,5", "mean 12.5:");
   expect("1.234,5", "mean 1234.5:");

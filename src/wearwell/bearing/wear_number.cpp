@@ -72,8 +72,9 @@ double wear_number(Contact contact, double sigma, double delta) {
                             ? lune_area(sigma, delta) / (4 * pi)
                             : delta * (2 * even_radius(contact, sigma) + delta) / 4;
   if (!std::isfinite(result))
-    throw InputError(fmt::format(
-        "no wear number can be computed for clearance/radius {} and depth/radius {}", sigma, delta));
+    throw InputError(
+        fmt::format("no wear number can be computed for clearance/radius {} and depth/radius {}",
+                    sigma, delta));
   return result;
 }
 

@@ -359,6 +359,7 @@ void add_bearing_command(CLI::App& app) {
         ->type_name("N")
         ->capture_default_str();
     sub->add_option("--seed", options->seed, "seed of the draws")
+        ->check(seed_number())
         ->type_name("N")
         ->capture_default_str();
     sub->add_flag("--json", options->json, "print one JSON object");

@@ -60,7 +60,7 @@ Values read_values(const std::string& flag, std::string text, const Input& input
     try {
       const double x = read_quantity(numbers.substr(from, end - from), "1").value;
       const double offset = input.value == &OperatingPoint::temperature ? celsius_zero : 0;
-      result.values.push_back(checked_option(flag, to_si(unit, x) - offset, Allowed::any));
+      result.values.push_back(checked_option(flag, text, to_si(unit, x) - offset, Allowed::any));
     } catch (const InputError&) {
       fail("write numbers with commas between them and one unit behind: '1200, 1700, 2800 rpm'");
     }
@@ -129,7 +129,9 @@ void add_design_command(CLI::App& clutch) {
   command->add_option("--outside", options->outside, "points beyond the levels")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of the candidates")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the candidates")
+      ->check(seed_number())
+      ->capture_default_str();
   command->add_option("-o,--output", options->output, "file (default: standard output)");
   command->footer(
       "Example:\n  wearwell clutch design --torque '25, 50, 75 N m' --feasible-torque '20 .. 85 N "

@@ -5,6 +5,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/cli/clutch_parts.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/report/result_folder.h"
 #include "wearwell/study/clutch_tables.h"
 #include "wearwell/study/clutch_truth.h"
@@ -47,7 +48,9 @@ void add_simulate_command(CLI::App& clutch) {
   command->add_option("--design", options->design, "operating points (CSV), of clutch design")
       ->required();
   command->add_option("--truth", options->truth, "what is true (TOML)")->required();
-  command->add_option("--seed", options->seed, "seed of the campaign")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the campaign")
+      ->check(seed_number())
+      ->capture_default_str();
   command->add_option("--traces", options->traces, "closings to write raw traces of")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();

@@ -9,6 +9,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/progress.h"
 #include "wearwell/cli/clutch_fit.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/report/csv.h"
 #include "wearwell/report/json.h"
 #include "wearwell/report/long_tables.h"
@@ -99,7 +100,8 @@ void add_fit_command(CLI::App& app, int& exit_code) {
   fit->add_option("--warmup", options->sampler.warmup,
                   "Iterations discarded per chain (default 1000; metropolis 4000)")
       ->check(CLI::Range(0, max_iterations));
-  fit->add_option("--seed", options->sampler.seed, "Seed of the random numbers (default 1)");
+  fit->add_option("--seed", options->sampler.seed, "Seed of the random numbers (default 1)")
+      ->check(seed_number());
   fit->add_option("--threads", options->threads,
                   "Threads (default: all); results do not depend on it")
       ->check(CLI::Range(1, 1024));

@@ -13,10 +13,15 @@ enum class Allowed { any, positive, not_negative };
 double option_value(const std::string& option, const std::string& text, std::string_view si,
                     Allowed allowed = Allowed::any);
 
-/// Throws InputError that begins with the option's name unless `value` is finite and allowed.
-double checked_option(const std::string& option, double value, Allowed allowed);
+/// The value that an option's text means, in SI. Throws InputError that names both unless it is
+/// finite and allowed.
+double checked_option(const std::string& option, const std::string& text, double value,
+                      Allowed allowed);
 
 /// For options that are plain numbers: NaN and infinity lie in no range.
 CLI::Validator number_between(double least, double most);
+
+/// For seeds: a whole number of 64 bits, where a larger one would be taken for the largest.
+CLI::Validator seed_number();
 
 }  // namespace wearwell

@@ -150,7 +150,8 @@ void add_select_command(CLI::App& app, int& exit_code) {
                    "k-fold cross-validation of the models found; a heuristic beside the criterion")
       ->check(CLI::Range(2, 1'000'000))
       ->type_name("K");
-  select->add_option("--seed", options->settings.seed, "Seed of the folds (default 1)");
+  select->add_option("--seed", options->settings.seed, "Seed of the folds (default 1)")
+      ->check(seed_number());
   select->add_option("--time", search.seconds, "Stop after so many seconds, proven or not")
       ->check(number_between(0, 1e9))
       ->type_name("S");

@@ -37,7 +37,8 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
   }
   life.sd = std::sqrt(variance);
   if (!std::isfinite(life.volume) || !std::isfinite(life.energy) || !std::isfinite(variance))
-    throw InputError("the wear of this duty is no finite number; is the model far outside its range?");
+    throw InputError(
+        "the wear of this duty is no finite number; is the model far outside its range?");
   if (!(life.volume > 0)) throw InputError("the model predicts no wear under this duty");
 
   std::vector<double> replicate_volumes;

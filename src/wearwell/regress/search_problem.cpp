@@ -59,10 +59,10 @@ void require_size(const std::string& name, const Eigen::VectorXd& values) {
   constexpr double least = 1e-100, most = 1e100;
   const double size = values.cwiseAbs().maxCoeff();
   if (size == 0 || (size >= least && size <= most)) return;
-  throw InputError(
-      fmt::format("{}: the largest value is {:.3g}; its squares are no numbers to count with. Write "
-                  "it in a unit in which it lies between {:g} and {:g}",
-                  name, size, least, most));
+  throw InputError(fmt::format(
+      "{}: the largest value is {:.3g}; its squares are no numbers to count with. Write "
+      "it in a unit in which it lies between {:g} and {:g}",
+      name, size, least, most));
 }
 
 std::vector<int> terms_of(TermSet set) {

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "wearwell/base/shown.h"
 #include "wearwell/report/html.h"
 #include "wearwell/report/page.h"
 #include "wearwell/report/plot.h"
@@ -459,7 +460,7 @@ std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
                              r.search.submodels));
   fact("Time of the search", fmt::format("{:.1f} s", r.search.seconds));
   fact("Time taken", fmt::format("{:.1f} s", r.seconds));
-  fact(study.file.filename().string(), "SHA-1 " + sha1(study.file));
+  fact(valid_utf8(study.file.filename().string()), "SHA-1 " + sha1(study.file));
   for (const auto& file : study.files) fact(file.filename().string(), "SHA-1 " + sha1(file));
   out += "</dl>\n";
   if (!r.closings.empty()) {

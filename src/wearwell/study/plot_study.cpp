@@ -8,6 +8,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "wearwell/base/shown.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/study/describe.h"
@@ -255,7 +256,7 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
   plots.joint = joint_density(posterior, fit);
 
   plots.study_text = content(study.file);
-  plots.files = {{study.file.filename().string(), sha1(study.file)},
+  plots.files = {{valid_utf8(study.file.filename().string()), sha1(study.file)},
                  {study.data_file, sha1(study.file.parent_path() / study.data_file)}};
 
   // The draws of an improper posterior wander for ever: they predict nothing.

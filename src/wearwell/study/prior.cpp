@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "wearwell/base/error.h"
 
@@ -165,8 +166,21 @@ Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
   } catch (const InputError& error) {
     table->fail("", error.what());
   }
-  parameter.start = start_inside(parameter.prior, spec.guess);
-  parameter.scale = spread(parameter.prior, parameter.start);
+  try {
+    parameter.start = start_inside(parameter.prior, spec.guess);
+    parameter.scale = spread(parameter.prior, parameter.start);
+  } catch (const std::runtime_error&) {  // of Boost's quantiles
+    table->fail("", "the law is so wide or so narrow that its quantiles are no finite numbers");
+  }
+  if (!(parameter.prior.lower < parameter.start && parameter.start < parameter.prior.upper)) {
+    table->fail("",
+                fmt::format("no number lies between the bounds {:.17g} and {:.17g} {}",
+                            from_si(parameter.unit, parameter.prior.lower),
+                            from_si(parameter.unit, parameter.prior.upper), parameter.unit.text));
+  }
+  if (!(parameter.scale > 0 && std::isfinite(parameter.scale))) {
+    table->fail("", "the law is so wide or so narrow that its spread is no number to count with");
+  }
   return parameter;
 }
 

@@ -143,9 +143,9 @@ std::vector<std::string> meanings(const SnLaw& law) {
   std::vector<std::string> words = {"logarithm of the stress at one cycle", "Basquin's exponent"};
   if (law.has_strength()) {
     words.emplace_back(law.correction == MeanStress::soderberg ? "logarithm of the yield strength"
-                    : law.correction == MeanStress::morrow
-                        ? "logarithm of the true fracture strength"
-                        : "logarithm of the ultimate strength");
+                       : law.correction == MeanStress::morrow
+                           ? "logarithm of the true fracture strength"
+                           : "logarithm of the ultimate strength");
   }
   if (law.has_gamma()) words.emplace_back("Walker's exponent");
   words.emplace_back(law.logarithmic() ? "scatter of log10 life" : "scatter of life");

@@ -72,9 +72,8 @@ void refuse_long_keys(const std::string& text, const std::string& name) {
     const char c = text[i++];
     if (c == '.') {
       if (++parts > most_parts)
-        throw InputError(
-            fmt::format("{}:{}: a key of more than {} parts is none of a study", name, line,
-                        most_parts));
+        throw InputError(fmt::format("{}:{}: a key of more than {} parts is none of a study", name,
+                                     line, most_parts));
     } else if (c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') {
       parts = 1;
       if (c == '\n') ++line;
@@ -97,8 +96,8 @@ std::size_t line_of_failure(std::string_view text) {
     }
     return false;
   };
-  const auto first = std::partition_point(ends.begin(), ends.end(),
-                                          [&](std::size_t end) { return !fails(end); });
+  const auto first =
+      std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) { return !fails(end); });
   return static_cast<std::size_t>(first - ends.begin()) + 1;
 }
 
@@ -109,8 +108,8 @@ std::string content_of(const std::filesystem::path& file, const std::string& nam
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(fmt::format("{} is a folder, not a study file", name));
   if (!std::filesystem::is_regular_file(file, ignored))
-    throw InputError(
-        fmt::format("{} is a pipe or a device; a study is a file, beside which its data lie", name));
+    throw InputError(fmt::format(
+        "{} is a pipe or a device; a study is a file, beside which its data lie", name));
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(fmt::format("{} cannot be read (permissions?)", name));
   std::string text(largest_study + 1, '\0');

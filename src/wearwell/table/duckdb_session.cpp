@@ -143,12 +143,12 @@ DuckdbSession::DuckdbSession(const TableFile& file) : file_(file) {
       duckdb_connect(database_, &connection_) != DuckDBSuccess)
     throw MachineError("cannot start DuckDB");
   try {
-    DuckdbResult(*this,
-                 fmt::format("set temp_directory = ''; set autoinstall_known_extensions = false; set "
-                             "autoload_known_extensions = false; set allowed_paths = [{}]; set "
-                             "memory_limit = '{}MiB'; set enable_external_access = false; set "
-                             "lock_configuration = true",
-                             quoted(file.path(), '\''), memory_limit()));
+    DuckdbResult(
+        *this, fmt::format("set temp_directory = ''; set autoinstall_known_extensions = false; set "
+                           "autoload_known_extensions = false; set allowed_paths = [{}]; set "
+                           "memory_limit = '{}MiB'; set enable_external_access = false; set "
+                           "lock_configuration = true",
+                           quoted(file.path(), '\''), memory_limit()));
     open_view();
     if (heading_) refuse_thousands_marks();
   } catch (...) {
@@ -218,8 +218,8 @@ void DuckdbSession::refuse_thousands_marks() {
   std::vector<std::string> early;
   for (const std::string& each : is_decimal)
     early.push_back(fmt::format("cast(bool_or({}) as varchar)", each));
-  early = first_row(fmt::format("select {} from (select * from {} limit 2048)",
-                                fmt::join(early, ", "), cells));
+  early = first_row(
+      fmt::format("select {} from (select * from {} limit 2048)", fmt::join(early, ", "), cells));
   for (std::size_t c = 0; c < numbers.size(); ++c) {
     if (c < early.size() && early[c] == "true") continue;
     if (first_row(fmt::format("select 'here' from {} where {} limit 1", cells, is_decimal[c]))
@@ -228,15 +228,17 @@ void DuckdbSession::refuse_thousands_marks() {
   }
   const bool dots_are_decimal = heading_->delimiter == ',' || doubtful.size() < numbers.size();
   for (const std::string& name : doubtful) {
-    const auto found = first_row(fmt::format(
-        "select cast(row as varchar), cell from (select row_number() over () as row, {} as cell from "
-        "{}) where regexp_full_match(cell, '{}') limit 1",
-        cell(name), cells, thousands_pattern));
+    const auto found =
+        first_row(fmt::format("select cast(row as varchar), cell from (select row_number() over () "
+                              "as row, {} as cell from "
+                              "{}) where regexp_full_match(cell, '{}') limit 1",
+                              cell(name), cells, thousands_pattern));
     if (found.empty()) continue;
     std::vector<std::string> comma;
     for (std::size_t t = 0; t < texts.size() && comma.empty(); ++t)
-      comma = first_row(fmt::format("select {0} from {1} where regexp_full_match({0}, '{2}') limit 1",
-                                    cell(texts[t]), cells, decimal_comma_pattern));
+      comma =
+          first_row(fmt::format("select {0} from {1} where regexp_full_match({0}, '{2}') limit 1",
+                                cell(texts[t]), cells, decimal_comma_pattern));
     if (comma.empty() && dots_are_decimal) continue;
     throw InputError(fmt::format(
         "{}, row {}, column '{}': {}{}", file_.source(), found[0], name, two_readings(found[1]),
@@ -264,9 +266,8 @@ void run_query(const DuckdbSession& session, const std::string& query, const Que
     reason = "it must be one SELECT, and nothing behind it";
   } else {
     duckdb_prepared_statement statement = nullptr;
-    const bool prepared =
-        duckdb_prepare_extracted_statement(session.connection(), statements, 0, &statement) ==
-        DuckDBSuccess;
+    const bool prepared = duckdb_prepare_extracted_statement(session.connection(), statements, 0,
+                                                             &statement) == DuckDBSuccess;
     if (!prepared) {
       reason = describe(duckdb_prepare_error(statement));
     } else if (duckdb_prepared_statement_type(statement) != DUCKDB_STATEMENT_TYPE_SELECT) {

@@ -37,10 +37,10 @@ struct Ending {
   const char* text;
   TableFormat format;
 };
-constexpr Ending endings[] = {
-    {".csv", TableFormat::csv},    {".tsv", TableFormat::csv},     {".txt", TableFormat::csv},
-    {".json", TableFormat::json},  {".ndjson", TableFormat::json}, {".jsonl", TableFormat::json},
-    {".parquet", TableFormat::parquet}};
+constexpr Ending endings[] = {{".csv", TableFormat::csv},        {".tsv", TableFormat::csv},
+                              {".txt", TableFormat::csv},        {".json", TableFormat::json},
+                              {".ndjson", TableFormat::json},    {".jsonl", TableFormat::json},
+                              {".parquet", TableFormat::parquet}};
 
 TableFormat format_of(std::string name, bool& gzip, const std::string& source) {
   boost::algorithm::to_lower(name);
@@ -69,8 +69,8 @@ void check_gzip(const std::string& path, const std::string& source) {
   bool ended = false;
   while (const std::size_t count = std::fread(in.data(), 1, in.size(), file.get())) {
     if (ended)
-      throw InputError(fmt::format(
-          "{}: more than one gzip stream; unpack it and pack it as one", source));
+      throw InputError(
+          fmt::format("{}: more than one gzip stream; unpack it and pack it as one", source));
     stream.next_in = in.data();
     stream.avail_in = static_cast<unsigned>(count);
     while (stream.avail_in > 0 && !ended) {
@@ -84,13 +84,13 @@ void check_gzip(const std::string& path, const std::string& source) {
                         stream.msg ? stream.msg : "its compressed data cannot be unpacked"));
     }
     if (stream.avail_in > 0)
-      throw InputError(fmt::format(
-          "{}: more than one gzip stream; unpack it and pack it as one", source));
+      throw InputError(
+          fmt::format("{}: more than one gzip stream; unpack it and pack it as one", source));
   }
   if (std::ferror(file.get())) throw MachineError(fmt::format("{} cannot be read", source));
   if (!ended)
-    throw InputError(fmt::format("{} is cut off: the end of its compressed data is missing",
-                                 source));
+    throw InputError(
+        fmt::format("{} is cut off: the end of its compressed data is missing", source));
 }
 
 /// Lines of a text, compressed or not, without the ends.
@@ -225,16 +225,16 @@ void refuse_equal_names(const std::vector<std::string>& names, const std::string
     if (fresh) continue;
     if (other->second == name)
       throw InputError(fmt::format("{} has two columns named '{}'", source, name));
-    throw InputError(fmt::format("{} has two columns, '{}' and '{}', that differ by capital "
-                                 "letters only; rename one",
-                                 source, other->second, name));
+    throw InputError(
+        fmt::format("{} has two columns, '{}' and '{}', that differ by capital "
+                    "letters only; rename one",
+                    source, other->second, name));
   }
 }
 
 }  // namespace
 
-TableFile::TableFile(const std::filesystem::path& file)
-    : source_(valid_utf8(file.string())) {
+TableFile::TableFile(const std::filesystem::path& file) : source_(valid_utf8(file.string())) {
   // Not blocking: a pipe without a writer would wait for ever.
   descriptor_ = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor_ < 0) {
@@ -284,9 +284,9 @@ CsvHeading read_csv_heading(const TableFile& file) {
     throw InputError(fmt::format(
         "{}: its lines end with carriage returns alone; save it with usual line ends", source));
   if (valid_utf8(heading) != heading)
-    throw InputError(fmt::format(
-        "{}, line 1: '{}' is not UTF-8; save the file as UTF-8 (it may be Latin-1)", source,
-        valid_utf8(heading)));
+    throw InputError(
+        fmt::format("{}, line 1: '{}' is not UTF-8; save the file as UTF-8 (it may be Latin-1)",
+                    source, valid_utf8(heading)));
   if (boost::algorithm::trim_copy(heading).empty())
     throw InputError(fmt::format("{}: line 1 is empty; it must hold the headings", source));
   // A heading in quotes may hold the end of a line.
@@ -317,21 +317,21 @@ std::string csv_fault(const TableFile& file, const CsvHeading& heading) {
       return fmt::format("{}: '{}' is not UTF-8; save the file as UTF-8 (it may be Latin-1)", where,
                          valid_utf8(line));
     if (!lines.last && returns.value_or(lines.has_return) != lines.has_return)
-      return fmt::format("{} ends in another way than those before it (with or without a carriage "
-                         "return)",
-                         where);
+      return fmt::format(
+          "{} ends in another way than those before it (with or without a carriage "
+          "return)",
+          where);
     if (!lines.last) returns = lines.has_return;
     if (!state.quoted) opened = lines.number;
     scan(line, heading.delimiter, state);
     if (state.quoted) continue;
     const std::size_t wanted = heading.names.size();
     if (!line.empty() && state.values != wanted)
-      return fmt::format(
-          "{}: {} value{} where the heading has {}: '{}'{}", where, state.values,
-          state.values == 1 ? "" : "s", wanted, line,
-          opened > 1 && line.starts_with("#") ? " (a table has no comment lines)"
-          : wanted == 1 ? " (the first line must be the heading)"
-                        : "");
+      return fmt::format("{}: {} value{} where the heading has {}: '{}'{}", where, state.values,
+                         state.values == 1 ? "" : "s", wanted, line,
+                         opened > 1 && line.starts_with("#") ? " (a table has no comment lines)"
+                         : wanted == 1 ? " (the first line must be the heading)"
+                                       : "");
     state = {};
   }
   if (state.quoted) return fmt::format("line {}: a quote is opened and never closed", opened);
