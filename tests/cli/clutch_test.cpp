@@ -233,6 +233,60 @@ TEST_F(Clutch, PredictGoesOnFromItsState) {
               HasSubstr("belongs to another model"));
 }
 
+// The state of years is not lost by one reading.
+TEST_F(Clutch, PredictKeepsItsStateFromWhatIsNotFinite) {
+  write("good.csv", heading + "5,1,1700,50,170,2,9000\n");
+  write("hot.csv", heading + "5,2,1700,50,1e150,2,9000\n5,3,1700,50,170,2,9000\n");
+  const std::string start = "clutch predict " + model();
+  ASSERT_EQ(here(start + "good.csv --state s.json").exit_code, 0);
+  const std::string before = read(folder() / "s.json");
+  const CommandResult hot = here(start + "hot.csv --state s.json --trace t.csv");
+  EXPECT_EQ(hot.exit_code, 2);
+  EXPECT_THAT(hot.err, HasSubstr("hot.csv, row 1: plate 5, cycle 2: the model gives no finite"));
+  EXPECT_EQ(read(folder() / "s.json"), before);
+  EXPECT_FALSE(fs::exists(folder() / "t.csv"));
+  const CommandResult skipped =
+      here(start + "hot.csv --state s.json --trace t.csv --skip-not-finite");
+  EXPECT_EQ(skipped.exit_code, 0) << skipped.err;
+  EXPECT_THAT(skipped.out, HasSubstr("skipped 1"));
+  EXPECT_TRUE(lines(read(folder() / "t.csv"))[1].ends_with(",skipped"));
+  EXPECT_EQ(json::parse(read(folder() / "s.json"))["plates"][0]["skipped"], 1);
+  EXPECT_EQ(json::parse(read(folder() / "s.json"))["plates"][0]["last_cycle"], 3);
+}
+
+// Each of several at once counts its plate, whoever comes first.
+TEST_F(Clutch, PredictsAtOnceLoseNothing) {
+  std::string together;
+  for (int plate = 1; plate <= 6; ++plate) {
+    write("p" + std::to_string(plate) + ".csv",
+          heading + std::to_string(plate) + ",1,1700,50,170,2,9000\n");
+    together += "'" WEARWELL_BINARY "' clutch predict " + model() + "p" + std::to_string(plate) +
+                ".csv --state s.json >/dev/null || echo failed & ";
+  }
+  const CommandResult run = run_command("cd '" + folder().string() + "'; " + together + "wait");
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(json::parse(read(folder() / "s.json"))["plates"].size(), 6u);
+  EXPECT_FALSE(fs::exists(folder() / ".s.json.lock"));
+}
+
+TEST_F(Clutch, NothingOverwritesWhatItReads) {
+  write("c.csv", heading + "5,1,1700,50,170,2,9000\n");
+  fs::create_symlink("c.csv", folder() / "link.csv");
+  write("model.json", read(shared_ / "result/model.json"));
+  const std::string start = "clutch predict model.json c.csv ";
+  for (const char* options : {"--trace c.csv", "--trace link.csv", "--state ./c.csv",
+                              "--trace model.json", "--state new.json --trace ./new.json"}) {
+    const CommandResult run = here(start + options);
+    EXPECT_EQ(run.exit_code, 2) << options;
+    EXPECT_THAT(run.err, HasSubstr("nothing is written")) << options;
+  }
+  EXPECT_EQ(read(folder() / "c.csv"), heading + "5,1,1700,50,170,2,9000\n");
+  EXPECT_EQ(read(folder() / "model.json"), read(shared_ / "result/model.json"));
+  write("traces.csv", read(shared_ / "traces.csv"));
+  EXPECT_EQ(here("clutch features traces.csv -o traces.csv").exit_code, 2);
+  EXPECT_EQ(read(folder() / "traces.csv"), read(shared_ / "traces.csv"));
+}
+
 TEST_F(Clutch, PredictTracesAndFlagsCycles) {
   write("c.csv", heading +
                      "5,1,1700,50,170,2,9000\n5,2,4000,50,170,2,20000\n5,3,1700,50,400,2,9000\n"

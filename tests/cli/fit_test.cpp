@@ -351,6 +351,37 @@ TEST_F(FitCommand, MistakenUnitsAreNamed) {
   EXPECT_THROW(check(found("400,8.2\n900,17.5\n1600,32.6\n", "mm^3"), "units"), std::runtime_error);
 }
 
+// Study and data are changed while the fit runs: the results hold what was run.
+TEST_F(FitCommand, KeepsTheStudyThatWasRun) {
+  fs::copy(examples + "study.toml", folder() / "study.toml");
+  fs::copy(examples + "joint_wear.csv", folder() / "joint_wear.csv");
+  const std::string before = slurp(folder() / "study.toml");
+  const std::string sums = run_command("cd '" + folder().string() + "' && sha1sum *").out;
+  const CommandResult run = run_command(
+      "cd '" + folder().string() +
+      "'; '" WEARWELL_BINARY
+      "' fit study.toml -o results --quiet "
+      "--method metropolis --draws 20000 & while ! ls -d .wearwell.* 2>/dev/null >&2; do :; done; "
+      "echo '# edited' >> study.toml; echo 1,1 >> joint_wear.csv; wait $!");
+  ASSERT_LE(run.exit_code, 1) << run.err;
+  EXPECT_EQ(slurp(results() / "study.toml"), before);
+  const std::string report = slurp(results() / "report.html");
+  EXPECT_THAT(report, HasSubstr(sums.substr(0, 40)));
+  EXPECT_THAT(report, HasSubstr(sums.substr(sums.find('\n') + 1, 40)));
+  EXPECT_EQ(report.find("# edited"), std::string::npos);
+}
+
+TEST_F(FitCommand, EndsBySignalAtOnceAndLeavesNothing) {
+  for (const auto& [signal, exit_code] : {std::pair("INT", 130), {"TERM", 143}, {"HUP", 129}}) {
+    const CommandResult run =
+        run_command("cd '" + folder().string() + "'; timeout --preserve-status --signal=" + signal +
+                    " 1 '" WEARWELL_BINARY "' fit " + examples +
+                    "study.toml --method metropolis --draws 1000000 -o results");
+    EXPECT_EQ(run.exit_code, exit_code) << run.err;
+    EXPECT_TRUE(fs::is_empty(folder())) << signal;
+  }
+}
+
 class BadInput : public FitCommand {
  protected:
   // A study that works, with one text replaced.

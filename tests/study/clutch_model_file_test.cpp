@@ -167,5 +167,14 @@ TEST_F(ClutchModelFile, StateLosesNoBit) {
               HasSubstr("it holds 2 replicates and 0 are wanted"));
 }
 
+TEST_F(ClutchModelFile, StateWithoutANumberIsNamed) {
+  PlateWear p;
+  p.plate = 12;
+  p.variance = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(message_of<InputError>(
+                  [&] { read_state(write("state.json", state_text({p}, "abc")), "abc", 0); }),
+              HasSubstr("plate 12: 'variance' is null; it must be a number"));
+}
+
 }  // namespace
 }  // namespace wearwell::clutch

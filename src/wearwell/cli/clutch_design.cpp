@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/staged_file.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/cli/clutch_parts.h"
 #include "wearwell/cli/option_value.h"
 #include "wearwell/clutch/design.h"
-#include "wearwell/report/result_folder.h"
 #include "wearwell/study/clutch_tables.h"
 
 namespace wearwell::clutch {
@@ -101,7 +101,7 @@ void run(const DesignOptions& options) {
   if (options.output.empty()) {
     fmt::print("{}", csv);
   } else {
-    replace_file(options.output, csv);
+    write_file(options.output, csv);
   }
 }
 

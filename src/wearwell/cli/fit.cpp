@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/progress.h"
+#include "wearwell/base/same_file.h"
 #include "wearwell/cli/clutch_fit.h"
 #include "wearwell/cli/option_value.h"
 #include "wearwell/report/csv.h"
@@ -36,16 +37,18 @@ int run_fit(const FitOptions& options) {
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(options.study.stem().string() + "-results")
                              : options.output;
-  if (clutch::is_clutch_study(options.study)) {
+  const TextFile file = read_text_file(options.study);
+  refuse_overwriting({{"the study", options.study}}, {{"--output", output}});
+  if (clutch::is_clutch_study(file)) {
     const SamplerChoice& sampler = options.sampler;
     if (sampler.method || sampler.chains || sampler.draws || sampler.warmup || sampler.seed)
       throw InputError(
           "--method, --chains, --draws, --warmup and --seed are for studies that sample a "
           "posterior; a clutch study has its seeds in the study file");
     return clutch::fit_clutch_study(
-        {options.study, output, options.threads, options.json, options.quiet, options.no_report});
+        {file, output, options.threads, options.json, options.quiet, options.no_report});
   }
-  const Study study = read_study(options.study);
+  const Study study = read_study(file);
   ResultFolder folder(output);
   const StudyResult result = [&] {
     const bool shown = !options.quiet && isatty(STDERR_FILENO);
@@ -66,7 +69,7 @@ int run_fit(const FitOptions& options) {
     folder.write("plots.json", plots.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
     folder.write("report.html", html_report(result));
   }
-  folder.copy(options.study, "study.toml");
+  folder.write("study.toml", study.file_text);
   folder.commit();
 
   if (options.json) {

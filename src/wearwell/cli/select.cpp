@@ -4,11 +4,13 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <memory>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/same_file.h"
 #include "wearwell/cli/option_value.h"
 #include "wearwell/cli/search_line.h"
 #include "wearwell/cli/select_data.h"
@@ -39,16 +41,24 @@ class StopOnInterrupt {
  public:
   StopOnInterrupt() {
     stop_asked = false;
-    struct sigaction action = {};
-    action.sa_handler = [](int) { stop_asked = true; };
-    action.sa_flags = SA_RESETHAND;
-    for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+      sigaction(signals[i], nullptr, &before_[i]);
+      if (before_[i].sa_handler == SIG_IGN) continue;
+      struct sigaction action = {};
+      action.sa_handler = [](int) { stop_asked = true; };
+      action.sa_flags = SA_RESETHAND;
+      sigaction(signals[i], &action, nullptr);
+    }
   }
   ~StopOnInterrupt() {
-    for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
+    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
   }
   StopOnInterrupt(const StopOnInterrupt&) = delete;
   StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
+
+ private:
+  static constexpr std::array signals = {SIGINT, SIGTERM};
+  std::array<struct sigaction, signals.size()> before_;
 };
 
 void write_folder(const std::filesystem::path& target, const SelectionResult& result,
@@ -61,6 +71,7 @@ void write_folder(const std::filesystem::path& target, const SelectionResult& re
 }
 
 int run_select(const SelectOptions& options) {
+  refuse_overwriting({{"the table", options.data.file}}, {{"--output", options.output}});
   SelectionResult result = read_selection(options.data);
   result.version = WEARWELL_VERSION;
   const std::vector<int> forced = result.settings.search.forced;

@@ -116,6 +116,7 @@ void check(const SelectData& data) {
 
 SelectionResult read_selection(const SelectData& data) {
   check(data);
+  const ReadFile read(data.file);
   const Table table = [&] {
     try {
       return read_table(data.file, data.sql);
@@ -125,7 +126,7 @@ SelectionResult read_selection(const SelectData& data) {
   }();
   SelectionResult result;
   result.data_file = table.source;
-  result.data_sha1 = sha1(data.file);
+  result.data_sha1 = read.sha1();
   result.sql = data.sql.value_or("");
   result.response = data.response;
   result.weights_column = data.weights;

@@ -149,6 +149,7 @@ PlateWear read_plate(const JsonReader& json, std::size_t replicates) {
   for (std::size_t i = 0; i < outside.size(); ++i) p.outside[i] = outside[i].integer(0, p.cycles);
   p.outside_any = json.at("outside_any").integer(0, p.cycles);
   p.clamped = json.at("clamped").integer(0, p.cycles);
+  if (const auto skipped = json.find("skipped")) p.skipped = skipped->integer(0);
   const std::vector<double> volumes = json.at("replicates").numbers();
   if (volumes.size() != replicates)
     json.at("replicates")
@@ -240,6 +241,7 @@ std::string state_text(const std::vector<PlateWear>& plates, const std::string& 
                     {"outside", p.outside},
                     {"outside_any", p.outside_any},
                     {"clamped", p.clamped},
+                    {"skipped", p.skipped},
                     {"replicates", std::vector<double>(p.replicates.begin(), p.replicates.end())}});
   }
   const Json json = {{"format", state_format},

@@ -116,19 +116,19 @@ class Reader {
   ColumnStream::Batch chunk_;
 };
 
-void write_trace(std::FILE* out, std::size_t every, const Batch& batch,
-                 const CycleSum::Trace& trace) {
+std::string trace_lines(std::size_t every, const Batch& batch, const CycleSum::Trace& trace) {
   std::string text;
   const auto end = std::back_inserter(text);
   for (std::size_t i = 0; i < trace.volume.size(); ++i) {
     if ((batch.first_row + i + 1) % every != 0) continue;
     const unsigned bits = batch.rates.outside[i];
-    const std::string flags = names_of_inputs(bits) + (bits >> inputs.size() ? " negative" : "");
+    const std::string flags =
+        trace.skipped[i] ? "skipped"
+                         : names_of_inputs(bits) + (bits & CycleSum::negative ? " negative" : "");
     fmt::format_to(end, "{},{},{:.9g},{:.9g},{}\n", batch.cycles.plate[i], batch.cycles.number[i],
                    trace.volume[i] / mm3, trace.sd[i] / mm3, flags);
   }
-  if (std::fwrite(text.data(), 1, text.size(), out) != text.size())
-    throw MachineError("cannot write the trace: is the disk full?");
+  return text;
 }
 
 }  // namespace
@@ -152,11 +152,12 @@ CycleColumns columns_of(const std::vector<Cycle>& cycles, std::size_t first, std
   return columns;
 }
 
-std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum, std::FILE* trace,
-                       std::size_t every, int threads) {
+std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum,
+                       const std::function<void(std::string_view)>& trace, std::size_t every,
+                       int threads) {
   Reader reader(file);
   std::size_t rows = 0;
-  if (trace) fmt::print(trace, "plate,cycle,volume [mm^3],sd [mm^3],outside\n");
+  if (trace) trace("plate,cycle,volume [mm^3],sd [mm^3],outside\n");
   using BatchPointer = std::shared_ptr<Batch>;
   const auto read = [&](tbb::flow_control& control) {
     auto batch = std::make_shared<Batch>();
@@ -178,7 +179,7 @@ std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum, std::FI
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}, {}", reader.source(), error.what()));
     }
-    if (trace) write_trace(trace, every, *batch, steps);
+    if (trace) trace(trace_lines(every, *batch, steps));
     rows += static_cast<std::size_t>(batch->cycles.size());
   };
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);

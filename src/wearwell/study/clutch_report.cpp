@@ -1,19 +1,17 @@
 #include "wearwell/study/clutch_report.h"
+#include "wearwell/base/sha1.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
-#include <sstream>
 
-#include "wearwell/base/shown.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/report/html.h"
 #include "wearwell/report/page.h"
 #include "wearwell/report/plot.h"
 #include "wearwell/study/clutch_tables.h"
-#include "wearwell/study/fingerprint.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -460,8 +458,9 @@ std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
                              r.search.submodels));
   fact("Time of the search", fmt::format("{:.1f} s", r.search.seconds));
   fact("Time taken", fmt::format("{:.1f} s", r.seconds));
-  fact(valid_utf8(study.file.filename().string()), "SHA-1 " + sha1(study.file));
-  for (const auto& file : study.files) fact(file.filename().string(), "SHA-1 " + sha1(file));
+  fact(valid_utf8(study.file.filename().string()), "SHA-1 " + sha1_of(study.file_text));
+  for (std::size_t i = 0; i < study.files.size(); ++i)
+    fact(study.files[i].filename().string(), "SHA-1 " + study.sha1s.at(i));
   out += "</dl>\n";
   if (!r.closings.empty()) {
     html::Table table{
@@ -475,11 +474,8 @@ std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
                             number(c.cycle.energy / 1e3), c.flag});
     out += html::table(table);
   }
-  std::ifstream stream(study.file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return out + html::details("Study file",
-                             fmt::format("<pre tabindex=\"0\">{}</pre>\n", escape(text.str())));
+  return out + html::details("Study file", fmt::format("<pre tabindex=\"0\">{}</pre>\n",
+                                                       escape(study.file_text)));
 }
 
 }  // namespace

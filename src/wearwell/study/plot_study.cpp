@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 
-#include "wearwell/base/shown.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/base/sha1.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/study/describe.h"
-#include "wearwell/study/fingerprint.h"
 
 namespace wearwell {
 namespace {
@@ -197,11 +195,6 @@ std::vector<std::size_t> drawn_data_sets(std::size_t all) {
   return drawn;
 }
 
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 }  // namespace
 
 // Evenly through the posterior, in slices of its first parameter and within each along the second.
@@ -255,9 +248,9 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
   }
   plots.joint = joint_density(posterior, fit);
 
-  plots.study_text = content(study.file);
-  plots.files = {{valid_utf8(study.file.filename().string()), sha1(study.file)},
-                 {study.data_file, sha1(study.file.parent_path() / study.data_file)}};
+  plots.study_text = study.file_text;
+  plots.files = {{valid_utf8(study.file.filename().string()), sha1_of(study.file_text)},
+                 {study.data_file, study.data_sha1}};
 
   // The draws of an improper posterior wander for ever: they predict nothing.
   if (!std::all_of(fit.tails.begin(), fit.tails.end(),

@@ -18,6 +18,7 @@
 #include "wearwell/predict/prediction.h"
 #include "wearwell/report/result.h"
 #include "wearwell/study/sense.h"
+#include "wearwell/study/text_file.h"
 #include "wearwell/study/units_check.h"
 
 namespace wearwell {
@@ -97,7 +98,9 @@ struct SamplerChoice {
 struct Study {
   std::string title, model, equation;
   std::filesystem::path file;  ///< the study file
+  std::string file_text;       ///< what it held when it was read
   std::string data_file;       ///< as the study file names it
+  std::string data_sha1;       ///< of the file when it was read
   std::size_t data_rows = 0;   ///< data sets; the posterior can be updated after each
   /// What was observed, row by row in SI: what the likelihood is a density of.
   std::vector<double> observed;
@@ -135,6 +138,7 @@ struct Study {
 
 /// Reads a study file and its data; paths in it are relative to the file. Throws InputError with
 /// file:line:column and key, or with file, row and column of the data.
+Study read_study(const TextFile& file);
 Study read_study(const std::filesystem::path& file);
 
 }  // namespace wearwell

@@ -24,7 +24,6 @@ struct NoToml {};
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -35,8 +34,7 @@ struct NoToml {};
 namespace wearwell {
 namespace {
 
-constexpr std::size_t largest_study = 1 << 20;  // bytes
-constexpr int most_parts = 32;                  // of a dotted key
+constexpr int most_parts = 32;  // of a dotted key
 
 /// The length of the string or comment that begins at `at`; 0 where none does.
 std::size_t skipped(const std::string& text, std::size_t at) {
@@ -101,25 +99,6 @@ std::size_t line_of_failure(std::string_view text) {
   return static_cast<std::size_t>(first - ends.begin()) + 1;
 }
 
-std::string content_of(const std::filesystem::path& file, const std::string& name) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored))
-    throw InputError(fmt::format("no such file: {}", name));
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(fmt::format("{} is a folder, not a study file", name));
-  if (!std::filesystem::is_regular_file(file, ignored))
-    throw InputError(fmt::format(
-        "{} is a pipe or a device; a study is a file, beside which its data lie", name));
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{} cannot be read (permissions?)", name));
-  std::string text(largest_study + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > largest_study)
-    throw InputError(fmt::format("{} is larger than 1 MB, and so no study file", name));
-  return text;
-}
-
 }  // namespace
 
 struct TomlReader::State {
@@ -142,13 +121,16 @@ TomlReader::TomlReader(TomlReader&&) noexcept = default;
 TomlReader::~TomlReader() = default;
 
 TomlReader TomlReader::parse_file(const std::filesystem::path& file) {
-  const std::string name = valid_utf8(file.string());
-  const std::string text = content_of(file, name);
-  refuse_long_keys(text, name);
+  return parse(read_text_file(file));
+}
+
+TomlReader TomlReader::parse(const TextFile& file) {
+  const std::string name = valid_utf8(file.path.string());
+  refuse_long_keys(file.text, name);
   try {
     auto state = std::make_shared<State>();
     state->root = std::make_shared<const toml::table>(
-        toml::parse(std::string_view(text), std::string_view(name)));
+        toml::parse(std::string_view(file.text), std::string_view(name)));
     state->table = state->root.get();
     state->file = name;
     if (state->table->empty()) throw InputError(fmt::format("{} is empty", name));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wearwell/base/unit.h"
+#include "wearwell/study/text_file.h"
 
 namespace wearwell {
 
@@ -17,7 +18,9 @@ namespace wearwell {
 /// for. All throw InputError.
 class TomlReader {
  public:
-  /// Parses a file. Throws InputError when it cannot be read or is not TOML.
+  /// Throws InputError when it is not TOML.
+  static TomlReader parse(const TextFile& file);
+  /// Or when it cannot be read.
   static TomlReader parse_file(const std::filesystem::path& file);
 
   TomlReader(const TomlReader&);
