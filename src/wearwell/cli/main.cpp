@@ -31,17 +31,6 @@ int complain(const std::string& message, int exit_code) {
   return exit_code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  fill_standard_streams();
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is a full disk, not an end
-  wearwell::remove_half_written_on_signals();
-  const int exit_code = run(argc, argv);
-  const std::string trouble = trouble_with_output();
-  return trouble.empty() ? exit_code : complain(trouble, machine_failed);
-}
-
 // A file opened where a standard stream is closed would take what is printed.
 void fill_standard_streams() {
   for (int fd = 0; fd <= 2; ++fd) {
@@ -95,4 +84,15 @@ int run(int argc, char** argv) {
                     machine_failed);
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  fill_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is a full disk, not an end
+  wearwell::remove_half_written_on_signals();
+  const int exit_code = run(argc, argv);
+  const std::string trouble = trouble_with_output();
+  return trouble.empty() ? exit_code : complain(trouble, machine_failed);
 }
