@@ -481,6 +481,9 @@ TEST_F(FatigueStudy, RefusesContradictionsAndGapsByKey) {
   expect(study + "[predict.stress]\nx = { mean_stress = \"1 MPa\" }\n",
          "give the stress in one way");
   expect(study + "[predict]\ntipes = \"all\"\n", "did you mean 'types'?");
+  // A width is a difference: no MPa in it.
+  expect(study + "[sampler.half_width]\nlog10_a = \"0.1 log10(MPa)\"\nb = 0.01\nsigma = 0.1\n",
+         "sampler.half_width.log10_a");
 }
 
 // All that a report of lives shows is kept beside it.

@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
+#include "wearwell/study/study.h"
+
 namespace wearwell {
 namespace {
 
@@ -56,6 +60,22 @@ TEST(UnitsCheck, ConditionsOfTwoUnits) {
   EXPECT_THAT(found(column("force", "N", "N", {800, 950, 1.1, 900, 0.85}, true)),
               AllOf(HasSubstr("from 0.85 N to 950 N"), HasSubstr("two units in one column")));
   EXPECT_EQ(found(column("volume", "m^3", "mm^3", {0.01, 90})), "");  // may grow so
+}
+
+TEST(UnitsCheck, NoFalseAlarmInTheExamples) {
+  int studies = 0;
+  for (const std::string folder : {"joint", "bearing", "fatigue", "spring"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(
+             std::filesystem::path(PROJECT_SOURCE_DIR "/examples") / folder)) {
+      if (entry.path().extension() != ".toml") continue;
+      const Study study = read_study(entry.path());
+      EXPECT_GE(study.data_columns.size(), 2u) << entry.path();
+      const auto check = units_check(study.data_columns);
+      EXPECT_FALSE(check) << entry.path() << ": " << check->detail;
+      ++studies;
+    }
+  }
+  EXPECT_GE(studies, 12);
 }
 
 TEST(UnitsCheck, NamesEveryColumn) {
