@@ -77,12 +77,6 @@ std::string script_safe(const std::string& json) {
   return out;
 }
 
-// A number in powers of ten: x/10^exponent, where 10^exponent may not be a double.
-double mantissa(double x, int exponent) {
-  return exponent < -300 ? x * 1e300 / std::pow(10.0, exponent + 300)
-                         : x / std::pow(10.0, exponent);
-}
-
 // The unit in brackets at the end of a name is printed softer.
 std::string named(const std::string& text) {
   const std::size_t bracket = text.rfind(" [");
