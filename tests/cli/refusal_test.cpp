@@ -119,7 +119,7 @@ TEST_F(Refusal, PriorsThatNoNumberCanStartFrom) {
       {R"toml({ law = "student-t", df = 1e-3, location = "0 mm^3/(N m)", scale = "1 mm^3/(N m)" })toml",
        R"toml({ law = "inverse-gamma", shape = 1e-5, scale = "1 mm^3/(N m)" })toml",
        R"toml({ law = "uniform", lower = "1 mm^3/(N m)", upper = "1.0000000000000002 mm^3/(N m)" })toml"})
-    EXPECT_THAT(refused("check " + study("", law)), HasSubstr("study.toml:13:5: [prior.k]: "))
+    EXPECT_THAT(refused("check " + study("", law)), HasSubstr("study.toml:14:5: [prior.k]: "))
         << law;
 }
 

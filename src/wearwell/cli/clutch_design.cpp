@@ -57,13 +57,14 @@ Values read_values(const std::string& flag, std::string text, const Input& input
   for (std::size_t at; (at = numbers.find("..")) != std::string::npos;) numbers.replace(at, 2, ",");
   for (std::size_t from = 0; from <= numbers.size();) {
     const std::size_t end = std::min(numbers.find(',', from), numbers.size());
+    double x = 0;
     try {
-      const double x = read_quantity(numbers.substr(from, end - from), "1").value;
-      const double offset = input.value == &OperatingPoint::temperature ? celsius_zero : 0;
-      result.values.push_back(checked_option(flag, text, to_si(unit, x) - offset, Allowed::any));
+      x = read_quantity(numbers.substr(from, end - from), "1").value;
     } catch (const InputError&) {
       fail("write numbers with commas between them and one unit behind: '1200, 1700, 2800 rpm'");
     }
+    const double offset = input.value == &OperatingPoint::temperature ? celsius_zero : 0;
+    result.values.push_back(checked_option(flag, text, to_si(unit, x) - offset, Allowed::any));
     from = end + 1;
   }
   return result;
