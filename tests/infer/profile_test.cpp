@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "infer/test_posteriors.h"
+#include "support/formula.h"
 #include "wearwell/fatigue/sn_likelihood.h"
 #include "wearwell/prob/standard_law.h"
 
@@ -76,16 +77,26 @@ TEST(Profile, AnEndBeyondTheBoundIsOpenAndSaysSo) {
   EXPECT_THAT(sigma.upper.open, HasSubstr("up to the bound"));
 }
 
+// Two normals of unit variance and correlation 0.8 about (1, 2), the second at most 1: its profile is
+// -(b - 2)^2/2, which at the bound is 1/2 below its summit.
 TEST(Profile, OfAModeOnItsBoundIsOpenThere) {
-  const double bound = 0.7 * Line().sigma();
-  const Posterior posterior = joint_posterior(false, false, bound, 5);
+  constexpr double correlation = 0.8;
+  const Posterior posterior(
+      {{"a", "1", Unit{"1", 1, 0}, "flat", make_law(Flat{}, -INFINITY, INFINITY), 0.5, 1},
+       {"b", "1", Unit{"1", 1, 0}, "uniform", make_law(Uniform{}, -10, 1), 0, 1}},
+      std::make_shared<Formula>(2, [](std::span<const double> x, std::span<double> gradient) {
+        const double a = x[0] - 1, b = x[1] - 2, scale = 1 / (1 - correlation * correlation);
+        gradient[0] = -scale * (a - correlation * b);
+        gradient[1] = -scale * (b - correlation * a);
+        return 0.5 * (gradient[0] * a + gradient[1] * b);
+      }));
   const Fit fit = short_fit(posterior);
   const NaturalMode mode = natural_mode(posterior, fit);
   ASSERT_EQ(mode.problem, "");
-  const ProfileInterval sigma = profile_intervals(posterior, fit, mode, level)[1];
-  EXPECT_THAT(sigma.upper.open, HasSubstr("the mode lies on the bound"));
-  EXPECT_EQ(sigma.lower.open, "");
-  EXPECT_LT(sigma.lower.value, 1e-9 * bound);
+  const ProfileInterval b = profile_intervals(posterior, fit, mode, level)[1];
+  EXPECT_THAT(b.upper.open, HasSubstr("the mode lies on the bound"));
+  EXPECT_EQ(b.lower.open, "");
+  EXPECT_NEAR(b.lower.value, 2 - std::sqrt(1 + z * z), 1e-6);
 }
 
 // tests/golden/sn_profile.py: the same 24 tests with run-outs, by brute force.
