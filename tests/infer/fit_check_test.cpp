@@ -47,7 +47,7 @@ TEST(ResidualTests, HoldTheirLevels) {
     std::vector<double> driver(n);
     for (std::size_t i = 0; i < n; ++i) driver[i] = 1e4 * std::pow(double(i), 2);
     expect_level([&](std::span<const double> z) { return trend_test(z, driver); }, n, 0);
-    expect_level(neighbour_test, n, 0.1);  // its law is taken from two moments and the range
+    expect_level(neighbour_test, n, n > 40 ? 0.1 : 0);  // beyond, from two moments and the range
     const auto fall = [&](std::span<const double> z) {
       return fall_test({"", driver, {z.begin(), z.end()}, {}, true});
     };
@@ -83,7 +83,7 @@ TEST(ResidualTests, SeeWhatTheyAreFor) {
   std::vector<double> large = rising;
   for (double& z : large) z *= 10;
   EXPECT_LT(scatter_test(large), 1e-10);
-  EXPECT_DOUBLE_EQ(trend_test(large, along), trend_test(rising, along));
+  EXPECT_NEAR(trend_test(large, along) / trend_test(rising, along), 1, 1e-9);
 }
 
 // By hand: two items whose levels differ, wear falls within each.
@@ -142,8 +142,9 @@ TEST(FitCheck, NamesWhatIsWrong) {
 TEST(FitCheck, RunOutsAreDrawn) {
   Rng rng(5, 0);
   constexpr std::size_t n = 60;
-  std::vector<double> life = normals(n, rng), along(n);
-  std::sort(life.begin(), life.end(), std::greater<>());
+  std::vector<double> life = normals(n, rng);
+  const std::vector<double> along = normals(n, rng);
+  std::partition(life.begin(), life.end(), [](double y) { return y > 0; });
   std::size_t stopped = 0;
   for (double& y : life) {
     if (y > 0) y = 0, ++stopped;

@@ -15,10 +15,11 @@ double lower_tail(double log_p) {
     return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * std::exp(log_p));
   }
   if (std::isinf(log_p)) return log_p;
-  // -log Phi(-t) = t^2/2 + log(t sqrt(2 pi)) + O(1/t^2).
+  // -log Phi(-t) = t^2/2 + log(t sqrt(2 pi)) + 1/t^2 - 5/2 1/t^4 + O(1/t^6).
   double t = std::sqrt(-2 * log_p);
   for (int i = 0; i < 5; ++i) {
-    t = std::sqrt(std::max(0.0, -2 * (log_p + std::log(t) + 0.5 * std::log(2 * std::numbers::pi))));
+    const double rest = 1 / (t * t) - 2.5 / (t * t * t * t);
+    t = std::sqrt(-2 * (log_p + std::log(t) + 0.5 * std::log(2 * std::numbers::pi) + rest));
   }
   return -t;
 }

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <boost/math/quadrature/exp_sinh.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -47,6 +48,22 @@ double two_sided(double cosine, double freedom) {
 double cosine(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0) /
          (std::sqrt(sum_of_squares(a)) * std::sqrt(sum_of_squares(b)));
+}
+
+// P(sum of a_j X_j^2 < 0) of independent standard normal X_j (Imhof 1961, Biometrika 48, 419-426).
+double negative_form(const std::vector<double>& a) {
+  if (a.front() >= 0) return 0;  // the smallest first
+  if (a.back() <= 0) return 1;
+  const auto integrand = [&](double u) {
+    double angle = 0, log_size = 0;
+    for (const double each : a) {
+      angle += 0.5 * std::atan(each * u);
+      log_size += 0.25 * std::log1p(each * each * u * u);
+    }
+    return std::sin(angle) * std::exp(-log_size) / u;
+  };
+  thread_local boost::math::quadrature::exp_sinh<double> rule;
+  return std::clamp(0.5 - rule.integrate(integrand, 1e-9) / std::numbers::pi, 0.0, 1.0);
 }
 
 // Driver and value about the means of their groups, relative to their sizes; and how many groups.
@@ -112,6 +129,12 @@ double neighbour_test(std::span<const double> z) {
   for (std::size_t i = 0; i + 1 < z.size(); ++i) differences += std::pow(z[i + 1] - z[i], 2);
   const double ratio = differences / sum_of_squares(centered(z));
   if (std::isnan(ratio)) return 1;
+  constexpr std::size_t most_exact = 40;
+  if (z.size() <= most_exact) {
+    std::vector<double> weights;
+    for (double j = 1; j < n; ++j) weights.push_back(2 - 2 * std::cos(std::numbers::pi * j / n) - ratio);
+    return negative_form(weights);
+  }
   // Between 2 - c and 2 + c, with the variance of von Neumann (1941).
   const double c = 2 * std::cos(std::numbers::pi / n);
   const double variance = 4 * (n - 2) / ((n + 1) * (n - 1));

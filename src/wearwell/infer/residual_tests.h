@@ -20,8 +20,8 @@ double location_test(std::span<const double> z);
 double trend_test(std::span<const double> z, std::span<const double> driver);
 
 /// Neighbours are not alike: von Neumann's ratio of the mean squared successive difference to the
-/// variance. Its law is taken as the symmetric beta law of the right range and variance, which for
-/// 4 to 100 values is within 5 % of p from 1e-3 upward (tests); from one side, does not see size.
+/// variance. Exact up to 40 values (Imhof 1961); beyond, the symmetric beta law of the right range and
+/// variance. From one side, does not see size.
 double neighbour_test(std::span<const double> z);
 
 /// The largest square is no outlier among the others: Bonferroni's bound, which is exact in the
