@@ -141,7 +141,7 @@ TomlReader TomlReader::parse(const TextFile& file) {
   } catch (const NoToml&) {
     throw InputError(fmt::format(
         "{}:{}: no TOML: a key or a value is missing where one must stand, behind '[' or '='", name,
-        line_of_failure(text)));
+        line_of_failure(file.text)));
   }
 }
 
