@@ -148,9 +148,10 @@ Inspected::Point Inspected::at(double log_k, double sigma) const {
   }
   const HermiteTable::Point squares =
       squares_.covers(log_k) ? squares_(log_k) : sum_of_squares(log_k);
-  // Divided twice: the square of a small sigma would be 0.
-  const double value = -0.5 * (squares.value / sigma) / sigma;
-  return {value, -0.5 * (squares.slope / sigma) / sigma, -2 * value / sigma};
+  // One factor after the other: the square of a small sigma would be 0.
+  const double inverse = 1 / sigma;
+  const double value = -0.5 * (squares.value * inverse) * inverse;
+  return {value, -0.5 * (squares.slope * inverse) * inverse, -2 * value * inverse};
 }
 
 RateShape Inspected::shape(double sigma) const {

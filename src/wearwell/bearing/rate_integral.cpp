@@ -149,17 +149,19 @@ Top climb(const Integrand& integrand, Top start) {
   return best;
 }
 
-// A top near that of a likelihood linear in ln k, or near the peak of the likelihood or of all
-// bearings, whichever of them is highest.
+// A top near that of a likelihood linear in ln k; where that is nowhere, near the peak of the
+// likelihood or of all bearings, whichever is higher.
 Top find_top(const Integrand& integrand) {
   const RateShape& shape = integrand.shape();
   const double pull = shape.curvature * integrand.scatter() * integrand.scatter();
   const double own = (shape.peak - integrand.log_k()) / integrand.scatter();
+  constexpr double likely = -50;
   double z = 0;
   if (std::isfinite(own) && pull > 0) z = std::isinf(pull) ? own : pull / (1 + pull) * own;
   z = std::min(z, integrand.last());
   Top start{z, integrand.peak_width(), integrand(z)};
   for (const double other : {0.0, std::min(own, integrand.last())}) {
+    if (start.value.g > likely) break;
     if (!std::isfinite(other) || other > integrand.last()) continue;
     const Integrand::Value value = integrand(other);
     if (!(start.value.g >= value.g)) start = {other, start.width, value};
