@@ -74,7 +74,7 @@ TEST_F(LongTables, NamesWhatIsMissing) {
   EXPECT_THAT(
       message_of<InputError>([&] { read_summary(JsonReader(json, "summary.json"), folder()); }),
       HasSubstr("loo.csv is missing"));
-  write("loo.csv", "observation,elpd,lpd,khat,count,refitted\n1,-1,-1,0,0,0\n");
+  write("loo.csv", "observation,elpd,lpd,khat,count,refitted,tail\n1,-1,-1,0,0,0,1\n");
   EXPECT_THAT(
       message_of<InputError>([&] { read_summary(JsonReader(json, "summary.json"), folder()); }),
       HasSubstr("loo.csv, row 1, column 'count': should be 1 or more, and is '0'"));

@@ -173,7 +173,7 @@ TEST_F(ClutchModelFile, StateWithoutANumberIsNamed) {
   p.variance = std::numeric_limits<double>::infinity();
   EXPECT_THAT(message_of<InputError>(
                   [&] { read_state(write("state.json", state_text({p}, "abc")), "abc", 0); }),
-              HasSubstr("plate 12: 'variance' is null; it must be a number"));
+              HasSubstr("plates[0].variance should be a number, and is null"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/report/json_reader.h"
 
 namespace wearwell::clutch {
@@ -115,7 +116,8 @@ ScatterLaw read_scatter(const JsonReader& json) {
                          try {
                            return read_scatter_kind(json.at("kind").text());
                          } catch (const InputError& error) {
-                           json.at("kind").fail(fmt::format("is wrong: {}", error.what()));
+                           json.at("kind").fail(
+                                fmt::format("is wrong: {}", printable(error.what())));
                          }
                        }(),
                        json.at("p").numbers()};
