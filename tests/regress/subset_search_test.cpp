@@ -524,7 +524,9 @@ TEST(SubsetSearch, OfManyRowsFindsTheBestOfAll) {
     ASSERT_EQ(found.models.size(), 12u);
     for (std::size_t m = 0; m < 12; ++m) {
       // Dependent columns make ties.
-      if (seed % 2 == 1) EXPECT_EQ(found.models[m].terms, all[m].second) << seed << ' ' << m;
+      if (seed % 2 == 1) {
+        EXPECT_EQ(found.models[m].terms, all[m].second) << seed << ' ' << m;
+      }
       EXPECT_NEAR(found.models[m].criterion / all[m].first, 1, 1e-10);
     }
     EXPECT_LT(found.nodes, 400) << "bounds must cut: there are 511 models";
