@@ -273,11 +273,14 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
   }
   const FlankNoise noise =
       flank_noise(alignment.difference, design, window.left, window.right, weights);
-  if (degrees < 10 * noise.correlation) {
+  result.flank_step = inner_step(moved(best), window);
+  constexpr double least_independent = 6;
+  // Wear in the flanks looks like noise that goes together; that is said by the step.
+  if (degrees < least_independent * noise.correlation && !(result.flank_step > suspicious_step)) {
     throw InputError(fmt::format(
         "{:.3g} neighbouring points of the flanks go together, so their {} points are no more than "
-        "{:.2g} independent ones; 10 are needed: take longer flanks",
-        noise.correlation, window.flank_points(), degrees / noise.correlation));
+        "{:.2g} independent ones; {} are needed: take longer flanks",
+        noise.correlation, window.flank_points(), degrees / noise.correlation, least_independent));
   }
   result.sd = noise.sd;
   result.half_width = noise.half_width;
@@ -286,7 +289,6 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
   result.offset = alignment.line[0];
   result.tilt = alignment.line[1];
   result.noise = std::sqrt(variance);
-  result.flank_step = inner_step(moved(best), window);
   return result;
 }
 

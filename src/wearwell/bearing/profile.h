@@ -28,6 +28,9 @@ struct WornArea {
                             ///< its standard deviations: large when wear reaches into the flanks
 };
 
+/// A flank_step above this says that wear reaches into the flanks.
+inline constexpr double suspicious_step = 4;
+
 /// The second way to a wear rate of Ligterink and de Gee (1996). `flank` is the length at either
 /// end of the common part that is not worn (default: a fifth of that part). The profile after is
 /// aligned to the one before by the flanks: height and tilt by least squares, the shift along the
@@ -42,7 +45,7 @@ struct WornArea {
 /// cannot be seen there and are not in it.
 ///
 /// Throws InputError: positions that do not ascend, too short a common part, flanks of fewer than
-/// 20 points or together fewer than 10 independent ones, or too long.
+/// 20 points or together fewer than 6 independent ones, or too long.
 WornArea worn_area(const Profile& before, const Profile& after, std::optional<double> flank = {},
                    double curvature = 0);
 

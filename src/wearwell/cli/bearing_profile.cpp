@@ -161,8 +161,8 @@ void print_text(const Result& r) {
 
 void run(const ProfileOptions& options) {
   const Result result = evaluate(options);
-  constexpr double suspicious = 4, loose = 0.25;
-  if (result.worn.flank_step > suspicious) {
+  constexpr double loose = 0.25;
+  if (result.worn.flank_step > suspicious_step) {
     fmt::print(stderr,
                "warning: the flanks are lower near the worn place than farther out (by {:.2g} "
                "standard deviations): wear may reach into them; give a shorter --flank\n",
