@@ -88,7 +88,7 @@ void predict(benchmark::State& state, long long cycles, bool with_replicates) {
   const WearModel& model = example().model;
   for (auto _ : state) {
     CycleSum sum(model, with_replicates);
-    if (sum_cycles(fleet.file(), sum, nullptr, 1, static_cast<int>(state.range(0))) !=
+    if (sum_cycles(fleet.file(), sum, {}, 1, static_cast<int>(state.range(0))) !=
         static_cast<std::size_t>(cycles))
       state.SkipWithError("cycles are missing");
   }

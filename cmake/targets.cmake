@@ -47,7 +47,8 @@ function(wearwell_test name)
   add_executable(test_${name} ${ARG_SOURCES})
   target_precompile_headers(test_${name} REUSE_FROM wearwell_test_headers)
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_link_libraries(test_${name} PRIVATE ${ARG_USES} ${ARG_LIBRARIES} GTest::gmock_main rapidcheck)
+  target_link_libraries(test_${name} PRIVATE
+    ${ARG_USES} ${ARG_LIBRARIES} Eigen3::Eigen fmt::fmt GTest::gmock_main rapidcheck)
   target_compile_definitions(test_${name} PRIVATE
     PROJECT_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     WEARWELL_BINARY="$<TARGET_FILE:wearwell>")

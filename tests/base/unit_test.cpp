@@ -1,11 +1,26 @@
 #include "wearwell/base/unit.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include <numbers>
+
+#include "support/scratch.h"
 #include "wearwell/base/error.h"
 
 namespace wearwell {
 namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr double pi = std::numbers::pi;
+
+std::string refusal(const char* text, const char* si) {
+  return message_of<InputError>([&] { read_unit(text, si); });
+}
+std::string quantity_refusal(const char* text, const char* si) {
+  return message_of<InputError>([&] { read_quantity(text, si); });
+}
 
 TEST(Unit, ConvertsToSi) {
   EXPECT_DOUBLE_EQ(read_unit("mm^3", "m^3").scale, 1e-9);
@@ -14,6 +29,9 @@ TEST(Unit, ConvertsToSi) {
   EXPECT_DOUBLE_EQ(read_unit("N mm", "N m").scale, 1e-3);
   EXPECT_DOUBLE_EQ(to_si(read_unit("degC", "K"), 20), 293.15);
   EXPECT_DOUBLE_EQ(from_si(read_unit("degC", "K"), 293.15), 20);
+  // NIST SP 811: t/degC = (t/degF - 32)/1.8.
+  EXPECT_DOUBLE_EQ(to_si(read_unit("degF", "K"), 212), 373.15);
+  EXPECT_DOUBLE_EQ(read_unit("degF", "K").scale, 1 / 1.8);
 }
 
 TEST(Unit, RefusesNonsenseAndWrongDimension) {
@@ -22,11 +40,151 @@ TEST(Unit, RefusesNonsenseAndWrongDimension) {
   EXPECT_THROW(read_unit("", "m^3"), InputError);
 }
 
+TEST(Unit, CountsHaveADimensionOfTheirOwn) {
+  for (const char* one : {"cycle", "cycles", "rev", "revolution", "turns", "strokes", "closings",
+                          "rotation", "1", "count", "r", "U"})
+    EXPECT_EQ(read_unit(one, "cycle").scale, 1) << one;
+  for (const char* thousand : {"kcycles", "krev", "kilocycles", "1e3 cycles", "1000", "10^3 turns"})
+    EXPECT_DOUBLE_EQ(read_unit(thousand, "rev").scale, 1000) << thousand;
+  EXPECT_DOUBLE_EQ(read_unit("Mstrokes", "cycle").scale, 1e6);
+  EXPECT_EQ(read_unit("reversals", "cycle").scale, 0.5);
+}
+
+TEST(Unit, WhatIsCountedMayGoWithoutSaying) {
+  EXPECT_DOUBLE_EQ(read_unit("kJ/stroke", "N m/cycle").scale, 1e3);
+  EXPECT_DOUBLE_EQ(read_unit("kN m/kcycle", "N m/cycle").scale, 1);
+  EXPECT_DOUBLE_EQ(read_unit("N mm", "N m/cycle").scale, 1e-3);
+  EXPECT_THAT(refusal("J/rev", "N m"), HasSubstr("'J/rev' holds a count of cycles"));
+  EXPECT_THAT(refusal("turns", "1"), HasSubstr("holds a count"));
+  EXPECT_THAT(refusal("J turn", "N m/cycle"), HasSubstr("holds a count"));
+}
+
+TEST(Unit, AnAngleIsNoCountAndNoNumber) {
+  for (const char* angle : {"rad", "deg", "°", "mrad", "grade"}) {
+    for (const char* si : {"cycle", "rev", "1"})
+      EXPECT_THAT(refusal(angle, si), HasSubstr("holds an angle")) << angle << " " << si;
+  }
+  EXPECT_THAT(refusal("J/rad", "N m"), HasSubstr("holds an angle"));
+  EXPECT_THAT(refusal("J/rad", "N m/cycle"), HasSubstr("holds an angle"));
+}
+
+TEST(Unit, CountsHaveNoSmallParts) {
+  EXPECT_THAT(refusal("mcycles", "cycle"),
+              AllOf(HasSubstr("0.001 of one"), HasSubstr("'Mcycles'")));
+  EXPECT_THAT(refusal("%", "rev"), HasSubstr("0.01 of one"));
+}
+
+TEST(Unit, SpeedsOfRotation) {
+  for (const char* speed : {"rpm", "rev/min", "U/min", "r/min", "1/min", "min^-1", "turns/min"}) {
+    EXPECT_DOUBLE_EQ(read_unit(speed, "rev/s").scale, 1. / 60) << speed;
+    EXPECT_DOUBLE_EQ(read_unit(speed, "rad/s").scale, pi / 30) << speed;
+  }
+  EXPECT_DOUBLE_EQ(read_unit("kHz", "rad/s").scale, 2000 * pi);
+  EXPECT_DOUBLE_EQ(read_unit("rad/s", "rev/s").scale, 1 / (2 * pi));
+  EXPECT_DOUBLE_EQ(read_unit("deg/s", "rev/s").scale, 1. / 360);
+  EXPECT_DOUBLE_EQ(read_unit("m^3/(J rpm)", "m^3 s/(J rad)").scale, 30 / pi);
+}
+
+TEST(Unit, ASpeedWithoutRevolutionsOrRadiansHasTwoReadings) {
+  EXPECT_THAT(quantity_refusal("420 1/s", "rad/s"),
+              AllOf(HasSubstr("420 rev/s = 2639 rad/s"), HasSubstr("420 rad/s = 66.85 rev/s")));
+  EXPECT_THAT(quantity_refusal("90 1/h", "rev/s"), HasSubstr("0.025 rev/s = 0.1571 rad/s"));
+  EXPECT_THAT(refusal("1/ms", "rev/s"), HasSubstr("write rev/s (rpm, Hz) or rad/s"));
+  EXPECT_THAT(refusal("m^3 s/J", "m^3 s/(J rad)"), HasSubstr("differ by 2 pi"));
+  EXPECT_THAT(refusal("s", "rad/s"), HasSubstr("one over"));
+  EXPECT_THAT(refusal("rev", "rev/s"), HasSubstr("wrong dimension"));
+}
+
+TEST(Unit, OneOverIsAnotherDimension) {
+  for (const auto& [text, si] : {std::pair{"1/N", "N"},
+                                 {"1/year", "s"},
+                                 {"mm^-3", "m^3"},
+                                 {"MJ/mm3", "m^3/(N m)"},
+                                 {"1/kcycle", "cycle"}})
+    EXPECT_THROW(read_unit(text, si), InputError) << text;
+  EXPECT_THAT(refusal("1/year", "s"), HasSubstr("one over what it should be"));
+}
+
+TEST(Unit, LogarithmsAndPointsInTimeAreNoUnits) {
+  for (const auto& [text, si] : {std::pair{"lg(re 1 N)", "N"},
+                                 {"3 ln(re 1 MPa)", "Pa"},
+                                 {"dB(re 20 uPa)", "Pa"},
+                                 {"Np(re 1 m)", "m"},
+                                 {"dBm", "N m/s"},
+                                 {"h since 2001-05-17", "s"}})
+    EXPECT_THROW(read_unit(text, si), InputError) << text;
+  EXPECT_THAT(refusal("lg(re 1 N)", "N"), HasSubstr("logarithm"));
+  EXPECT_EQ(read_unit("log10(kPa)", "log10(Pa)").offset, 3);
+  EXPECT_THROW(read_unit("log10(1/kPa)", "log10(Pa)"), InputError);
+}
+
+TEST(Unit, EngineersSpellings) {
+  EXPECT_EQ(read_unit("Nm", "N m").scale, 1);  // no nanometre
+  EXPECT_DOUBLE_EQ(read_unit("kNm", "N m").scale, 1e3);
+  EXPECT_DOUBLE_EQ(read_unit("Ncm", "N m").scale, 1e-2);
+  EXPECT_DOUBLE_EQ(read_unit("mm³/Nm", "m^3/(N m)").scale, 1e-9);
+  EXPECT_DOUBLE_EQ(read_unit("mm³/(N⋅m)", "m^3/(N m)").scale, 1e-9);
+  EXPECT_DOUBLE_EQ(read_unit("kWh", "J").scale, 3.6e6);
+  for (const char* micrometre : {"um", "µm", "μm", "micron"})
+    EXPECT_DOUBLE_EQ(read_unit(micrometre, "m").scale, 1e-6) << micrometre;
+  for (const char* celsius : {"degC", "°C", "celsius"})
+    EXPECT_DOUBLE_EQ(read_unit(celsius, "K").offset, 273.15) << celsius;
+  EXPECT_DOUBLE_EQ(read_unit("N/mm2", "Pa").scale, 1e6);
+  EXPECT_NEAR(read_unit("ksi", "Pa").scale, 6.894757293168361e6, 1e-6);  // NIST SP 811
+  for (const char* hour : {"h", "hr", "hours"}) EXPECT_EQ(read_unit(hour, "s").scale, 3600) << hour;
+}
+
+TEST(Unit, WordsOfTwoSizesAreRefusedWithBoth) {
+  EXPECT_THAT(refusal("ton", "kg"), AllOf(HasSubstr("1000 kg"), HasSubstr("907.185 kg")));
+  EXPECT_THAT(refusal("mils", "m"), AllOf(HasSubstr("25.4 um"), HasSubstr("1000 um")));
+  EXPECT_THAT(refusal("gr", "kg"), HasSubstr("grain"));
+  EXPECT_THAT(refusal("kton/m^3", "kg/m^3"), HasSubstr("is not a unit"));
+  EXPECT_DOUBLE_EQ(read_unit("thou", "m").scale, 25.4e-6);
+}
+
+TEST(Unit, WhatMeansSomethingElseHasAnotherDimension) {
+  for (const auto& [text, si] : {std::pair{"C", "K"},
+                                 {"F", "K"},
+                                 {"H", "s"},
+                                 {"S", "s"},
+                                 {"T", "kg"},
+                                 {"nm", "N m"},
+                                 {"kg", "N"},
+                                 {"lb", "N"},
+                                 {"a", "s"},
+                                 {"M", "cycle"},
+                                 {"h", "cycle"},
+                                 {"\"", "m"}})
+    EXPECT_THROW(read_unit(text, si), InputError) << text;
+  EXPECT_THAT(refusal("C", "K"), HasSubstr("'degC'"));
+  EXPECT_THAT(refusal("mm^3/N m", "m^3/(N m)"), HasSubstr("did you mean 'mm^3/(N m)'?"));
+}
+
+TEST(Unit, ItsSizeIsAboveZeroAndItsZeroKnown) {
+  for (const auto& [text, si] : {std::pair{"-1 mm", "m"},
+                                 {"0 mm", "m"},
+                                 {"1e-320 m", "m"},
+                                 {"1e300 Em^3", "m^3"},
+                                 {"mm @ 5", "m"},
+                                 {"2 degC", "K"},
+                                 {"MPa from 3", "Pa"}})
+    EXPECT_THROW(read_unit(text, si), InputError) << text;
+}
+
+TEST(Unit, ANumberBehindIsAFactorOrAPower) {
+  EXPECT_THAT(refusal("mm 2", "m"), HasSubstr("a factor or a power"));
+  EXPECT_THROW(read_unit("N m 10", "N m"), InputError);
+  EXPECT_DOUBLE_EQ(read_unit("mm^3/(1000 N m)", "m^3/(N m)").scale, 1e-12);
+}
+
 TEST(Quantity, ReadsNumberAndUnit) {
   EXPECT_DOUBLE_EQ(read_quantity("5.966 N m", "J").si(), 5.966);
   EXPECT_DOUBLE_EQ(read_quantity(" -1.5e2 mm ", "m").si(), -0.15);
   EXPECT_DOUBLE_EQ(read_quantity("3", "1").si(), 3);
   EXPECT_DOUBLE_EQ(read_quantity("5 %", "1").si(), 0.05);
+  EXPECT_DOUBLE_EQ(read_quantity("7e4", "cycle").si(), 7e4);
+  EXPECT_DOUBLE_EQ(read_quantity("70 kcycles", "cycle").si(), 7e4);
+  EXPECT_DOUBLE_EQ(read_quantity("45 1/min", "rev/s").si(), 0.75);
 }
 
 TEST(Quantity, NamesWhatIsMissing) {
@@ -34,12 +192,32 @@ TEST(Quantity, NamesWhatIsMissing) {
   EXPECT_THROW(read_quantity("mm", "m"), InputError);
   EXPECT_THROW(read_quantity("nan mm", "m"), InputError);
   EXPECT_THROW(read_quantity("", "1"), InputError);
-  try {
-    read_quantity("5 mm", "m^3");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "unit 'mm' has the wrong dimension (expected one like 'm^3')");
-  }
+  EXPECT_EQ(quantity_refusal("5 mm", "m^3"),
+            "unit 'mm' has the wrong dimension (expected one like 'm^3')");
+  EXPECT_EQ(quantity_refusal("2800", "rad/s"), "'2800' has no unit (write one like '2800 rad/s')");
+}
+
+TEST(Quantity, RefusesAGapInANumber) {
+  EXPECT_THAT(quantity_refusal("12 500 turns", "cycle"),
+              AllOf(HasSubstr("a gap"), HasSubstr("12 times 500, which is 6000")));
+  for (const char* text : {"1.5.2 mm", "10-3 mm", "3 1e-3 m"})
+    EXPECT_THAT(quantity_refusal(text, "m"), HasSubstr("two ways")) << text;
+}
+
+TEST(Quantity, IsFiniteAndAboveAbsoluteZero) {
+  EXPECT_THAT(quantity_refusal("-280 degC", "K"), HasSubstr("below absolute zero"));
+  EXPECT_THAT(quantity_refusal("-1 K", "K"), HasSubstr("below absolute zero"));
+  EXPECT_THAT(quantity_refusal("1e308 km", "m"), HasSubstr("infinite"));
+}
+
+TEST(Quantity, APlainNumberBesideAUnitHasTwoReadings) {
+  const Unit hundreds = read_unit("1e2 cycles", "cycle");
+  const Quantity seven = read_quantity("7", "cycle");
+  EXPECT_THAT(message_of<InputError>([&] { refuse_two_readings(seven, hundreds); }),
+              AllOf(HasSubstr("is it 7,"), HasSubstr("= 700")));
+  EXPECT_NO_THROW(refuse_two_readings(read_quantity("7 cycles", "cycle"), hundreds));
+  EXPECT_NO_THROW(refuse_two_readings(read_quantity("0", "cycle"), hundreds));
+  EXPECT_NO_THROW(refuse_two_readings(seven, read_unit("turns", "cycle")));
 }
 
 }  // namespace

@@ -205,7 +205,7 @@ TEST(Posterior, NaturalAndReal) {
 
 TEST(Posterior, RefusesWhatCannotBeFitted) {
   const Law positive = make_law(Flat{}, 0, infinity);
-  EXPECT_THROW(Posterior({parameter("rate", positive, -1)}, line(1)), std::logic_error);
+  EXPECT_THROW(Posterior({parameter("rate", positive, -1)}, line(1)), InputError);
   EXPECT_THROW(Posterior({parameter("rate", positive, 1)}, line(2)), std::logic_error);
   // A lognormal line that falls below 0 wherever the prior allows.
   const Law negative = make_law(Flat{}, -infinity, -1);

@@ -232,5 +232,37 @@ TEST(WeightedDraws, CentredCellsBend) {
   }
 }
 
+// Nodes that hold nothing may lie anywhere, as wide as doubles reach, or be no numbers at all.
+TEST(Distribution, NodesWithoutWeightChangeNothing) {
+  constexpr double huge = 1e300;
+  std::vector<Cell> cells;
+  for (int i = 0; i < 100; ++i) cells.push_back({i + 0., i + 0.5, i + 1., 0.01});
+  const Distribution plain(cells_of(cells), itself);
+  for (const Cell& far : {Cell{1, huge, 1.7e308, 1e-13}, Cell{-1.7e308, 3, 1.7e308, 1e-13},
+                          Cell{5, infinity, infinity, 1e-13}, Cell{5, std::nan(""), 6, 1e-13}}) {
+    std::vector<Cell> with = cells;
+    with.push_back(far);
+    const Distribution d(cells_of(with), itself);
+    EXPECT_NEAR(d.mean(), plain.mean(), 1e-6);
+    EXPECT_NEAR(d.sd(), plain.sd(), 1e-6);
+    for (const double p : {0.01, 0.05, 0.5, 0.95, 0.99}) {
+      EXPECT_NEAR(d.quantile(p), plain.quantile(p), 1e-6) << far.node << " at " << p;
+    }
+  }
+}
+
+// With weight they count: quantiles in the bulk stay, and where a number is none nothing is known.
+TEST(Distribution, WideNodesWithWeightDoNotMoveTheBulk) {
+  std::vector<Cell> cells;
+  for (int i = 0; i < 100; ++i) cells.push_back({i + 0., i + 0.5, i + 1., 0.0099});
+  cells.push_back({1e200, 1.7e308, 1.7e308, 0.01});
+  const Distribution d(cells_of(cells), itself);
+  EXPECT_NEAR(d.quantile(0.5), 50.505, 1e-2);
+  EXPECT_NEAR(d.quantile(0.01), 1.0101, 1e-3);
+  cells.back().node = std::nan("");
+  EXPECT_TRUE(std::isnan(Distribution(cells_of(cells), itself).quantile(0.5)));
+  EXPECT_TRUE(std::isnan(Distribution(cells_of(cells), itself).mean()));
+}
+
 }  // namespace
 }  // namespace wearwell

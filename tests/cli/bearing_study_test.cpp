@@ -16,6 +16,7 @@ namespace wearwell {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string example = PROJECT_SOURCE_DIR "/examples/bearing/";
@@ -194,6 +195,48 @@ const std::string prior = R"toml([prior]
 k = { law = "lognormal", median = "1e-15 m^3/(N m)", log_sd = 2 }
 )toml";
 const std::string good_data = "b,c,p,n,d\nA,30,1,1e5,15\nB,30,1,1e5,18\n";
+
+// Speeds and revolutions in any unit are the same.
+TEST_F(BearingStudy, CountsTurnsWhateverTheUnit) {
+  const auto study = [&](const std::string& turns, const std::string& cells) {
+    write("data.csv", "b,c,p,n,t,d\nA,30,1," + cells + ",15\nB,30,1," + cells + ",18\n");
+    std::string text = head + columns + conditions + likelihood + prior;
+    text.replace(text.find("revolutions = \"n\""), 17, turns);
+    return text;
+  };
+  const std::string times = "\ntime = { column = \"t\", unit = \"h\" }";
+  const auto k = [&](const std::string& turns, const std::string& cells) -> double {
+    return fit(write("a.toml", study(turns, cells)).string())["parameters"]["k"]["exact"]["mean"];
+  };
+  const double expected = k("revolutions = \"n\"", "72000,0");
+  for (const auto& [turns, cells] :
+       {std::pair{"revolutions = { column = \"n\", unit = \"krev\" }", "72,0"},
+        {"revolutions = { column = \"n\", unit = \"1e3 turns\" }", "72,0"}})
+    EXPECT_NEAR(k(turns, cells) / expected, 1, 1e-9) << turns;
+  for (const auto& [unit, speed] : {std::pair{"1/min", "60"},
+                                    {"rpm", "60"},
+                                    {"Hz", "1"},
+                                    {"rad/s", "6.283185307179586"},
+                                    {"U/min", "60"}})
+    EXPECT_NEAR(k(fmt::format("speed = {{ column = \"n\", unit = \"{}\" }}", unit) + times,
+                  std::string(speed) + ",20") /
+                    expected,
+                1, 1e-9)
+        << unit;
+}
+
+TEST_F(BearingStudy, RefusesTurnsWithTwoReadings) {
+  write("data.csv", "b,c,p,n,t,d\nA,30,1,60,20,15\nB,30,1,60,20,18\n");
+  const auto study = [&](const std::string& turns) {
+    std::string text = head + columns + conditions + likelihood + prior;
+    return text.replace(text.find("revolutions = \"n\""), 17, turns);
+  };
+  EXPECT_THAT(refusal(study("speed = { column = \"n\", unit = \"1/h\" }\n"
+                            "time = { column = \"t\", unit = \"h\" }")),
+              AllOf(HasSubstr("speed.unit: '1/h'"), HasSubstr("rev/s")));
+  EXPECT_THAT(refusal(study("revolutions = { column = \"n\", unit = \"rad\" }")),
+              HasSubstr("holds an angle"));
+}
 
 TEST_F(BearingStudy, RefusesContradictionsAndGapsByKey) {
   write("data.csv", good_data);

@@ -1,5 +1,5 @@
 // `wearwell bearing` as its user meets it.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <initializer_list>
@@ -15,6 +15,7 @@ namespace wearwell {
 namespace {
 
 using nlohmann::ordered_json;
+using testing::HasSubstr;
 
 double relative(double value, double expected) {
   return std::abs(value - expected) / std::abs(expected);
@@ -104,12 +105,33 @@ TEST(BearingCommand, CountsTurnsWhateverTheUnit) {
       "pressure --contact bushing --radius '10 mm' --clearance '20 um' --depth '50 um' "
       "--rate '1e-16 m^3/(N m)' ";
   const double expected = answer(bearing + "--revolutions 9000")["value"];
-  for (const std::string speed : {"150 rpm", "150 1/min", "2.5 Hz", "2.5 1/s", "150 revolution/min",
-                                  "15.707963267948966 rad/s"})
+  for (const std::string speed : {"150 rpm", "150 1/min", "2.5 Hz", "150 U/min",
+                                  "150 revolution/min", "15.707963267948966 rad/s"})
     EXPECT_LT(relative(answer(bearing + "--time '1 h' --speed '" + speed + "'")["value"], expected),
               1e-14)
         << speed;
-  EXPECT_LT(relative(answer(bearing + "--revolutions '9000 turns'")["value"], expected), 1e-14);
+  for (const std::string count : {"9000 turns", "9 krev", "0.009 Mcycles", "9e3"})
+    EXPECT_LT(relative(answer(bearing + "--revolutions '" + count + "'")["value"], expected), 1e-14)
+        << count;
+}
+
+TEST(BearingCommand, RefusesWhatHasTwoReadings) {
+  const std::string bearing =
+      "life --contact journal --radius '9 mm' --clearance '25 um' --depth '40 um' --rate '2e-16 "
+      "m^3/(N m)' --pressure '3 MPa' ";
+  const auto refusal = [&](const std::string& arguments) {
+    const CommandResult run = run_wearwell("bearing " + bearing + arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments;
+    EXPECT_EQ(run.out, "");
+    return run.err;
+  };
+  EXPECT_THAT(refusal("--speed '40 1/s'"),
+              testing::AllOf(HasSubstr("--speed: '40 1/s'"), HasSubstr("40 rev/s = 251.3 rad/s"),
+                             HasSubstr("40 rad/s = 6.366 rev/s")));
+  EXPECT_THAT(refusal("--speed 40"), testing::Not(HasSubstr("1/s")));
+  EXPECT_THAT(refusal("--speed '40 rpm' --unit 1/min"), HasSubstr("one over"));
+  EXPECT_THAT(refusal("--unit rad"), HasSubstr("--unit: unit 'rad' holds an angle"));
+  EXPECT_THAT(refusal("--revolutions '5 krev +- 30'"), HasSubstr("--revolutions"));
 }
 
 // Even wear has a rate that grows with depth, so the quantiles of the rate are those of the depth:

@@ -164,6 +164,7 @@ TEST_F(Clutch, FitRunsFromTracesToLife) {
       EXPECT_GT(double(w["sd_full"]), double(w["sd_scatter"]));
   }
   EXPECT_EQ(summary_["life"][0]["levels"].size(), 5u);
+  for (const json& check : summary_["checks"]) EXPECT_NE(check["name"], "units");
 }
 
 // The same campaign simulated within the study; one thread; the same numbers.
@@ -233,6 +234,60 @@ TEST_F(Clutch, PredictGoesOnFromItsState) {
               HasSubstr("belongs to another model"));
 }
 
+// The state of years is not lost by one reading.
+TEST_F(Clutch, PredictKeepsItsStateFromWhatIsNotFinite) {
+  write("good.csv", heading + "5,1,1700,50,170,2,9000\n");
+  write("hot.csv", heading + "5,2,1700,50,1e150,2,9000\n5,3,1700,50,170,2,9000\n");
+  const std::string start = "clutch predict " + model();
+  ASSERT_EQ(here(start + "good.csv --state s.json").exit_code, 0);
+  const std::string before = read(folder() / "s.json");
+  const CommandResult hot = here(start + "hot.csv --state s.json --trace t.csv");
+  EXPECT_EQ(hot.exit_code, 2);
+  EXPECT_THAT(hot.err, HasSubstr("hot.csv, row 1: plate 5, cycle 2: the model gives no finite"));
+  EXPECT_EQ(read(folder() / "s.json"), before);
+  EXPECT_FALSE(fs::exists(folder() / "t.csv"));
+  const CommandResult skipped =
+      here(start + "hot.csv --state s.json --trace t.csv --skip-not-finite");
+  EXPECT_EQ(skipped.exit_code, 0) << skipped.err;
+  EXPECT_THAT(skipped.out, HasSubstr("skipped 1"));
+  EXPECT_TRUE(lines(read(folder() / "t.csv"))[1].ends_with(",skipped"));
+  EXPECT_EQ(json::parse(read(folder() / "s.json"))["plates"][0]["skipped"], 1);
+  EXPECT_EQ(json::parse(read(folder() / "s.json"))["plates"][0]["last_cycle"], 3);
+}
+
+// Each of several at once counts its plate, whoever comes first.
+TEST_F(Clutch, PredictsAtOnceLoseNothing) {
+  std::string together;
+  for (int plate = 1; plate <= 6; ++plate) {
+    write("p" + std::to_string(plate) + ".csv",
+          heading + std::to_string(plate) + ",1,1700,50,170,2,9000\n");
+    together += "'" WEARWELL_BINARY "' clutch predict " + model() + "p" + std::to_string(plate) +
+                ".csv --state s.json >/dev/null || echo failed & ";
+  }
+  const CommandResult run = run_command("cd '" + folder().string() + "'; " + together + "wait");
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(json::parse(read(folder() / "s.json"))["plates"].size(), 6u);
+  EXPECT_FALSE(fs::exists(folder() / ".s.json.lock"));
+}
+
+TEST_F(Clutch, NothingOverwritesWhatItReads) {
+  write("c.csv", heading + "5,1,1700,50,170,2,9000\n");
+  fs::create_symlink("c.csv", folder() / "link.csv");
+  write("model.json", read(shared_ / "result/model.json"));
+  const std::string start = "clutch predict model.json c.csv ";
+  for (const char* options : {"--trace c.csv", "--trace link.csv", "--state ./c.csv",
+                              "--trace model.json", "--state new.json --trace ./new.json"}) {
+    const CommandResult run = here(start + options);
+    EXPECT_EQ(run.exit_code, 2) << options;
+    EXPECT_THAT(run.err, HasSubstr("nothing is written")) << options;
+  }
+  EXPECT_EQ(read(folder() / "c.csv"), heading + "5,1,1700,50,170,2,9000\n");
+  EXPECT_EQ(read(folder() / "model.json"), read(shared_ / "result/model.json"));
+  write("traces.csv", read(shared_ / "traces.csv"));
+  EXPECT_EQ(here("clutch features traces.csv -o traces.csv").exit_code, 2);
+  EXPECT_EQ(read(folder() / "traces.csv"), read(shared_ / "traces.csv"));
+}
+
 TEST_F(Clutch, PredictTracesAndFlagsCycles) {
   write("c.csv", heading +
                      "5,1,1700,50,170,2,9000\n5,2,4000,50,170,2,20000\n5,3,1700,50,400,2,9000\n"
@@ -259,6 +314,25 @@ TEST_F(Clutch, PredictTracesAndFlagsCycles) {
               HasSubstr("slip_speed 1, temperature 1"));
 }
 
+// A speed in revolutions a minute is one in rad/s; cycles are counted in any multiple.
+TEST_F(Clutch, PredictReadsEveryUnit) {
+  const std::string predict = "clutch predict " + model();
+  write("a.csv", heading + "5,1000,1500,50,170,2,9000\n5,2000,1200,50,160,2,8000\n");
+  const CommandResult expected = here(predict + "a.csv --json");
+  ASSERT_EQ(expected.exit_code, 0) << expected.err;
+  const std::string rest = ",torque [Nm],temperature [K],closing_time [ms],energy [kJ]\n";
+  for (const auto& [unit, factor] : {std::pair{"1/min", 1.0}, {"Hz", 1. / 60}, {"deg/s", 6.0}}) {
+    write("b.csv", fmt::format("plate,cycle [kcycles],slip_speed [{}]{}5,1,{:.17g},50,443.15,2000,9"
+                               "\n5,2,{:.17g},50,433.15,2000,8\n",
+                               unit, rest, 1500 * factor, 1200 * factor));
+    const CommandResult run = here(predict + "b.csv --json");
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const json a = json::parse(expected.out)["plates"][0], b = json::parse(run.out)["plates"][0];
+    EXPECT_EQ(b["last_cycle"], 2000);
+    EXPECT_NEAR(double(b["volume"]) / double(a["volume"]), 1, 1e-9) << unit;
+  }
+}
+
 TEST_F(Clutch, PredictRefusesBadCycles) {
   const std::string good = "1,1,1700,50,170,2,9000\n";
   EXPECT_THAT(predict_refusal(heading + good + "1,3,1700,50,170,2,9000\n1,2,1700,50,170,2,9000\n"),
@@ -272,11 +346,14 @@ TEST_F(Clutch, PredictRefusesBadCycles) {
               HasSubstr("row 2, column 'closing_time [s]'"));
   EXPECT_THAT(predict_refusal(heading + good + "1,2.5,1700,50,170,2,9000\n"),
               HasSubstr("row 2, column 'cycle': 2.5 must be a whole number"));
+  EXPECT_THAT(predict_refusal(heading + good + "1,2,1700,50,-290,2,9000\n"),
+              HasSubstr("row 2, column 'temperature [degC]': -290 is below absolute zero"));
   EXPECT_THAT(predict_refusal(heading + good + "1,x,1700,50,170,2,9000\n"),
               HasSubstr("column 'cycle' does not hold numbers"));
   EXPECT_THAT(predict_refusal(""), HasSubstr("bad.csv is empty"));
   EXPECT_THAT(predict_refusal(heading), HasSubstr("bad.csv has no rows"));
-  EXPECT_THAT(predict_refusal("plate,cycle\n1,1\n"), HasSubstr("has no column 'slip_speed [1/s]'"));
+  EXPECT_THAT(predict_refusal("plate,cycle\n1,1\n"),
+              HasSubstr("has no column 'slip_speed [rad/s]'"));
   std::string wrong = heading;
   replace(wrong, "torque [N m]", "torque [N]");
   EXPECT_THAT(predict_refusal(wrong + good),
@@ -446,6 +523,10 @@ TEST_F(Clutch, Features) {
   EXPECT_THAT(features({trace[0], "1,0,100,0,150"}).err, HasSubstr("holds no closing"));
   EXPECT_THAT(features({}).err, HasSubstr("t.csv is empty"));
   EXPECT_EQ(here("clutch features t.csv --torque-on '2 kg'").exit_code, 2);
+  EXPECT_THAT(here("clutch features t.csv --slip-off '3 ms'").err,
+              HasSubstr("--slip-off: unit 'ms'"));
+  EXPECT_THAT(here("clutch features t.csv --slip-off '4 1/s'").err,
+              HasSubstr("4 rev/s = 25.13 rad/s, or 4 rad/s = 0.6366 rev/s"));
 }
 
 TEST_F(Clutch, DesignAndSimulate) {
@@ -462,6 +543,10 @@ TEST_F(Clutch, DesignAndSimulate) {
   EXPECT_THAT(refusal("--torque '25, 50, 75'"),
               HasSubstr("--torque: '25, 50, 75': the unit is missing"));
   EXPECT_THAT(refusal("--torque '25, 50 kg'"), HasSubstr("--torque: '25, 50 kg'"));
+  EXPECT_EQ(
+      lines(here("clutch design --inside 3 --outside 2 --slip-speed '1200, 1700, 2800 1/min'").out),
+      lines(design.out));
+  EXPECT_THAT(refusal("--slip-speed '20, 30, 50 1/s'"), HasSubstr("write rev/s"));
   EXPECT_THAT(refusal("--torque '25 N m'"), HasSubstr("torque needs at least two levels"));
   EXPECT_THAT(refusal("--torque '25,, 50 N m'"), HasSubstr("write numbers with commas"));
   EXPECT_THAT(refusal("--feasible-torque '30 .. 80 N m'"), HasSubstr("feasible range of torque"));

@@ -18,6 +18,7 @@ namespace wearwell {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
 
 const std::string example = PROJECT_SOURCE_DIR "/examples/spring/";
@@ -286,6 +287,53 @@ TEST_F(FatigueStudy, UnitsDoNotMatter) {
   EXPECT_NEAR(allowed(other) * ksi / allowed(mpa), 1, 1e-6);
 }
 
+// Lives in any unit of counting.
+TEST_F(FatigueStudy, LivesAreCounted) {
+  const std::string ask =
+      "[predict]\nb_lives = [10]\n[predict.stress]\nhere = { alternating_stress = \"300 MPa\" }\n";
+  const auto lives = [](double unit) {
+    return fmt::format("s,n\n400,{}\n350,{}\n300,{}\n260,{}\n", 31000 / unit, 95000 / unit,
+                       420000 / unit, 1300000 / unit);
+  };
+  const auto fit_lives = [&](const std::string& unit, double size) {
+    write("data.csv", lives(size));
+    return fit_text(head +
+                    "alternating_stress = { column = \"s\", unit = \"MPa\" }\n"
+                    "life = { column = \"n\", unit = \"" +
+                    unit + "\" }\n" + law + prior + ask);
+  };
+  const json expected = fit_lives("1", 1);
+  for (const auto& [unit, size] :
+       {std::pair{"revolutions", 1.0}, {"krev", 1e3}, {"reversals", 0.5}}) {
+    const json result = fit_lives(unit, size);
+    EXPECT_NEAR(double(result["parameters"]["log10_a"]["exact"]["mean"]),
+                double(expected["parameters"]["log10_a"]["exact"]["mean"]), 1e-6)
+        << unit;
+    const json& life = quantity(result, "B10 life", "here");
+    EXPECT_EQ(life["unit"], unit);
+    EXPECT_NEAR(double(life["exact"]["predictive"]) * size /
+                    double(quantity(expected, "B10 life", "here")["exact"]["predictive"]),
+                1, 1e-6)
+        << unit;
+  }
+}
+
+// The scatter of a life that is not a logarithm is a count too.
+TEST_F(FatigueStudy, RefusesAScatterOfLifeWithTwoReadings) {
+  write("data.csv", "s,n\n400,0.31\n350,0.95\n300,4.2\n260,13\n");
+  const auto with_sigma = [&](const std::string& sigma) {
+    return head +
+           "alternating_stress = { column = \"s\", unit = \"MPa\" }\n"
+           "life = { column = \"n\", unit = \"1e5 cycles\" }\n" +
+           law + "[likelihood]\nfamily = \"normal\"\n" + prior.substr(0, prior.find("sigma")) +
+           "sigma = { law = \"half-normal\", " + sigma + " }\n";
+  };
+  EXPECT_THAT(
+      refusal(with_sigma("scale = 2, unit = \"1e5 cycles\"")),
+      AllOf(HasSubstr("prior.sigma.scale: 2 stands beside '1e5 cycles'"), HasSubstr("= 200000")));
+  EXPECT_THAT(refusal(with_sigma("scale = \"2 rad\"")), HasSubstr("holds an angle"));
+}
+
 // The same cycles of stress, however they are written.
 TEST_F(FatigueStudy, EveryWayToWriteAStressIsTheSame) {
   const double d = 3, D = 22, n = 5, G = 79300, C = D / d;  // mm, MPa
@@ -433,6 +481,9 @@ TEST_F(FatigueStudy, RefusesContradictionsAndGapsByKey) {
   expect(study + "[predict.stress]\nx = { mean_stress = \"1 MPa\" }\n",
          "give the stress in one way");
   expect(study + "[predict]\ntipes = \"all\"\n", "did you mean 'types'?");
+  // A width is a difference: no MPa in it.
+  expect(study + "[sampler.half_width]\nlog10_a = \"0.1 log10(MPa)\"\nb = 0.01\nsigma = 0.1\n",
+         "sampler.half_width.log10_a");
 }
 
 // All that a report of lives shows is kept beside it.

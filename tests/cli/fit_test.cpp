@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -281,6 +282,106 @@ TEST_F(FitCommand, OtherSourcesOfWorkAndVolume) {
   EXPECT_GT(by_pin["parameters"]["k"]["exact"]["mean"], 0);
 }
 
+// A count is a count in every multiple; work per cycle may say so.
+TEST_F(FitCommand, CyclesInAnyUnitAreTheSame) {
+  const auto run = [&](const std::string& cycles, const std::string& unit, const std::string& work,
+                       const std::string& predict) {
+    write("a.csv", "n,v\n" + cycles);
+    return fit_json(write("a.toml",
+                          "model = \"archard-joint\"\n[data]\nfile = \"a.csv\"\n[data.columns]\n"
+                          "cycles = { column = \"n\", unit = \"" +
+                              unit +
+                              "\" }\nvolume = { column = \"v\", unit = \"mm^3\" }\n[conditions]\n"
+                              "work_per_cycle = \"" +
+                              work +
+                              "\"\n[likelihood]\nfamily = \"normal\"\n[prior]\n"
+                              "k = { law = \"flat\", unit = \"mm^3/J\" }\n"
+                              "sigma = { law = \"half-normal\", scale = \"2 mm^3\" }\n"
+                              "[predict]\ncycles = " +
+                              predict + "\nlimit = \"60 mm^3\"\n")
+                        .string(),
+                    0);
+  };
+  const std::string plain = "4000,8.2\n9000,17.5\n16000,32.6\n",
+                    thousands = "4,8.2\n9,17.5\n16,32.6\n";
+  const json expected = run(plain, "1", "7.5 J", "25000");
+  EXPECT_EQ(expected["predictions"][0]["cycles"], 25000);
+  for (const auto& [cycles, unit, work, predict] :
+       {std::array{plain, std::string("cycles"), std::string("7.5 N m/cycle"),
+                   std::string("[25000]")},
+        std::array{thousands, std::string("kcycles"), std::string("7.5 kJ/kcycle"),
+                   std::string("'25 kcycles'")},
+        std::array{thousands, std::string("1e3 strokes"), std::string("7.5 Nm/stroke"),
+                   std::string("'0.025 Mcycles'")}}) {
+    const json other = run(cycles, unit, work, predict);
+    EXPECT_EQ(other["predictions"][0]["cycles"], 25000) << unit;
+    EXPECT_NEAR(double(other["predictions"][0]["exact"]["mean"]),
+                double(expected["predictions"][0]["exact"]["mean"]), 1e-9)
+        << unit;
+    EXPECT_NEAR(double(other["life"]["b10"]) / double(expected["life"]["b10"]), 1, 1e-9) << unit;
+    EXPECT_NEAR(double(other["parameters"]["k"]["exact"]["mean"]),
+                double(expected["parameters"]["k"]["exact"]["mean"]), 1e-12)
+        << unit;
+  }
+}
+
+// Cycles in thousands whose unit was forgotten below one, volumes of cubic metres: a word about it.
+TEST_F(FitCommand, MistakenUnitsAreNamed) {
+  const auto found = [&](const std::string& cycles, const std::string& unit) {
+    write("a.csv", "cycles,v\n" + cycles);
+    return fit_json(write("a.toml",
+                          "model = \"archard-joint\"\n[data]\nfile = \"a.csv\"\n"
+                          "[data.columns]\ncycles = \"cycles\"\n"
+                          "volume = { column = \"v\", unit = \"" +
+                              unit +
+                              "\" }\n"
+                              "[conditions]\nwork_per_cycle = \"7.5 J\"\n"
+                              "[likelihood]\nfamily = \"normal\"\n[prior]\n"
+                              "k = { law = \"flat\", unit = \"mm^3/J\" }\n"
+                              "sigma = { law = \"half-normal\", scale = \"2 " +
+                              unit + "\" }\n")
+                        .string(),
+                    0);
+  };
+  const json parts = found("0.4,8.2\n0.9,17.5\n1.6,32.6\n", "mm^3");
+  EXPECT_EQ(check(parts, "units")["verdict"], "warn");
+  EXPECT_THAT(check(parts, "units")["detail"], HasSubstr("cycles: 2 of 3 counts are below 1"));
+  const json large = found("400,8.2\n900,17.5\n1600,32.6\n", "m^3");
+  EXPECT_THAT(check(large, "units")["detail"], HasSubstr("volume: the largest value is 32.6 m^3"));
+  EXPECT_THROW(check(found("400,8.2\n900,17.5\n1600,32.6\n", "mm^3"), "units"), std::runtime_error);
+}
+
+// Study and data are changed while the fit runs: the results hold what was run.
+TEST_F(FitCommand, KeepsTheStudyThatWasRun) {
+  fs::copy(examples + "study.toml", folder() / "study.toml");
+  fs::copy(examples + "joint_wear.csv", folder() / "joint_wear.csv");
+  const std::string before = slurp(folder() / "study.toml");
+  const std::string sums = run_command("cd '" + folder().string() + "' && sha1sum *").out;
+  const CommandResult run = run_command(
+      "cd '" + folder().string() +
+      "'; '" WEARWELL_BINARY
+      "' fit study.toml -o results --quiet "
+      "--method metropolis --draws 20000 & while ! ls -d .wearwell.* 2>/dev/null >&2; do :; done; "
+      "echo '# edited' >> study.toml; echo 1,1 >> joint_wear.csv; wait $!");
+  ASSERT_LE(run.exit_code, 1) << run.err;
+  EXPECT_EQ(slurp(results() / "study.toml"), before);
+  const std::string report = slurp(results() / "report.html");
+  EXPECT_THAT(report, HasSubstr(sums.substr(0, 40)));
+  EXPECT_THAT(report, HasSubstr(sums.substr(sums.find('\n') + 1, 40)));
+  EXPECT_EQ(report.find("# edited"), std::string::npos);
+}
+
+TEST_F(FitCommand, EndsBySignalAtOnceAndLeavesNothing) {
+  for (const auto& [signal, exit_code] : {std::pair("INT", 130), {"TERM", 143}, {"HUP", 129}}) {
+    const CommandResult run =
+        run_command("cd '" + folder().string() + "'; timeout --preserve-status --signal=" + signal +
+                    " 1 '" WEARWELL_BINARY "' fit " + examples +
+                    "study.toml --method metropolis --draws 1000000 -o results");
+    EXPECT_EQ(run.exit_code, exit_code) << run.err;
+    EXPECT_TRUE(fs::is_empty(folder())) << signal;
+  }
+}
+
 class BadInput : public FitCommand {
  protected:
   // A study that works, with one text replaced.
@@ -352,6 +453,14 @@ TEST_F(BadInput, UnitsAndKeys) {
   expect_refused(study("5.966 N m", "5.966 N"),
                  "conditions.work_per_cycle: unit 'N' has the wrong dimension");
   expect_refused(study("\"5.966 N m\"", "5.966"), "has no unit");
+  expect_refused(study("5.966 N m", "5.966 N m/rad"), "unit 'N m/rad' holds an angle");
+  expect_refused(study("5.966 N m", "5 966 N m"), "can be read in two ways");
+  expect_refused(study("cycles = \"cycles\"", "cycles = { column = \"cycles\", unit = \"rad\" }"),
+                 "cycles.unit: unit 'rad' holds an angle");
+  expect_refused(study("unit = \"mm^3\"", "unit = \"1/mm^3\""), "is one over what it should be");
+  expect_refused(study("unit = \"mm^3\"", "unit = \"lg(re 1 mm^3)\""), "is a logarithm");
+  expect_refused(study("cycles = [20585]", "cycles = \"20 585\""), "a gap");
+  expect_refused(study("risk   = \"1 %\"", "risk = \"1 cycle\""), "holds a count");
   expect_refused(
       study("lower = \"0 mm^3/(N m)\"", "lowr = \"0 mm^3/(N m)\", unit = \"mm^3/(N m)\""),
       "prior.k.lowr: unknown key; did you mean 'lower'?");

@@ -37,6 +37,16 @@ TEST(Uncertain, ReadsEveryForm) {
   EXPECT_EQ(read_uncertain(" 0.1 +- 0.01 mm ", "m").text, "0.1 +- 0.01 mm");
 }
 
+TEST(Uncertain, CountsInAnyMultiple) {
+  expect(read_uncertain("40 +- 2 krev", "rev"), Law::normal, 4e4, 2e3);
+  expect(read_uncertain("4e4 +- 5 %", "rev"), Law::normal, 4e4, 2e3);
+  expect(read_uncertain("40 krev +- 2000 rev", "rev"), Law::normal, 4e4, 2e3);
+  expect(read_uncertain("600 +- 30 1/min", "rev/s"), Law::normal, 10, 0.5);
+  // Is the plain number one of thousands?
+  for (const char* text : {"40 krev +- 2", "~ normal(40 krev, 2)", "~ uniform(10, 20 krev)"})
+    EXPECT_THROW(read_uncertain(text, "rev"), InputError) << text;
+}
+
 TEST(Uncertain, RefusesNonsense) {
   for (const char* text :
        {"", "0.1", "0.1 +- 0.005", "0.1 +- 5 %", "0.1 mm +-", "+- 5 mm", "0.1 mm +- -5 um",

@@ -237,6 +237,43 @@ TEST(CycleSum, CountsWhereTheMapIsNegative) {
   EXPECT_EQ(s.plates()[0].clamped, 1);
 }
 
+// A reading of 10000 degC: the scatter grows beyond all numbers, or the wear of one replicate does.
+TEST(CycleSum, RefusesOrSkipsWhatIsNotFinite) {
+  OperatingPoint hot = middle;
+  hot.temperature = 10'000;
+  WearModel model = constant_model(20 * mm3_per_MJ, 10 * mm3_per_MJ, run_in);
+  model.scatter = {ScatterKind::exponential, {1e-14, 1e14}};
+  model.terms.push_back({"Td", 0, 1, 0, 0, 1, 1e-15});
+  WearModel of_replicate = constant_model(20 * mm3_per_MJ, 10 * mm3_per_MJ, run_in);
+  of_replicate.replicates = {{{1, 1, {{0, 3, 0, 1e293}}}, run_in}};
+  for (const WearModel* each : {&model, &of_replicate}) {
+    CycleSum refusing(*each, true);
+    EXPECT_THAT(message_of<InputError>([&] {
+                  sum(refusing, {{1, 1, middle, 1e4}, {1, 2, hot, 1e4}, {1, 3, middle, 1e4}});
+                }),
+                HasSubstr("row 2: plate 1, cycle 2: the model gives no finite wear"));
+    CycleSum skipping(*each, true, NotFinite::skip), without(*each, true);
+    sum(skipping, {{1, 1, middle, 1e4}, {1, 2, hot, 1e4}, {1, 3, middle, 1e4}});
+    sum(without, {{1, 1, middle, 1e4}, {1, 3, middle, 1e4}});
+    const PlateWear &a = skipping.plates()[0], &b = without.plates()[0];
+    EXPECT_EQ(a.skipped, 1);
+    EXPECT_EQ(a.cycles, 2);
+    EXPECT_EQ(a.volume, b.volume);
+    EXPECT_EQ(a.variance, b.variance);
+    EXPECT_EQ(a.outside_any, 0);
+    EXPECT_TRUE((a.replicates == b.replicates).all());
+  }
+}
+
+TEST(CycleSum, RefusesASumBeyondAllNumbers) {
+  const WearModel model = constant_model(20 * mm3_per_MJ, 0, run_in);
+  CycleSum s(model, false);
+  EXPECT_THAT(message_of<InputError>([&] {
+                sum(s, {{1, 1, middle, 1.5e308}, {1, 2, middle, 1.5e308}});
+              }),
+              HasSubstr("row 2: plate 1, cycle 2"));
+}
+
 TEST(CycleSum, RefusesCyclesThatDoNotAscend) {
   const WearModel model = constant_model(20 * mm3_per_MJ, 0, run_in);
   CycleSum s(model, false);

@@ -47,6 +47,27 @@ TEST(Life, SurvivalIsTheLikelihoodOfARunout) {
   }
 }
 
+// Laws without weight change nothing, wherever they lie.
+TEST(MixedLife, LawsWithoutWeightChangeNothing) {
+  for (const auto family : {LifeFamily::log10_normal, LifeFamily::weibull, LifeFamily::normal}) {
+    const bool normal = family == LifeFamily::normal;
+    MixedLife plain(family), with(family);
+    for (MixedLife* each : {&plain, &with}) {
+      each->add(0.5, normal ? 1e5 : 5, normal ? 1e4 : 0.3);
+      each->add(0.5, normal ? 2e5 : 5.5, normal ? 2e4 : 0.2);
+    }
+    with.add(1e-14, normal ? 1e300 : 300, 1e100);
+    with.add(1e-14, normal ? -1e300 : -300, 1e-3);
+    with.add(1e-14, std::nan(""), 1);
+    for (const double p : {0.01, 0.1, 0.5, 0.99}) {
+      EXPECT_NEAR(with.quantile(p) / plain.quantile(p), 1, 1e-9) << p;
+      EXPECT_NEAR(plain.cdf(plain.quantile(p)), p, 1e-9);
+    }
+    with.add(1e-3, std::nan(""), 1);
+    EXPECT_TRUE(std::isnan(with.quantile(0.5)));
+  }
+}
+
 TEST(Life, QuantileUndoesSurvival) {
   for (const SnLaw& law : all_laws()) {
     const std::vector<double> x = plausible(law);

@@ -34,7 +34,7 @@ TEST(RandomLimit, TenDigitsOfTheIntegral) {
     EXPECT_NEAR(value, x(12), 1e-10 * std::max(1.0, 0.01 * std::abs(x(12)))) << line;
     ++compared;
   }
-  EXPECT_EQ(compared, 64);
+  EXPECT_EQ(compared, 80);
 }
 
 }  // namespace

@@ -69,6 +69,7 @@ settings = {  # log10 S_f, log10 a, b, sigma, location, scale; lives
     "narrow": (("8.4", "9.35", "-0.15", "0.02", "8.3", "0.004"), ("10.9", "11.2")),
     "low stress": (("8.2", "9.35", "-0.15", "0.2", "8.25", "0.05"), ("8.0", "9.5")),
     "far out": (("8.5", "9.35", "-0.15", "0.1", "8.0", "0.05"), ("9.0", "9.5")),
+    "at the limit": (("8.5313", "8.7036", "-0.0318", "0.9725", "8.53128", "0.0795"), ("8.1006", "8.1441")),
 }
 print("case,life,limit,outcome,log10_reversed,log10_a,b,sigma,location,scale,at,until,value")
 for (name, (numbers, lives)), life, limit, outcome in itertools.product(

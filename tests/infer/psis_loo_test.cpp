@@ -108,17 +108,71 @@ TEST(PsisLoo, NormalMeanByHand) {
     };
     const double elpd = density((all - y[i]) / (n - 1), 1 + 1 / (n - 1));
     EXPECT_NEAR(exact_elpd(posterior, exact.whitening, i), elpd, 2e-5) << i;
-    // 4000 independent draws; the weights' relative scatter is below 1, so this is more than four
-    // standard errors.
-    EXPECT_NEAR(loo.terms[i].elpd, elpd, 0.04) << i;
-    EXPECT_NEAR(loo.terms[i].lpd, density(all / n, 1 + 1 / n), 0.02) << i;
+    EXPECT_NEAR(loo.terms[i].elpd, elpd, 2e-5) << i;
+    EXPECT_NEAR(loo.terms[i].lpd, density(all / n, 1 + 1 / n), 2e-5) << i;
     EXPECT_LT(loo.terms[i].khat, 0.7) << i;
     sum += elpd;
     p += density(all / n, 1 + 1 / n) - elpd;
   }
-  EXPECT_NEAR(loo.elpd(), sum, 0.1);
-  EXPECT_NEAR(loo.p_loo(), p, 0.1);
-  EXPECT_EQ(loo_check(loo, "row").verdict, Verdict::pass);
+  EXPECT_NEAR(loo.elpd(), sum, 1e-4);
+  EXPECT_NEAR(loo.p_loo(), p, 1e-4);
+  EXPECT_TRUE(loo.by_quadrature);
+  EXPECT_LT(std::abs(loo.elpd() - sum), loo.error + 1e-5);
+  EXPECT_EQ(loo_check(loo, "row", 1).verdict, Verdict::pass);
+
+  // By draws the error is what it is said to be: within four of it.
+  Fit drawn = exact;
+  drawn.exact.reset();
+  const Loo sampled = leave_one_out(posterior, drawn);
+  EXPECT_FALSE(sampled.by_quadrature);
+  EXPECT_NEAR(sampled.elpd(), sum, 4 * sampled.error);
+  EXPECT_LT(sampled.error, 0.05);
+}
+
+// The Monte Carlo error of elpd is the scatter of elpd from one run to the next.
+TEST(PsisLoo, ErrorIsTheScatterOfRuns) {
+  const std::vector<double> y = {-0.7, 0.1, 0.4, 1.2, -1.1, 0.3, 2.2, 0.8};
+  const double center = 0.4, sd = 1 / std::sqrt(8.0);
+  constexpr int runs = 200;
+  double sum = 0, squares = 0, errors = 0;
+  for (int run = 0; run < runs; ++run) {
+    Rng rng(11, static_cast<std::uint64_t>(run));
+    std::vector<double> mu(1000);
+    for (double& each : mu) each = center + sd * rng.normal();
+    const Loo loo = psis_loo(NormalMean(y), draws_of(mu));
+    sum += loo.elpd();
+    squares += loo.elpd() * loo.elpd();
+    errors += loo.error / runs;
+  }
+  const double scatter = std::sqrt(squares / runs - std::pow(sum / runs, 2));
+  EXPECT_NEAR(errors / scatter, 1, 0.25);
+}
+
+// The tail of y_i given all others, by hand: N(their mean, 1 + 1/(n - 1)).
+TEST(PsisLoo, TailsByHand) {
+  const std::vector<double> y = {-0.7, 0.1, 0.4, 1.2, -1.1, 0.3, 7.2, 0.8};
+  const Scores scores = [&](const double* x) {
+    std::vector<NormalScore> z;
+    for (const double each : y) z.push_back({each - x[0], each - x[0]});
+    return z;
+  };
+  const auto n = static_cast<double>(y.size());
+  const Posterior posterior({flat_parameter("mu", 0.1, 1)}, std::make_shared<NormalMean>(y));
+  const Loo loo = leave_one_out(posterior, fit(posterior, {}), &scores);
+  const double all = std::accumulate(y.begin(), y.end(), 0.0);
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const double z = (y[i] - (all - y[i]) / (n - 1)) / std::sqrt(1 + 1 / (n - 1));
+    const double tail = 2 * normal_cdf(-std::abs(z));
+    EXPECT_NEAR(loo.terms[i].tail / tail, 1, 0.02) << i;
+  }
+}
+
+TEST(PsisLoo, MoreParametersThanThereAreFail) {
+  Loo loo;
+  for (int i = 0; i < 3; ++i) loo.terms.push_back({-10, -1, 0.1});
+  EXPECT_EQ(loo_check(loo, "row", 2).verdict, Verdict::fail);
+  EXPECT_THAT(loo_check(loo, "row", 2).detail, HasSubstr("27, goes far beyond the 2"));
+  EXPECT_EQ(loo_check(loo, "row", 30).verdict, Verdict::pass);
 }
 
 // Every row of the joint study left out by quadrature: draws say the same where k-hat is good.
@@ -143,6 +197,19 @@ TEST(PsisLoo, AgreesWithFittingAnew) {
   }
 }
 
+// On the nodes of the quadrature they agree to the third digit after the point.
+TEST(PsisLoo, NodesAgreeWithFittingAnew) {
+  for (const bool lognormal : {false, true}) {
+    const Posterior posterior = joint_posterior(lognormal, false, lognormal ? 7 : 15, 6);
+    const Fit whole = fit(posterior, {});
+    const Loo loo = leave_one_out(posterior, whole);
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_NEAR(loo.terms[i].elpd, exact_elpd(posterior, whole.whitening, i), 2e-3)
+          << lognormal << i << " k " << loo.terms[i].khat << loo.terms[i].refitted;
+    }
+  }
+}
+
 TEST(PsisLoo, DoubtfulTermsAreFittedAnewOrNamed) {
   // The last inspection alone says how steep the line is.
   const Posterior posterior = joint_posterior(false, false, 15, 4);
@@ -150,11 +217,11 @@ TEST(PsisLoo, DoubtfulTermsAreFittedAnewOrNamed) {
   const Loo loo = leave_one_out(posterior, whole);
   ASSERT_TRUE(loo.terms[3].refitted) << loo.terms[3].khat;
   EXPECT_NEAR(loo.terms[3].elpd, exact_elpd(posterior, whole.whitening, 3), 1e-12);
-  EXPECT_EQ(loo_check(loo, "row").verdict, Verdict::pass);
-  EXPECT_THAT(loo_check(loo, "row").detail, HasSubstr("row 4"));
+  EXPECT_EQ(loo_check(loo, "row", 2).verdict, Verdict::pass);
+  EXPECT_THAT(loo_check(loo, "row", 2).detail, HasSubstr("row 4"));
 
   whole.exact.reset();
-  const Check warning = loo_check(leave_one_out(posterior, whole), "bearing");
+  const Check warning = loo_check(leave_one_out(posterior, whole), "bearing", 2);
   EXPECT_EQ(warning.verdict, Verdict::warn);
   EXPECT_THAT(warning.detail, HasSubstr("bearing 4"));
 }

@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "infer/test_posteriors.h"
+#include "wearwell/fatigue/sn_likelihood.h"
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/metropolis.h"
@@ -97,6 +98,61 @@ TEST(Metropolis, TuningAimsAtItsAcceptance) {
   const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
   for (const Chain& chain : run_metropolis(posterior, whitening, {}, {4, 10'000, 20'000, 6, 0})) {
     EXPECT_NEAR(chain.accept_rate, 0.35, 0.05);
+  }
+}
+
+// 25 life tests at four stresses: log10_a and b are correlated by 0.9997, so that no half widths
+// along the parameters themselves would do. a = 2000 MPa, b = -0.12, sigma = 0.15.
+Posterior life_tests_posterior() {
+  Rng rng(7, 0);
+  fatigue::LifeTests tests;
+  for (int i = 0; i < 25; ++i) {
+    const double stress = 1e6 * (500 - 60 * (i % 4));
+    const double log10_life = (std::log10(stress) - std::log10(2e9)) / -0.12 + 0.15 * rng.normal();
+    tests.push_back({{stress, 0}, fatigue::Outcome::failure, std::pow(10, log10_life), 0, 1});
+  }
+  fatigue::SnLaw law;
+  law.correction = fatigue::MeanStress::none;
+  const auto flat = [](const std::string& name, double lower, double upper, double start) {
+    return Parameter{name, "1", Unit{"1", 1, 0}, "flat", make_law(Flat{}, lower, upper), start, 1};
+  };
+  return {{flat("log10_a", -INFINITY, INFINITY, 9.2), flat("b", -INFINITY, 0, -0.1),
+           flat("sigma", 0, INFINITY, 0.2)},
+          fatigue::sn_likelihood(law, tests, tests.size())};
+}
+
+// With the study's default of 4000 and 6000 iterations.
+TEST(Metropolis, MixesAlongARidge) {
+  const Posterior posterior = life_tests_posterior();
+  const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
+  // And where no mode was found: the draws of warm-up tell the directions.
+  const Whitening blind{whitening.center, Eigen::Vector3d(0.02, 0.02, 0.2).asDiagonal()};
+  for (const Whitening& each : {whitening, blind}) {
+    const Draws draws = run_metropolis(posterior, each, {}, {4, 4000, 6000, 3, 0});
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_LT(rhat(chains_of(draws, i)), 1.01);
+      EXPECT_GT(ess_bulk(chains_of(draws, i)), 1000);
+    }
+  }
+}
+
+// lp__ of CmdStan: on the real line, whatever walked.
+TEST(Samplers, TellTheDensityWithItsJacobian) {
+  const Posterior posterior = joint_posterior(false, false, 15, 5);
+  const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
+  MetropolisSettings given;
+  given.half_width = Eigen::Vector2d(2e-13, 5e-9);
+  const RunSettings run{2, 200, 200, 5, 0};
+  for (const Draws& draws :
+       {run_metropolis(posterior, whitening, given, run),
+        run_metropolis(posterior, whitening, {}, run), run_nuts(posterior, whitening, {}, run)}) {
+    for (const Chain& chain : draws) {
+      for (Eigen::Index i = 0; i < chain.values.rows(); ++i) {
+        const Eigen::VectorXd x = chain.values.row(i);
+        ASSERT_NEAR(chain.log_density[static_cast<std::size_t>(i)],
+                    posterior.value(view(posterior.to_real(view(x)))), 1e-8);
+      }
+    }
   }
 }
 

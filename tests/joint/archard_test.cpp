@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -118,6 +119,47 @@ TEST(LeastSquares, ThroughTheOrigin) {
   const LeastSquares fit = least_squares({{1, 2}, {2, 6}});
   EXPECT_DOUBLE_EQ(fit.k, 2.8);
   EXPECT_DOUBLE_EQ(fit.sigma, std::sqrt((0.64 + 0.16) / 2));
+}
+
+// Many inspections are summed beforehand: the same likelihood as row by row, that is the sum of its
+// factors, wherever it is asked.
+RC_GTEST_PROP(ArchardLikelihood, OfManyIsTheSumOfItsFactors, ()) {
+  const bool constant = *rc::gen::arbitrary<bool>();
+  const Archard law{constant, false, 1e5};
+  const double k = *between(1e-13, 1e-11), sigma = *between(1e-11, 1e-8),
+               v0 = constant ? 1e-6 * (*between(1, 3) - 2) : 0;
+  Inspections inspections;
+  for (int i = 1; i <= 700; ++i) {
+    const double work = 1e5 * i / 700.0;
+    inspections.work.push_back(work);
+    inspections.volume.push_back(v0 + k * work + sigma * std::sin(12345.678 * i));
+  }
+  const auto likelihood =
+      archard_likelihood(law, ObservationFamily::normal, inspections, inspections.work.size());
+  const double x[] = {k * *between(0.5, 2), sigma * *between(0.1, 10),
+                      v0 + sigma * (*between(1, 11) - 6)};
+  const std::span<const double> at(x, static_cast<std::size_t>(law.dimension()));
+  double sum = 0, scale = 0;
+  for (const double each : likelihood->pointwise(at)) {
+    sum += each;
+    scale += std::abs(each);
+  }
+  double gradient[3];
+  RC_ASSERT(std::abs(likelihood->value(at) - sum) <= 1e-11 * scale);
+  const double value = likelihood->value(at);
+  RC_ASSERT(std::abs(likelihood->value_and_gradient(at, {gradient, at.size()}) - value) <=
+            1e-14 * scale);
+  for (std::size_t j = 0; j < at.size(); ++j) {
+    double low[3], high[3];
+    std::copy(at.begin(), at.end(), low);
+    std::copy(at.begin(), at.end(), high);
+    const double step = 1e-5 * (j == 2 ? sigma : x[j]);
+    low[j] -= step;
+    high[j] += step;
+    const double slope =
+        (likelihood->value({high, at.size()}) - likelihood->value({low, at.size()})) / (2 * step);
+    RC_ASSERT(std::abs(gradient[j] - slope) <= 1e-5 * (std::abs(slope) + 1e-6 * scale / step));
+  }
 }
 
 }  // namespace

@@ -62,6 +62,41 @@ TEST(Predict, TwoLawsFarApart) {
   EXPECT_NEAR(p.pi95, 100 + 1.2815515655446004, 1e-5);
 }
 
+// Quantiles of many laws, put back into their own mixture: 5 and 95 % of it lie below. Of one peak, of
+// peaks far apart, and where few of the laws say nothing of the quantile.
+TEST(Predict, QuantilesOfManyLaws) {
+  std::vector<std::pair<double, double>> peak, apart, odd;
+  for (int i = 0; i < 4000; ++i) {
+    const double u = std::fmod(0.6180339887498949 * i, 1), v = std::fmod(0.7548776662466927 * i, 1);
+    peak.emplace_back(100 + 10 * u, 1 + v);
+    apart.emplace_back(i % 10 == 0 ? -1e4 : 1e4 + u, 0.1);
+    // Every 15th is among the few that are looked at first.
+    odd.emplace_back(i % 15 == 0 ? 1.0 : 1e3 + u, 0.01 + v);
+  }
+  for (const auto& points : {peak, apart, odd}) {
+    const Prediction p = predict(draws_of(points), mean, sd, ObservationFamily::normal);
+    const auto below = [&](double y) {
+      double sum = 0;
+      for (const auto& [m, s] : points) sum += 0.5 * std::erfc((m - y) / (s * std::sqrt(2.0)));
+      return sum / static_cast<double>(points.size());
+    };
+    EXPECT_NEAR(below(p.pi05), 0.05, 1e-6);
+    EXPECT_NEAR(below(p.pi95), 0.95, 1e-6);
+  }
+  const Prediction q = predict(draws_of(peak), mean, sd, ObservationFamily::lognormal);
+  const auto below = [&](double y) {
+    double sum = 0;
+    for (const auto& [m, s] : peak) {
+      const double zeta = std::sqrt(std::log1p(s * s / (m * m)));
+      const double eta = std::log(m) - 0.5 * zeta * zeta;
+      sum += 0.5 * std::erfc((eta - std::log(y)) / (zeta * std::sqrt(2.0)));
+    }
+    return sum / static_cast<double>(peak.size());
+  };
+  EXPECT_NEAR(below(q.pi05), 0.05, 1e-9);
+  EXPECT_NEAR(below(q.pi95), 0.95, 1e-9);
+}
+
 // A quantile of 0, where no relative accuracy can be had: half of the mass of N(1, 1) and N(-1, 1)
 // ... and 5 % of N(z95, 1) lie below 0.
 TEST(Predict, QuantileOfZero) {
@@ -121,6 +156,13 @@ TEST(PredictLife, InspectionGivenSurvival) {
   EXPECT_NEAR(predict_life(even(1000, 2000), mean, 1500, 0.01).inspect_within, 5, 1e-6);
   EXPECT_NEAR(predict_life(even(1000, 2000), mean, 1500, 0.2).inspect_within, 100, 1e-6);
   EXPECT_EQ(predict_life(even(1000, 2000), mean, 3000, 0.2).inspect_within, 0);
+}
+
+// By hand: half of the lives lie behind 1500, all behind 3000.
+TEST(PredictLife, PassedAlready) {
+  EXPECT_NEAR(predict_life(even(1000, 2000), mean, 1500, 0.01).passed, 0.5, 1e-9);
+  EXPECT_NEAR(predict_life(even(1000, 2000), mean, 3000, 0.01).passed, 1, 1e-9);
+  EXPECT_EQ(predict_life(even(1000, 2000), mean, 900, 0.01).passed, 0);
 }
 
 // All lives lie behind, and the weights add up to something less than 1 in rounding.

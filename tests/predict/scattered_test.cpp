@@ -30,6 +30,18 @@ double log_sd(const double* x) {
   return x[1];
 }
 
+// A center that is never reached is an end that never comes; one that is no number says nothing.
+TEST(Scattered, OfCentersWithoutEnd) {
+  WeightedDraws draws;
+  draws.values = Eigen::MatrixXd{{0, 0.1}, {2000, 0.1}};
+  draws.weights = Eigen::VectorXd::Constant(2, 0.5);
+  const Scattered items(draws, [](const double* x) { return std::exp(x[0]); }, log_sd);
+  EXPECT_NEAR(items.quantile(0.25), 1, 1e-6);
+  EXPECT_EQ(items.quantile(0.75), INFINITY);
+  const Scattered none(draws, [](const double* x) { return x[0] > 1 ? std::nan("") : 1; }, log_sd);
+  EXPECT_TRUE(std::isnan(none.quantile(0.25)));
+}
+
 TEST(Scattered, OfOneDrawIsLognormal) {
   WeightedDraws draws;
   draws.values = Eigen::MatrixXd{{std::log(3e-15), 0.4}};

@@ -484,5 +484,75 @@ TEST(SubsetSearch, NamesWhatIsWrong) {
   EXPECT_THROW(read_criterion("aik"), InputError);
 }
 
+/// Many rows of skew inputs, some nearly dependent, most terms without effect.
+Problem many_rows(std::uint64_t seed) {
+  constexpr int rows = 2600, terms = 9;
+  Rng rng(seed, 9);
+  Problem problem{Eigen::MatrixXd(rows, terms), Eigen::VectorXd(rows), {}, {}};
+  auto& x = problem.columns;
+  for (int i = 0; i < rows; ++i) {
+    for (int t = 0; t < terms; ++t) x(i, t) = t == 0 ? 1 : std::exp(rng.normal());
+    x(i, 5) = x(i, 4) + 1e-3 * rng.normal();
+    x(i, 6) = x(i, 1) * x(i, 2);
+    problem.response[i] = 2 + x(i, 1) - x(i, 4) + 0.05 * x(i, 7) + 3 * rng.normal();
+  }
+  if (seed % 2 == 0) x.col(8) = x.col(2) - x.col(3);
+  if (seed % 3 == 0) {
+    problem.weights.resize(rows);
+    for (double& w : problem.weights) w = rng.uniform(0.2, 4);
+  }
+  return problem;
+}
+
+// Against every model fitted by itself (least_squares_test.cpp holds that against R).
+TEST(SubsetSearch, OfManyRowsFindsTheBestOfAll) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const Problem problem = many_rows(seed);
+    std::vector<std::pair<double, std::vector<int>>> all;
+    for (TermSet set = 1; set < bit(9); ++set) {
+      const auto terms = terms_of(set);
+      const Eigen::MatrixXd columns = problem.columns(Eigen::all, terms);
+      if (!find_dependences(columns).empty()) continue;
+      all.emplace_back(fit_least_squares(columns, problem.response, problem.weights).press, terms);
+    }
+    std::sort(all.begin(), all.end());
+    SearchSettings settings;
+    settings.keep = 12;
+    const auto found =
+        search_subsets(problem.columns, problem.response, problem.weights, settings);
+    ASSERT_TRUE(found.certified);
+    ASSERT_EQ(found.models.size(), 12u);
+    for (std::size_t m = 0; m < 12; ++m) {
+      // Dependent columns make ties.
+      if (seed % 2 == 1) {
+        EXPECT_EQ(found.models[m].terms, all[m].second) << seed << ' ' << m;
+      }
+      EXPECT_NEAR(found.models[m].criterion / all[m].first, 1, 1e-10);
+    }
+    EXPECT_LT(found.nodes, 400) << "bounds must cut: there are 511 models";
+  }
+}
+
+// sum of e^2 (1 + 2 h) by the rows, and by their moments.
+TEST(RowMoments, WeighResidualsByLeverages) {
+  const Problem problem = many_rows(1);
+  const SearchProblem search(problem.columns, problem.response, {}, Criterion::loo);
+  ASSERT_FALSE(search.moments.empty());
+  const std::vector<int> terms = {0, 1, 6};
+  const auto fit = fit_least_squares(problem.columns(Eigen::all, terms), problem.response);
+  const double expected =
+      (fit.residuals.array().square() * (1 + 2 * fit.leverages.array())).sum();
+  const auto dimension = search.moments.dimension();
+  Eigen::MatrixXd weight = Eigen::MatrixXd::Identity(dimension, dimension);
+  Eigen::VectorXd residuals = search.response.head(dimension);
+  const Eigen::MatrixXd columns = search.columns(Eigen::all, terms).topRows(dimension);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(dimension, 3);
+  for (int j = 0; j < 3; ++j) search.moments.add_leverage(q.col(j), weight);
+  residuals -= q * (q.transpose() * residuals);
+  EXPECT_NEAR(residuals.dot(weight * residuals) / expected, 1, 1e-12);
+  EXPECT_LT(expected, fit.press);
+}
+
 }  // namespace
 }  // namespace wearwell

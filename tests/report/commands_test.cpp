@@ -56,6 +56,32 @@ TEST_F(ReportCommands, NamesTheFileThatIsWrong) {
   EXPECT_THAT(summary.err, HasSubstr("summary.json is not what wearwell writes"));
 }
 
+// Folders from elsewhere: one message with file and key, and the report stays as it was.
+TEST_F(ReportCommands, RefusesAFolderThatNobodyFitted) {
+  ASSERT_LE(fit("--draws 10 --warmup 10").exit_code, 1);
+  const std::string summary = content(results() / "summary.json");
+  const std::string before = content(results() / "report.html");
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& why) {
+    std::string changed = summary;
+    const std::size_t at = changed.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    write("results/summary.json", changed.replace(at, from.size(), to));
+    const std::string folder = "'" + results().string() + "'";
+    for (const std::string& command : {"report " + folder, "compare " + folder + " " + folder}) {
+      const CommandResult run = run_wearwell(command);
+      EXPECT_EQ(run.exit_code, 2) << command;
+      EXPECT_THAT(run.err, HasSubstr("summary.json is not what wearwell writes: " + why)) << command;
+      EXPECT_EQ(run.out, "") << command;
+    }
+  };
+  refused("\"chains\": 4", "\"chains\": 0", "sampler.chains should be a whole number from 1 to 1000");
+  refused("\"chains\": 4", "\"chains\": 2000000000", "sampler.chains");
+  refused("\"rows\": 5", "\"rows\": null", "data.rows should be a whole number");
+  refused("\"at\": \"inside\"", "\"at\": \"<script>\"", "mode.parameters.k.at should be one of");
+  refused("\"parameters\": {", "\"parameters\": {}, \"unknowns\": {", "parameters is empty");
+  EXPECT_EQ(content(results() / "report.html"), before);
+}
+
 TEST_F(ReportCommands, CheckSaysWhatWillBeFitted) {
   const CommandResult run = run_wearwell("check " + study);
   EXPECT_EQ(run.exit_code, 0) << run.err;

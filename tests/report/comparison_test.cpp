@@ -47,6 +47,25 @@ TEST(Comparison, RanksByElpd) {
   EXPECT_THAT(text, HasSubstr("From 2 observations"));
 }
 
+// Differences within twice the errors of both are not known: those studies stay as given.
+TEST(Comparison, NeverRanksWithinTheError) {
+  const auto with = [](double elpd, double error) {
+    StudyResult result = sample({{elpd, 0, 0.1}, {elpd, 0, 0.1}});
+    result.loo->loo.error = error;
+    return result;
+  };
+  const Comparison near = compare(
+      {{"worst", with(-9, 0.1)}, {"first", with(-2.05, 0.1)}, {"second", with(-2, 0.1)}});
+  EXPECT_THAT(names(near), ElementsAre("first", "second", "worst"));
+  EXPECT_THAT(comparison_text(near), HasSubstr("The order of first, second is not known"));
+  EXPECT_NEAR(near.studies[0].behind->value, 0.1, 1e-12);
+  EXPECT_EQ(near.studies[1].behind->value, 0);
+  const Comparison far =
+      compare({{"first", with(-2.05, 0.01)}, {"second", with(-2, 0.01)}});
+  EXPECT_THAT(names(far), ElementsAre("second", "first"));
+  EXPECT_THAT(comparison_text(far), Not(HasSubstr("is not known")));
+}
+
 TEST(Comparison, NeverRanksDifferentData) {
   const Comparison comparison =
       compare({{"one", sample({{-3, 0, 0.1}})}, {"other", sample({{-2, 0, 0.1}}, "b6589fc6")}});

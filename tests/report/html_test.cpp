@@ -54,6 +54,38 @@ TEST(Html, TableNamesColumnsAndRows) {
   EXPECT_THAT(markup, HasSubstr("<th scope=\"row\">pin</th><td>5</td>"));
 }
 
+TEST(Html, NothingInATableIsMarkup) {
+  const std::string evil = "<img src=x onerror=alert(1)>";
+  const std::string markup =
+      table({evil, {evil, evil}, {{evil, evil + "\n" + evil}}, false, {evil}});
+  EXPECT_THAT(markup, Not(HasSubstr("<img")));
+  EXPECT_THAT(markup, HasSubstr("&lt;img src=x onerror=alert(1)&gt;<br><em>&lt;img"));
+}
+
+TEST(Html, TablesPaintUnitsAdviceAndVerdicts) {
+  const std::string markup = table({"Checks",
+                                    {"Life [h]", "Verdict"},
+                                    {{"k [mm³]", "Passed"}, {"b", "Failed\nDraw more."}},
+                                    true,
+                                    {"pass", "fail"}});
+  EXPECT_THAT(markup, HasSubstr("<th scope=\"col\">Life <span class=\"unit\">[h]</span></th>"));
+  EXPECT_THAT(markup, HasSubstr("<th scope=\"row\">k <span class=\"unit\">[mm³]</span></th>"));
+  EXPECT_THAT(markup, HasSubstr("<td><span class=\"badge pass\">Passed</span></td>"));
+  EXPECT_THAT(markup, HasSubstr("Failed<br><em>Draw more.</em>"));
+}
+
+TEST(Html, ShowsControlCharacters) {
+  EXPECT_EQ(escape("a\x1b[2Jb\u202ec\td\n"), "a\\x1b[2Jb\\u202ec\td\n");
+}
+
+// The ends of what doubles can hold.
+TEST(Html, WritesAnyNumber) {
+  EXPECT_EQ(number(5e-324), "4.941\u00a0×\u00a010⁻³²⁴");
+  EXPECT_EQ(number(-1.7976931348623157e308), "−1.798\u00a0×\u00a010³⁰⁸");
+  EXPECT_EQ(given(5e-324), "4.94065646\u00a0×\u00a010⁻³²⁴");
+  EXPECT_EQ(range(5e-324, 1e-323), "4.941 to 9.881\u00a0×\u00a010⁻³²⁴");
+}
+
 // A specification stands in a script element, which ends at the first "</script" whatever the
 // quotes around it.
 TEST(Html, NothingInAFigureEndsItsScript) {

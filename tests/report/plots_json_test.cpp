@@ -1,8 +1,11 @@
 #include "wearwell/report/plots_json.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
+
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
 
 namespace wearwell {
 namespace {
@@ -19,7 +22,8 @@ TEST(PlotsJson, ReadsWhatItWrote) {
   plots.files = {{"study.toml", "da39"}};
   plots.seconds = 0.5;
   const std::string text = to_json(plots).dump();
-  const Plots again = plots_from_json(nlohmann::ordered_json::parse(text));
+  const auto json = nlohmann::ordered_json::parse(text);
+  const Plots again = plots_from_json(JsonReader(json, "plots.json"));
   EXPECT_EQ(to_json(again).dump(), text);
   EXPECT_EQ(again.parameters[0].exact->y[1], 1.0 / 3);
   EXPECT_FALSE(again.parameters[1].exact);
@@ -31,7 +35,8 @@ TEST(PlotsJson, ReadsWhatItWrote) {
 TEST(PlotsJson, RefusesWhatIsMissing) {
   auto json = to_json(Plots{});
   json.erase("history");
-  EXPECT_THROW(plots_from_json(json), nlohmann::json::exception);
+  EXPECT_EQ(message_of<InputError>([&] { plots_from_json(JsonReader(json, "plots.json")); }),
+            "plots.json is not what wearwell writes: history is missing");
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 #include "wearwell/report/result_folder.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
-#include <sstream>
-
+#include "support/disk_content.h"
+#include "support/run_command.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
 
@@ -15,20 +16,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
-
-std::string content(const fs::path& file) {
-  std::stringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-std::vector<std::string> entries(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    names.push_back(entry.path().filename().string());
-  }
-  return names;
-}
 
 class ResultFolderTest : public ScratchTest {
  protected:
@@ -42,7 +29,7 @@ class ResultFolderTest : public ScratchTest {
   std::string refusal(const fs::path& where) const {
     return message_of<InputError>([&] { ResultFolder{where}; });
   }
-  // The folder beside the target into which files go before the commit.
+  // The hidden folder beside the target into which files go before the commit.
   fs::path staging() const {
     for (const std::string& name : entries(folder())) {
       if (name.front() == '.') return folder() / name;
@@ -52,17 +39,27 @@ class ResultFolderTest : public ScratchTest {
 };
 
 TEST_F(ResultFolderTest, AppearsAtCommit) {
-  const auto study = write("my.toml", "title = 1\n");
   ResultFolder result(target);
   result.write("summary.json", "{}");
-  result.copy(study, "study.toml");
+  result.write("study.toml", "title = 1\n");
   EXPECT_FALSE(fs::exists(target));
   result.commit();
-  EXPECT_THAT(entries(target), UnorderedElementsAre("summary.json", "study.toml"));
+  EXPECT_THAT(entries(target), ElementsAre("results.sha1", "study.toml", "summary.json"));
   EXPECT_EQ(content(target / "summary.json"), "{}");
   EXPECT_EQ(content(target / "study.toml"), "title = 1\n");
-  EXPECT_THAT(entries(folder()), UnorderedElementsAre("my.toml", "results"));
+  EXPECT_THAT(entries(folder()), ElementsAre("results"));
   EXPECT_EQ(result.path(), target);
+}
+
+// coreutils is the other who can compute SHA-1.
+TEST_F(ResultFolderTest, ListAgreesWithSha1sum) {
+  ResultFolder result(target);
+  result.write("summary.json", std::string(100'000, 'x'));
+  result.write("a file", "");
+  result.commit();
+  const CommandResult run = run_command("cd '" + target.string() + "' && sha1sum -c results.sha1");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out, "summary.json: OK\na file: OK\n");
 }
 
 TEST_F(ResultFolderTest, LeavesNothingWithoutCommit) {
@@ -73,20 +70,12 @@ TEST_F(ResultFolderTest, LeavesNothingWithoutCommit) {
   EXPECT_THAT(entries(folder()), IsEmpty());
 }
 
-TEST_F(ResultFolderTest, LeavesAloneWhatOthersPutIntoAParent) {
-  {
-    ResultFolder result(folder() / "a" / "b" / "results");
-    std::ofstream(folder() / "a" / "others.txt") << "precious";
-  }
-  EXPECT_THAT(entries(folder()), ElementsAre("a"));
-  EXPECT_THAT(entries(folder() / "a"), ElementsAre("others.txt"));
-}
-
 TEST_F(ResultFolderTest, MakesParentsAndReadsTrailingSlash) {
   ResultFolder result(folder() / "a" / "b" / "results/");
   result.write("summary.json", "{}");
   result.commit();
-  EXPECT_THAT(entries(folder() / "a" / "b" / "results"), ElementsAre("summary.json"));
+  EXPECT_THAT(entries(folder() / "a" / "b" / "results"),
+              ElementsAre("results.sha1", "summary.json"));
 }
 
 TEST_F(ResultFolderTest, ReplacesAnEarlierResultWhole) {
@@ -97,7 +86,7 @@ TEST_F(ResultFolderTest, ReplacesAnEarlierResultWhole) {
     first.commit();
   }
   put_result("2");
-  EXPECT_THAT(entries(target), ElementsAre("summary.json"));
+  EXPECT_THAT(entries(target), ElementsAre("results.sha1", "summary.json"));
   EXPECT_EQ(content(target / "summary.json"), "2");
   EXPECT_THAT(entries(folder()), ElementsAre("results"));
 }
@@ -111,15 +100,55 @@ TEST_F(ResultFolderTest, TakesAnEmptyFolder) {
 TEST_F(ResultFolderTest, RefusesWhatIsNotOurs) {
   EXPECT_THAT(refusal(write("file", "")), HasSubstr("it is not a folder"));
   fs::create_directory(folder() / "project");
-  write("project/study.txt", "");
-  EXPECT_THAT(refusal(folder() / "project"), HasSubstr("it holds study.txt, which is no result"));
-  fs::create_directory(folder() / "study");
-  write("study/study.toml", "");
-  EXPECT_THAT(refusal(folder() / "study"), HasSubstr("holds no summary.json"));
+  write("project/study.toml", "");
+  EXPECT_THAT(refusal(folder() / "project"), HasSubstr("it holds study.toml, and no results.sha1"));
   put_result("1");
   write("results/notes.txt", "precious");
-  EXPECT_THAT(refusal(target), HasSubstr("it holds notes.txt"));
-  EXPECT_THAT(entries(target), UnorderedElementsAre("summary.json", "notes.txt"));
+  EXPECT_THAT(refusal(target), HasSubstr("it holds notes.txt, which is no result"));
+  fs::remove(target / "notes.txt");
+  write("results/summary.json", "edited");
+  EXPECT_THAT(refusal(target),
+              HasSubstr("it holds summary.json, which was changed since wearwell wrote it"));
+  fs::remove(target / "summary.json");
+  put_result("2");
+  fs::remove(target / "summary.json");
+  write("victim", "2");
+  fs::create_symlink("../victim", target / "summary.json");
+  EXPECT_THAT(refusal(target), HasSubstr("summary.json"));
+  EXPECT_THAT(entries(target), ElementsAre("results.sha1", "summary.json"));
+}
+
+TEST_F(ResultFolderTest, KeepsWhatComesMeanwhile) {
+  put_result("1");
+  ResultFolder result(target);
+  result.write("summary.json", "2");
+  write("results/notes.txt", "precious");
+  fs::create_directory(target / "figures");
+  write("results/figures/a.png", "precious");
+  result.commit();
+  EXPECT_EQ(content(target / "summary.json"), "2");
+  EXPECT_EQ(content(target / "notes.txt"), "precious");
+  EXPECT_EQ(content(target / "figures" / "a.png"), "precious");
+  EXPECT_THAT(entries(folder()), ElementsAre("results"));
+}
+
+TEST_F(ResultFolderTest, KeepsAResultThatIsEditedMeanwhile) {
+  put_result("1");
+  ResultFolder result(target);
+  result.write("summary.json", "2");
+  write("results/summary.json", "precious");
+  EXPECT_THAT(message_of<InputError>([&] { result.commit(); }), HasSubstr("summary.json"));
+  EXPECT_EQ(content(target / "summary.json"), "precious");
+}
+
+TEST_F(ResultFolderTest, OfTwoAtOnceTheLastIsThere) {
+  ResultFolder one(target), other(target);
+  one.write("summary.json", "1");
+  other.write("summary.json", "2");
+  one.commit();
+  other.commit();
+  EXPECT_EQ(content(target / "summary.json"), "2");
+  EXPECT_THAT(entries(folder()), ElementsAre("results"));
 }
 
 TEST_F(ResultFolderTest, RefusesAParentThatCannotBeWritten) {
@@ -139,34 +168,44 @@ TEST_F(ResultFolderTest, NameMayBeAsLongAsAFolderMay) {
   EXPECT_TRUE(fs::exists(longest / "summary.json"));
 }
 
-TEST_F(ResultFolderTest, FullDisk) {
-  put_result("1");
-  {
-    ResultFolder result(target);
-    fs::create_symlink("/dev/full", staging() / "summary.json");
-    EXPECT_THAT(message_of<MachineError>([&] { result.write("summary.json", "2"); }),
-                HasSubstr("is the disk full?"));
-  }
-  EXPECT_THAT(entries(folder()), ElementsAre("results"));
-  EXPECT_EQ(content(target / "summary.json"), "1");
-}
-
 TEST_F(ResultFolderTest, FailedCommitKeepsTheEarlierResult) {
   put_result("1");
   {
     ResultFolder result(target);
     fs::remove_all(staging());
-    EXPECT_THROW(result.write("summary.json", "2"), MachineError);
-    EXPECT_THROW(result.commit(), MachineError);
+    EXPECT_THROW(result.write("summary.json", "2"), InputError);
+    EXPECT_THROW(result.commit(), InputError);
   }
   EXPECT_THAT(entries(folder()), ElementsAre("results"));
   EXPECT_EQ(content(target / "summary.json"), "1");
 }
 
-TEST_F(ResultFolderTest, OnlyFilesOfAResult) {
-  ResultFolder result(target);
-  EXPECT_THROW(result.write("notes.txt", ""), std::logic_error);
-  EXPECT_THROW(result.copy(folder() / "absent.toml", "study.toml"), MachineError);
+TEST_F(ResultFolderTest, RestoresWhatAKillLeftAside) {
+  put_result("1");
+  const fs::path area = folder() / ".wearwell.unfinished.abcdefghijkl";
+  fs::create_directories(area / "old");
+  fs::create_directories(area / "new" / "results");
+  fs::rename(target, area / "old" / "results");
+  write(".wearwell.unfinished.abcdefghijkl/journal",
+        std::string("results\0=summary.json\0whole\0", 28));
+  { ResultFolder result(target); }
+  EXPECT_EQ(content(target / "summary.json"), "1");
+  EXPECT_THAT(entries(folder()), ElementsAre("results"));
+}
+
+TEST_F(ResultFolderTest, ReplacesOneResultAndItsLine) {
+  put_result("1");
+  replace_result(target, "report.html", "page");
+  replace_result(target, "report.html", "other page");
+  replace_result(target, "report.html", "other page");
+  EXPECT_EQ(content(target / "report.html"), "other page");
+  EXPECT_EQ(run_command("cd '" + target.string() + "' && sha1sum -c results.sha1").out,
+            "summary.json: OK\nreport.html: OK\n");
+  put_result("2");
+  EXPECT_THAT(entries(target), ElementsAre("results.sha1", "summary.json"));
+  write("report.html", "alone");
+  replace_result(folder(), "report.html", "page");
+  EXPECT_FALSE(fs::exists(folder() / "results.sha1")) << "no folder of results";
 }
 
 }  // namespace

@@ -30,6 +30,53 @@ TEST(TerminalSummary, SaysWhatWasFound) {
   EXPECT_THAT(text, EndsWith("\n"));
 }
 
+// Whatever stands in a study or in a folder from elsewhere: no text of it moves the cursor or writes
+// a verdict of its own.
+TEST(TerminalSummary, NoTextCommandsTheTerminal) {
+  const std::string evil = "\x1b]0;owned\x07\u009b2J\u202e\nTrusted: no check failed.\n";
+  StudyResult result = sample_result();
+  result.title = result.equation = result.data_file = evil;
+  for (auto& p : result.parameters) p.name = p.unit = evil;
+  for (auto& p : result.predictions) p.at_name = p.quantity = p.unit = evil;
+  for (auto& p : result.mode->parameters) p.name = p.unit = p.at = evil;
+  for (auto& check : result.checks) check.name = check.detail = check.advice = evil;
+  result.stages[0].parameters = result.parameters;
+  result.loo->observation = evil;
+  result.life->unit = result.life->limit_unit = evil;
+  result.pointwise->k_unit = evil;
+  result.quantities = {{evil, evil, evil, evil, true, {}, {}}};
+  result.coverage = CoverageTable{evil, {{1, evil, evil, 1, {}, 0.5, 1, 2, 1}}};
+  for (const bool histograms : {false, true}) {
+    const std::string text = terminal_summary(result, {.histograms = histograms});
+    for (const char* command : {"\x1b", "\x07", "\u009b", "\u202e"})
+      EXPECT_THAT(text, Not(HasSubstr(command)));
+    EXPECT_THAT(text, EndsWith("not to be used as they stand.\n"));
+  }
+  const std::string head = terminal_summary(result, {}).substr(0, 400);
+  EXPECT_THAT(head, Not(HasSubstr("\nTrusted")));
+}
+
+TEST(TerminalSummary, LongTablesAreCut) {
+  StudyResult result = sample_result();
+  result.pointwise->rows.assign(5000, result.pointwise->rows[0]);
+  const std::string text = terminal_summary(result, {});
+  EXPECT_THAT(text, HasSubstr("  ... and 4800 more in pointwise.csv\n"));
+  EXPECT_LT(text.size(), 40'000u);
+}
+
+// That the limit may be passed is said before when to inspect again.
+TEST(TerminalSummary, SaysFirstThatTheLimitIsPassed) {
+  StudyResult result = sample_result();
+  result.life->drawn.passed = 0.9;
+  const std::string text = terminal_summary(result, {});
+  EXPECT_THAT(text, HasSubstr("passed already with a probability of 90 %: more than the risk of 1 %"));
+  EXPECT_LT(text.find("passed already"), text.find("inspect again"));
+  result.life->drawn.passed = 1e-9;
+  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("a probability of less than 0.01 %\n"));
+  result.life->drawn.b50 = std::nan("");
+  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("B50 unknown"));
+}
+
 TEST(TerminalSummary, OfTheBareMinimum) {
   StudyResult result = sample_result();
   result.stages.clear();

@@ -3,13 +3,17 @@
 #include <gmock/gmock.h>
 
 #include "clutch/sample_campaign.h"
+#include "support/json_mutations.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/clutch/cycle_sum.h"
 
 namespace wearwell::clutch {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 WearModel odd_model() {
   WearModel model = constant_model(mm3_per_MJ / 3, 0, {0.1 + 0.2, 4, 78e6 / 7, 6e6});
@@ -71,6 +75,73 @@ TEST_F(ClutchModelFile, RefusesByWhatIsWrong) {
               HasSubstr("cannot read"));
 }
 
+// Whatever is changed in a file: it is read with finite numbers, or refused by file and key.
+template <class Read>
+void expect_read_or_refused(const std::string& what, const Read& read, int& refused) {
+  try {
+    read();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                AllOf(HasSubstr(".json"), Not(HasSubstr("json.exception")), Not(HasSubstr("\x1b"))))
+        << what;
+    ++refused;
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << what << ": " << error.what();
+  }
+}
+
+TEST_F(ClutchModelFile, ReadsOrRefusesWhateverIsChanged) {
+  int refused = 0;
+  mutations(to_json(odd_model()), [&](const std::string& what, const nlohmann::ordered_json& json) {
+    const auto file = write("model.json", json.dump());
+    const auto read = [&] {
+      const WearModel model = read_model(file);
+      EXPECT_TRUE(model.covariance.allFinite() && model.run_in_covariance.allFinite()) << what;
+      EXPECT_TRUE(model.worn_out > 0 && std::isfinite(model.worn_out)) << what;
+      for (const ModelTerm& term : model.terms)
+        EXPECT_TRUE(std::isfinite(term.coefficient) && std::isfinite(term.minimum)) << what;
+      CycleSum sum(model, true);
+    };
+    expect_read_or_refused(what, read, refused);
+  });
+  EXPECT_GT(refused, 500);
+}
+
+TEST_F(ClutchModelFile, ReadsOrRefusesAnyState) {
+  PlateWear one, two;
+  one.plate = 1;
+  two.plate = 2;
+  for (PlateWear* p : {&one, &two}) {
+    p->cycles = p->last_number = 10;
+    p->energy = 1e6;
+    p->volume = 1e-6;
+    p->variance = 1e-15;
+    p->replicates = Eigen::ArrayXd{{1e-6, 2e-6}};
+  }
+  const std::string whole = state_text({one, two}, "abc");
+  int refused = 0;
+  mutations(nlohmann::ordered_json::parse(whole), [&](const std::string& what, const auto& json) {
+    const auto file = write("state.json", json.dump());
+    const auto read = [&] {
+      for (const PlateWear& p : read_state(file, "abc", 2)) {
+        EXPECT_TRUE(std::isfinite(p.sd()) && std::isfinite(p.energy) && p.energy >= 0) << what;
+        EXPECT_TRUE(p.replicates.size() == 2 && p.replicates.isFinite().all()) << what;
+      }
+    };
+    expect_read_or_refused(what, read, refused);
+  });
+  EXPECT_GT(refused, 150);
+  auto twice = nlohmann::ordered_json::parse(whole);
+  twice["plates"][1]["plate"] = 1;
+  const auto file = write("state.json", twice.dump());
+  EXPECT_THAT(message_of<InputError>([&] { read_state(file, "abc", 2); }),
+              HasSubstr("plates[1] is plate 1 a second time"));
+  twice["plates"][1]["variance"] = nullptr;
+  write("state.json", twice.dump());
+  EXPECT_THAT(message_of<InputError>([&] { read_state(file, "abc", 2); }),
+              HasSubstr("plates[1].variance should be a number, and is null"));
+}
+
 TEST_F(ClutchModelFile, StateLosesNoBit) {
   PlateWear p;
   p.plate = 12;
@@ -94,6 +165,15 @@ TEST_F(ClutchModelFile, StateLosesNoBit) {
               HasSubstr("belongs to another model"));
   EXPECT_THAT(message_of<InputError>([&] { read_state(file, "abc", 0); }),
               HasSubstr("it holds 2 replicates and 0 are wanted"));
+}
+
+TEST_F(ClutchModelFile, StateWithoutANumberIsNamed) {
+  PlateWear p;
+  p.plate = 12;
+  p.variance = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(message_of<InputError>(
+                  [&] { read_state(write("state.json", state_text({p}, "abc")), "abc", 0); }),
+              HasSubstr("plates[0].variance should be a number, and is null"));
 }
 
 }  // namespace

@@ -80,6 +80,22 @@ TEST_F(PriorTest, UnitIsTheFirstOneWritten) {
   EXPECT_EQ(read(R"(law = "jeffreys", unit = "mm")", positive).law, "jeffreys");
 }
 
+// 30 beside "%" may be 30 or 30 %.
+TEST_F(PriorTest, APlainNumberBesideAUnitIsRefused) {
+  EXPECT_THAT(refusal(R"(law = "half-normal", scale = 30, unit = "%")", plain),
+              testing::AllOf(HasSubstr("x.scale: 30 stands beside '%'"), HasSubstr("= 0.3")));
+  EXPECT_DOUBLE_EQ(read(R"(law = "half-normal", scale = "30 %")", plain).scale,
+                   read(R"(law = "half-normal", scale = 0.3)", plain).scale);
+  const ParameterSpec count{"x", "cycle", 0, infinity, 1};
+  EXPECT_THAT(refusal(R"(law = "half-normal", scale = 4, unit = "1e3 cycles")", count),
+              HasSubstr("= 4000"));
+  EXPECT_THAT(refusal(R"(law = "normal", mean = "2 Mrev", sd = 3)", count), HasSubstr("x.sd: 3"));
+  EXPECT_THAT(refusal(R"(law = "half-normal", scale = "4 rad")", count), HasSubstr("an angle"));
+  EXPECT_NO_THROW(read(R"(law = "normal", mean = "2 Mrev", sd = "3 krev", lower = 0)", count));
+  EXPECT_NO_THROW(read(R"(law = "half-normal", scale = 4, unit = "turns")", count));
+  EXPECT_THAT(refusal(R"(law = "half-normal", scale = "4 cycles")", plain), HasSubstr("a count"));
+}
+
 TEST_F(PriorTest, SupportIsCutByBoundsAndByPhysics) {
   const Parameter cut =
       read(R"(law = "normal", mean = "3 mm", sd = "1 mm", lower = "-1 mm")", positive);

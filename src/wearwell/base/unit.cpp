@@ -1,74 +1,211 @@
 #include "wearwell/base/unit.h"
 
 #include <fmt/format.h>
-#include <udunits2.h>
 
+#include <array>
 #include <boost/algorithm/string/trim.hpp>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <memory>
+#include <numbers>
+#include <stdexcept>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/unit_system.h"
 
 namespace wearwell {
 namespace {
 
-struct Free {
-  void operator()(ut_system* system) const { ut_free_system(system); }
-  void operator()(ut_unit* unit) const { ut_free(unit); }
-  void operator()(cv_converter* converter) const { cv_free(converter); }
-};
-using System = std::unique_ptr<ut_system, Free>;
-using UtUnit = std::unique_ptr<ut_unit, Free>;
-using Converter = std::unique_ptr<cv_converter, Free>;
+constexpr double two_pi = 2 * std::numbers::pi;
 
-const ut_system* unit_system() {
-  static const System system = [] {
-    ut_set_error_message_handler(ut_ignore);
-    System read{ut_read_xml(nullptr)};
-    if (!read)
-      throw MachineError("cannot read the UDUNITS-2 unit database; is libudunits2 installed?");
-    return read;
-  }();
-  return system.get();
+std::string_view example(std::string_view si) {
+  return si == "K" ? "K' or 'degC" : si;
 }
 
-UtUnit parse(const std::string& text) {
-  return UtUnit{ut_parse(unit_system(), text.c_str(), UT_UTF8)};
+int power(const Dimension& dimension, const char* base) {
+  const auto found = dimension.find(base);
+  return found == dimension.end() ? 0 : found->second;
+}
+
+Dimension without_turns(Dimension dimension) {
+  dimension.erase("cycle");
+  dimension.erase("radian");
+  return dimension;
+}
+
+// The SI units that hold a speed of rotation, and its power.
+int rotation_power(std::string_view si) {
+  if (si == "rev/s" || si == "rad/s") return 1;
+  return si == "m^3 s/(J rad)" ? -1 : 0;
+}
+
+[[noreturn]] void refuse_bare_speed(std::string_view written, double value, double per_second) {
+  const double s = value * per_second;
+  throw InputError(fmt::format(
+      "'{}{}' counts neither revolutions nor radians: it is {:.4g} rev/s = {:.4g} "
+      "rad/s, or {:.4g} rad/s = {:.4g} rev/s; write rev/s (rpm, Hz) or rad/s",
+      value == 1 ? "" : fmt::format("{:.6g} ", value), written, s, two_pi * s, s, s / two_pi));
+}
+
+// Between revolutions and radians of a speed of rotation; 0 for another dimension.
+double rotation_factor(const ParsedUnit& unit, const Dimension& wanted, int rotations,
+                       std::string_view written, double value) {
+  const int cycles = power(unit.dimension, "cycle"), radians = power(unit.dimension, "radian");
+  if (without_turns(unit.dimension) != without_turns(wanted)) return 0;
+  bool in_turns = cycles == rotations && radians == 0;
+  const bool in_radians = cycles == 0 && radians == rotations;
+  if (cycles == 0 && radians == 0) {
+    constexpr double per_minute = 1.0 / 60;
+    if (rotations != 1) {
+      throw InputError(
+          fmt::format("'{}' counts neither revolutions nor radians, which differ by 2 pi; write "
+                      "rev or rad into it",
+                      written));
+    }
+    if (std::abs(unit.scale - per_minute) > 1e-12 * per_minute)
+      refuse_bare_speed(written, value, unit.scale);
+    in_turns = true;
+  }
+  if (in_turns == in_radians) return 0;
+  const bool wants_turns = power(wanted, "cycle") != 0;
+  if (in_turns == wants_turns) return 1;
+  return std::pow(two_pi, in_turns ? rotations : -rotations);
+}
+
+[[noreturn]] void refuse_dimension(const Dimension& dimension, const Dimension& wanted,
+                                   std::string_view written, std::string_view si) {
+  Dimension reciprocal = dimension;
+  for (auto& [base, exponent] : reciprocal) exponent = -exponent;
+  const char* fault = "has the wrong dimension";
+  if (!dimension.empty() && without_turns(reciprocal) == without_turns(wanted) &&
+      without_turns(dimension) != without_turns(wanted)) {
+    fault = "is one over what it should be";
+  } else if (without_turns(dimension) == without_turns(wanted)) {
+    fault = power(dimension, "radian") != power(wanted, "radian")
+                ? "holds an angle, which is neither a count nor a number"
+                : "holds a count of cycles or revolutions, which has no place here";
+  }
+  // "mm^3/N m" is (mm^3/N) m.
+  std::string hint;
+  if (const auto slash = written.find('/'); slash != written.npos) {
+    hint = fmt::format("{}/({})", written.substr(0, slash), written.substr(slash + 1));
+    const auto hinted = parse_unit(hint);
+    hint = hinted && hinted->dimension == wanted ? fmt::format("; did you mean '{}'?", hint) : "";
+  }
+  throw InputError(
+      fmt::format("unit '{}' {} (expected one like '{}'{})", written, fault, example(si), hint));
+}
+
+// "mm 3": UDUNITS-2 multiplies by a number that stands behind.
+void refuse_number_behind(const std::string& written) {
+  for (std::size_t i = 1; i < written.size(); ++i) {
+    const auto is = [&](int (*kind)(int), std::size_t at) {
+      return kind(static_cast<unsigned char>(written[at])) != 0;
+    };
+    if (!is(std::isdigit, i) || !is(std::isspace, i - 1)) continue;
+    std::size_t before = i - 1;
+    while (before > 0 && is(std::isspace, before)) --before;
+    if (!is(std::isalnum, before) && written[before] != ')') continue;
+    throw InputError(
+        fmt::format("'{}': is the number behind the space a factor or a power? Write a factor in "
+                    "front and a power with ^",
+                    written));
+  }
+}
+
+bool starts_with_number(std::string_view text) {
+  const std::size_t sign = !text.empty() && std::string_view("+-.,").find(text[0]) != text.npos;
+  return text.size() > sign && std::isdigit(static_cast<unsigned char>(text[sign]));
+}
+
+Unit read_linear(const std::string& written, std::string_view si, double value) {
+  const auto wanted = parse_unit(std::string(si));
+  if (!wanted) throw std::logic_error(fmt::format("'{}' is not an SI unit", si));
+  const auto unit = parse_unit(written);
+  if (!unit) {
+    const std::string sizes = two_sizes(written);
+    throw InputError(sizes.empty() ? fmt::format("'{}' is not a unit (expected one like '{}')",
+                                                 written, example(si))
+                                   : fmt::format("'{}' has two sizes: {}", written, sizes));
+  }
+  if (!unit->linear) {
+    throw InputError(
+        fmt::format("'{}' is a logarithm or a point in time, and no unit (expected one like '{}')",
+                    written, si));
+  }
+  refuse_number_behind(written);
+  if (!std::isnormal(unit->scale) || unit->scale < 0 || !std::isfinite(unit->offset)) {
+    throw InputError(
+        fmt::format("'{}' is {} in '{}'; a unit is above 0", written, unit->scale, si));
+  }
+  double factor = 1;
+  if (const int rotations = rotation_power(si); rotations != 0) {
+    factor = rotation_factor(*unit, wanted->dimension, rotations, written, value);
+  } else if (unit->dimension != wanted->dimension) {
+    Dimension counted = unit->dimension;  // what is counted may go without saying
+    const int cycles = power(wanted->dimension, "cycle");
+    if (cycles != 0) counted.emplace("cycle", cycles);
+    factor = counted == wanted->dimension ? 1 : 0;
+  }
+  if (factor == 0) refuse_dimension(unit->dimension, wanted->dimension, written, si);
+  const bool temperature = wanted->dimension == Dimension{{"kelvin", 1}};
+  if (temperature ? starts_with_number(written) : unit->offset != 0) {
+    throw InputError(fmt::format("'{}': where is its zero? (expected one like '{}')", written, si));
+  }
+  if (wanted->dimension == Dimension{{"cycle", 1}} && unit->scale < 0.5) {
+    throw InputError(fmt::format(
+        "'{}' is {:.6g} of one, and a count has no such parts; a million of them is M, as in "
+        "'Mcycles'",
+        written, unit->scale));
+  }
+  return Unit{written, unit->scale * factor, unit->offset};
+}
+
+Unit read_unit(std::string_view text, std::string_view si, double value) {
+  const std::string written = boost::algorithm::trim_copy(std::string(text));
+  if (written == si) return Unit{written, 1, 0};
+  if (!is_logarithm(si)) return read_linear(written, si, value);
+  if (!is_logarithm(written)) {
+    throw InputError(
+        fmt::format("'{}' is not the logarithm of a quantity (write one like '{}')", written, si));
+  }
+  const auto inner = [](std::string_view log) { return log.substr(6, log.size() - 7); };
+  const Unit unit = read_unit(inner(written), inner(si), 1);
+  if (unit.offset != 0)
+    throw InputError(fmt::format("'{}': the unit has an offset, and so no logarithm", written));
+  return Unit{written, 1, std::log10(unit.scale)};
+}
+
+// "35 200 cycles" is 35 times 200 cycles to UDUNITS-2. "60 1/min" is fine.
+void refuse_gap(const std::string& written, double value, const std::string& unit) {
+  if (!starts_with_number(unit)) return;
+  const std::size_t behind = unit.find_first_not_of("0123456789");
+  const std::size_t slash = unit.find_first_not_of(' ', std::min(behind, unit.size()));
+  if (unit.starts_with("1") && behind == 1 && slash != unit.npos && unit[slash] == '/') return;
+  double factor = 0;
+  std::from_chars(unit.data(), unit.data() + unit.size(), factor);
+  throw InputError(
+      fmt::format("'{}' can be read in two ways: as one number with a gap in it, or as {:.6g} "
+                  "times {:.6g}, which is {:.6g}; write the number in one piece",
+                  written, value, factor, value * factor));
 }
 
 }  // namespace
 
 Unit read_unit(std::string_view text, std::string_view si) {
-  const std::string written = boost::algorithm::trim_copy(std::string(text));
-  if (written == si) return Unit{written, 1, 0};
-  if (is_logarithm(si)) {
-    if (!is_logarithm(written)) {
-      throw InputError(fmt::format("'{}' is not the logarithm of a quantity (write one like '{}')",
-                                   written, si));
-    }
-    const auto inner = [](std::string_view log) { return log.substr(6, log.size() - 7); };
-    const Unit unit = read_unit(inner(written), inner(si));
-    if (unit.offset != 0) {
-      throw InputError(fmt::format("'{}': the unit has an offset, and so no logarithm", written));
-    }
-    return Unit{written, 1, std::log10(unit.scale)};
-  }
-  const std::string expected{si};
-  const UtUnit target = parse(expected);
-  if (!target) throw std::logic_error(fmt::format("'{}' is not an SI unit", expected));
-  const UtUnit unit = parse(written);
-  if (!unit) {
-    throw InputError(fmt::format("'{}' is not a unit (expected one like '{}')", written, expected));
-  }
-  const Converter converter{ut_get_converter(unit.get(), target.get())};
-  if (!converter) {
-    throw InputError(fmt::format("unit '{}' has the wrong dimension (expected one like '{}')",
-                                 written, expected));
-  }
-  const double offset = cv_convert_double(converter.get(), 0.0);
-  const double scale = cv_convert_double(converter.get(), 1.0) - offset;
-  return Unit{written, scale, offset};
+  return read_unit(text, si, 1);
+}
+
+bool may_be_plain(std::string_view si) {
+  if (is_logarithm(si)) return false;
+  const auto unit = parse_unit(std::string(si));
+  return unit && (unit->dimension.empty() || unit->dimension == Dimension{{"cycle", 1}});
+}
+
+bool is_number(const Unit& unit) {
+  if (is_logarithm(unit.text)) return false;
+  const auto parsed = parse_unit(unit.text);
+  return parsed && parsed->dimension.empty();
 }
 
 Quantity read_quantity(std::string_view text, std::string_view si) {
@@ -80,11 +217,24 @@ Quantity read_quantity(std::string_view text, std::string_view si) {
     throw InputError(fmt::format("'{}' is not a number with a unit (like '1.5 {}')", written, si));
   }
   const std::string unit = boost::algorithm::trim_copy(std::string(rest, end));
-  if (unit.empty() && si != "1") {
+  if (unit.empty() && !may_be_plain(si)) {
     throw InputError(
         fmt::format("'{}' has no unit (write one like '{} {}')", written, written, si));
   }
-  return Quantity{value, read_unit(unit.empty() ? "1" : unit, si)};
+  if (unit.empty()) return Quantity{value, Unit{"1", 1, 0}};
+  refuse_gap(written, value, unit);
+  const Quantity quantity{value, read_unit(unit, si, value)};
+  if (!std::isfinite(quantity.si())) throw InputError(fmt::format("'{}' is infinite", written));
+  if (si == "K" && quantity.si() < 0)
+    throw InputError(fmt::format("'{}' is below absolute zero", written));
+  return quantity;
+}
+
+void refuse_two_readings(const Quantity& quantity, const Unit& beside) {
+  if (quantity.unit.text != "1" || quantity.value == 0 || beside.scale == 1) return;
+  throw InputError(fmt::format(
+      "{} stands beside '{}': is it {}, or {} '{}' = {:.6g}? write its unit", quantity.value,
+      beside.text, quantity.value, quantity.value, beside.text, quantity.value * beside.scale));
 }
 
 }  // namespace wearwell

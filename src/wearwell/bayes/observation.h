@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "wearwell/bayes/normal_score.h"
 #include "wearwell/prob/lognormal.h"
 #include "wearwell/prob/normal.h"
 
@@ -12,6 +13,38 @@ namespace wearwell {
 /// How a measurement scatters about its mean: normal, or lognormal with mean and standard deviation
 /// of the quantity itself (An et al. 2011, eqs. 7 and 8).
 enum class ObservationFamily { normal, lognormal };
+
+/// The law of one measurement whose mean and standard deviation are known, ready for many
+/// evaluations: normal in y, or in log y for the lognormal family.
+struct ObservationLaw {
+  double location;
+  double scale;
+
+  ObservationLaw(ObservationFamily family, double mean, double sd) : location(mean), scale(sd) {
+    if (family == ObservationFamily::lognormal) {
+      // A lognormal quantity vanishes with its mean: the median is mean^2/sqrt(mean^2 + sd^2).
+      if (!(mean > 1e-150 * sd)) {
+        location = -std::numeric_limits<double>::infinity();
+        return;
+      }
+      if (!std::isfinite(mean)) return;  // beyond all that can be read
+      const LognormalByMoments<double> law(mean, sd);
+      location = law.eta;
+      scale = law.zeta;
+    }
+  }
+
+  /// (t - location)/scale: the measurement's place in the standard normal law.
+  double score(double t) const { return (t - location) / scale; }
+
+  /// P(measurement <= y), where `t` is y, or log y for the lognormal family.
+  double cdf(double t) const {
+    const double z = (location - t) / (scale * std::sqrt(2.0));
+    if (z > 6) return 0;  // erfc(6) = 2e-17; mixtures ask for many that are 0 or 1
+    if (z < -6) return 1;
+    return 0.5 * std::erfc(z);
+  }
+};
 
 /// Measurements of one quantity, all with the same standard deviation, in SI.
 class Observations {
@@ -60,37 +93,20 @@ class Observations {
     return terms;
   }
 
+  /// Where each measurement lies in its law.
+  template <class Mean>
+  std::vector<NormalScore> scores(const Mean& mean, double sd) const {
+    std::vector<NormalScore> scores;
+    for (std::size_t i = 0; i < y_.size(); ++i) {
+      const double z = ObservationLaw(family_, mean(i), sd).score(y_[i]);
+      scores.push_back({z, z});
+    }
+    return scores;
+  }
+
  private:
   ObservationFamily family_;
   std::vector<double> y_;  // log y for the lognormal family
-};
-
-/// The law of one measurement whose mean and standard deviation are known, ready for many
-/// evaluations: normal in y, or in log y for the lognormal family.
-struct ObservationLaw {
-  double location;
-  double scale;
-
-  ObservationLaw(ObservationFamily family, double mean, double sd) : location(mean), scale(sd) {
-    if (family == ObservationFamily::lognormal) {
-      // A lognormal quantity vanishes with its mean: the median is mean^2/sqrt(mean^2 + sd^2).
-      if (!(mean > 1e-150 * sd)) {
-        location = -std::numeric_limits<double>::infinity();
-        return;
-      }
-      const LognormalByMoments<double> law(mean, sd);
-      location = law.eta;
-      scale = law.zeta;
-    }
-  }
-
-  /// P(measurement <= y), where `t` is y, or log y for the lognormal family.
-  double cdf(double t) const {
-    const double z = (location - t) / (scale * std::sqrt(2.0));
-    if (z > 6) return 0;  // erfc(6) = 2e-17; mixtures ask for many that are 0 or 1
-    if (z < -6) return 1;
-    return 0.5 * std::erfc(z);
-  }
 };
 
 }  // namespace wearwell

@@ -33,7 +33,10 @@ Posterior::Posterior(std::vector<Parameter> parameters,
   for (const Parameter& p : parameters_) {
     const Law& prior = p.prior;
     if (!(prior.lower < p.start && p.start < prior.upper)) {
-      throw std::logic_error(fmt::format("posterior: start of {} is outside its support", p.name));
+      throw InputError(
+          fmt::format("prior.{}: its law leaves no number between {:.17g} and {:.17g} {} to start "
+                      "from",
+                      p.name, prior.lower, prior.upper, p.si));
     }
     // From a bound, one unit of z is a factor of e in the distance to it.
     const double scale = std::isfinite(prior.lower)   ? p.start - prior.lower

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "wearwell/math/quantile.h"
@@ -41,26 +42,42 @@ Distribution::Distribution(const WeightedDraws& draws,
   struct Point {
     double center, half_width, weight;
   };
+  // Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
+  constexpr double negligible = 1e-8;
+  const double least = cells_ ? negligible / static_cast<double>(draws.values.rows()) : 0;
   std::vector<Point> points;
+  double total = 0, undefined = 0;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
-    if (draws.cell_weight(i) == 0) continue;  // 0 times an infinite life is no number
+    const double weight = draws.cell_weight(i);
+    if (!(weight > least)) continue;
     const double at_node = quantity(draws.values.row(i).data());
-    double center = at_node, variance = 0;
+    if (std::isnan(at_node)) {
+      undefined += weight;
+      continue;
+    }
+    double center = at_node, half_width = 0;
     for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
       const double a = quantity(draws.lower[axis].row(i).data());
       const double b = quantity(draws.upper[axis].row(i).data());
-      if (!std::isfinite(a) || !std::isfinite(b)) continue;
+      const double half = 0.5 * b - 0.5 * a;
+      if (!std::isfinite(half)) continue;
       const Along along(draws, i, axis);
-      if (draws.has_cells()) {
-        center += along.of_lower(along.mean, along.square) * (a - at_node) +
-                  along.of_upper(along.mean, along.square) * (b - at_node);
-      } else {
-        center += 0.5 * (a + b) - at_node;
-      }
-      variance += (along.square - along.mean * along.mean) * (b - a) * (b - a);
+      center += draws.has_cells() ? along.of_lower(along.mean, along.square) * (a - at_node) +
+                                        along.of_upper(along.mean, along.square) * (b - at_node)
+                                  : 0.5 * a + 0.5 * b - at_node;
+      // Evenly spread mass has the variance of a third of the square of half its width. The square of
+      // the width itself may be no number.
+      half_width = std::hypot(
+          half_width, half * std::sqrt(12 * (along.square - along.mean * along.mean)));
     }
-    points.push_back({center, std::sqrt(3 * variance), draws.cell_weight(i)});
+    if (!std::isfinite(center + half_width) || !std::isfinite(center - half_width)) {
+      center = at_node;
+      half_width = 0;
+    }
+    total += weight;
+    points.push_back({center, half_width, weight});
   }
+  if (undefined > negligible * (total + undefined)) points.clear();  // it has no distribution
   std::sort(points.begin(), points.end(),
             [](const Point& a, const Point& b) { return a.center < b.center; });
   for (const Point& point : points) {
@@ -71,6 +88,7 @@ Distribution::Distribution(const WeightedDraws& draws,
 }
 
 double Distribution::mean() const {
+  if (center_.empty()) return std::nan("");
   return std::inner_product(center_.begin(), center_.end(), weight_.begin(), 0.0);
 }
 
@@ -96,6 +114,7 @@ double Distribution::cdf(double x) const {
 
 double Distribution::quantile(double p) const {
   const std::size_t n = center_.size();
+  if (n == 0) return std::nan("");
   if (!cells_) {
     // Between an end that is never reached (infinity) and a neighbour there is nothing to
     // interpolate.
@@ -107,14 +126,16 @@ double Distribution::quantile(double p) const {
   while (i + 1 < n && below + weight_[i] < p) below += weight_[i++];
   if (!std::isfinite(center_[i])) return center_[i];
   // The root lies between the outermost ends of finite cells, whatever rounding makes of their
-  // total weight; from around cell i outward.
+  // total weight. It is looked for from around cell i outward: how far the others reach says
+  // nothing of it.
   double lowest = center_[i], highest = center_[i];
   for (std::size_t j = 0; j < n && std::isfinite(center_[j]); ++j) {
     lowest = std::min(lowest, center_[j] - half_width_[j]);
     highest = std::max(highest, center_[j] + half_width_[j]);
   }
   const auto excess = [&](double x) { return cdf(x) - p; };
-  double reach = std::max(2 * half_width_[i], 1e-12 * (highest - lowest));
+  double reach = std::max({2 * half_width_[i], 1e-12 * std::abs(center_[i]),
+                           std::numeric_limits<double>::min()});
   double a = std::max(lowest, center_[i] - reach), b = std::min(highest, center_[i] + reach);
   while (a > lowest && excess(a) > 0) a = std::max(lowest, a - (reach *= 2));
   while (b < highest && excess(b) < 0) b = std::min(highest, b + (reach *= 2));

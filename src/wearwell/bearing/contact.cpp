@@ -20,11 +20,4 @@ std::optional<Contact> contact_named(std::string_view name) {
   return static_cast<Contact>(found - names.begin());
 }
 
-bool is_angle(const std::string& unit) {
-  const auto words = {"rpm",   "rps",    "cps", "rev", "turn", "rot",
-                      "cycle", "circle", "rad", "deg", "°"};
-  return std::any_of(words.begin(), words.end(),
-                     [&](const char* word) { return unit.find(word) != unit.npos; });
-}
-
 }  // namespace wearwell::bearing

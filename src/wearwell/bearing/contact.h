@@ -22,8 +22,4 @@ const char* contact_name(Contact contact);
 /// None for a word that is not in `contact_names`.
 std::optional<Contact> contact_named(std::string_view name);
 
-/// True for a unit that UDUNITS-2 reads as an angle or an angular speed (rpm, rad/s, revolution)
-/// and so measures in radians; speeds and lives of bearings count revolutions.
-bool is_angle(const std::string& unit);
-
 }  // namespace wearwell::bearing

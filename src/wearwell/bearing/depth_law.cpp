@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "wearwell/bearing/wear_number.h"
 
@@ -38,6 +40,8 @@ DepthCurve::Point DepthCurve::operator()(double x) const {
 }
 
 DepthCurve::Point DepthCurve::solve(double x) const {
+  constexpr double nothing = -600;  // depths below 1e-170 radii, where solving would underflow
+  if (!(x > nothing)) return {0, 0};
   const double w = std::exp(x);
   const double delta = depth_for(contact_, sigma_, w);
   if (!(delta > 0)) return {0, 0};  // w has underflown
@@ -45,30 +49,27 @@ DepthCurve::Point DepthCurve::solve(double x) const {
 }
 
 std::vector<DepthLaw> depth_laws(const std::vector<Duty>& duties, double k) {
-  constexpr double reach = 6;
-  const auto log_wear = [k](const Duty& d) { return std::log(k * d.pressure * d.revolutions); };
-  std::vector<DepthLaw> laws;
-  for (std::size_t i = 0; i < duties.size(); ++i) {
-    const Duty& duty = duties[i];
-    const double sigma = duty.clearance / duty.radius;
-    const auto same = [&](const Duty& other) {
-      return other.contact == duty.contact && other.clearance / other.radius == sigma;
-    };
-    const auto first =
-        static_cast<std::size_t>(std::find_if(duties.begin(), duties.end(), same) - duties.begin());
+  constexpr double below = 10, above = 6;
+  struct Range {
+    double from = std::numeric_limits<double>::infinity(), to = -from;
     std::shared_ptr<const DepthCurve> curve;
-    if (first < i) {
-      curve = laws[first].curve;
-    } else {
-      double from = log_wear(duty), to = from;
-      for (const Duty& other : duties) {
-        if (!same(other)) continue;
-        from = std::min(from, log_wear(other));
-        to = std::max(to, log_wear(other));
-      }
-      curve = std::make_shared<DepthCurve>(duty.contact, sigma, from - reach, to + reach);
-    }
-    laws.push_back({curve, duty.radius, std::log(duty.pressure * duty.revolutions)});
+  };
+  const auto kind = [](const Duty& d) { return std::pair(d.contact, d.clearance / d.radius); };
+  std::map<std::pair<Contact, double>, Range> ranges;
+  for (const Duty& duty : duties) {
+    const double log_wear = std::log(k * duty.pressure * duty.revolutions);
+    Range& range = ranges[kind(duty)];
+    range.from = std::min(range.from, log_wear);
+    range.to = std::max(range.to, log_wear);
+  }
+  for (auto& [key, range] : ranges) {
+    range.curve = std::make_shared<DepthCurve>(key.first, key.second, range.from - below,
+                                               range.to + above);
+  }
+  std::vector<DepthLaw> laws;
+  for (const Duty& duty : duties) {
+    laws.push_back(
+        {ranges[kind(duty)].curve, duty.radius, std::log(duty.pressure * duty.revolutions)});
   }
   return laws;
 }

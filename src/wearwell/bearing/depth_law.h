@@ -42,6 +42,12 @@ struct DepthLaw {
   double radius = 0;       ///< of the journal, m
   double log_loading = 0;  ///< ln(p_a n), p_a in Pa
 
+  /// The depth [m] and its slope by ln k.
+  DepthCurve::Point depth_and_slope(double log_k) const {
+    const DepthCurve::Point point = (*curve)(log_k + log_loading);
+    return {radius * point.value, radius * point.slope};
+  }
+
   /// The depth [m]; the bearing has none for a `log_k` above `limit()`.
   double depth(double log_k) const { return radius * (*curve)(log_k + log_loading).value; }
 
@@ -64,7 +70,7 @@ struct Duty {
 };
 
 /// The depth laws of many duties; those of one contact and one clearance/radius share a curve, laid
-/// where their wear numbers lie if k is within e^+-6 of `k`.
+/// where their wear numbers lie if k is within e^-10 and e^6 of `k`.
 std::vector<DepthLaw> depth_laws(const std::vector<Duty>& duties, double k);
 
 }  // namespace wearwell::bearing

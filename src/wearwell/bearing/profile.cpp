@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/bearing/flank_noise.h"
 
 namespace wearwell::bearing {
 namespace {
@@ -108,32 +109,6 @@ Alignment align(const Before& before, const std::vector<double>& after, const Wi
   return result;
 }
 
-// The shift of the least misfit, at most `farthest`: the best on a grid as fine as the points, then
-// between its neighbours.
-double best_shift(const Profile& before, const Profile& after, const Window& window, double middle,
-                  double spacing, double farthest) {
-  const Averaged smooth_before(before, 2 * spacing), smooth_after(after, 2 * spacing);
-  std::vector<double> heights;
-  for (const double x : window.x) heights.push_back(smooth_after(middle + x));
-  const auto squares = [&](double shift) {
-    const auto moved = [&](double x) { return smooth_before(middle + x + shift); };
-    return align(moved, heights, window).squares;
-  };
-  const double grid = std::max(spacing, farthest / 100);
-  double best = 0, least = squares(0);
-  for (double s = -farthest; s <= farthest; s += grid) {
-    const double here = squares(s);
-    if (here < least) {
-      best = s;
-      least = here;
-    }
-  }
-  constexpr int bits = 30;
-  return boost::math::tools::brent_find_minima(squares, std::max(-farthest, best - grid),
-                                               std::min(farthest, best + grid), bits)
-      .first;
-}
-
 // 1 + 2 times the autocorrelations of the residuals, each flank for itself, up to where their sum
 // first turns negative.
 double correlation(const Alignment& alignment, const Window& window, double variance) {
@@ -153,6 +128,44 @@ double correlation(const Alignment& alignment, const Window& window, double vari
   }
   return sum;
 }
+
+// The shift of the least misfit, at most `farthest`: the best on a grid as fine as the points, then
+// between its neighbours. None where the flanks have no features to tell it by. Judged by the
+// averages: between two points interpolated noise alone is smaller, which looks like a better fit.
+// And the least of many misfits is small by chance: those of noise about noise scatter by the root
+// of the independent points in them.
+std::optional<double> best_shift(const Profile& before, const Profile& after, const Window& window, double middle,
+                  double spacing, double farthest) {
+  const Averaged smooth_before(before, 2 * spacing), smooth_after(after, 2 * spacing);
+  std::vector<double> heights;
+  for (const double x : window.x) heights.push_back(smooth_after(middle + x));
+  const auto aligned = [&](double shift) {
+    const auto moved = [&](double x) { return smooth_before(middle + x + shift); };
+    return align(moved, heights, window);
+  };
+  const auto squares = [&](double shift) { return aligned(shift).squares; };
+  const double grid = std::max(spacing, farthest / 100);
+  double best = 0, least = squares(0);
+  for (double s = -farthest; s <= farthest; s += grid) {
+    const double here = squares(s);
+    if (here < least) {
+      best = s;
+      least = here;
+    }
+  }
+  constexpr int bits = 30;
+  best = boost::math::tools::brent_find_minima(squares, std::max(-farthest, best - grid),
+                                               std::min(farthest, best + grid), bits)
+             .first;
+  const Alignment shifted = aligned(best);
+  const auto degrees = static_cast<double>(window.flank_points());
+  const double variance = shifted.squares / (degrees - 3);
+  const double independent = correlation(shifted, window, variance);
+  const double by_chance = 3.3 * 3.3 + 3 * std::sqrt(degrees / independent);
+  if (squares(0) - shifted.squares > by_chance * variance * independent) return best;
+  return {};
+}
+
 
 // How far the inner quarters of the flanks lie below a line through the rest, in standard
 // deviations of the rest's noise.
@@ -176,7 +189,8 @@ double inner_step(const Before& before, const Window& window) {
 
 }  // namespace
 
-WornArea worn_area(const Profile& before, const Profile& after, std::optional<double> flank) {
+WornArea worn_area(const Profile& before, const Profile& after, std::optional<double> flank,
+                   double curvature) {
   check(before, "before");
   check(after, "after");
   double start = std::max(before.position.front(), after.position.front());
@@ -213,64 +227,68 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
   }
 
   const double spacing = (window.x.back() - window.x.front()) / static_cast<double>(n - 1);
-  double best = best_shift(before, after, window, middle, spacing, farthest);
+  const std::optional<double> told = best_shift(before, after, window, middle, spacing, farthest);
+  const double best = told.value_or(0);
   const auto moved = [&](double shift) {
     return [&before, at = middle + shift](double x) { return height_at(before, at + x); };
   };
+  const Alignment alignment = align(moved(best), window.height, window);
+  const Eigen::Index unknowns = told ? 3 : 2;
   const auto degrees = static_cast<double>(window.flank_points());
-  Alignment alignment = align(moved(0), window.height, window);
-  Alignment shifted = align(moved(best), window.height, window);
-  double variance = shifted.squares / (degrees - 3);
-  double independent = correlation(shifted, window, variance);
-  const bool shifts = alignment.squares - shifted.squares > 3.3 * 3.3 * variance * independent;
-  if (shifts) {
-    alignment = std::move(shifted);
-  } else {
-    best = 0;
-    variance = alignment.squares / (degrees - 2);
-    independent = correlation(alignment, window, variance);
-  }
-  if (degrees < 10 * independent) {
-    throw InputError(fmt::format(
-        "{:.3g} neighbouring points of the flanks go together, so their {} points are no more than "
-        "{:.2g} independent ones; 10 are needed: take longer flanks",
-        independent, window.flank_points(), degrees / independent));
-  }
+  const double variance = alignment.squares / (degrees - static_cast<double>(unknowns));
 
   // Trapezoids between the flanks: a weight for each difference. The baseline moves with the
   // flanks' noise: its area is gradient . (height, tilt, shift).
   WornArea result;
   result.from = middle + window.x[window.left];
   result.to = middle + window.x[window.right - 1];
-  const Eigen::Index unknowns = shifts ? 3 : 2;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  double weights_squared = 0;
+  Eigen::MatrixXd design(static_cast<Eigen::Index>(n), unknowns);
+  std::vector<double> weights(n, 0.0);  // of each point's difference in the area
   const double eps = 0.5 * spacing;
   for (std::size_t i = 0; i < n; ++i) {
     const double x = window.x[i], there = middle + x + best;
     const double slope =
-        shifts ? (height_at(before, there + eps) - height_at(before, there - eps)) / (2 * eps) : 0;
+        told ? (height_at(before, there + eps) - height_at(before, there - eps)) / (2 * eps) : 0;
     const Eigen::Vector3d row(1, x, slope);
+    design.row(static_cast<Eigen::Index>(i)) = row.head(unknowns);
     if (window.is_flank(i)) {
       normal += row * row.transpose();
       continue;
     }
     const double weight = 0.5 * ((i + 1 < window.right ? window.x[i + 1] - x : 0) +
                                  (i > window.left ? x - window.x[i - 1] : 0));
-    result.area += weight * alignment.difference[i];
-    weights_squared += weight * weight;
+    // Along a curved surface the section widens with the depth.
+    const double d = alignment.difference[i];
+    result.area += weight * (d + 0.5 * curvature * (d * d - variance));
+    weights[i] = weight;
     gradient += weight * row;
   }
-  const Eigen::MatrixXd covariance = normal.topLeftCorner(unknowns, unknowns).inverse();
-  const Eigen::VectorXd g = gradient.head(unknowns);
-  result.sd = std::sqrt(variance * independent * (weights_squared + g.dot(covariance * g)));
+  const Eigen::VectorXd share = normal.topLeftCorner(unknowns, unknowns)
+                                    .ldlt()
+                                    .solve(gradient.head(unknowns));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (window.is_flank(i)) weights[i] = -design.row(static_cast<Eigen::Index>(i)).dot(share);
+  }
+  const FlankNoise noise =
+      flank_noise(alignment.difference, design, window.left, window.right, weights);
+  result.flank_step = inner_step(moved(best), window);
+  constexpr double least_independent = 6;
+  // Wear in the flanks looks like noise that goes together; that is said by the step.
+  if (degrees < least_independent * noise.correlation && !(result.flank_step > suspicious_step)) {
+    throw InputError(fmt::format(
+        "{:.3g} neighbouring points of the flanks go together, so their {} points are no more than "
+        "{:.2g} independent ones; {} are needed: take longer flanks",
+        noise.correlation, window.flank_points(), degrees / noise.correlation, least_independent));
+  }
+  result.sd = noise.sd;
+  result.half_width = noise.half_width;
+  result.correlation = noise.correlation;
   result.shift = best;
   result.offset = alignment.line[0];
   result.tilt = alignment.line[1];
   result.noise = std::sqrt(variance);
-  result.correlation = independent;
-  result.flank_step = inner_step(moved(best), window);
   return result;
 }
 

@@ -29,7 +29,7 @@ struct Bearing {
   std::optional<double> force;        ///< N
   std::optional<double> length;       ///< m
   std::optional<double> revolutions;  ///< 1
-  std::optional<double> speed;        ///< revolutions per second, 1/s
+  std::optional<double> speed;        ///< rev/s
   std::optional<double> time;         ///< s
 };
 

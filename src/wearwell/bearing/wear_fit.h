@@ -38,19 +38,12 @@ struct WearModel {
 ///
 ///   L_b = int N(z; 0, 1) prod_i p(d_i | k exp(k_scatter z), sigma) dz,
 ///
-/// instead of being sampled: each is an integral of one smooth bell over one variable, so the
-/// posterior keeps at most three parameters, whatever the number of bearings. Quadrature then
+/// instead of being sampled: each is an integral over one variable, so the posterior keeps at most three parameters, whatever the number of bearings. Quadrature then
 /// reaches it (exact posterior, evidence, the agreement check), NUTS walks no funnel, and as many
 /// bearings as there are may be fitted. What is lost is the k of each single bearing.
 ///
-/// The rule is the trapezoid's on the whole line, which converges faster than any power of the step
-/// for bells that are analytic: with a step of 0.6 of the width of the bell the relative error is
-/// mostly below 1e-9. For the normal family it is below 1e-6 while the noise is less than 0.3 of
-/// the depth, and below 1e-3 for more; for the lognormal, whose bell has a long flank, it may reach
-/// 2e-2 where inspections of one bearing contradict each other by several standard deviations
-/// (tests). The gradient is that of the sum at the same nodes. One bell is looked for: where
-/// two inspections of one bearing contradict each other by tens of standard deviations there may be
-/// another, which is not counted.
+/// `rate_integral.h` has the rule: bounded in effort whatever the data, within 1e-6 of brute force
+/// for inspections that contradict each other by any amount as well (tests).
 ///
 /// k that wears a bearing beyond its geometry is outside the support.
 std::shared_ptr<const LogDensity> wear_likelihood(const WearModel& model,

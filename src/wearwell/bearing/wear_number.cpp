@@ -68,8 +68,14 @@ double stationary_depth(double sigma, double wear_number) {
 
 double wear_number(Contact contact, double sigma, double delta) {
   check(contact, sigma, delta);
-  if (contact == Contact::stationary) return lune_area(sigma, delta) / (4 * pi);
-  return delta * (2 * even_radius(contact, sigma) + delta) / 4;
+  const double result = contact == Contact::stationary
+                            ? lune_area(sigma, delta) / (4 * pi)
+                            : delta * (2 * even_radius(contact, sigma) + delta) / 4;
+  if (!std::isfinite(result))
+    throw InputError(
+        fmt::format("no wear number can be computed for clearance/radius {} and depth/radius {}",
+                    sigma, delta));
+  return result;
 }
 
 WearNumber wear_number_and_derivatives(Contact contact, double sigma, double delta) {

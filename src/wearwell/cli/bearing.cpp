@@ -19,6 +19,7 @@
 #include "wearwell/cli/bearing_chart.h"
 #include "wearwell/cli/bearing_options.h"
 #include "wearwell/cli/bearing_profile.h"
+#include "wearwell/cli/option_value.h"
 
 namespace wearwell {
 namespace bearing {
@@ -118,11 +119,8 @@ struct Answer {
 };
 
 Unit answer_unit(const Question& question, const std::string& asked) {
-  if (asked.empty() && question.wanted == Quantity::revolutions) return {question.unit, 1, 0};
   try {
-    Unit unit = read_unit(asked.empty() ? question.unit : asked, question.si);
-    if (question.wanted == Quantity::revolutions && is_angle(unit.text)) unit.scale /= 2 * pi;
-    return unit;
+    return read_unit(asked.empty() ? question.unit : asked, question.si);
   } catch (const InputError& error) {
     throw InputError(fmt::format("--unit: {}", error.what()));
   }
@@ -130,13 +128,7 @@ Unit answer_unit(const Question& question, const std::string& asked) {
 
 std::optional<double> read_limit(const std::string& text) {
   if (text.empty()) return std::nullopt;
-  try {
-    const double limit = read_quantity(text, "m").si();
-    if (!(limit > 0)) throw InputError(fmt::format("'{}' must be positive", text));
-    return limit;
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--limit: {}", error.what()));
-  }
+  return option_value("--limit", text, "m", Allowed::positive);
 }
 
 /// How far the depth stays from its limit, and what else may happen before it is reached.
@@ -336,7 +328,7 @@ const std::vector<Question>& questions() {
       {"life",
        "Life",
        Quantity::revolutions,
-       "1",
+       "rev",
        "revolutions",
        "how long until the depth is reached: in revolutions, or in time with --speed",
        {&B::revolutions, &B::time},
@@ -367,6 +359,7 @@ void add_bearing_command(CLI::App& app) {
         ->type_name("N")
         ->capture_default_str();
     sub->add_option("--seed", options->seed, "seed of the draws")
+        ->check(seed_number())
         ->type_name("N")
         ->capture_default_str();
     sub->add_flag("--json", options->json, "print one JSON object");

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/staged_file.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/bearing/solve.h"
 #include "wearwell/cli/bearing_options.h"
 #include "wearwell/report/html.h"
 #include "wearwell/report/page.h"
 #include "wearwell/report/plot.h"
-#include "wearwell/report/result_folder.h"
 
 namespace wearwell::bearing {
 namespace {
@@ -154,7 +154,7 @@ void run(const ChartOptions& options) {
   if (options.file.empty()) {
     fmt::print("{}", csv(chart));
   } else {
-    replace_file(options.file, kind == ".html" ? page(chart) : csv(chart));
+    write_file(options.file, kind == ".html" ? page(chart) : csv(chart));
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
@@ -26,14 +25,10 @@ Contact read_contact(const std::string& name) {
 
 Uncertain read_input(const InputOption& option, const std::string& text) {
   try {
-    Uncertain value = read_uncertain(text, option.si);
-    const bool counts_turns =
-        option.input == &Bearing::speed || option.input == &Bearing::revolutions;
-    if (counts_turns && is_angle(value.unit.text)) {
-      value.mean /= 2 * std::numbers::pi;
-      value.sd /= 2 * std::numbers::pi;
-    }
+    const Uncertain value = read_uncertain(text, option.si);
     if (!(value.mean > 0)) throw InputError(fmt::format("'{}' must be positive", value.text));
+    if (!std::isfinite(value.mean) || !std::isfinite(value.sd))
+      throw InputError(fmt::format("'{}' is no finite number in SI units", value.text));
     return value;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", option.flag, error.what()));
@@ -61,7 +56,7 @@ void BearingOptions::add_to(CLI::App& command, const std::vector<Input>& hidden)
     const InputOption& o = input_options[i];
     CLI::Option* added =
         command.add_option(o.flag, texts[i], o.help)
-            ->type_name(std::string(o.si) == "1" ? "NUMBER" : fmt::format("'NUMBER {}'", o.si));
+            ->type_name(may_be_plain(o.si) ? "NUMBER" : fmt::format("'NUMBER {}'", o.si));
     if (std::find(hidden.begin(), hidden.end(), o.input) != hidden.end()) added->group("");
   }
 }

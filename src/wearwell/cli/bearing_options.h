@@ -29,9 +29,9 @@ inline constexpr std::array<InputOption, 11> input_options = {{
     {"--pressure", &Bearing::pressure, "Pa", "apparent pressure p_a = F/(2 r L)"},
     {"--force", &Bearing::force, "N", "radial force F, with --length instead of --pressure"},
     {"--length", &Bearing::length, "m", "length L of the bearing"},
-    {"--revolutions", &Bearing::revolutions, "1", "number of revolutions n"},
-    {"--speed", &Bearing::speed, "1/s",
-     "speed (rpm, 1/min, rad/s), with --time instead of --revolutions"},
+    {"--revolutions", &Bearing::revolutions, "rev", "number of revolutions n"},
+    {"--speed", &Bearing::speed, "rev/s",
+     "speed (rpm, Hz, rad/s), with --time instead of --revolutions"},
     {"--time", &Bearing::time, "s", "running time"},
 }};
 

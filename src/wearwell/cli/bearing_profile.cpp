@@ -12,12 +12,11 @@
 #include "wearwell/bearing/profile.h"
 #include "wearwell/bearing/wear_number.h"
 #include "wearwell/cli/bearing_options.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/table/table.h"
 
 namespace wearwell::bearing {
 namespace {
-
-constexpr double q95_of_normal = 1.6448536269514722;
 
 struct ProfileOptions {
   std::string before, after;
@@ -48,19 +47,13 @@ Profile read_profile(const char* flag, const std::string& file, const ProfileOpt
 
 std::optional<double> read_flank(const std::string& text) {
   if (text.empty()) return {};
-  try {
-    const double flank = read_quantity(text, "m").si();
-    if (!(flank > 0)) throw InputError(fmt::format("'{}' must be positive", text));
-    return flank;
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("--flank: {}", error.what()));
-  }
+  return option_value("--flank", text, "m", Allowed::positive);
 }
 
 /// A wear rate and what it follows from.
 struct Result {
   WornArea worn;
-  std::optional<double> rate, rate_sd;  ///< m^3/(N m); when load and revolutions are given
+  std::optional<double> rate, rate_sd, rate_half;  ///< m^3/(N m); when load and revolutions are given
   std::optional<double> depth;          ///< of a stationary contact with that area, m
 };
 
@@ -94,13 +87,15 @@ Result evaluate(const ProfileOptions& options) {
   }
   const Profile before = read_profile("--before", options.before, options);
   const Profile after = read_profile("--after", options.after, options);
-  Result result{worn_area(before, after, read_flank(options.flank)), {}, {}, {}};
+  const double bore = *b.radius + b.clearance.value_or(0);
+  Result result{worn_area(before, after, read_flank(options.flank), 1 / bore), {}, {}, {}, {}};
   const double full = 4 * std::numbers::pi * *b.radius * *b.radius;
   if (load) {
     const double pressure = b.pressure ? *b.pressure : *b.force / (2 * *b.radius * *b.length);
     const double revolutions = b.revolutions ? *b.revolutions : *b.speed * *b.time;
     result.rate = result.worn.area / (full * pressure * revolutions);
     result.rate_sd = result.worn.sd / (full * pressure * revolutions);
+    result.rate_half = result.worn.half_width / (full * pressure * revolutions);
   }
   if (b.clearance && result.worn.area > 0) {
     result.depth = *b.radius * depth_for(Contact::stationary, *b.clearance / *b.radius,
@@ -109,21 +104,21 @@ Result evaluate(const ProfileOptions& options) {
   return result;
 }
 
-nlohmann::ordered_json with_interval(double value, double sd, const char* unit) {
+nlohmann::ordered_json with_interval(double value, double sd, double half, const char* unit) {
   return {{"value", value},
           {"unit", unit},
           {"sd", sd},
-          {"q05", value - q95_of_normal * sd},
-          {"q95", value + q95_of_normal * sd}};
+          {"q05", value - half},
+          {"q95", value + half}};
 }
 
 void print_json(const Result& r) {
   const WornArea& w = r.worn;
   nlohmann::ordered_json json;
   json["quantity"] = "profile";
-  json["area"] = with_interval(w.area * 1e6, w.sd * 1e6, "mm^2");
+  json["area"] = with_interval(w.area * 1e6, w.sd * 1e6, w.half_width * 1e6, "mm^2");
   json["rate"] = nullptr;
-  if (r.rate) json["rate"] = with_interval(*r.rate, *r.rate_sd, "m^3/(N m)");
+  if (r.rate) json["rate"] = with_interval(*r.rate, *r.rate_sd, *r.rate_half, "m^3/(N m)");
   json["depth"] = nullptr;
   if (r.depth) json["depth"] = {{"value", *r.depth * 1e3}, {"unit", "mm"}};
   json["alignment"] = {{"shift_um", w.shift * 1e6},
@@ -141,14 +136,14 @@ void print_row(const char* name, const std::string& value) {
 
 void print_text(const Result& r) {
   const WornArea& w = r.worn;
-  const auto interval = [](double value, double sd) {
-    return fmt::format("{:.4g} .. {:.4g}", value - q95_of_normal * sd, value + q95_of_normal * sd);
+  const auto interval = [](double value, double half) {
+    return fmt::format("{:.4g} .. {:.4g}", value - half, value + half);
   };
   fmt::print("Worn area A: {:.6g} mm^2\n90 % interval: {}\n", w.area * 1e6,
-             interval(w.area * 1e6, w.sd * 1e6));
+             interval(w.area * 1e6, w.half_width * 1e6));
   if (r.rate) {
     fmt::print("Wear rate k: {:.6g} m^3/(N m)\n90 % interval: {}\n", *r.rate,
-               interval(*r.rate, *r.rate_sd));
+               interval(*r.rate, *r.rate_half));
   }
   fmt::print("\n");
   print_row("worn place", fmt::format("{:.4g} .. {:.4g} mm", w.from * 1e3, w.to * 1e3));
@@ -166,8 +161,8 @@ void print_text(const Result& r) {
 
 void run(const ProfileOptions& options) {
   const Result result = evaluate(options);
-  constexpr double suspicious = 4, loose = 0.25;
-  if (result.worn.flank_step > suspicious) {
+  constexpr double loose = 0.25;
+  if (result.worn.flank_step > suspicious_step) {
     fmt::print(stderr,
                "warning: the flanks are lower near the worn place than farther out (by {:.2g} "
                "standard deviations): wear may reach into them; give a shorter --flank\n",

@@ -5,10 +5,11 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/staged_file.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/cli/clutch_parts.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/clutch/design.h"
-#include "wearwell/report/result_folder.h"
 #include "wearwell/study/clutch_tables.h"
 
 namespace wearwell::clutch {
@@ -41,7 +42,9 @@ Values read_values(const std::string& flag, std::string text, const Input& input
   const auto fail = [&](const std::string& reason) {
     throw InputError(fmt::format("{}: '{}': {}", flag, text, reason));
   };
-  const std::size_t unit_at = text.find_first_not_of("0123456789+-.eE, \t");
+  std::size_t unit_at = text.find_first_not_of("0123456789+-.eE, \t");
+  if (unit_at != std::string::npos && unit_at > 1 && text.compare(unit_at - 2, 3, " 1/") == 0)
+    --unit_at;  // of 1/min
   if (unit_at == std::string::npos) fail("the unit is missing");
   Unit unit;
   try {
@@ -54,13 +57,14 @@ Values read_values(const std::string& flag, std::string text, const Input& input
   for (std::size_t at; (at = numbers.find("..")) != std::string::npos;) numbers.replace(at, 2, ",");
   for (std::size_t from = 0; from <= numbers.size();) {
     const std::size_t end = std::min(numbers.find(',', from), numbers.size());
+    double x = 0;
     try {
-      const double x = read_quantity(numbers.substr(from, end - from), "1").value;
-      const double offset = input.value == &OperatingPoint::temperature ? celsius_zero : 0;
-      result.values.push_back(to_si(unit, x) - offset);
+      x = read_quantity(numbers.substr(from, end - from), "1").value;
     } catch (const InputError&) {
       fail("write numbers with commas between them and one unit behind: '1200, 1700, 2800 rpm'");
     }
+    const double offset = input.value == &OperatingPoint::temperature ? celsius_zero : 0;
+    result.values.push_back(checked_option(flag, text, to_si(unit, x) - offset, Allowed::any));
     from = end + 1;
   }
   return result;
@@ -87,8 +91,8 @@ DesignRequest read_request(const DesignOptions& options) {
     request.highest[i] = range.values[1];
   }
   if (!options.most_energy.empty()) {
-    request.most_energy = read_quantity(options.most_energy, "J").si();
-    if (!(request.most_energy > 0)) throw InputError("--most-energy must be positive");
+    request.most_energy =
+        option_value("--most-energy", options.most_energy, "J", Allowed::positive);
   }
   return request;
 }
@@ -98,7 +102,7 @@ void run(const DesignOptions& options) {
   if (options.output.empty()) {
     fmt::print("{}", csv);
   } else {
-    replace_file(options.output, csv);
+    write_file(options.output, csv);
   }
 }
 
@@ -126,7 +130,9 @@ void add_design_command(CLI::App& clutch) {
   command->add_option("--outside", options->outside, "points beyond the levels")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of the candidates")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the candidates")
+      ->check(seed_number())
+      ->capture_default_str();
   command->add_option("-o,--output", options->output, "file (default: standard output)");
   command->footer(
       "Example:\n  wearwell clutch design --torque '25, 50, 75 N m' --feasible-torque '20 .. 85 N "

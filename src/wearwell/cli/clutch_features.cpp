@@ -4,10 +4,11 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/unit.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/base/staged_file.h"
 #include "wearwell/cli/clutch_parts.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/clutch/closing.h"
-#include "wearwell/report/result_folder.h"
 #include "wearwell/study/clutch_tables.h"
 
 namespace wearwell::clutch {
@@ -19,9 +20,11 @@ struct FeatureOptions {
 };
 
 int run(const FeatureOptions& options) {
+  refuse_overwriting({{"the traces", options.traces}}, {{"--output", options.output}});
   ClosingRule rule;
-  rule.torque_on = read_quantity(options.torque_on, "N m").si();
-  rule.slip_off = read_quantity(options.slip_off, "1/s").si();
+  rule.torque_on =
+      option_value("--torque-on", options.torque_on, "N m", Allowed::not_negative);
+  rule.slip_off = option_value("--slip-off", options.slip_off, "rad/s", Allowed::not_negative);
   const std::vector<Sample> samples = read_traces(options.traces);
   std::vector<Closing> closings;
   try {
@@ -36,7 +39,7 @@ int run(const FeatureOptions& options) {
   if (options.output.empty()) {
     fmt::print("{}", csv);
   } else {
-    replace_file(options.output, csv);
+    write_file(options.output, csv);
   }
   int flagged = 0;
   for (const Closing& closing : closings) {

@@ -26,7 +26,7 @@ int fit_clutch_study(const FitRequest& request) {
   folder.write("model.json", to_json(result.model).dump(1) + "\n");
   folder.write("predictions.csv", sequences_csv(result));
   if (!request.no_report) folder.write("report.html", clutch_report(study, result));
-  folder.copy(request.study, "study.toml");
+  folder.write("study.toml", study.file_text);
   folder.commit();
   if (request.json) {
     fmt::print("{}", summary);

@@ -2,10 +2,13 @@
 
 #include <filesystem>
 
+#include "wearwell/study/text_file.h"
+
 namespace wearwell::clutch {
 
 struct FitRequest {
-  std::filesystem::path study, output;
+  TextFile study;
+  std::filesystem::path output;
   int threads = 0;
   bool json = false, quiet = false, no_report = false;
 };

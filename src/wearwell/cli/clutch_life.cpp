@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/unit.h"
 #include "wearwell/cli/clutch_parts.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/report/text_table.h"
 #include "wearwell/study/clutch_model_file.h"
 #include "wearwell/study/clutch_tables.h"
@@ -25,17 +25,13 @@ struct LifeOptions {
 
 double required(const char* flag, const std::string& text, const char* si) {
   if (text.empty()) throw InputError(fmt::format("{} is missing; or give --duty FILE", flag));
-  try {
-    return read_quantity(text, si).si();
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", flag, error.what()));
-  }
+  return option_value(flag, text, si);
 }
 
 std::vector<Cycle> read_duty(const LifeOptions& options) {
   if (!options.duty.empty()) return read_cycles(options.duty);
   Cycle cycle;
-  cycle.at = {required("--slip-speed", options.slip_speed, "1/s"),
+  cycle.at = {required("--slip-speed", options.slip_speed, "rad/s"),
               required("--torque", options.torque, "N m"),
               required("--temperature", options.temperature, "K") - celsius_zero,
               required("--closing-time", options.closing_time, "s")};
@@ -101,6 +97,7 @@ void add_life_command(CLI::App& clutch) {
   command->add_option("--duty", options->duty, "cycles of one repetition (as for predict)");
   command->add_option("--level", options->levels, "wear levels in % of the worn-out volume")
       ->delimiter(',')
+      ->check(number_between(1e-6, 1e6))
       ->capture_default_str();
   command->add_flag("--json", options->json, "print one JSON object");
   command->footer(

@@ -2,13 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/lock_file.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/base/staged_file.h"
 #include "wearwell/cli/clutch_parts.h"
-#include "wearwell/report/result_folder.h"
 #include "wearwell/report/text_table.h"
 #include "wearwell/study/clutch_model_file.h"
 #include "wearwell/study/clutch_tables.h"
@@ -20,38 +25,7 @@ namespace {
 struct PredictOptions {
   std::filesystem::path model, cycles, state, trace;
   int every = 1, threads = 0;
-  bool scatter_only = false, json = false;
-};
-
-/// A file that is written beside the target and takes its place when all is done.
-class StagedFile {
- public:
-  explicit StagedFile(std::filesystem::path target)
-      : target_(std::move(target)), staging_(target_.string() + ".new") {
-    file_ = std::fopen(staging_.c_str(), "wb");
-    if (!file_) throw InputError(fmt::format("cannot write to {}", target_.string()));
-  }
-  ~StagedFile() {
-    if (file_) std::fclose(file_);
-    std::error_code ignored;
-    std::filesystem::remove(staging_, ignored);
-  }
-  StagedFile(const StagedFile&) = delete;
-  StagedFile& operator=(const StagedFile&) = delete;
-
-  std::FILE* stream() { return file_; }
-  void commit() {
-    const bool closed = std::fclose(file_) == 0;
-    file_ = nullptr;
-    std::error_code error;
-    if (closed) std::filesystem::rename(staging_, target_, error);
-    if (!closed || error)
-      throw MachineError(fmt::format("cannot write {}: is the disk full?", target_.string()));
-  }
-
- private:
-  std::filesystem::path target_, staging_;
-  std::FILE* file_ = nullptr;
+  bool scatter_only = false, skip = false, json = false;
 };
 
 std::string outside_text(const PlateWear& p) {
@@ -61,6 +35,7 @@ std::string outside_text(const PlateWear& p) {
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", inputs[i].name, p.outside[i]);
   }
   if (p.clamped > 0) text += fmt::format("{}negative {}", text.empty() ? "" : ", ", p.clamped);
+  if (p.skipped > 0) text += fmt::format("{}skipped {}", text.empty() ? "" : ", ", p.skipped);
   return text.empty() ? "-" : text;
 }
 
@@ -96,6 +71,7 @@ void print_json(const WearModel& model, const CycleSum& sum, bool full) {
     each["outside"] = outside;
     each["outside_any"] = p.outside_any;
     each["clamped"] = p.clamped;
+    each["skipped"] = p.skipped;
     plates.push_back(std::move(each));
   }
   const nlohmann::ordered_json json = {{"units", {{"energy", "J"}, {"volume", "mm^3"}}},
@@ -103,19 +79,47 @@ void print_json(const WearModel& model, const CycleSum& sum, bool full) {
   fmt::print("{}\n", json.dump(2));
 }
 
+/// Only what can be read again may take the place of a state.
+std::string checked_state(const CycleSum& sum, const std::string& fingerprint) {
+  for (const PlateWear& p : sum.plates()) {
+    if (!std::isfinite(p.volume) || !std::isfinite(p.variance) || !std::isfinite(p.energy) ||
+        !p.replicates.isFinite().all())
+      throw InputError(
+          fmt::format("plate {} has no finite wear; its state is not written", p.plate));
+  }
+  return state_text(sum.plates(), fingerprint);
+}
+
 void run(const PredictOptions& options) {
+  refuse_overwriting({{"the model", options.model}, {"the cycles", options.cycles}},
+                     {{"--state", options.state}, {"--trace", options.trace}});
+  const ReadFile read(options.model);
   const WearModel model = read_model(options.model);
-  const std::string fingerprint = sha1(options.model);
-  const bool full = !options.scatter_only;
-  CycleSum sum(model, full);
-  if (!options.state.empty() && std::filesystem::exists(options.state))
+  const std::string fingerprint = read.sha1();
+  const bool full = !options.scatter_only, kept = !options.state.empty();
+  if (kept && fingerprint.empty())
+    throw InputError(
+        fmt::format("--state needs a model in a file, and {} is none", options.model.string()));
+  std::optional<LockFile> lock;
+  if (kept)
+    lock.emplace(options.state, [&] {
+      fmt::print(stderr, "waiting for another wearwell that goes on from {}\n",
+                 options.state.string());
+    });
+  CycleSum sum(model, full, options.skip ? NotFinite::skip : NotFinite::refuse);
+  if (kept && std::filesystem::exists(options.state))
     sum.restore(read_state(options.state, fingerprint, full ? model.replicates.size() : 0));
-  std::unique_ptr<StagedFile> trace;
-  if (!options.trace.empty()) trace = std::make_unique<StagedFile>(options.trace);
-  sum_cycles(options.cycles, sum, trace ? trace->stream() : nullptr,
-             static_cast<std::size_t>(options.every), options.threads);
+  std::optional<StagedFile> state, trace;
+  if (kept) state.emplace(options.state);  // refused before the work, not after
+  if (!options.trace.empty()) trace.emplace(options.trace);
+  std::function<void(std::string_view)> write_trace;
+  if (trace) write_trace = [&](std::string_view lines) { trace->write(lines); };
+  sum_cycles(options.cycles, sum, write_trace, static_cast<std::size_t>(options.every),
+             options.threads);
+  if (state) state->write(checked_state(sum, fingerprint));
   if (trace) trace->commit();
-  if (!options.state.empty()) replace_file(options.state, state_text(sum.plates(), fingerprint));
+  if (state) state->commit();
+  lock.reset();
   if (options.json) {
     print_json(model, sum, full);
   } else {
@@ -142,6 +146,9 @@ void add_predict_command(CLI::App& clutch) {
   command->add_option("--every", options->every, "of the trace, every so many cycles only")
       ->check(CLI::Range(1, 1'000'000'000))
       ->capture_default_str();
+  command->add_flag("--skip-not-finite", options->skip,
+                    "leave out and count cycles at which the model gives no finite number, "
+                    "instead of refusing the file");
   command->add_flag("--scatter-only", options->scatter_only,
                     "only the paper's interval, by the scatter of cycles; much faster");
   command

@@ -3,9 +3,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "wearwell/base/error.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/base/staged_folder.h"
 #include "wearwell/cli/clutch_parts.h"
-#include "wearwell/report/result_folder.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/study/clutch_tables.h"
 #include "wearwell/study/clutch_truth.h"
 
@@ -18,21 +19,23 @@ struct SimulateOptions {
   int traces = 5;
 };
 
+// Of an earlier campaign they are replaced; whatever else is in the folder stays.
+const std::vector<std::string> campaign_files = {"cycles.csv", "weighings.csv", "traces.csv",
+                                                 "realized.csv"};
+
 void run(const SimulateOptions& options) {
+  for (const std::string& name : campaign_files)
+    refuse_overwriting({{"--design", options.design}, {"--truth", options.truth}},
+                       {{"--output", options.output / name}});
   const Simulation simulation =
       simulate(read_design(options.design), read_truth(options.truth), options.seed);
   const Campaign& campaign = simulation.campaign;
-  std::error_code error;
-  std::filesystem::create_directories(options.output, error);
-  if (error)
-    throw InputError(fmt::format("cannot make {}: {}", options.output.string(), error.message()));
-  const auto write = [&](const char* name, const std::string& content) {
-    replace_file(options.output / name, content);
-  };
-  write("cycles.csv", cycles_csv(campaign.cycles));
-  write("weighings.csv", weighings_csv(campaign.weighings));
-  write("traces.csv", traces_csv(simulate_traces(campaign, options.traces, options.seed)));
-  write("realized.csv", realized_csv(simulation.realized));
+  StagedFolder folder(options.output, campaign_files);
+  folder.write("cycles.csv", cycles_csv(campaign.cycles));
+  folder.write("weighings.csv", weighings_csv(campaign.weighings));
+  folder.write("traces.csv", traces_csv(simulate_traces(campaign, options.traces, options.seed)));
+  folder.write("realized.csv", realized_csv(simulation.realized));
+  folder.commit(campaign_files);
   fmt::print("{}: a simulated campaign of {} plates, {} cycles, {} weighings\n",
              options.output.string(), simulation.plate_factors.size(), campaign.cycles.size(),
              campaign.weighings.size());
@@ -47,7 +50,9 @@ void add_simulate_command(CLI::App& clutch) {
   command->add_option("--design", options->design, "operating points (CSV), of clutch design")
       ->required();
   command->add_option("--truth", options->truth, "what is true (TOML)")->required();
-  command->add_option("--seed", options->seed, "seed of the campaign")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the campaign")
+      ->check(seed_number())
+      ->capture_default_str();
   command->add_option("--traces", options->traces, "closings to write raw traces of")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();

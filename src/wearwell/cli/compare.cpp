@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/staged_file.h"
 #include "wearwell/report/comparison.h"
 #include "wearwell/report/read_result.h"
-#include "wearwell/report/result_folder.h"
 
 namespace wearwell {
 namespace {
@@ -30,7 +30,7 @@ int run_compare(const CompareOptions& options) {
     results.emplace_back(folder.string(), read_result(folder));
   }
   const Comparison comparison = compare(std::move(results));
-  if (!options.page.empty()) replace_file(options.page, comparison_page(comparison));
+  if (!options.page.empty()) write_file(options.page, comparison_page(comparison));
   if (options.json) {
     fmt::print("{}\n", to_json(comparison).dump(2));
   } else {

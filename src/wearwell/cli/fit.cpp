@@ -8,9 +8,12 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/progress.h"
+#include "wearwell/base/same_file.h"
 #include "wearwell/cli/clutch_fit.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/report/csv.h"
 #include "wearwell/report/json.h"
+#include "wearwell/report/long_tables.h"
 #include "wearwell/report/plots_json.h"
 #include "wearwell/report/report.h"
 #include "wearwell/report/result_folder.h"
@@ -20,6 +23,8 @@
 
 namespace wearwell {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 struct FitOptions {
   std::filesystem::path study, output;
@@ -32,16 +37,18 @@ int run_fit(const FitOptions& options) {
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(options.study.stem().string() + "-results")
                              : options.output;
-  if (clutch::is_clutch_study(options.study)) {
+  const TextFile file = read_text_file(options.study);
+  refuse_overwriting({{"the study", options.study}}, {{"--output", output}});
+  if (clutch::is_clutch_study(file)) {
     const SamplerChoice& sampler = options.sampler;
     if (sampler.method || sampler.chains || sampler.draws || sampler.warmup || sampler.seed)
       throw InputError(
           "--method, --chains, --draws, --warmup and --seed are for studies that sample a "
           "posterior; a clutch study has its seeds in the study file");
     return clutch::fit_clutch_study(
-        {options.study, output, options.threads, options.json, options.quiet, options.no_report});
+        {file, output, options.threads, options.json, options.quiet, options.no_report});
   }
-  const Study study = read_study(options.study);
+  const Study study = read_study(file);
   ResultFolder folder(output);
   const StudyResult result = [&] {
     const bool shown = !options.quiet && isatty(STDERR_FILENO);
@@ -49,17 +56,20 @@ int run_fit(const FitOptions& options) {
     return run_study(study, options.sampler, options.threads, !options.no_report, &progress);
   }();
 
-  const std::string summary = to_json(result).dump(2) + "\n";
+  const std::string summary =
+      to_json(result).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   folder.write("summary.json", summary);
   for (std::size_t c = 0; c < result.posterior_draws.size(); ++c) {
     folder.write(fmt::format("draws_{}.csv", c + 1), draws_csv(result, c));
   }
   folder.write("predictions.csv", predictions_csv(result));
+  for (const auto& [name, content] : long_tables(result)) folder.write(name, content);
   if (!options.no_report) {
-    folder.write("plots.json", to_json(*result.plots).dump() + "\n");
+    const Json plots = to_json(*result.plots);
+    folder.write("plots.json", plots.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
     folder.write("report.html", html_report(result));
   }
-  folder.copy(options.study, "study.toml");
+  folder.write("study.toml", study.file_text);
   folder.commit();
 
   if (options.json) {
@@ -93,7 +103,8 @@ void add_fit_command(CLI::App& app, int& exit_code) {
   fit->add_option("--warmup", options->sampler.warmup,
                   "Iterations discarded per chain (default 1000; metropolis 4000)")
       ->check(CLI::Range(0, max_iterations));
-  fit->add_option("--seed", options->sampler.seed, "Seed of the random numbers (default 1)");
+  fit->add_option("--seed", options->sampler.seed, "Seed of the random numbers (default 1)")
+      ->check(seed_number());
   fit->add_option("--threads", options->threads,
                   "Threads (default: all); results do not depend on it")
       ->check(CLI::Range(1, 1024));

@@ -1,9 +1,18 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
 
+#include "wearwell/base/ending.h"
 #include "wearwell/base/error.h"
+#include "wearwell/base/shown.h"
 #include "wearwell/cli/bearing.h"
 #include "wearwell/cli/check.h"
 #include "wearwell/cli/clutch.h"
@@ -18,13 +27,27 @@ namespace {
 constexpr int bad_request = 2, machine_failed = 3;
 
 int complain(const std::string& message, int exit_code) {
-  fmt::print(stderr, "wearwell: {}\n", message);
+  fmt::print(stderr, "wearwell: {}\n", wearwell::shown(message));
   return exit_code;
 }
 
-}  // namespace
+// A file opened where a standard stream is closed would take what is printed.
+void fill_standard_streams() {
+  for (int fd = 0; fd <= 2; ++fd) {
+    if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDONLY) < 0) _exit(machine_failed);
+  }
+}
 
-int main(int argc, char** argv) {
+// Empty when all that was printed has arrived.
+std::string trouble_with_output() {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return {};
+  return fmt::format("cannot write to standard output: {}",
+                     errno ? std::strerror(errno) : "what was printed is not complete");
+}
+
+int run(int argc, char** argv) {
   using namespace wearwell;
   int exit_code = 0;
   CLI::App app(
@@ -51,11 +74,25 @@ int main(int argc, char** argv) {
     return complain(error.what(), bad_request);
   } catch (const MachineError& error) {
     return complain(error.what(), machine_failed);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(error.what(), machine_failed);
   } catch (const std::bad_alloc&) {
     return complain("out of memory", machine_failed);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout)) return machine_failed;  // said in main
     return complain(fmt::format("internal error, please report it: {}", error.what()),
                     machine_failed);
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  fill_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is a full disk, not an end
+  wearwell::remove_half_written_on_signals();
+  const int exit_code = run(argc, argv);
+  const std::string trouble = trouble_with_output();
+  return trouble.empty() ? exit_code : complain(trouble, machine_failed);
 }

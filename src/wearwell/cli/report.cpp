@@ -24,7 +24,7 @@ void rebuild(const std::filesystem::path& folder) {
         fmt::format("{} is missing: the study was fitted with --no-report; fit it again",
                     (folder / "plots.json").string()));
   }
-  replace_file(folder / "report.html", html_report(result));
+  replace_result(folder, "report.html", html_report(result));
 }
 
 }  // namespace

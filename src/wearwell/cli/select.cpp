@@ -4,11 +4,14 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cstdio>
 #include <memory>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/cli/option_value.h"
 #include "wearwell/cli/search_line.h"
 #include "wearwell/cli/select_data.h"
 #include "wearwell/report/result_folder.h"
@@ -38,16 +41,24 @@ class StopOnInterrupt {
  public:
   StopOnInterrupt() {
     stop_asked = false;
-    struct sigaction action = {};
-    action.sa_handler = [](int) { stop_asked = true; };
-    action.sa_flags = SA_RESETHAND;
-    for (const int signal : {SIGINT, SIGTERM}) sigaction(signal, &action, nullptr);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+      sigaction(signals[i], nullptr, &before_[i]);
+      if (before_[i].sa_handler == SIG_IGN) continue;
+      struct sigaction action = {};
+      action.sa_handler = [](int) { stop_asked = true; };
+      action.sa_flags = SA_RESETHAND;
+      sigaction(signals[i], &action, nullptr);
+    }
   }
   ~StopOnInterrupt() {
-    for (const int signal : {SIGINT, SIGTERM}) ::signal(signal, SIG_DFL);
+    for (std::size_t i = 0; i < signals.size(); ++i) sigaction(signals[i], &before_[i], nullptr);
   }
   StopOnInterrupt(const StopOnInterrupt&) = delete;
   StopOnInterrupt& operator=(const StopOnInterrupt&) = delete;
+
+ private:
+  static constexpr std::array signals = {SIGINT, SIGTERM};
+  std::array<struct sigaction, signals.size()> before_;
 };
 
 void write_folder(const std::filesystem::path& target, const SelectionResult& result,
@@ -60,6 +71,7 @@ void write_folder(const std::filesystem::path& target, const SelectionResult& re
 }
 
 int run_select(const SelectOptions& options) {
+  refuse_overwriting({{"the table", options.data.file}}, {{"--output", options.output}});
   SelectionResult result = read_selection(options.data);
   result.version = WEARWELL_VERSION;
   const std::vector<int> forced = result.settings.search.forced;
@@ -128,9 +140,11 @@ void add_select_command(CLI::App& app, int& exit_code) {
   select->add_option("--keep", search.keep, "How many best models")
       ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
-  select->add_option("--near", search.near,
-                     "And every model this near to the best: for loo relative (0.01: PRESS 1 % "
-                     "above), else in units of the criterion");
+  select
+      ->add_option("--near", search.near,
+                   "And every model this near to the best: for loo relative (0.01: PRESS 1 % "
+                   "above), else in units of the criterion")
+      ->check(number_between(0, 1e9));
   select->add_option("--force", data.forced, "Terms that every model holds; the constant is 1")
       ->delimiter(',')
       ->type_name("T,T");
@@ -147,9 +161,10 @@ void add_select_command(CLI::App& app, int& exit_code) {
                    "k-fold cross-validation of the models found; a heuristic beside the criterion")
       ->check(CLI::Range(2, 1'000'000))
       ->type_name("K");
-  select->add_option("--seed", options->settings.seed, "Seed of the folds (default 1)");
+  select->add_option("--seed", options->settings.seed, "Seed of the folds (default 1)")
+      ->check(seed_number());
   select->add_option("--time", search.seconds, "Stop after so many seconds, proven or not")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_between(0, 1e9))
       ->type_name("S");
   select
       ->add_option("--threads", search.threads,

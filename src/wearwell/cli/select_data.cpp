@@ -6,6 +6,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/regress/search_problem.h"
 #include "wearwell/study/fingerprint.h"
 #include "wearwell/table/table.h"
 
@@ -16,7 +17,10 @@ constexpr int min_rows = 3;
 
 Eigen::VectorXd read_numbers(const Table& table, const std::string& column) {
   const auto values = si_numbers(table, column, Unit{"1", 1, 0});
-  return Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+  const auto numbers =
+      Eigen::VectorXd::Map(values.data(), static_cast<Eigen::Index>(values.size()));
+  require_size(fmt::format("{}, column '{}'", table.source, column), numbers);
+  return numbers;
 }
 
 /// A column that must tell rows apart.
@@ -112,10 +116,17 @@ void check(const SelectData& data) {
 
 SelectionResult read_selection(const SelectData& data) {
   check(data);
-  const Table table = read_table(data.file, data.sql);
+  const ReadFile read(data.file);
+  const Table table = [&] {
+    try {
+      return read_table(data.file, data.sql);
+    } catch (const QueryError& error) {
+      throw InputError(fmt::format("--sql: {}", error.what()));
+    }
+  }();
   SelectionResult result;
   result.data_file = table.source;
-  result.data_sha1 = sha1(data.file);
+  result.data_sha1 = read.sha1();
   result.sql = data.sql.value_or("");
   result.response = data.response;
   result.weights_column = data.weights;

@@ -42,8 +42,9 @@ Uncertain read_plus_minus(const std::string& left, const std::string& right, std
   } else {
     const Quantity sd = read_quantity(right, si);
     // A mean without a unit has that of its standard deviation.
-    const std::string unit = si == "1" || !is_bare_number(left) ? "" : " " + sd.unit.text;
-    const Quantity mean = read_quantity(left + unit, si);
+    const bool bare = is_bare_number(left) && sd.unit.text != "1";
+    const Quantity mean = read_quantity(bare ? left + " " + sd.unit.text : left, si);
+    refuse_two_readings(sd, mean.unit);
     result.unit = mean.unit;
     result.mean = mean.si();
     result.sd = difference(sd);
@@ -66,6 +67,8 @@ Uncertain read_law(const std::string& text, std::string_view si) {
   }
   const Quantity first = read_quantity(text.substr(open + 1, comma - open - 1), si);
   const Quantity second = read_quantity(text.substr(comma + 1, close - comma - 1), si);
+  refuse_two_readings(first, second.unit);
+  refuse_two_readings(second, first.unit);
   Uncertain result;
   result.unit = first.unit;
   if (name == "uniform") {

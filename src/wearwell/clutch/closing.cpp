@@ -61,6 +61,8 @@ Closing measure(const std::vector<Sample>& samples, std::size_t first, std::size
 }  // namespace
 
 std::vector<Closing> find_closings(const std::vector<Sample>& samples, const ClosingRule& rule) {
+  if (!(rule.torque_on >= 0 && rule.slip_off >= 0 && rule.longest_gap > 0))
+    throw InputError("the torque and the slip speed of a closing must not be negative");
   check_time(samples);
   const double longest_step = rule.longest_gap * median_step(samples);
   std::map<int, long long> count;

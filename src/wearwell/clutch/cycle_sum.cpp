@@ -12,7 +12,6 @@ namespace {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
-constexpr unsigned negative_map = 1u << inputs.size();
 /// exp(-x) beyond this is nothing beside 1.
 constexpr double negligible = 40;
 
@@ -54,10 +53,11 @@ double PlateWear::full_sd(double plate_sd) const {
   return std::sqrt(variance + model + by_plate * by_plate);
 }
 
-CycleSum::CycleSum(const WearModel& model, bool with_replicates)
+CycleSum::CycleSum(const WearModel& model, bool with_replicates, NotFinite not_finite)
     : model_(model),
       polynomial_(model.polynomial()),
-      with_replicates_(with_replicates && !model.replicates.empty()) {
+      with_replicates_(with_replicates && !model.replicates.empty()),
+      not_finite_(not_finite) {
   if (!with_replicates_) return;
   const Index count = std::ssize(model.replicates);
   for (ArrayXd* each : {&slow_, &fast_, &slow_energy_, &fast_energy_}) each->resize(count);
@@ -88,7 +88,9 @@ void CycleSum::rates(const CycleColumns& cycles, Rates& rates) const {
     rates.sigma = law.p[0] + law.p[1] * rates.w.head(n);
     if (law.kind == ScatterKind::quadratic) rates.sigma += law.p[2] * rates.w.head(n).square();
   }
-  rates.sigma = rates.sigma.max(model_.scatter_floor);
+  // Not max(), which makes a number of NaN.
+  const double floor = model_.scatter_floor;
+  rates.sigma = (rates.sigma < floor).select(floor, rates.sigma);
   rates.w.conservativeResize(n);
 
   rates.outside.assign(static_cast<std::size_t>(n), 0);
@@ -107,8 +109,10 @@ void CycleSum::rates(const CycleColumns& cycles, Rates& rates) const {
   for (Index i = 0; i < n; ++i) {
     if (rates.w[i] < 0) {
       rates.w[i] = 0;
-      rates.outside[static_cast<std::size_t>(i)] |= negative_map;
+      rates.outside[static_cast<std::size_t>(i)] |= negative;
     }
+    if (!std::isfinite(rates.w[i]) || !std::isfinite(rates.sigma[i]))
+      rates.outside[static_cast<std::size_t>(i)] |= no_number;
   }
   if (!with_replicates_) return;
   rates.replicates.resize(n, std::ssize(model_.replicates));
@@ -116,7 +120,12 @@ void CycleSum::rates(const CycleColumns& cycles, Rates& rates) const {
   for (Index b = 0; b < rates.replicates.cols(); ++b) {
     evaluate(model_.replicates[static_cast<std::size_t>(b)].w, log_speed, log_time,
              cycles.temperature, cycles.torque, distance, w);
-    rates.replicates.col(b) = w.head(n).max(0);
+    rates.replicates.col(b) = (w.head(n) < 0).select(0, w.head(n));
+    if (rates.replicates.col(b).isFinite().all()) continue;
+    for (Index i = 0; i < n; ++i) {
+      if (!std::isfinite(rates.replicates(i, b)))
+        rates.outside[static_cast<std::size_t>(i)] |= no_number;
+    }
   }
 }
 
@@ -131,10 +140,35 @@ PlateWear& CycleSum::plate(int number) {
   return plates_.back();
 }
 
+// False, and nothing done, when a number would not be finite.
+bool CycleSum::step(PlateWear& p, const CycleColumns& cycles, const Rates& rates, Index i) {
+  const RunIn& run_in = model_.run_in;
+  const double energy = cycles.energy[i];
+  const double now = p.energy < negligible * run_in.slow_energy ? run_in.g(p.energy) : 1.0;
+  const double volume = p.volume + now * rates.w[i] * energy;
+  const double scatter = rates.sigma[i] * energy;
+  const double variance = p.variance + scatter * scatter;
+  if (rates.outside[static_cast<std::size_t>(i)] & no_number || !std::isfinite(volume) ||
+      !std::isfinite(variance) || !std::isfinite(p.energy + energy))
+    return false;
+  if (with_replicates_) {
+    if (p.energy < negligible * slow_energy_.maxCoeff()) {
+      g_ = 1 + slow_ * (-p.energy / slow_energy_).exp() + fast_ * (-p.energy / fast_energy_).exp();
+      worn_ = p.replicates + g_ * rates.replicates.row(i).transpose() * energy;
+    } else {
+      worn_ = p.replicates + rates.replicates.row(i).transpose() * energy;
+    }
+    if (!std::isfinite(worn_.sum())) return false;
+    p.replicates.swap(worn_);
+  }
+  p.volume = volume;
+  p.variance = variance;
+  p.energy += energy;
+  return true;
+}
+
 void CycleSum::add(const CycleColumns& cycles, const Rates& rates, std::size_t first_row,
                    Trace* trace) {
-  const RunIn& run_in = model_.run_in;
-  ArrayXd g;
   for (Index i = 0; i < cycles.size(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     PlateWear& p = plate(static_cast<int>(cycles.plate[at]));
@@ -143,30 +177,28 @@ void CycleSum::add(const CycleColumns& cycles, const Rates& rates, std::size_t f
       throw InputError(
           fmt::format("row {}: plate {}, cycle {} follows cycle {}; cycles must ascend",
                       first_row + at + 1, p.plate, number, p.last_number));
-    const double energy = cycles.energy[i];
-    const double now = p.energy < negligible * run_in.slow_energy ? run_in.g(p.energy) : 1.0;
-    p.volume += now * rates.w[i] * energy;
-    const double step = rates.sigma[i] * energy;
-    p.variance += step * step;
-    if (with_replicates_) {
-      if (p.energy < negligible * slow_energy_.maxCoeff()) {
-        g = 1 + slow_ * (-p.energy / slow_energy_).exp() + fast_ * (-p.energy / fast_energy_).exp();
-        p.replicates += g * rates.replicates.row(i).transpose() * energy;
-      } else {
-        p.replicates += rates.replicates.row(i).transpose() * energy;
-      }
-    }
-    p.energy += energy;
+    const bool done = step(p, cycles, rates, i);
+    if (!done && not_finite_ == NotFinite::refuse)
+      throw InputError(fmt::format(
+          "row {}: plate {}, cycle {}: the model gives no finite wear at slip speed {:.6g} rad/s, "
+          "torque {:.6g} N m, temperature {:.6g} degC, closing time {:.6g} s, energy {:.6g} J",
+          first_row + at + 1, p.plate, number, cycles.slip_speed[i], cycles.torque[i],
+          cycles.temperature[i], cycles.closing_time[i], cycles.energy[i]));
     p.last_number = number;
-    ++p.cycles;
-    if (const unsigned bits = rates.outside[at]) {
+    if (done) {
+      ++p.cycles;
+    } else {
+      ++p.skipped;
+    }
+    if (const unsigned bits = done ? rates.outside[at] : 0) {
       for (std::size_t c = 0; c < inputs.size(); ++c) p.outside[c] += bits >> c & 1;
-      p.outside_any += (bits & (negative_map - 1)) != 0;
-      p.clamped += (bits & negative_map) != 0;
+      p.outside_any += (bits & (negative - 1)) != 0;
+      p.clamped += (bits & negative) != 0;
     }
     if (trace) {
       trace->volume.push_back(p.volume);
       trace->sd.push_back(p.sd());
+      trace->skipped.push_back(!done);
     }
   }
 }

@@ -26,6 +26,7 @@ struct PlateWear {
   std::array<long long, 4> outside{};  ///< cycles outside the range of validity, by input
   long long outside_any = 0;
   long long clamped = 0;      ///< cycles where the map is negative: taken as no wear
+  long long skipped = 0;      ///< cycles without a finite number: left out (NotFinite::skip)
   Eigen::ArrayXd replicates;  ///< V of each replicate; empty when not asked for
 
   double sd() const { return std::sqrt(variance); }
@@ -33,6 +34,9 @@ struct PlateWear {
   /// about V) and of the plate's factor.
   double full_sd(double plate_sd) const;
 };
+
+/// What to do with a cycle at which the model, or the sum, gives no finite number.
+enum class NotFinite { refuse, skip };
 
 /// The cycle-wise sum (Haramina et al. 2025, section 3.5):
 ///
@@ -43,20 +47,22 @@ struct PlateWear {
 class CycleSum {
  public:
   /// Without replicates it is about ten times as fast, and full_sd lacks their part.
-  CycleSum(const WearModel& model, bool with_replicates);
+  CycleSum(const WearModel& model, bool with_replicates, NotFinite not_finite = NotFinite::refuse);
 
   struct Rates {
     Eigen::ArrayXd w, sigma;        ///< m^3/J
-    std::vector<unsigned> outside;  ///< inputs, as outside(); bit 4: the map was negative
+    std::vector<unsigned> outside;  ///< inputs, as outside(); then `negative`, `no_number`
     Eigen::ArrayXXd replicates;     ///< w of each, a column each
   };
+  static constexpr unsigned negative = 1u << inputs.size(), no_number = negative << 1;
   void rates(const CycleColumns& cycles, Rates& rates) const;
 
   /// Volume and variance after each cycle, where wanted. Throws InputError, naming row (counted
   /// from `first_row`), plate and cycle, for a number that does not follow that of the cycle before
-  /// on its plate.
+  /// on its plate; and for a cycle without a finite number, where that is not to be skipped.
   struct Trace {
     std::vector<double> volume, sd;
+    std::vector<bool> skipped;
   };
   void add(const CycleColumns& cycles, const Rates& rates, std::size_t first_row = 0,
            Trace* trace = nullptr);
@@ -68,11 +74,14 @@ class CycleSum {
 
  private:
   PlateWear& plate(int number);
+  bool step(PlateWear& p, const CycleColumns& cycles, const Rates& rates, Eigen::Index i);
 
   const WearModel& model_;
   WearPolynomial polynomial_;
   bool with_replicates_;
+  NotFinite not_finite_;
   Eigen::ArrayXd slow_, fast_, slow_energy_, fast_energy_;  ///< of the replicates
+  Eigen::ArrayXd g_, worn_;                                 ///< likewise, storage of `step`
   std::vector<PlateWear> plates_;
   std::unordered_map<int, std::size_t> place_;  ///< in plates_
   std::size_t current_ = 0;

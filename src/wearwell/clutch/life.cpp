@@ -36,6 +36,9 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
     life.outside |= outside(model, cycle.at);
   }
   life.sd = std::sqrt(variance);
+  if (!std::isfinite(life.volume) || !std::isfinite(life.energy) || !std::isfinite(variance))
+    throw InputError(
+        "the wear of this duty is no finite number; is the model far outside its range?");
   if (!(life.volume > 0)) throw InputError("the model predicts no wear under this duty");
 
   std::vector<double> replicate_volumes;
@@ -45,7 +48,8 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
     replicate_volumes.push_back(volume);
   }
   for (const double level : levels) {
-    if (!(level > 0)) throw InputError(fmt::format("wear level {} must be positive", level));
+    if (!(level > 0 && std::isfinite(level)))
+      throw InputError(fmt::format("wear level {} must be positive and finite", level));
     LifeAtLevel at;
     at.level = level;
     const double target = level * model.worn_out;
@@ -62,6 +66,9 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
     if (!replicate_volumes.empty()) squares /= static_cast<double>(replicate_volumes.size());
     const double plate = model.plate_sd * target;
     at.full_sd = std::sqrt(at.sd * at.sd + squares + plate * plate);
+    if (!std::isfinite(at.repetitions) || !std::isfinite(at.full_sd))
+      throw InputError(
+          fmt::format("wear level {} is too far away: no finite number of repetitions", level));
     at.relative = 2 * at.sd / target;
     at.full_relative = 2 * at.full_sd / target;
     life.levels.push_back(at);

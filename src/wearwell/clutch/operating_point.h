@@ -34,7 +34,7 @@ struct Input {
   double OperatingPoint::*value;
 };
 inline constexpr std::array<Input, 4> inputs = {
-    Input{"slip_speed", "omega0", "1/s", &OperatingPoint::slip_speed},
+    Input{"slip_speed", "omega0", "rad/s", &OperatingPoint::slip_speed},
     Input{"torque", "Mz", "N m", &OperatingPoint::torque},
     Input{"temperature", "Td", "K", &OperatingPoint::temperature},
     Input{"closing_time", "t2", "s", &OperatingPoint::closing_time}};

@@ -41,6 +41,10 @@ StandardLaw MixedLife::standard() const {
 
 void MixedLife::add(double weight, double center, double sigma) {
   if (weight <= 0 || center == infinity) return;
+  if (std::isnan(center) || !(sigma > 0)) {
+    undefined_ += weight;
+    return;
+  }
   weight_.push_back(weight);
   center_.push_back(center);
   inverse_sigma_.push_back(1 / sigma);
@@ -100,28 +104,36 @@ double MixedLife::cdf(double life) const {
 }
 
 double MixedLife::quantile(double p) const {
+  constexpr double negligible = 1e-8;
+  if (undefined_ > negligible) return std::nan("");
   if (p >= ended_) return infinity;
-  // Between the quantiles of the single laws.
-  const double z = wearwell::quantile(standard(), p / ended_);
-  double low = infinity, high = -infinity, at = 0;
-  for (std::size_t i = 0; i < weight_.size(); ++i) {
-    const double each = center_[i] + z / inverse_sigma_[i];
-    if (!std::isfinite(each)) return std::nan("");
-    low = std::min(low, each);
-    high = std::max(high, each);
-    at += weight_[i] * each / ended_;
-  }
-  // Newton's method between bounds that close in; halving where it would leave them.
-  for (int i = 0; i < 200; ++i) {
+  // Newton's method from the quantile of the heaviest law, between bounds that close in: laws
+  // without weight may lie anywhere.
+  const auto heaviest = static_cast<std::size_t>(
+      std::max_element(weight_.begin(), weight_.end()) - weight_.begin());
+  double step = 1 / inverse_sigma_[heaviest];
+  double at = center_[heaviest] + wearwell::quantile(standard(), p / ended_) * step;
+  double low = -infinity, high = infinity;
+  for (int i = 0; i < 2000; ++i) {
+    if (!std::isfinite(at)) return std::nan("");
     const Sums here = sums(at);
     (here.cdf < p ? low : high) = at;
     double next = at - (here.cdf - p) / here.density;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double step = std::abs(next - at);
+    if (std::isinf(low) || std::isinf(high)) {
+      // Where no law is near, Newton's step is none: outward, ever faster.
+      const double outward = here.cdf < p ? step : -step;
+      if (!(std::abs(next - at) <= 4 * step)) next = at + outward;
+      step *= 2;
+    } else if (!(next > low && next < high)) {
+      next = 0.5 * low + 0.5 * high;
+    }
+    const double moved = std::abs(next - at);
     at = next;
-    if (step <= 1e-11 * (1 + std::abs(at))) break;
+    if (moved <= 1e-11 * (1 + std::abs(at))) {
+      return family_ == LifeFamily::normal ? at : std::pow(10, at);
+    }
   }
-  return family_ == LifeFamily::normal ? at : std::pow(10, at);
+  return std::nan("");
 }
 
 double MixedLife::density(double log10_life) const {
@@ -189,8 +201,13 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
   };
   const int i = law.limit_index();
   double low = unlimited, high = std::max(low, x[i] + 8 * x[i + 1]) + std::log10(2.0);
-  while (excess(low) > 0) low -= 1;
-  while (excess(high) < 0) high += 1;
+  // Logarithms of stresses: beyond some hundred decades there is none.
+  while (excess(low) > 0) {
+    if ((low -= 1) < -most_decades) return -infinity;
+  }
+  while (excess(high) < 0) {
+    if ((high += 1) > most_decades) return infinity;
+  }
   std::uintmax_t iterations = 100;
   const auto [left, right] = boost::math::tools::toms748_solve(
       excess, low, high, [](double l, double r) { return r - l <= 1e-9; }, iterations);

@@ -23,7 +23,8 @@ class MixedLife {
   /// The probability that life [cycles] has ended by then.
   double cdf(double life) const;
 
-  /// The life by which a share p has failed, 0 < p < 1; infinite where fewer ever do.
+  /// The life by which a share p has failed, 0 < p < 1; infinite where fewer ever do. NaN where a
+  /// law with weight is none.
   double quantile(double p) const;
 
   /// The density of log10 life.
@@ -38,7 +39,8 @@ class MixedLife {
 
   LifeFamily family_;
   std::vector<double> weight_, center_, inverse_sigma_;
-  double ended_ = 0;  // weight of the laws with an end
+  double ended_ = 0;      // weight of the laws with an end
+  double undefined_ = 0;  // weight of laws that are none
 };
 
 /// The centre of lives of items without fatigue limit, on the scale on which lives scatter: log10 of

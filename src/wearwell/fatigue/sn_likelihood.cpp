@@ -26,6 +26,17 @@ class SnLikelihood final : public LogDensity {
       }
       rows_.push_back(row);
     }
+    for (std::size_t i = 0; i < tests_.size(); ++i) {
+      const auto alike = [&](const Term& term) { return same(tests_[term.row], tests_[i]); };
+      // An integral over the limit is worth the search; without one the sum keeps its order.
+      const auto found =
+          law_.limit ? std::find_if(terms_.begin(), terms_.end(), alike) : terms_.end();
+      if (found != terms_.end()) {
+        found->count += tests_[i].count;
+      } else {
+        terms_.push_back({i, tests_[i].count});
+      }
+    }
   }
 
   int dimension() const override { return law_.dimension(); }
@@ -57,6 +68,17 @@ class SnLikelihood final : public LogDensity {
     double log_measure;
   };
 
+  // What tests that ended alike under one stress add: runouts above all.
+  struct Term {
+    std::size_t row;
+    int count;
+  };
+
+  static bool same(const LifeTest& a, const LifeTest& b) {
+    return a.stress.alternating == b.stress.alternating && a.stress.mean == b.stress.mean &&
+           a.outcome == b.outcome && a.life == b.life && a.until == b.until;
+  }
+
   // What all rows have in common.
   template <class T>
   struct Shared {
@@ -79,12 +101,11 @@ class SnLikelihood final : public LogDensity {
   T formula(const T* x) const {
     const Shared<T> shared(law_, x);
     T sum(0);
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      const int count = tests_[i].count;
+    for (const auto& [row, count] : terms_) {
       if (count == 1) {
-        sum += term(shared, i);
+        sum += term(shared, row);
       } else {
-        sum += static_cast<double>(count) * term(shared, i);
+        sum += static_cast<double>(count) * term(shared, row);
       }
     }
     return sum;
@@ -138,6 +159,7 @@ class SnLikelihood final : public LogDensity {
   SnLaw law_;
   LifeTests tests_;
   std::vector<Row> rows_;
+  std::vector<Term> terms_;
 };
 
 }  // namespace

@@ -48,15 +48,17 @@ struct Cell {
 
 class Integrator {
  public:
-  Integrator(const Posterior& posterior, const Whitening& whitening, const ExactSettings& settings)
+  Integrator(const Posterior& posterior, const Whitening& whitening, const ExactSettings& settings,
+             const Posterior& shape)
       : posterior_(posterior),
+        own_shape_(&shape == &posterior),
         settings_(settings),
         d_(posterior.dimension()),
         p_(nodes_per_axis[d_]),
         rule_(gauss_legendre(p_)),
         points_(static_cast<std::size_t>(std::pow(p_, d_))),
-        map_(posterior, whitening),
-        reference_(map_.highest()),
+        map_(shape, whitening),
+        reference_(own_shape_ ? map_.highest() : posterior.value(view(whitening.center))),
         log_jacobian_(map_.at(0).log_jacobian) {
     // Parameters are standardized about the center by their first-order spread.
     center_x_.resize(d_);
@@ -87,7 +89,7 @@ class Integrator {
 
   ExactPosterior run() {
     moments_exist_ = settings_.second_moments;
-    if (map_.endless()) failure_ = "its mass does not end: it is improper or far too wide";
+    if (own_shape_ && map_.endless()) failure_ = "its mass does not end: it is improper or far too wide";
     lower_.fill(-6);
     upper_.fill(6);
     lower_[map_.axis()] = map_.lower();
@@ -338,6 +340,7 @@ class Integrator {
       failure_ = "its mass is no number";
       return;
     }
+    if (!own_shape_) return;
     if (map_.highest() > reference_ + highest_ + most_above) {
       failure_ = fmt::format("a density e^{:.1f} times that of any node was met beside them",
                              map_.highest() - reference_ - highest_);
@@ -426,6 +429,7 @@ class Integrator {
   }
 
   const Posterior& posterior_;
+  bool own_shape_;
   const ExactSettings& settings_;
   int d_, p_;
   GaussLegendre rule_;
@@ -452,6 +456,11 @@ class Integrator {
 
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings) {
+  return integrate(posterior, whitening, settings, posterior);
+}
+
+ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
+                         const ExactSettings& settings, const Posterior& shape) {
   if (posterior.dimension() > max_exact_dimension) {
     throw std::logic_error("integrate: too many parameters");
   }
@@ -461,7 +470,7 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
     ExactPosterior exact = integrate_on_lattice(posterior, whitening, settings);
     if (exact.failure.empty()) return exact;
   }
-  return Integrator(posterior, whitening, settings).run();
+  return Integrator(posterior, whitening, settings, shape).run();
 }
 
 Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,

@@ -45,6 +45,11 @@ struct ExactPosterior {
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings = {});
 
+/// The same along the ridge of `shape`, a posterior much like it (of all observations, where this one
+/// lacks one and has no gradient).
+ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
+                         const ExactSettings& settings, const Posterior& shape);
+
 /// Independent draws from the exact posterior: `chains` x `draws`, a stream of random numbers each.
 Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,
                         int draws, std::uint64_t seed, std::uint64_t first_stream);

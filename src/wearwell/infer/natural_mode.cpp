@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wearwell/infer/climb.h"
+#include "wearwell/infer/natural_density.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -22,53 +22,6 @@ constexpr double least_curvature = 1e-7;
 
 // Curvature in units of the distance between two bounds below which the data tell nothing there.
 constexpr double least_told = 1e-3;
-
-// Of the posterior along each parameter, to first order.
-Eigen::VectorXd widths(const Posterior& posterior, const Whitening& whitening) {
-  const int d = posterior.dimension();
-  Eigen::VectorXd center(d), x(d), squares = Eigen::VectorXd::Zero(d);
-  posterior.to_natural(view(whitening.center), view(center));
-  for (int a = 0; a < d; ++a) {
-    const Eigen::VectorXd moved = whitening.center + 0.3 * whitening.scale.col(a);
-    posterior.to_natural(view(moved), view(x));
-    squares += ((x - center) / 0.3).cwiseAbs2();
-  }
-  return squares.cwiseSqrt();
-}
-
-// The posterior as a density of the natural parameters.
-class Natural final : public LogDensity {
- public:
-  explicit Natural(const Posterior& posterior) : posterior_(posterior) {}
-  int dimension() const override { return posterior_.dimension(); }
-  double value(std::span<const double> x) const override { return posterior_.natural_value(x); }
-  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
-    return posterior_.natural_value_and_gradient(x, gradient);
-  }
-
- private:
-  const Posterior& posterior_;
-};
-
-// Just inside the support: on its very bound a density may be no number.
-Box box_of(const Posterior& posterior, const Eigen::VectorXd& width) {
-  constexpr double inset = 1e-9;
-  Box box{width, width};
-  for (Eigen::Index i = 0; i < width.size(); ++i) {
-    const Law& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
-    const double size = std::min(width[i], prior.upper - prior.lower);
-    const auto gap = [&](double bound) {
-      constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-      return std::isfinite(bound) ? inset * size + rounding * std::abs(bound) : 0;
-    };
-    box.lower[i] = prior.lower + gap(prior.lower);
-    box.upper[i] = prior.upper - gap(prior.upper);
-    if (!(box.lower[i] < box.upper[i])) {
-      box.lower[i] = box.upper[i] = prior.lower + 0.5 * (prior.upper - prior.lower);
-    }
-  }
-  return box;
-}
 
 std::vector<Eigen::VectorXd> starts(const Posterior& posterior, const Fit& fit) {
   std::vector<Eigen::VectorXd> all;
@@ -123,11 +76,11 @@ std::string problem_of(const Posterior& posterior, const Box& box, const Summit&
 }  // namespace
 
 NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
-  const Eigen::VectorXd width = widths(posterior, fit.whitening);
+  const Eigen::VectorXd width = natural_widths(posterior, fit.whitening);
   Eigen::VectorXd center(posterior.dimension());
   posterior.to_natural(view(fit.whitening.center), view(center));
-  const Natural density(posterior);
-  const Box box = box_of(posterior, width);
+  const NaturalDensity density(posterior);
+  const Box box = natural_box(posterior, width);
   NaturalMode mode;
   std::vector<Summit> summits;
   for (const Eigen::VectorXd& start : starts(posterior, fit)) {

@@ -1,7 +1,11 @@
 #include "wearwell/infer/prior_checks.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "wearwell/infer/power_scaling.h"
 #include "wearwell/math/view.h"
@@ -100,55 +104,100 @@ bool has_cut(const Parameter& parameter) {
                   (std::isfinite(prior.upper) && prior.upper != parameter.natural_upper));
 }
 
+// Mass that a cut may leave out, and how far that may move a mean, if beyond the cut the density is
+// nowhere higher than at it.
+struct LeftOut {
+  double share = 0;
+  double shift = 0;  // standard deviations
+};
+
+LeftOut left_out(const Posterior& wider, const Posterior& posterior, const Fit& fit,
+                 std::size_t index) {
+  const Distribution marginal(fit.exact->nodes, [index](const double* x) { return x[index]; });
+  const auto at = static_cast<Eigen::Index>(index);
+  const double mean = fit.exact->mean[at], sd = fit.exact->sd[at];
+  const double width = (marginal.quantile(0.95) - marginal.quantile(0.05)) / 20;
+  const Law &cut = posterior.parameters()[index].prior, &moved = wider.parameters()[index].prior;
+  LeftOut all;
+  for (const bool lower : {true, false}) {
+    const double edge = lower ? cut.lower : cut.upper, end = lower ? moved.lower : moved.upper;
+    if (edge == end) continue;
+    const double inside = lower ? marginal.cdf(edge + width) - marginal.cdf(edge)
+                                : marginal.cdf(edge) - marginal.cdf(edge - width);
+    const double share = inside / width * std::abs(end - edge);
+    all.share += share;
+    all.shift += share * std::abs(end - mean) / sd;
+  }
+  return all;
+}
+
+// What moving the cut of one parameter does; nothing where it has none.
+struct CutFinding {
+  std::optional<Verdict> verdict;
+  std::string detail;
+};
+
+CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t index) {
+  constexpr double tolerated = 0.25;      // standard deviations
+  constexpr double without_doubt = 1e-3;  // so little more than which integration would not see
+  const Parameter& parameter = posterior.parameters()[index];
+  if (!has_cut(parameter)) return {};
+  if (!fit.exact) {
+    return {Verdict::warn, fmt::format("the dependence on the bounds of {} was not examined ({})",
+                                       parameter.name, fit.no_exact)};
+  }
+  const Posterior wider =
+      with_cut_moved(posterior, index, fit.exact->mean[static_cast<Eigen::Index>(index)]);
+  const LeftOut out = left_out(wider, posterior, fit, index);
+  if (out.shift < without_doubt) {
+    return {Verdict::pass,
+            fmt::format("the bounds of {} at twice the distance from its mean would take in less "
+                        "than {:.1g} of the posterior",
+                        parameter.name, std::max(out.share, 1e-12))};
+  }
+  // A thousandth of a standard deviation is enough to see a quarter.
+  const ExactPosterior exact =
+      integrate(wider, whitening_of(wider, posterior, fit), {.tolerance = 1e-3});
+  if (!exact.failure.empty()) {
+    return {dependence_on(parameter),
+            fmt::format("with the bounds of {} at twice the distance from its mean the "
+                        "posterior cannot be "
+                        "integrated ({})",
+                        parameter.name, exact.failure)};
+  }
+  const Eigen::VectorXd shift =
+      (exact.mean - fit.exact->mean).cwiseAbs().cwiseQuotient(fit.exact->sd);
+  Eigen::Index worst = 0;
+  const double largest = shift.maxCoeff(&worst);
+  const Parameter& moved = posterior.parameters()[static_cast<std::size_t>(worst)];
+  const bool depends = largest > tolerated || std::isnan(largest);
+  return {depends ? dependence_on(parameter) : Verdict::pass,
+          fmt::format("with the bounds of {} at twice the distance from its mean, the mean of {} "
+                      "goes from {} to {} ({:.2f} standard deviations)",
+                      parameter.name, moved.name, in_unit(moved, fit.exact->mean[worst]),
+                      in_unit(moved, exact.mean[worst]), largest)};
+}
+
 }  // namespace
 
 Check prior_cut(const Posterior& posterior, const Fit& fit) {
-  constexpr double tolerated = 0.25;  // standard deviations
+  std::vector<CutFinding> each(posterior.parameters().size());
+  tbb::parallel_for(std::size_t{0}, each.size(),
+                    [&](std::size_t i) { each[i] = moved_cut(posterior, fit, i); });
   Findings findings("prior-cut");
   std::vector<std::string> passed;
-  for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
-    const Parameter& parameter = posterior.parameters()[i];
-    if (!has_cut(parameter)) continue;
-    if (!fit.exact) {
-      findings.add(Verdict::warn,
-                   fmt::format("the dependence on the bounds of {} was not examined ({})",
-                               parameter.name, fit.no_exact),
-                   "Fit again with other bounds and compare.");
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    if (!each[i].verdict) continue;
+    if (*each[i].verdict == Verdict::pass) {
+      passed.push_back(each[i].detail);
       continue;
     }
-    const std::string advice = fmt::format(
-        "Say what is known of {}: a bound or a law that means something. More data make the bound "
-        "matter less.",
-        parameter.name);
-    const Posterior wider =
-        with_cut_moved(posterior, i, fit.exact->mean[static_cast<Eigen::Index>(i)]);
-    // A thousandth of a standard deviation is enough to see a quarter.
-    const ExactPosterior exact =
-        integrate(wider, whitening_of(wider, posterior, fit), {.tolerance = 1e-3});
-    if (!exact.failure.empty()) {
-      findings.add(
-          dependence_on(parameter),
-          fmt::format("with the bounds of {} at twice the distance from its mean the posterior cannot be "
-                      "integrated ({})",
-                      parameter.name, exact.failure),
-          advice);
-      continue;
-    }
-    const Eigen::VectorXd shift =
-        (exact.mean - fit.exact->mean).cwiseAbs().cwiseQuotient(fit.exact->sd);
-    Eigen::Index worst = 0;
-    const double largest = shift.maxCoeff(&worst);
-    const Parameter& moved = posterior.parameters()[static_cast<std::size_t>(worst)];
-    const std::string detail = fmt::format(
-        "with the bounds of {} at twice the distance from its mean, the mean of {} goes from {} to {} "
-        "({:.2f} standard deviations)",
-        parameter.name, moved.name, in_unit(moved, fit.exact->mean[worst]),
-        in_unit(moved, exact.mean[worst]), largest);
-    if (largest > tolerated || std::isnan(largest)) {
-      findings.add(dependence_on(parameter), detail, advice);
-    } else {
-      passed.push_back(detail);
-    }
+    findings.add(
+        *each[i].verdict, each[i].detail,
+        fit.exact ? fmt::format("Say what is known of {}: a bound or a law that means something. "
+                                "More data make the bound matter less.",
+                                posterior.parameters()[i].name)
+                  : "Fit again with other bounds and compare.");
   }
   return findings.result(passed.empty() ? "no flat or uniform prior was cut"
                                         : fmt::format("{}", fmt::join(passed, "; ")));
@@ -226,6 +275,49 @@ bool pulled_apart(const Eigen::VectorXd& draws, const std::vector<double>& log_p
   return covariance(log_prior) * covariance(log_likelihood) < 0;
 }
 
+// How improbable a law makes what is as far out as x, on its side, twice for either side: to about
+// 1e-12. 1 where the law calls x plausible: where its density is no less than a hundredth of the
+// highest, however long the other tail is (a half-normal law of a scatter excludes no small one).
+double surprise(const Law& law, double x) {
+  constexpr int stations = 400;
+  constexpr double implausible = 0.01;
+  if (!law.proper || !(law.lower < x && x < law.upper)) return 1;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < stations; ++i) {
+    highest = std::max(highest, log_density(law, quantile(law, (i + 0.5) / stations)).value);
+  }
+  if (!(log_density(law, x).value < highest + std::log(implausible))) return 1;
+  const bool low = x < quantile(law, 0.5);
+  double least = -28, most = 0;  // of the logarithm of the tail's probability
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (least + most), p = std::exp(middle);
+    const double at = quantile(law, low ? p : 1 - p);
+    ((low ? at < x : at > x) ? least : most) = middle;
+  }
+  return std::min(1.0, 2 * std::exp(0.5 * (least + most)));
+}
+
+// The posterior's draw and the data have the joint law of the truth and the data: the quantile of a
+// draw in its prior is uniform. Twice the value that half of the draws have is a p value that holds
+// its level (Meinshausen, Meier, Buhlmann 2009).
+void add_exclusion(const Parameter& parameter, const Eigen::VectorXd& draws, Findings& findings) {
+  constexpr double excluded = 1e-3, far_out = 1e-2;
+  std::vector<double> values(draws.begin(), draws.end());
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const double p = std::min(1.0, 2 * surprise(parameter.prior, *middle));
+  if (!(p < far_out)) return;
+  findings.add(
+      p < excluded ? Verdict::fail : Verdict::warn,
+      fmt::format("the data move {} to {}, which its prior {}: so far out with a probability of {}",
+                  parameter.name, in_unit(parameter, *middle),
+                  p < excluded ? "excludes" : "hardly expects",
+                  p < 1e-11 ? "less than 1e-11" : fmt::format("{:.1g}", p)),
+      fmt::format("Prior and data cannot both be right about {}. Ask whether the prior describes "
+                  "this component and these conditions, and look at its units and the data's.",
+                  parameter.name));
+}
+
 }  // namespace
 
 Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
@@ -241,6 +333,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
     const Parameter& parameter = posterior.parameters()[i];
     const Eigen::VectorXd draws = values.col(static_cast<Eigen::Index>(i));
+    add_exclusion(parameter, draws, findings);
     const PowerScaling sensitivity = power_scaling(view(draws), log_prior, log_likelihood);
     const std::string numbers =
         fmt::format("{}: sensitivity to the prior {:.3f}, to the likelihood {:.3f}", parameter.name,

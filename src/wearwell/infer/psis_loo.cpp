@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include "wearwell/math/view.h"
@@ -22,7 +23,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_numbers = 5e7;
 
 // With more doubtful observations than this the model is in doubt, not the weights.
-constexpr std::size_t most_refits = 20;
+constexpr std::ptrdiff_t most_refits = 20;
+
+// Above this k-hat the tails of 1/p reach noticeably beyond the nodes of the whole posterior.
+constexpr double worth_a_refit = 0.5;
 
 double log_sum_exp(std::span<const double> values) {
   const double highest = *std::max_element(values.begin(), values.end());
@@ -176,17 +180,118 @@ bool Loo::doubtful(const LooTerm& term) const {
   return !term.refitted && !(term.khat <= threshold);
 }
 
-Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws) {
-  Loo loo;
-  const Eigen::VectorXd first = draws.values.row(0);
-  const std::size_t terms = likelihood.pointwise(view(first)).size();
-  if (terms == 0) return loo;
-  const std::vector<int> counts = likelihood.pointwise_counts();
+namespace {
+
+// Sums over weighted points of a posterior that say how one term is predicted by all others: over
+// w/p, p the term's density at a point of weight w. Relative to the largest of them so far.
+class LeftOut {
+ public:
+  void add(double log_weight, double log_p, const NormalScore* score) {
+    const double log_inverse = log_weight - log_p;
+    if (!std::isfinite(log_inverse)) return;
+    rescale(std::max(top_, log_inverse));
+    const double weight = std::exp(log_inverse - top_);
+    sum_ += weight;
+    with_ += std::exp(log_weight + log_p - top_);
+    if (!score) return;
+    below_ += weight * normal_cdf(score->high);
+    above_ += weight * normal_cdf(-score->low);
+  }
+
+  void add(const LeftOut& other) {
+    if (other.sum_ == 0) return;
+    rescale(std::max(top_, other.top_));
+    const double factor = std::exp(other.top_ - top_);
+    sum_ += factor * other.sum_;
+    with_ += factor * other.with_;
+    below_ += factor * other.below_;
+    above_ += factor * other.above_;
+  }
+
+  double elpd() const { return -(top_ + std::log(sum_)); }
+  double lpd() const { return top_ + std::log(with_); }
+  double tail() const { return std::min(1.0, 2 * std::min(below_, above_) / sum_); }
+
+ private:
+  void rescale(double top) {
+    if (top == top_) return;
+    const double factor = std::exp(top_ - top);
+    for (double* each : {&sum_, &with_, &below_, &above_}) *each *= factor;
+    top_ = top;
+  }
+
+  double top_ = -infinity;
+  double sum_ = 0, with_ = 0, below_ = 0, above_ = 0;
+};
+
+std::vector<NormalScore> scores_at(const Scores* scores, const double* x) {
+  return scores ? (*scores)(x) : std::vector<NormalScore>{};
+}
+
+// Over all nodes of a quadrature, in parts of fixed size: the sums do not depend on threads.
+std::vector<LeftOut> left_out(const LogDensity& likelihood, const WeightedDraws& nodes,
+                              std::size_t terms, const Scores* scores) {
+  constexpr Eigen::Index part = 512;
+  const Eigen::Index count = nodes.values.rows();
+  std::vector<std::vector<LeftOut>> parts(static_cast<std::size_t>((count + part - 1) / part));
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    parts[i].resize(terms);
+    const Eigen::Index first = static_cast<Eigen::Index>(i) * part;
+    for (Eigen::Index row = first; row < std::min(count, first + part); ++row) {
+      if (!(nodes.weights[row] > 0)) continue;
+      const double log_weight = std::log(nodes.weights[row]);
+      const Eigen::VectorXd x = nodes.values.row(row);
+      const std::vector<double> log_p = likelihood.pointwise(view(x));
+      const std::vector<NormalScore> z = scores_at(scores, x.data());
+      for (std::size_t t = 0; t < terms; ++t) {
+        parts[i][t].add(log_weight, log_p[t], scores ? &z[t] : nullptr);
+      }
+    }
+  });
+  std::vector<LeftOut> sums(terms);
+  for (const auto& each : parts) {
+    for (std::size_t t = 0; t < terms; ++t) sums[t].add(each[t]);
+  }
+  return sums;
+}
+
+struct Refitted {
+  double elpd = 0, tail = 1, error = 0;
+};
+
+// Empty where the quadrature fails.
+std::optional<Refitted> fitted_without(const Posterior& posterior, const Whitening& whitening,
+                                       std::size_t term, const Scores* scores) {
+  const Posterior others(posterior.parameters(),
+                         std::make_shared<Without>(posterior.likelihood(), term));
+  ExactSettings settings;
+  settings.tolerance = 1e-3;
+  settings.max_evaluations = 4'000'000;
+  settings.second_moments = false;
+  const ExactPosterior exact = integrate(others, whitening, settings, posterior);
+  if (!exact.failure.empty()) return {};
+  double density = 0, below = 0, above = 0;
+  for (Eigen::Index i = 0; i < exact.nodes.values.rows(); ++i) {
+    const Eigen::VectorXd x = exact.nodes.values.row(i);
+    const double weight = exact.nodes.weights[i];
+    density += weight * std::exp(posterior.likelihood()->pointwise(view(x))[term]);
+    if (!scores) continue;
+    const NormalScore score = (*scores)(x.data())[term];
+    below += weight * normal_cdf(score.high);
+    above += weight * normal_cdf(-score.low);
+  }
+  const double elpd = std::log(density);
+  if (!std::isfinite(elpd)) return {};
+  return Refitted{elpd, scores ? std::min(1.0, 2 * std::min(below, above)) : 1, exact.error};
+}
+
+// Log densities of the terms at draws: a column a term.
+Eigen::MatrixXd log_densities(const LogDensity& likelihood, const WeightedDraws& draws,
+                              std::size_t terms) {
   const auto thin = static_cast<Eigen::Index>(std::ceil(static_cast<double>(draws.values.rows()) *
                                                         static_cast<double>(terms) / most_numbers));
   const Eigen::Index used = (draws.values.rows() + thin - 1) / thin;
-  loo.threshold = khat_threshold(static_cast<double>(used));
-  Eigen::MatrixXd log_density(used, static_cast<Eigen::Index>(terms));  // a column a term
+  Eigen::MatrixXd log_density(used, static_cast<Eigen::Index>(terms));
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, used, 64), [&](const auto& part) {
     for (Eigen::Index row = part.begin(); row != part.end(); ++row) {
       const Eigen::VectorXd x = draws.values.row(row * thin);
@@ -195,59 +300,123 @@ Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws) {
           Eigen::Map<const Eigen::RowVectorXd>(each.data(), static_cast<Eigen::Index>(each.size()));
     }
   });
+  return log_density;
+}
+
+// Draws that count for fewer independent ones, on the average over the bulk of all parameters.
+double efficiency_of(const Fit& fit) {
+  double least = 1;
+  for (const Diagnostics& each : fit.diagnostics) {
+    const double share = each.ess_bulk / static_cast<double>(fit.pooled.values.rows());
+    if (share > 0) least = std::min(least, share);
+  }
+  return least;
+}
+
+}  // namespace
+
+Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double efficiency,
+             const Scores* scores) {
+  Loo loo;
+  const Eigen::VectorXd first = draws.values.row(0);
+  const std::size_t terms = likelihood.pointwise(view(first)).size();
+  if (terms == 0) return loo;
+  const std::vector<int> counts = likelihood.pointwise_counts();
+  Eigen::MatrixXd columns = log_densities(likelihood, draws, terms);
+  const Eigen::Index used = columns.rows();
+  const Eigen::Index thin = (draws.values.rows() + used - 1) / used;
+  std::vector<std::vector<NormalScore>> z(scores ? static_cast<std::size_t>(used) : 0);
+  tbb::parallel_for(std::size_t{0}, z.size(), [&](std::size_t s) {
+    const Eigen::VectorXd x = draws.values.row(static_cast<Eigen::Index>(s) * thin);
+    z[s] = (*scores)(x.data());
+  });
+  loo.threshold = khat_threshold(static_cast<double>(used));
   loo.terms.resize(terms);
   tbb::parallel_for(std::size_t{0}, terms, [&](std::size_t i) {
-    const Eigen::VectorXd column = log_density.col(static_cast<Eigen::Index>(i));
+    auto column = columns.col(static_cast<Eigen::Index>(i));
     std::vector<double> weights(column.begin(), column.end());
     for (double& each : weights) each = -each;
     LooTerm& term = loo.terms[i];
     term.khat = pareto_smooth(weights);
-    term.lpd = log_sum_exp(view(column)) - std::log(static_cast<double>(used));
+    const std::vector<double> log_p(column.begin(), column.end());
+    term.lpd = log_sum_exp(log_p) - std::log(static_cast<double>(used));
     const double total = log_sum_exp(weights);
-    for (std::size_t s = 0; s < weights.size(); ++s) {
-      weights[s] += column[static_cast<Eigen::Index>(s)];
-    }
-    term.elpd = log_sum_exp(weights) - total;
+    std::vector<double> with = weights;
+    for (std::size_t s = 0; s < with.size(); ++s) with[s] += log_p[s];
+    term.elpd = log_sum_exp(with) - total;
     if (!counts.empty()) term.count = counts[i];
+    double below = 0, above = 0;
+    for (std::size_t s = 0; s < weights.size(); ++s) {
+      const double weight = std::exp(weights[s] - total);
+      // What this draw adds to the error of elpd, to the first order.
+      column[static_cast<Eigen::Index>(s)] =
+          term.count * weight * (std::exp(log_p[s] - term.elpd) - 1);
+      if (!scores) continue;
+      below += weight * normal_cdf(z[s][i].high);
+      above += weight * normal_cdf(-z[s][i].low);
+    }
+    if (scores) term.tail = std::min(1.0, 2 * std::min(below, above));
   });
+  loo.error = std::sqrt(columns.rowwise().sum().squaredNorm() / efficiency);
   return loo;
 }
 
 double exact_elpd(const Posterior& posterior, const Whitening& whitening, std::size_t term) {
-  const Posterior others(posterior.parameters(),
-                         std::make_shared<Without>(posterior.likelihood(), term));
-  ExactSettings settings;
-  settings.tolerance = 1e-3;
-  settings.max_evaluations = 4'000'000;
-  settings.second_moments = false;
-  const ExactPosterior exact = integrate(others, whitening, settings);
-  if (!exact.failure.empty()) return std::numeric_limits<double>::quiet_NaN();
-  double sum = 0;
-  for (Eigen::Index i = 0; i < exact.nodes.values.rows(); ++i) {
-    const Eigen::VectorXd x = exact.nodes.values.row(i);
-    sum += exact.nodes.weights[i] * std::exp(posterior.likelihood()->pointwise(view(x))[term]);
-  }
-  return std::log(sum);
+  const auto refitted = fitted_without(posterior, whitening, term, nullptr);
+  return refitted ? refitted->elpd : std::numeric_limits<double>::quiet_NaN();
 }
 
-Loo leave_one_out(const Posterior& posterior, const Fit& fit) {
-  Loo loo = psis_loo(*posterior.likelihood(), fit.pooled);
-  const auto bad = static_cast<std::size_t>(std::count_if(
-      loo.terms.begin(), loo.terms.end(), [&](const LooTerm& term) { return loo.doubtful(term); }));
-  if (!fit.exact || bad > most_refits) return loo;
+Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scores) {
+  const LogDensity& likelihood = *posterior.likelihood();
+  if (!fit.exact) return psis_loo(likelihood, fit.pooled, efficiency_of(fit), scores);
+  Loo loo = psis_loo(likelihood, fit.pooled);
+  if (loo.terms.empty()) return loo;
+  const std::vector<LeftOut> sums = left_out(likelihood, fit.exact->nodes, loo.terms.size(), scores);
+  loo.by_quadrature = true;
+  loo.error = 0;
+  // The worst first: those whose weights reach beyond the nodes.
+  std::vector<std::size_t> uneven;
   for (std::size_t i = 0; i < loo.terms.size(); ++i) {
     LooTerm& term = loo.terms[i];
-    if (!loo.doubtful(term)) continue;
-    const double elpd = exact_elpd(posterior, fit.whitening, i);
-    if (!std::isfinite(elpd)) continue;
-    term.elpd = elpd;
+    term.elpd = sums[i].elpd();
+    term.lpd = sums[i].lpd();
+    if (scores) term.tail = sums[i].tail();
+    if (!(term.khat <= std::min(loo.threshold, worth_a_refit))) uneven.push_back(i);
+  }
+  std::stable_sort(uneven.begin(), uneven.end(), [&](std::size_t a, std::size_t b) {
+    return loo.terms[a].khat > loo.terms[b].khat;
+  });
+  const bool too_many =
+      std::count_if(loo.terms.begin(), loo.terms.end(),
+                    [&](const LooTerm& term) { return loo.doubtful(term); }) > most_refits;
+  for (std::size_t i = 0; i < std::min<std::size_t>(uneven.size(), most_refits) && !too_many; ++i) {
+    LooTerm& term = loo.terms[uneven[i]];
+    const auto refitted = fitted_without(posterior, fit.whitening, uneven[i], scores);
+    if (!refitted) continue;
+    term.elpd = refitted->elpd;
+    term.tail = refitted->tail;
     term.refitted = true;
+    loo.error += term.count * refitted->error;
+  }
+  for (const LooTerm& term : loo.terms) {
+    if (!term.refitted) loo.error += term.count * fit.exact->error;
   }
   return loo;
 }
 
-Check loo_check(const Loo& loo, const std::string& noun) {
+Check loo_check(const Loo& loo, const std::string& noun, int parameters) {
   Findings findings("leave-one-out");
+  // As many as there are, and what few observations may add by chance (docs/checks.md).
+  const double most = 2 * parameters + 2;
+  if (!(loo.p_loo() <= most)) {
+    findings.add(Verdict::fail,
+                 fmt::format("the effective number of parameters, {:.4g}, goes far beyond the {} "
+                             "that there are",
+                             loo.p_loo(), parameters),
+                 fmt::format("The model does not expect some {}, or the search for the posterior "
+                             "failed: look at the residuals and at the data's digits.",
+                             noun));
+  }
   std::vector<std::string> doubtful, refitted;
   for (std::size_t i = 0; i < loo.terms.size(); ++i) {
     const LooTerm& term = loo.terms[i];
@@ -255,12 +424,12 @@ Check loo_check(const Loo& loo, const std::string& noun) {
     if (term.refitted) refitted.push_back(name);
     if (loo.doubtful(term)) doubtful.push_back(name);
   }
-  constexpr std::size_t most = 8;
+  constexpr std::size_t most_named = 8;
   const auto list = [&](std::vector<std::string> names) {
     const std::size_t all = names.size();
-    names.resize(std::min(all, most));
+    names.resize(std::min(all, most_named));
     return fmt::format("{}{}", fmt::join(names, ", "),
-                       all > most ? fmt::format(" and {} more", all - most) : "");
+                       all > most_named ? fmt::format(" and {} more", all - most_named) : "");
   };
   if (!doubtful.empty()) {
     findings.add(Verdict::warn,
@@ -276,7 +445,7 @@ Check loo_check(const Loo& loo, const std::string& noun) {
           ? fmt::format("Pareto k at most {:.2f} (up to {:.2f} is good)", loo.khat_max(),
                         loo.threshold)
           : fmt::format("Pareto k above {:.2f} for {}: fitted anew without each, by quadrature",
-                        loo.threshold, list(refitted)));
+                        std::min(loo.threshold, worth_a_refit), list(refitted)));
 }
 
 ElpdDifference elpd_difference(std::span<const LooTerm> a, std::span<const LooTerm> b) {

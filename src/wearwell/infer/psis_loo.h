@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/bayes/normal_score.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/bayes/weighted_draws.h"
 #include "wearwell/infer/check.h"
@@ -44,11 +45,15 @@ struct LooTerm {
   double khat = 0;
   int count = 1;          ///< as many observations were seen alike
   bool refitted = false;  ///< elpd is from the exact posterior of all others
+  double tail = 1;  ///< how improbable all others make an observation so far out on its side, twice
+                    ///< for either side; 1 where that was not asked for
 };
 
 struct Loo {
   std::vector<LooTerm> terms;
   double threshold = 0.7;
+  bool by_quadrature = false;  ///< on the nodes of the exact posterior: no Monte Carlo error
+  double error = 0;  ///< of elpd: its Monte Carlo standard error; of a quadrature the estimated error
 
   double observations() const;
   double elpd() const;   ///< sum over observations; natural logarithm, data in SI
@@ -59,18 +64,22 @@ struct Loo {
   bool doubtful(const LooTerm& term) const;
 };
 
-/// Empty terms when the likelihood is no product of observations. `draws` have one weight.
-Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws);
+/// Empty terms when the likelihood is no product of observations. `draws` have one weight, and count
+/// for `efficiency` times as many independent ones. `scores`, when given, are of the terms one by
+/// one, and ask for their tails.
+Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double efficiency = 1,
+             const Scores* scores = nullptr);
 
-/// The same, with terms above the threshold fitted anew by quadrature where `fit` holds an exact
-/// posterior.
-Loo leave_one_out(const Posterior& posterior, const Fit& fit);
+/// The same. Where `fit` holds an exact posterior the densities are integrated over its nodes, and
+/// terms whose weights are uneven are fitted anew by quadrature; k-hat remains that of the draws.
+Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scores = nullptr);
 
 /// The exact elpd of one term: quadrature of the posterior of all others; NaN where that fails.
 double exact_elpd(const Posterior& posterior, const Whitening& whitening, std::size_t term);
 
-/// Says which observations have a k-hat above the threshold; `noun` is what they are ("row").
-Check loo_check(const Loo& loo, const std::string& noun);
+/// Says which observations have a k-hat above the threshold, and whether the effective number of
+/// parameters goes beyond the `parameters` there are; `noun` is what observations are ("row").
+Check loo_check(const Loo& loo, const std::string& noun, int parameters);
 
 /// elpd of a less that of b (0 of itself), with the standard error of the difference: sqrt(n) times the standard
 /// deviation of the differences observation by observation.

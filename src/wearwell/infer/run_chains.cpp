@@ -90,26 +90,15 @@ Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const Nut
 
 Draws run_metropolis(const Posterior& posterior, const Whitening& whitening,
                      const MetropolisSettings& metropolis, const RunSettings& settings) {
-  Eigen::VectorXd half_width;
-  if (metropolis.half_width) {
-    half_width = *metropolis.half_width;
-  } else {
-    // The parameters' spread at the mode, to first order; warm-up finds the common factor.
-    Eigen::VectorXd variance = Eigen::VectorXd::Zero(posterior.dimension());
-    Eigen::VectorXd center(posterior.dimension()), moved(posterior.dimension());
-    posterior.to_natural(view(whitening.center), view(center));
-    for (int a = 0; a < posterior.dimension(); ++a) {
-      const Eigen::VectorXd z = whitening.center + whitening.scale.col(a);
-      posterior.to_natural(view(z), view(moved));
-      variance += (moved - center).cwiseAbs2();
-    }
-    half_width = variance.cwiseSqrt();
-  }
   return run_chains(settings, [&](Rng& rng) {
     const WhitenedDensity density(posterior, whitening);
+    const Eigen::VectorXd u = random_start(density, rng);
+    if (!metropolis.half_width) {
+      return whitened_metropolis_chain(posterior, whitening, u, settings, rng);
+    }
     Eigen::VectorXd start(posterior.dimension());
-    posterior.to_natural(view(whitening(random_start(density, rng))), view(start));
-    return metropolis_chain(posterior, start, half_width, !metropolis.half_width, settings, rng);
+    posterior.to_natural(view(whitening(u)), view(start));
+    return metropolis_chain(posterior, start, *metropolis.half_width, settings, rng);
   });
 }
 

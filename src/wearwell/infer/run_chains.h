@@ -23,10 +23,11 @@ Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const Nut
 
 struct MetropolisSettings {
   std::optional<Eigen::VectorXd>
-      half_width;  ///< of the proposals, SI; tuned in warm-up when not given
+      half_width;  ///< of the proposals, SI; without it warm-up finds directions and length
 };
 
-/// Independent Metropolis-Hastings chains on the natural parameters, from starts as for NUTS.
+/// Independent Metropolis-Hastings chains from starts as for NUTS: on the natural parameters with
+/// the half widths that are given, else on the whitened real line.
 Draws run_metropolis(const Posterior& posterior, const Whitening& whitening,
                      const MetropolisSettings& metropolis, const RunSettings& settings);
 

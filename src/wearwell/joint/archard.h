@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wearwell/bayes/log_density.h"
+#include "wearwell/bayes/normal_score.h"
 #include "wearwell/bayes/observation.h"
 
 namespace wearwell::joint {
@@ -49,6 +50,10 @@ struct Inspections {
 std::shared_ptr<const LogDensity> archard_likelihood(const Archard& law, ObservationFamily family,
                                                      const Inspections& inspections,
                                                      std::size_t count);
+
+/// Where each inspection lies in the law of its measurement.
+Scores archard_scores(const Archard& law, ObservationFamily family,
+                      const Inspections& inspections);
 
 /// Least-squares k (V0 = 0, exponent 1) and the standard deviation about it: where searches start.
 struct LeastSquares {

@@ -10,12 +10,20 @@
 namespace wearwell {
 namespace {
 
+// Of t = y, or log y for the lognormal family.
+double density(const ObservationLaw& law, double t) {
+  const double z = (law.location - t) / law.scale;
+  if (!(std::abs(z) < 9)) return 0;
+  constexpr double sqrt_2_pi = 2.50662827463100050241576528481;
+  return std::exp(-0.5 * z * z) / (law.scale * sqrt_2_pi);
+}
+
 // Weighted measurements: each draw gives one law, or one for each of some items.
 struct Mixture {
   ObservationFamily family;
   std::vector<double> weight;
   std::vector<ObservationLaw> law;
-  double mean = 0, sd = 0;  // on the average over the draws
+  double middle = 0, width = 0;  // about where, and how wide: medians over the draws
 
   double cdf(double y) const {
     const bool lognormal = family == ObservationFamily::lognormal;
@@ -27,12 +35,57 @@ struct Mixture {
   }
 
   double quantile(double p) const {
-    if (!std::isfinite(mean) || !std::isfinite(sd)) return std::nan("");
-    double width = sd;
+    if (!std::isfinite(middle) || !std::isfinite(width)) return std::nan("");
+    // Every look at all laws is dear: few of them say where about the quantile lies, and Newton's
+    // method is there in three steps.
+    constexpr std::size_t few = 256;
+    if (weight.size() > 4 * few) {
+      const double near = some(few).bracketed(p);
+      const double exact = polished(p, near);
+      if (std::isfinite(exact)) return exact;
+    }
+    return bracketed(p);
+  }
+
+ private:
+  // Evenly among all.
+  Mixture some(std::size_t count) const {
+    Mixture chosen{family, {}, {}, middle, width};
+    double total = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = i * weight.size() / count;
+      chosen.weight.push_back(weight[at]);
+      chosen.law.push_back(law[at]);
+      total += weight[at];
+    }
+    for (double& each : chosen.weight) each /= total;
+    return chosen;
+  }
+
+  // Newton's method from a point near the quantile; NaN where it does not settle at once.
+  double polished(double p, double near) const {
+    constexpr double close = 1e-6;  // the step from there is good to its square
+    const bool lognormal = family == ObservationFamily::lognormal;
+    double t = lognormal ? std::log(near) : near;
+    for (int step = 0; step < 8; ++step) {
+      double below = 0, slope = 0;
+      for (std::size_t i = 0; i < weight.size(); ++i) {
+        below += weight[i] * law[i].cdf(t);
+        slope += weight[i] * density(law[i], t);
+      }
+      t += (p - below) / slope;
+      if (!std::isfinite(t)) break;
+      if (std::abs(p - below) <= close) return lognormal ? std::exp(t) : t;
+    }
+    return std::nan("");
+  }
+
+  double bracketed(double p) const {
+    double reach = std::max(width, 1e-12 * std::abs(middle));
     const auto excess = [&](double y) { return cdf(y) - p; };
-    double a = mean - width, b = mean + width;
-    while (excess(a) > 0 && std::isfinite(a)) a -= width *= 2;
-    while (excess(b) < 0 && std::isfinite(b)) b += width *= 2;
+    double a = middle - reach, b = middle + reach;
+    while (excess(a) > 0 && std::isfinite(a)) a -= reach *= 2;
+    while (excess(b) < 0 && std::isfinite(b)) b += reach *= 2;
     if (!std::isfinite(a) || !std::isfinite(b)) return std::nan("");
     std::uintmax_t iterations = 100;
     const auto close = [&](double l, double r) {
@@ -43,6 +96,16 @@ struct Mixture {
   }
 };
 
+// The value that half of the weight does not exceed.
+double weighted_median(std::vector<std::pair<double, double>> values_and_weights) {
+  std::sort(values_and_weights.begin(), values_and_weights.end());
+  double below = 0;
+  for (const auto& [value, weight] : values_and_weights) {
+    if ((below += weight) >= 0.5) return value;
+  }
+  return values_and_weights.empty() ? std::nan("") : values_and_weights.back().first;
+}
+
 Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function& sd,
                 ObservationFamily family, const ItemFunction& item, std::size_t points) {
   const Heaviest heaviest(draws);
@@ -50,6 +113,7 @@ Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function
   const std::size_t strata = item ? std::clamp<std::size_t>(points / n, 1, 100) : 1;
   std::vector<double> z = {0};
   Mixture all{family, {}, {}};
+  std::vector<std::pair<double, double>> means, sds;
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::VectorXd x = draws.values.row(heaviest.rows[i]);
     const double s = sd(x.data());
@@ -57,12 +121,17 @@ Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function
     for (const double each : z) {
       const double weight = heaviest.weights[i] / static_cast<double>(strata);
       const double m = item ? item(x.data(), each) : mean(x.data());
+      if (std::isnan(m) || !(s > 0)) return {family, {}, {}, std::nan(""), std::nan("")};
       all.weight.push_back(weight);
       all.law.emplace_back(family, m, s);
-      all.mean += weight * m;
-      all.sd += weight * s;
+      if (each == z[z.size() / 2]) {
+        means.emplace_back(m, heaviest.weights[i]);
+        sds.emplace_back(s, heaviest.weights[i]);
+      }
     }
   }
+  all.middle = weighted_median(std::move(means));
+  all.width = weighted_median(std::move(sds));
   return all;
 }
 
@@ -99,7 +168,7 @@ Life predict_life(const WeightedDraws& draws, const Function& life, double now, 
   const double reached = lives.cdf(now);
   const double wait = lives.quantile(reached + risk * (1 - reached)) - now;
   return {lives.quantile(0.01), lives.quantile(0.1),  lives.quantile(0.5),
-          lives.quantile(0.05), lives.quantile(0.95), std::max(0.0, wait)};
+          lives.quantile(0.05), lives.quantile(0.95), std::max(0.0, wait), reached};
 }
 
 }  // namespace wearwell

@@ -48,6 +48,7 @@ struct Life {
   double q95 = 0;
   double inspect_within = 0;  ///< from `now`: the longest wait with at most `risk` of reaching it,
                               ///< given that it is not reached
+  double passed = 0;          ///< the probability that it is reached by `now`
 };
 
 /// `life` of the parameters, infinite where it is never reached; `now` in the same unit, `risk` in

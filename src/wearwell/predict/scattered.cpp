@@ -4,6 +4,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <limits>
 
 namespace wearwell {
 
@@ -14,6 +15,7 @@ Scattered::Scattered(const WeightedDraws& draws, const Function& center, const F
     weight_.push_back(heaviest.weights[i]);
     log_center_.push_back(std::log(center(x.data())));
     log_sd_.push_back(log_sd(x.data()));
+    defined_ = defined_ && !std::isnan(log_center_.back()) && log_sd_.back() > 0;
   }
 }
 
@@ -27,9 +29,19 @@ double Scattered::cdf(double log_value) const {
 }
 
 double Scattered::quantile(double p) const {
-  double a = log_center_.front() - 1, b = log_center_.front() + 1;
-  while (cdf(a) > p) a -= b - a;
-  while (cdf(b) < p) b += b - a;
+  if (!defined_) return std::nan("");
+  // From the heaviest point outward; beyond any number there is nothing to find.
+  constexpr double beyond = 1e4;
+  const double start = std::clamp(log_center_.front(), -beyond, beyond);
+  double a = start - 1, b = start + 1;
+  while (cdf(a) > p) {
+    if (a < -2 * beyond) return 0;
+    a -= b - a;
+  }
+  while (cdf(b) < p) {
+    if (b > 2 * beyond) return std::numeric_limits<double>::infinity();
+    b += b - a;
+  }
   std::uintmax_t iterations = 100;
   const auto [left, right] = boost::math::tools::toms748_solve(
       [&](double x) { return cdf(x) - p; }, a, b, [](double l, double r) { return r - l <= 1e-9; },

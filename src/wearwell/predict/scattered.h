@@ -14,13 +14,14 @@ class Scattered {
  public:
   Scattered(const WeightedDraws& draws, const Function& center, const Function& log_sd);
 
-  /// 0 < p < 1.
+  /// 0 < p < 1. Infinite or 0 where so many centers are; NaN where one with weight is no number.
   double quantile(double p) const;
 
  private:
   double cdf(double log_value) const;
 
   std::vector<double> weight_, log_center_, log_sd_;
+  bool defined_ = true;
 };
 
 /// `count` points of the standard normal law for the draw of this index, one in each of as many

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "wearwell/base/workers.h"
+#include "wearwell/regress/moment_search.h"
 #include "wearwell/regress/press_search.h"
 #include "wearwell/regress/rss_search.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 std::unique_ptr<BranchSearch> make_search(const SearchProblem& problem, ModelPool& pool,
                                           Frontier& frontier) {
+  if (!problem.moments.empty()) return std::make_unique<MomentSearch>(problem, pool, frontier);
   if (problem.leave_one_out) return std::make_unique<PressSearch>(problem, pool, frontier);
   return std::make_unique<RssSearch>(problem, pool, frontier);
 }

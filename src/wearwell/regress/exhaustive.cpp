@@ -83,7 +83,8 @@ class Walk {
   }
 
   static int bin(float r2) {
-    return static_cast<int>(std::clamp(r2 * Cloud::bins, 0.0F, Cloud::bins - 1.0F));
+    if (!(r2 > 0)) return 0;  // NaN, too, is in no other bin
+    return static_cast<int>(std::min(r2 * Cloud::bins, Cloud::bins - 1.0F));
   }
 
   const SearchProblem& problem_;

@@ -34,6 +34,16 @@ void check(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
   }
   if ((response.array() == response[0]).all())
     throw InputError("the response is the same in every row");
+  require_size("the response", response);
+  for (Index j = 0; j < columns.cols(); ++j)
+    require_size(fmt::format("term {}", j + 1), columns.col(j));
+  if (weights.size() != 0) require_size("the weights", weights);
+}
+
+/// From so many rows on the bounds of moments, which lack the squares of leverages, are as good as
+/// those of the rows.
+int many_rows(int terms) {
+  return std::max(2000, 10 * terms * terms);
 }
 
 /// s2 of all terms; only cp needs it.
@@ -49,7 +59,42 @@ double full_variance(const Eigen::MatrixXd& columns, const Eigen::VectorXd& resp
   return rotated.tail(spare).squaredNorm() / static_cast<double>(spare);
 }
 
+/// PRESS of residuals with orthonormal columns `q` of the model; empty when one row alone
+/// determines a coefficient.
+std::optional<double> press_of(const Eigen::VectorXd& residuals, const Eigen::MatrixXd& q,
+                               Index rows) {
+  const Eigen::ArrayXd complement = 1 - q.rowwise().squaredNorm().array();
+  if (!(complement.head(rows) > leverage_tolerance).all()) return {};
+  return (residuals.array() / complement).square().sum();
+}
+
+/// The same of residuals and columns in coordinates of the rows of `basis`.
+std::optional<double> press_in_basis(const Eigen::MatrixXd& basis, const Eigen::VectorXd& residuals,
+                                     const Eigen::MatrixXd& q) {
+  constexpr Index block = 512;
+  const Index dimension = basis.cols();
+  double sum = 0;
+  for (Index first = 0; first < basis.rows(); first += block) {
+    const auto rows = basis.middleRows(first, std::min(block, basis.rows() - first));
+    const auto press =
+        press_of(rows * residuals.head(dimension), rows * q.topRows(dimension), rows.rows());
+    if (!press) return {};
+    sum += *press;
+  }
+  return sum;
+}
+
 }  // namespace
+
+void require_size(const std::string& name, const Eigen::VectorXd& values) {
+  constexpr double least = 1e-100, most = 1e100;
+  const double size = values.cwiseAbs().maxCoeff();
+  if (size == 0 || (size >= least && size <= most)) return;
+  throw InputError(fmt::format(
+      "{}: the largest value is {:.3g}; its squares are no numbers to count with. Write "
+      "it in a unit in which it lies between {:g} and {:g}",
+      name, size, least, most));
+}
 
 std::vector<int> terms_of(TermSet set) {
   std::vector<int> terms;
@@ -58,7 +103,7 @@ std::vector<int> terms_of(TermSet set) {
 }
 
 SearchProblem::SearchProblem(const Eigen::MatrixXd& data, const Eigen::VectorXd& observed,
-                             const Eigen::VectorXd& weights, Criterion criterion)
+                             const Eigen::VectorXd& weights, Criterion criterion, bool all_rows)
     : score(criterion, 1, 0, 1, 1, 0) {
   check(data, observed, weights);
   terms = static_cast<int>(data.cols());
@@ -67,6 +112,8 @@ SearchProblem::SearchProblem(const Eigen::MatrixXd& data, const Eigen::VectorXd&
   Eigen::VectorXd w = weights;
   if (w.size() == 0) w.setOnes(rows);
   tss = (w.array() * (observed.array() - w.dot(observed) / w.sum()).square()).sum();
+  if (!(tss > 0) || !std::isfinite(tss))
+    throw InputError("the response varies by less than its digits can tell");
 
   Eigen::MatrixXd all(rows, terms + 1);
   all << w.cwiseSqrt().asDiagonal() * data, w.cwiseSqrt().cwiseProduct(observed);
@@ -78,8 +125,11 @@ SearchProblem::SearchProblem(const Eigen::MatrixXd& data, const Eigen::VectorXd&
       criterion == Criterion::cp ? full_variance(all.leftCols(terms), all.col(terms)) : 1;
   score = Score(criterion, rows, terms, tss, s2, w.array().log().sum());
   least_error = 1e-24 * all.col(terms).squaredNorm();
-  if (!leave_one_out && rows > terms + 1) {
+  const bool many = leave_one_out && !all_rows && rows >= many_rows(terms);
+  if (many || (!leave_one_out && rows > terms + 1)) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(all);
+    if (many)
+      moments = RowMoments(qr.householderQ() * Eigen::MatrixXd::Identity(rows, terms + 1));
     all = qr.matrixQR().topRows(terms + 1).triangularView<Eigen::Upper>();
   }
   const Index block = row_kernels::row_block;
@@ -104,9 +154,14 @@ std::optional<double> exact_error(const SearchProblem& problem, TermSet model) {
   if (!problem.leave_one_out) return std::max(rest.squaredNorm(), problem.least_error);
   rest.applyOnTheLeft(qr.householderQ());
   const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(problem.stored, k);
-  const Eigen::ArrayXd complement = 1 - q.rowwise().squaredNorm().array();
-  if (!(complement.head(problem.rows) > leverage_tolerance).all()) return {};
-  return std::max((rest.array() / complement).square().sum(), problem.least_error);
+  std::optional<double> press;
+  if (problem.moments.empty()) {
+    press = press_of(rest, q, problem.rows);
+  } else {
+    press = press_in_basis(problem.moments.basis, rest, q);
+  }
+  if (press) press = std::max(*press, problem.least_error);
+  return press;
 }
 
 }  // namespace wearwell

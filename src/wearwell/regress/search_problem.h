@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "wearwell/regress/criterion.h"
+#include "wearwell/regress/row_moments.h"
 
 namespace wearwell {
 
@@ -25,18 +27,25 @@ std::vector<int> terms_of(TermSet set);
 /// bound exceeds the limit by more. Rounding stays far below (subset_search.md).
 inline constexpr double bound_slack = 1e-6;
 
+/// Throws InputError that begins with `name` where squares and products of the values would
+/// overflow or vanish.
+void require_size(const std::string& name, const Eigen::VectorXd& values);
+
 /// A regression made ready for the search: rows multiplied by the root of their weight, columns of
 /// unit length (which changes no fit), rows filled up with zeros to a multiple of row_block. For
 /// criteria of the residual sum of squares, the rows are those of the R factor of [columns,
-/// response].
+/// response]; so they are by leave-one-out where rows are many, beside the moments of the rows.
 struct SearchProblem {
   SearchProblem(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
-                const Eigen::VectorXd& weights, Criterion criterion);
+                const Eigen::VectorXd& weights, Criterion criterion, bool all_rows = false);
 
   int terms = 0;
   int rows = 0;    ///< of the data
   int stored = 0;  ///< rows of `columns`
   bool leave_one_out = true;
+  RowMoments moments;  ///< of leave-one-out with many rows, unless `all_rows` was asked for
+  /// Whether PRESS is read off `columns`, row by row.
+  bool by_rows() const { return leave_one_out && moments.empty(); }
   Eigen::MatrixXd columns;   ///< stored x terms
   Eigen::VectorXd response;  ///< stored
   double tss = 0;            ///< about the weighted mean

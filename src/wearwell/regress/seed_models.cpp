@@ -77,6 +77,11 @@ class Seeder {
 
   void note(TermSet set, double error) {
     const int size = std::popcount(set);
+    if (!problem_.moments.empty()) {  // about PRESS, as if all leverages were the same
+      if (size >= problem_.rows) return;
+      const double each = static_cast<double>(size) / problem_.rows;
+      error /= (1 - each) * (1 - each);
+    }
     pool_.offer(set, size, error);
     const double score = problem_.score.of(std::max(error, problem_.least_error), size);
     if (score < best_.score) best_ = {set, score};

@@ -12,7 +12,7 @@ namespace wearwell {
 using namespace row_kernels;
 
 void Submodel::start(const SearchProblem& problem, TermSet candidates) {
-  leave_one_out_ = problem.leave_one_out;
+  leave_one_out_ = problem.by_rows();
   rows_ = problem.stored;
   model_ = 0;
   model_size_ = 0;

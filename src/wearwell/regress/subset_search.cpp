@@ -67,10 +67,10 @@ SubsetModel describe(const ScoredModel& model, const SearchProblem& problem,
 
 SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
                             const Eigen::VectorXd& weights, const SearchSettings& settings) {
-  const SearchProblem problem(columns, response, weights, settings.criterion);
+  const bool exhaustive = settings.cloud != CloudKind::none;
+  const SearchProblem problem(columns, response, weights, settings.criterion, exhaustive);
   const TermSet forced = read_forced(settings.forced, problem.terms);
   const TermSet free = every_term(problem.terms) & ~forced;
-  const bool exhaustive = settings.cloud != CloudKind::none;
   const int free_count = static_cast<int>(terms_of(free).size());
   check(settings, free_count);
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -96,7 +96,7 @@ SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorX
   double open = infinity;  // the least score of what was not searched
   if (exhaustive) {
     const SearchProblem rows =
-        problem.leave_one_out ? problem : SearchProblem(columns, response, weights, Criterion::loo);
+        problem.leave_one_out ? problem : SearchProblem(columns, response, weights, Criterion::loo, true);
     result.cloud = exhaustive_search(rows, pool, root, settings.cloud, control, threads);
     result.nodes = result.cloud.models;
     if (!result.cloud.complete) open = root.bound;

@@ -1,10 +1,12 @@
 #include "wearwell/report/comparison.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/report/text_table.h"
 
 namespace wearwell {
@@ -14,6 +16,11 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::string number(double x) {
   return fmt::format("{:.4g}", x);
+}
+
+bool same_observations(const LooSummary& a, const LooSummary& b) {
+  return std::equal(a.loo.terms.begin(), a.loo.terms.end(), b.loo.terms.begin(), b.loo.terms.end(),
+                    [](const LooTerm& x, const LooTerm& y) { return x.count == y.count; });
 }
 
 // Why elpd, AIC and BIC of these say nothing of one against the other; empty when they do.
@@ -34,8 +41,7 @@ std::string obstacle_of(const std::vector<Comparison::Entry>& studies) {
           "other, and no differences are given; parameters may be compared.",
           first.name, each.name);
     }
-    if (a.loo->observation != b.loo->observation ||
-        a.loo->loo.terms.size() != b.loo->loo.terms.size()) {
+    if (a.loo->observation != b.loo->observation || !same_observations(*a.loo, *b.loo)) {
       return fmt::format(
           "{} leaves out one {} at a time, {} one {}: their elpd are of different predictions, "
           "and no differences are given.",
@@ -103,6 +109,52 @@ std::vector<NamedParameter> parameters_of(const Comparison& comparison) {
   return all;
 }
 
+const Loo& loo_of(const Comparison::Entry& entry) {
+  return entry.result.loo->loo;
+}
+
+// Up to this a difference of elpd may be an error of computation.
+double resolution(const Comparison::Entry& a, const Comparison::Entry& b) {
+  return 2 * std::hypot(loo_of(a).error, loo_of(b).error);
+}
+
+// Best elpd first; those that errors of computation do not tell apart stay in the order in which
+// they were given, and a caution says so.
+void rank(Comparison& comparison) {
+  auto& studies = comparison.studies;
+  std::vector<std::string> given;
+  for (const auto& each : studies) given.push_back(each.name);
+  std::stable_sort(studies.begin(), studies.end(), [](const auto& a, const auto& b) {
+    return loo_of(a).elpd() > loo_of(b).elpd();
+  });
+  const Comparison::Entry best = studies.front();
+  for (auto first = studies.begin(); first != studies.end();) {
+    auto end = first + 1;
+    while (end != studies.end() &&
+           loo_of(*(end - 1)).elpd() - loo_of(*end).elpd() <= resolution(*(end - 1), *end)) {
+      ++end;
+    }
+    if (end - first > 1 && loo_of(*first).elpd() > loo_of(*(end - 1)).elpd()) {
+      std::vector<std::string> names;
+      double largest = 0;
+      for (auto each = first; each + 1 != end; ++each) {
+        largest = std::max(largest, resolution(*each, *(each + 1)));
+      }
+      std::stable_sort(first, end, [&](const auto& a, const auto& b) {
+        return std::find(given.begin(), given.end(), a.name) <
+               std::find(given.begin(), given.end(), b.name);
+      });
+      for (auto each = first; each != end; ++each) names.push_back(each->name);
+      comparison.cautions.push_back(
+          fmt::format("The order of {} is not known: their elpd are nearer to each other than the "
+                      "error of computation, {:.2g}. They stand as they were given.",
+                      fmt::join(names, ", "), largest));
+    }
+    first = end;
+  }
+  for (auto& each : studies) each.behind = elpd_difference(loo_of(best).terms, loo_of(each).terms);
+}
+
 std::optional<ModeSummary> mode_of(const StudyResult& result) {
   return result.mode && result.mode->problem.empty() ? result.mode : std::nullopt;
 }
@@ -117,16 +169,10 @@ Comparison compare(std::vector<std::pair<std::string, StudyResult>> results) {
   comparison.obstacle = obstacle_of(comparison.studies);
   comparison.comparable = comparison.obstacle.empty();
   if (comparison.comparable) {
-    auto& studies = comparison.studies;
-    std::stable_sort(studies.begin(), studies.end(), [](const auto& a, const auto& b) {
-      return a.result.loo->loo.elpd() > b.result.loo->loo.elpd();
-    });
-    for (auto& each : studies) {
-      each.behind =
-          elpd_difference(studies.front().result.loo->loo.terms, each.result.loo->loo.terms);
-    }
+    rank(comparison);
   }
-  comparison.cautions = cautions_of(comparison);
+  const std::vector<std::string> others = cautions_of(comparison);
+  comparison.cautions.insert(comparison.cautions.end(), others.begin(), others.end());
   return comparison;
 }
 
@@ -160,7 +206,7 @@ std::string comparison_text(const Comparison& comparison) {
   out +=
       (comparison.comparable ? "Prediction of each observation from all others\n" : "Studies\n") +
       text_table(rows);
-  if (!comparison.obstacle.empty()) out += fmt::format("  {}\n", comparison.obstacle);
+  if (!comparison.obstacle.empty()) out += fmt::format("  {}\n", printable(comparison.obstacle));
 
   Rows parameters = {{""}};
   for (const auto& each : comparison.studies) parameters[0].push_back(each.name);
@@ -176,7 +222,9 @@ std::string comparison_text(const Comparison& comparison) {
   }
   out += "\nParameters (mean +- sd)\n" + text_table(parameters);
   if (!comparison.cautions.empty()) out += "\nBear in mind\n";
-  for (const std::string& caution : comparison.cautions) out += fmt::format("  {}\n", caution);
+  for (const std::string& caution : comparison.cautions) {
+    out += fmt::format("  {}\n", printable(caution));
+  }
   return out;
 }
 
@@ -198,6 +246,7 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
       const Loo& loo = result.loo->loo;
       each["loo"] = {{"elpd", loo.elpd()},
                      {"se", loo.se()},
+                     {"error", loo.error},
                      {"p_loo", loo.p_loo()},
                      {"khat_max", loo.khat_max()}};
     }

@@ -18,7 +18,7 @@ struct Comparison {
     /// `comparable`.
     std::optional<ElpdDifference> behind;
   };
-  std::vector<Entry> studies;         ///< best elpd first where comparable, else as given
+  std::vector<Entry> studies;         ///< best elpd first where comparable and known, else as given
   bool comparable = false;            ///< same data, of which the same observations are left out
   std::string obstacle;               ///< why not, in a sentence
   std::vector<std::string> cautions;  ///< what to bear in mind, in sentences

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "wearwell/report/comparison.h"
 #include "wearwell/report/html.h"
@@ -35,7 +36,7 @@ std::string verdict_section(const Comparison& comparison) {
     for (const auto& [name, result, behind] : comparison.studies) {
       const Loo& loo = result.loo->loo;
       const bool mode = result.mode && result.mode->problem.empty();
-      table.rows.push_back({escape(name), fixed(loo.elpd()), fixed(loo.se()), fixed(behind->value),
+      table.rows.push_back({name, fixed(loo.elpd()), fixed(loo.se()), fixed(behind->value),
                             fixed(behind->se), fmt::format("{:.1f}", loo.p_loo()),
                             fixed(loo.khat_max()), mode ? fixed(result.mode->aic) : "–",
                             mode ? fixed(result.mode->bic) : "–",
@@ -56,7 +57,7 @@ struct Overlaid {
   struct Of {
     std::string study;
     const ParameterSummary* summary;
-    Numbers draws;  // ascending
+    Numbers draws;  // those that are finite, ascending
   };
   std::vector<Of> of;
 };
@@ -76,7 +77,8 @@ std::vector<Overlaid> overlaid(const Comparison& comparison) {
       Numbers draws;
       for (const Chain& chain : result.posterior_draws) {
         const auto column = chain.values.col(static_cast<Eigen::Index>(i));
-        draws.insert(draws.end(), column.begin(), column.end());
+        std::copy_if(column.begin(), column.end(), std::back_inserter(draws),
+                     [](double x) { return std::isfinite(x); });
       }
       std::sort(draws.begin(), draws.end());
       found->of.push_back({name, &p, std::move(draws)});
@@ -132,11 +134,12 @@ std::string parameter_section(const std::vector<Overlaid>& parameters) {
     for (const auto& each : parameter.of) {
       const ParameterSummary& p = *each.summary;
       const ExactSummary b = p.best();
-      table.rows.push_back({escape(with_unit(parameter.name, parameter.unit)), escape(each.study),
-                            number(b.mean), number(b.sd, 3), number(b.q05), number(b.q50),
-                            number(b.q95)});
+      table.rows.push_back({with_unit(parameter.name, parameter.unit), each.study, number(b.mean),
+                            number(b.sd, 3), number(b.q05), number(b.q50), number(b.q95)});
     }
-    figures.push_back(histograms(parameter));
+    const bool drawn = std::none_of(parameter.of.begin(), parameter.of.end(),
+                                    [](const Overlaid::Of& each) { return each.draws.empty(); });
+    if (drawn) figures.push_back(histograms(parameter));
   }
   return html::figures(figures) + html::table(table);
 }
@@ -144,8 +147,8 @@ std::string parameter_section(const std::vector<Overlaid>& parameters) {
 std::string study_section(const Comparison& comparison) {
   html::Table table{"Studies", {"Study", "Title", "Model", "Data", "Trusted"}, {}, true};
   for (const auto& [name, result, behind] : comparison.studies) {
-    table.rows.push_back({escape(name), escape(result.title), escape(html::raised(result.equation)),
-                          escape(fmt::format("{}, {} rows", result.data_file, result.data_rows)),
+    table.rows.push_back({name, result.title, html::raised(result.equation),
+                          fmt::format("{}, {} rows", result.data_file, result.data_rows),
                           result.trusted ? "yes" : "no"});
   }
   return html::table(table);

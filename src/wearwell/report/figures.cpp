@@ -40,9 +40,10 @@ Scale scale_for(double typical, const std::string& unit) {
   if (typical == 0 || !std::isfinite(typical)) return {1, shown};
   const int exponent = static_cast<int>(std::floor(std::log10(std::abs(typical))));
   if (exponent >= -2 && exponent <= 5) return {1, shown};
-  const std::string power = html::number(std::pow(10.0, exponent), 1);
+  // Beyond that the factor itself would leave the range of a double.
+  if (std::abs(exponent) > 300) return {1, shown};
   return {std::pow(10.0, -exponent),
-          power.substr(power.find("10")) + (shown.empty() ? "" : "\u00a0" + shown)};
+          html::raised(fmt::format("10^{}", exponent)) + (shown.empty() ? "" : "\u00a0" + shown)};
 }
 
 Scale scale_of(const ParameterSummary& p) {
@@ -449,7 +450,11 @@ std::vector<Figure> prediction_figures(const StudyResult& result, const Plots& p
   std::vector<Figure> figures;
   if (!plots.history.at.empty()) figures.push_back(history_figure(result, plots));
   if (result.life && plots.life) figures.push_back(life_figure(result, plots));
-  if (result.stages.size() > 2) figures.push_back(next_figure(result));
+  const bool has_next =
+      result.stages.size() > 2 &&
+      std::all_of(result.stages.begin(), result.stages.end() - 1,
+                  [](const StageSummary& stage) { return stage.predictions.size() > 1; });
+  if (has_next) figures.push_back(next_figure(result));
   return figures;
 }
 

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "wearwell/base/printable.h"
+
 namespace wearwell::html {
 namespace {
 
@@ -32,6 +34,11 @@ int exponent_of(double x) {
   return exponent < -2 || exponent > 6 ? exponent : 0;
 }
 
+// In two steps: the power itself is zero or infinite at the ends of what a double holds.
+double mantissa(double x, int exponent) {
+  return x / std::pow(10.0, exponent / 2) / std::pow(10.0, exponent - exponent / 2);
+}
+
 // Thousands apart, and a true minus.
 std::string spaced(std::string text) {
   std::string sign;
@@ -51,12 +58,18 @@ std::string plain(double x, int digits) {
   return spaced(fmt::format("{:.0f}", std::round(x / step) * step));
 }
 
-// JSON inside a script element: no character can end the element.
+// JSON inside a script element: no character can end the element, and no old reader takes a line
+// for ended inside of a text.
 std::string script_safe(const std::string& json) {
   std::string out;
-  for (const char c : json) {
-    if (c == '<') {
-      out += "\\u003c";
+  out.reserve(json.size());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (c == '<' || c == '>' || c == '&') {
+      out += fmt::format("\\u00{:02x}", c);
+    } else if (json.compare(i, 3, "\u2028") == 0 || json.compare(i, 3, "\u2029") == 0) {
+      out += json.compare(i, 3, "\u2028") == 0 ? "\\u2028" : "\\u2029";
+      i += 2;
     } else {
       out += c;
     }
@@ -64,11 +77,28 @@ std::string script_safe(const std::string& json) {
   return out;
 }
 
+// The unit in brackets at the end of a name is printed softer.
+std::string named(const std::string& text) {
+  const std::size_t bracket = text.rfind(" [");
+  if (bracket == text.npos || text.back() != ']') return escape(text);
+  return fmt::format("{} <span class=\"unit\">{}</span>", escape(text.substr(0, bracket)),
+                     escape(text.substr(bracket + 1)));
+}
+
+// The lines of a cell after its first are what to do about it.
+std::string cell(const std::string& text) {
+  const std::size_t line = text.find('\n');
+  if (line == text.npos) return named(text);
+  return fmt::format("{}<br><em>{}</em>", named(text.substr(0, line)),
+                     escape(text.substr(line + 1)));
+}
+
 }  // namespace
 
 std::string escape(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  out.reserve(text.size());
+  for (const char c : printable(text, "\n\r\t")) {
     switch (c) {
       case '&':
         out += "&amp;";
@@ -101,14 +131,14 @@ std::string number(double x, int digits) {
   if (!std::isfinite(x)) return "–";
   const int exponent = exponent_of(x);
   if (exponent == 0) return plain(x, digits);
-  return plain(x / std::pow(10.0, exponent), digits) + power_of_ten(exponent);
+  return plain(mantissa(x, exponent), digits) + power_of_ten(exponent);
 }
 
 std::string given(double x) {
   const int exponent = exponent_of(x);
   if (!std::isfinite(x)) return number(x);
   if (exponent == 0) return spaced(fmt::format("{:.9g}", x));
-  return fmt::format("{:.9g}", x / std::pow(10.0, exponent)) + power_of_ten(exponent);
+  return fmt::format("{:.9g}", mantissa(x, exponent)) + power_of_ten(exponent);
 }
 
 std::string raised(const std::string& text) {
@@ -151,11 +181,10 @@ std::string range(double low, double high, int digits) {
   if (exponent == 0 || !std::isfinite(low) || !std::isfinite(high)) {
     return number(low, digits) + " to " + number(high, digits);
   }
-  const double scale = std::pow(10.0, exponent);
   const int lost =
       low == 0 ? 0 : exponent - static_cast<int>(std::floor(std::log10(std::abs(low))));
-  return plain(low / scale, std::max(1, digits - std::max(0, lost))) + " to " +
-         plain(high / scale, digits) + power_of_ten(exponent);
+  return plain(mantissa(low, exponent), std::max(1, digits - std::max(0, lost))) + " to " +
+         plain(mantissa(high, exponent), digits) + power_of_ten(exponent);
 }
 
 std::string tiles(const std::vector<Tile>& tiles) {
@@ -170,8 +199,8 @@ std::string tiles(const std::vector<Tile>& tiles) {
 }
 
 std::string callout(const std::string& kind, const std::string& word, const std::string& text) {
-  return fmt::format("<p class=\"callout {}\"><strong>{}</strong> {}</p>\n", kind, escape(word),
-                     escape(text));
+  return fmt::format("<p class=\"callout {}\"><strong>{}</strong> {}</p>\n", escape(kind),
+                     escape(word), escape(text));
 }
 
 std::string table(const Table& table) {
@@ -180,15 +209,22 @@ std::string table(const Table& table) {
       "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\">\n"
       "<table{1}><caption>{0}</caption>\n<thead><tr>",
       escape(table.caption), table.words ? " class=\"words\"" : "");
-  for (const std::string& cell : table.heading) {
-    out += fmt::format("<th scope=\"col\">{}</th>", cell);
+  for (const std::string& heading : table.heading) {
+    out += fmt::format("<th scope=\"col\">{}</th>", named(heading));
   }
   out += "</tr></thead>\n<tbody>\n";
-  for (const auto& row : table.rows) {
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
     out += "<tr>";
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      out += c == 0 ? fmt::format("<th scope=\"row\">{}</th>", row[c])
-                    : fmt::format("<td>{}</td>", row[c]);
+    for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
+      const std::string text = cell(table.rows[r][c]);
+      if (c == 0) {
+        out += fmt::format("<th scope=\"row\">{}</th>", text);
+      } else if (c == 1 && r < table.badges.size()) {
+        out += fmt::format("<td><span class=\"badge {}\">{}</span></td>", escape(table.badges[r]),
+                           text);
+      } else {
+        out += fmt::format("<td>{}</td>", text);
+      }
     }
     out += "</tr>\n";
   }
@@ -201,7 +237,8 @@ std::string figure(const Figure& figure) {
       "<div class=\"plot\"></div>\n"
       "<script type=\"application/json\">{3}</script></figure>\n",
       escape(figure.id), escape(figure.title), escape(figure.caption),
-      script_safe(figure.specification.dump()));
+      script_safe(
+          figure.specification.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
 }
 
 std::string figures(const std::vector<Figure>& figures) {

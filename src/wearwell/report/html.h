@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-/// The pieces of a page. Text goes in as it is and is escaped here; what is called `html` is
-/// markup.
+/// The pieces of a page. Text goes in as it is, wherever it came from, and is escaped here and
+/// nowhere else; only what is called `html` is markup.
 namespace wearwell::html {
 
+/// For `html` that is put together elsewhere. Control characters are shown as "\x1b".
 std::string escape(const std::string& text);
 
 /// With a capital at the beginning.
@@ -41,12 +42,15 @@ std::string tiles(const std::vector<Tile>& tiles);
 /// A paragraph that stands out; `kind` is "pass", "warn" or "fail", `word` says the same.
 std::string callout(const std::string& kind, const std::string& word, const std::string& text);
 
-/// A table with its caption; the first cell of each row names the row. Cells are markup.
+/// A table with its caption; the first cell of each row names the row. Headings and cells are text:
+/// "k [mm³]" has its unit in softer print, a second line is emphasized.
 struct Table {
   std::string caption;
   std::vector<std::string> heading;
   std::vector<std::vector<std::string>> rows;
-  bool words = false;  ///< cells are sentences, not numbers
+  bool words = false;                    ///< cells are sentences, not numbers
+  std::vector<std::string> badges = {};  ///< "pass", "warn" or "fail" of each row, if any: its
+                                         ///< second cell is painted so
 };
 std::string table(const Table& table);
 

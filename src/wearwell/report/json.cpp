@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "wearwell/report/long_tables.h"
+
 namespace wearwell {
 namespace {
 
@@ -37,6 +39,7 @@ Json to_json(const std::vector<PredictionSummary>& predictions) {
     Json each = {{p.at_name, p.at}, {"quantity", p.quantity}, {"unit", p.unit}};
     each.update(to_json(p.drawn));
     if (p.measured) each["measured"] = *p.measured;
+    if (!p.mean_of.empty()) each.update({{"mean_of", p.mean_of}, {"pi_of", p.measured_of}});
     if (p.exact) each["exact"] = to_json(*p.exact);
     json.push_back(std::move(each));
   }
@@ -56,6 +59,7 @@ Json to_json(const std::vector<QuantitySummary>& quantities) {
   for (const QuantitySummary& q : quantities) {
     Json each = {{"name", q.name}, {"of", q.of}, {"at", q.at}, {"unit", q.unit}};
     if (q.credible_level) each["credible_level"] = *q.credible_level;
+    if (q.safe_end) each["safe_end"] = *q.safe_end;
     each.update(to_json(q.drawn, q.is_life));
     if (q.exact) each["exact"] = to_json(*q.exact, q.is_life);
     json.push_back(std::move(each));
@@ -64,6 +68,12 @@ Json to_json(const std::vector<QuantitySummary>& quantities) {
 }
 
 Json to_json(const CoverageTable& table) {
+  Json json = {{"unit", table.unit}};
+  if (table.tests > table.rows.size()) json["tests"] = table.tests;
+  if (table.rows.size() > most_rows_inline) {
+    json["table"] = coverage_table_file;
+    return json;
+  }
   Json rows = Json::array();
   for (const CoverageRow& row : table.rows) {
     Json each = {
@@ -74,12 +84,21 @@ Json to_json(const CoverageTable& table) {
     if (row.failed()) each.update({{"inside", row.inside()}, {"below_b10", row.below_b10()}});
     rows.push_back(std::move(each));
   }
-  return {{"unit", table.unit}, {"rows", rows}};
+  json["rows"] = std::move(rows);
+  return json;
 }
 
 Json to_json(const Life& life) {
   return {{"b1", life.b1},   {"b10", life.b10}, {"b50", life.b50},
-          {"q05", life.q05}, {"q95", life.q95}, {"inspect_within", life.inspect_within}};
+          {"q05", life.q05}, {"q95", life.q95}, {"inspect_within", life.inspect_within},
+          {"passed", life.passed}};
+}
+
+Json to_json(const ProfileSummary& profile) {
+  Json json = {{"level", profile.level}, {"lower", profile.lower}, {"upper", profile.upper}};
+  if (!profile.lower_open.empty()) json["lower_open"] = profile.lower_open;
+  if (!profile.upper_open.empty()) json["upper_open"] = profile.upper_open;
+  return json;
 }
 
 Json to_json(const ModeSummary& mode) {
@@ -88,35 +107,53 @@ Json to_json(const ModeSummary& mode) {
   for (const ModeParameter& p : mode.parameters) {
     parameters[p.name] = {
         {"unit", p.unit}, {"value", p.value}, {"standard_error", p.standard_error}, {"at", p.at}};
+    if (p.profile) parameters[p.name]["profile"] = to_json(*p.profile);
   }
-  return {{"parameters", parameters},
-          {"log_likelihood", mode.log_likelihood},
-          {"log_posterior", mode.log_posterior},
-          {"maximum_likelihood", mode.maximum_likelihood},
-          {"aic", mode.aic},
-          {"bic", mode.bic},
-          {"observations", std::llround(mode.observations)},
-          {"starts", mode.starts},
-          {"reached", mode.reached}};
+  Json json = {{"parameters", parameters},
+               {"log_likelihood", mode.log_likelihood},
+               {"log_posterior", mode.log_posterior},
+               {"maximum_likelihood", mode.maximum_likelihood},
+               {"aic", mode.aic},
+               {"bic", mode.bic},
+               {"observations", std::llround(mode.observations)},
+               {"starts", mode.starts},
+               {"reached", mode.reached}};
+  for (const ModeQuantity& q : mode.quantities) {
+    json["quantities"].push_back({{"name", q.name},
+                                  {"of", q.of},
+                                  {"at", q.at},
+                                  {"unit", q.unit},
+                                  {"value", q.value},
+                                  {"profile", to_json(q.profile)}});
+  }
+  return json;
 }
 
 Json to_json(const LooSummary& summary) {
   const Loo& loo = summary.loo;
+  Json json = {{"elpd", loo.elpd()},
+               {"se", loo.se()},
+               {"error", loo.error},
+               {"by_quadrature", loo.by_quadrature},
+               {"p_loo", loo.p_loo()},
+               {"khat_max", loo.khat_max()},
+               {"khat_threshold", loo.threshold},
+               {"observation", summary.observation},
+               {"observations", std::llround(loo.observations())}};
+  if (loo.terms.size() > most_rows_inline) {
+    json["table"] = loo_table_file;
+    return json;
+  }
   Json terms = Json::array();
   for (const LooTerm& term : loo.terms) {
     Json each = {{"elpd", term.elpd}, {"lpd", term.lpd}, {"khat", term.khat}};
     if (term.count != 1) each["count"] = term.count;
     if (term.refitted) each["refitted"] = true;
+    if (term.tail < 1) each["tail"] = term.tail;
     terms.push_back(std::move(each));
   }
-  return {{"elpd", loo.elpd()},
-          {"se", loo.se()},
-          {"p_loo", loo.p_loo()},
-          {"khat_max", loo.khat_max()},
-          {"khat_threshold", loo.threshold},
-          {"observation", summary.observation},
-          {"observations", std::llround(loo.observations())},
-          {"pointwise", terms}};
+  json["pointwise"] = std::move(terms);
+  return json;
 }
 
 Json to_json(const LifeSummary& life) {
@@ -152,6 +189,15 @@ Json to_json(const StageSummary& stage) {
 }
 
 Json to_json(const PointwiseTable& table) {
+  Json json = {{"units",
+                {{"force", table.force_unit},
+                 {"slip", table.slip_unit},
+                 {"volume", table.volume_unit},
+                 {"k", table.k_unit}}}};
+  if (table.rows.size() > most_rows_inline) {
+    json["table"] = pointwise_table_file;
+    return json;
+  }
   Json rows = Json::array();
   for (const PointwiseRow& row : table.rows) {
     rows.push_back({{"cycles", row.cycles},
@@ -160,12 +206,8 @@ Json to_json(const PointwiseTable& table) {
                     {"volume", row.volume},
                     {"k", row.k}});
   }
-  return {{"units",
-           {{"force", table.force_unit},
-            {"slip", table.slip_unit},
-            {"volume", table.volume_unit},
-            {"k", table.k_unit}}},
-          {"rows", rows}};
+  json["rows"] = std::move(rows);
+  return json;
 }
 
 }  // namespace

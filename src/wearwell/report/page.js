@@ -20,37 +20,55 @@
   };
   const title = document.title;
 
-  document.querySelectorAll('figure').forEach((figure) => {
+  // Columns of numbers -> rows. Vega's own reader of CSV makes functions of text, which the page's policy forbids.
+  function rows(csv) {
+    const [heading, ...lines] = csv.split('\n');
+    const names = heading.split(',');
+    return lines.map((line) => {
+      const cells = line.split(',');
+      return Object.fromEntries(names.map((name, i) => [name, cells[i] ? Number(cells[i]) : null]));
+    });
+  }
+
+  async function draw(figure) {
     const specification = JSON.parse(figure.querySelector('script').textContent);
+    for (const {data} of specification.layer) {
+      if (data?.format?.type !== 'csv' || typeof data.values !== 'string') continue;
+      data.values = rows(data.values);
+      delete data.format;
+    }
+    delete specification.usermeta;  // options are ours
     const name = `${title} ${figure.id}`.replace(/[^\p{L}\p{N}]+/gu, '-');
     const plot = figure.querySelector('.plot');
     // As many columns as fit, on paper too, where plots may be narrower than on the screen.
-    const labels = new Set(specification.layer.map((layer) => layer.encoding.color?.datum).filter(Boolean));
+    const labels = new Set(specification.layer.map((layer) => layer.encoding?.color?.datum).filter(Boolean));
     const widths = [...labels].map((label) => 40 + 7 * label.length);
     const needed = widths.reduce((sum, each) => sum + each, 0);
     const width = plot.clientWidth;
     const fits = (columns) => columns * Math.max(...widths, 0) < Math.min(width, 330);
     const legend = {...config.legend,
                     columns: needed < Math.min(width, 330) || width > 900 ? 0 : width > 400 || fits(2) ? 2 : 1};
-    vegaEmbed(plot, specification, {
+    await vegaEmbed(plot, specification, {
       config: {...config, legend},
       renderer: 'svg',
+      ast: true,  // expressions are interpreted: the page's policy forbids to make functions of text
       mode: 'vega-lite',
       formatLocale: {decimal: '.', thousands: '\u202f', grouping: [3], currency: ['', '']},
       actions: {export: {svg: true, png: true}, source: true, compiled: false, editor: false},
       downloadFileName: name,
       scaleFactor: {svg: 1, png: 2},
       tooltip: {theme: matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'},
-    }).then((result) => {
-      const summary = figure.querySelector('summary');
-      if (summary) summary.setAttribute('aria-label', `Menu: ${figure.querySelector('h3').textContent}`);
-      figure.dataset.drawn = 'true';
-      return result;
-    }).catch((error) => {
-      plot.textContent = `This plot cannot be drawn: ${error.message}`;
-      console.error(error);
     });
-  });
+    const summary = figure.querySelector('summary');
+    if (summary) summary.setAttribute('aria-label', `Menu: ${figure.querySelector('h3').textContent}`);
+    figure.dataset.drawn = 'true';
+  }
+
+  document.querySelectorAll('figure').forEach((figure) => draw(figure).catch((error) => {
+    figure.querySelector('.plot').textContent = `This plot cannot be drawn: ${error.message}`;
+    figure.dataset.failed = 'true';
+    console.error(error);
+  }));
   // What is folded away on screen is printed.
   addEventListener('beforeprint', () => document.querySelectorAll('main details').forEach((each) => {
     if (!each.closest('.plot')) each.open = true;

@@ -9,10 +9,18 @@
 namespace wearwell::plot {
 namespace {
 
+// A name from elsewhere does not make two columns of one.
+std::string in_heading(std::string name) {
+  for (char& c : name) {
+    if (c == ',' || c == '"' || c == '\n' || c == '\r') c = ' ';
+  }
+  return name;
+}
+
 // Six digits are more than a plot shows; CSV is the shortest way to write many numbers.
 Json inline_data(const Columns& columns) {
   std::string csv;
-  for (const auto& [name, values] : columns) csv += (csv.empty() ? "" : ",") + name;
+  for (const auto& [name, values] : columns) csv += (csv.empty() ? "" : ",") + in_heading(name);
   auto end = std::back_inserter(csv);
   for (std::size_t i = 0; i < columns.front().second.size(); ++i) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -46,7 +54,7 @@ Json layer(const Columns& data, Json mark, const Look& look) {
   Json tooltip = Json::array();
   for (const auto& column : data) {
     if (column.first.size() > 2 && column.first != "density") {
-      tooltip.push_back({{"field", column.first}, {"type", "quantitative"}, {"format", ".4~g"}});
+      tooltip.push_back({{"field", in_heading(column.first)}, {"type", "quantitative"}, {"format", ".4~g"}});
     }
   }
   if (!tooltip.empty()) encoding["tooltip"] = tooltip;

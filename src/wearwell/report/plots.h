@@ -59,10 +59,11 @@ struct Plots {
   std::optional<DensityGrid> joint;  ///< of the first two parameters
   std::vector<Curve> stages;         ///< density of the first parameter after 1, 2, ... data sets
   History history;
+  /// The next three are of the data sets that are drawn: all, or some hundreds evenly among them.
   std::vector<double> history_at;  ///< where each data set lies along it
-  std::string history_note;        ///< what to know of it
   History replicated;              ///< each data set as the final posterior would predict it
   std::vector<double> measured;    ///< those data sets
+  std::string history_note;        ///< what to know of it
   std::optional<Curve> life;       ///< probability that the limit is reached by then
   std::string study_text;          ///< the study file
   std::vector<DataFile> files;

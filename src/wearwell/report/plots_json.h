@@ -1,16 +1,24 @@
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "wearwell/report/json_reader.h"
 #include "wearwell/report/plots.h"
+#include "wearwell/report/result.h"
 
 namespace wearwell {
 
-/// plots.json of a result folder: what a report draws beyond summary.json and the draws. A number
-/// that is not finite is null.
+/// plots.json: what the report draws beyond summary.json and the draws. A number that is not finite
+/// is null.
 nlohmann::ordered_json to_json(const Plots& plots);
 
-/// Throws nlohmann::json::exception where something is missing or of another type.
-Plots plots_from_json(const nlohmann::ordered_json& json);
+/// Throws InputError naming file and key of what is missing or has the wrong type.
+Plots plots_from_json(const JsonReader& json);
+
+/// Throws InputError where columns of a plot differ in length, or plots and result in what they are
+/// of.
+void require_consistent(const Plots& plots, const StudyResult& result,
+                        const std::filesystem::path& file);
 
 }  // namespace wearwell

@@ -7,6 +7,7 @@
 
 #include "wearwell/report/figures.h"
 #include "wearwell/report/html.h"
+#include "wearwell/report/long_tables.h"
 #include "wearwell/report/page.h"
 
 namespace wearwell {
@@ -20,9 +21,7 @@ using html::range;
 using html::unit;
 
 std::string with_unit(const std::string& name, const std::string& unit_text) {
-  return unit_text == "1" ? escape(name)
-                          : fmt::format("{} <span class=\"unit\">[{}]</span>", escape(name),
-                                        escape(unit(unit_text)));
+  return unit_text == "1" ? name : fmt::format("{} [{}]", name, unit(unit_text));
 }
 
 std::string interval(double low, double high, const std::string& unit_text, int digits) {
@@ -146,9 +145,14 @@ std::string verdict_section(const StudyResult& result, const Plots& plots) {
     tiles.push_back(
         {"Life B10", life_number(life.b10, summary.unit, 3), summary.unit,
          fmt::format("one in ten reaches {} earlier", given(summary.limit, summary.limit_unit))});
+    if (summary.passed_beyond_risk()) {
+      tiles.push_back({"Limit passed already", fmt::format("{:.2g}", 100 * life.passed), "%",
+                       fmt::format("probability after {}; tolerated: {} %", given(summary.now),
+                                   given(100 * summary.risk))});
+    }
     tiles.push_back({"Inspect again within", life_number(life.inspect_within, summary.unit, 3),
                      summary.unit,
-                     fmt::format("after {}; risk of reaching the limit before: {} %",
+                     fmt::format("after {}, unless the limit is passed already; risk of reaching it before: {} %",
                                  given(summary.now), given(100 * summary.risk))});
   }
   if (const QuantitySummary* told = told_life(result)) {
@@ -176,8 +180,11 @@ std::string prediction_table(const std::string& caption,
                              const std::vector<std::pair<std::size_t, PredictionSummary>>& rows) {
   const PredictionSummary& first = rows.front().second;
   html::Table table{caption,
-                    {"Data sets", escape(first.at_name), with_unit(first.quantity, first.unit),
-                     "90 % of the mean", "90 % of measurements", "Measured"},
+                    {"Data sets", first.at_name, with_unit(first.quantity, first.unit),
+                     "90 % of the " + (first.mean_of.empty() ? "mean" : first.mean_of),
+                     first.mean_of.empty() ? "90 % of measurements"
+                                           : "90 % of measurements of a " + first.measured_of,
+                     "Measured"},
                     {}};
   for (const auto& [data_sets, p] : rows) {
     const Prediction& b = p.best();
@@ -193,24 +200,26 @@ std::string life_table(const LifeSummary& summary) {
   return html::table(
       {fmt::format("Life in {} until {}", summary.unit, given(summary.limit, summary.limit_unit)),
        {"B1", "B10", "B50", "90 % interval",
-        fmt::format("Inspect within <span class=\"unit\">(risk {} %)</span>",
-                    given(100 * summary.risk))},
+        fmt::format("Passed already [after {}]", given(summary.now)),
+        fmt::format("If not, inspect within [risk {} %]", given(100 * summary.risk))},
        {{life_number(life.b1, summary.unit), life_number(life.b10, summary.unit),
          life_number(life.b50, summary.unit), range(life.q05, life.q95),
+         probability_in_words(life.passed),
          fmt::format("{} after {}", life_number(life.inspect_within, summary.unit),
                      given(summary.now))}}});
 }
 
 std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
   html::Table table{"What follows from the parameters",
-                    {"Quantity", "Of", "Where", "5 %", "50 %", "95 %", "B1", "B10"},
+                    {"Quantity", "Of", "Where", "5 %", "50 %", "95 %", "Safe end", "B1", "B10"},
                     {}};
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
     const auto value = [&](double x) { return quantity_value(each, x); };
-    table.rows.push_back({with_unit(each.name, each.unit), escape(each.of),
-                          escape(html::raised(each.at)), value(q.q05), value(q.q50), value(q.q95),
+    table.rows.push_back({with_unit(each.name, each.unit), each.of, html::raised(each.at),
+                          value(q.q05), value(q.q50), value(q.q95),
+                          each.safe_end ? fmt::format("{:.0f} %", 100 * *each.safe_end) : "–",
                           each.is_life ? value(q.b1) : "–", each.is_life ? value(q.b10) : "–"});
   }
   return table.rows.empty() ? "" : html::table(table);
@@ -233,9 +242,9 @@ std::string bound_table(const std::vector<QuantitySummary>& quantities) {
                        "50 %",
                        "95 %"};
     }
-    table.rows.push_back({with_unit(each.name, each.unit), escape(each.of),
-                          escape(html::raised(each.at)), number(*q.predictive), number(*q.bound),
-                          number(q.q05), number(q.q50), number(q.q95)});
+    table.rows.push_back({with_unit(each.name, each.unit), each.of, html::raised(each.at),
+                          number(*q.predictive), number(*q.bound), number(q.q05), number(q.q50),
+                          number(q.q95)});
   }
   if (table.rows.empty()) return "";
   table.caption = "For the next one, and at least";
@@ -243,6 +252,16 @@ std::string bound_table(const std::vector<QuantitySummary>& quantities) {
          "in. Lower bound: what holds for all such items at least, with the stated probability; 5, "
          "50 and 95 % are of the same.</p>\n" +
          html::table(table);
+}
+
+// Of a table with a row for each observation; the files hold all.
+constexpr std::size_t most_rows = 1000;
+
+std::string rest_note(std::size_t rows, const char* file) {
+  if (rows <= most_rows) return "";
+  return fmt::format("<p>The first {} of {}; all are in {}.</p>\n", given(most_rows),
+                     given(static_cast<double>(rows)),
+                     rows > most_rows_inline ? file : "summary.json");
 }
 
 std::string coverage_table(const CoverageTable& coverage) {
@@ -254,7 +273,8 @@ std::string coverage_table(const CoverageTable& coverage) {
   for (const CoverageRow& row : coverage.rows) {
     failures += row.failed();
     inside += row.failed() && row.inside();
-    table.rows.push_back({fmt::format("{}", row.row), escape(row.label), escape(row.outcome),
+    if (table.rows.size() == most_rows) continue;
+    table.rows.push_back({fmt::format("{}", row.row), row.label, row.outcome,
                           row.until ? range(row.life, *row.until) : number(row.life),
                           number(100 * row.probability, 3) + "\u00a0%", range(row.q05, row.q95),
                           number(row.b10),
@@ -264,9 +284,9 @@ std::string coverage_table(const CoverageTable& coverage) {
                                             : "outside"});
   }
   return fmt::format(
-             "<p>{} of {} failures lie within the interval that should hold nine in ten.</p>\n",
-             inside, failures) +
-         html::table(table);
+             "<p>{} of {} failures{} lie within the interval that should hold nine in ten.</p>\n",
+             inside, failures, chosen_tests(coverage)) +
+         html::table(table) + rest_note(coverage.rows.size(), coverage_table_file);
 }
 
 // What the trade shows there beyond that.
@@ -293,8 +313,9 @@ std::string prediction_section(const StudyResult& result, const Plots& plots) {
     for (const StageSummary& stage : result.stages) {
       for (const PredictionSummary& p : stage.predictions) rows.emplace_back(stage.rows, p);
     }
-    out += html::details("Every prediction, data set by data set",
-                         prediction_table("Predictions, data set by data set", rows));
+    if (!rows.empty())
+      out += html::details("Every prediction, data set by data set",
+                           prediction_table("Predictions, data set by data set", rows));
   }
   return out;
 }
@@ -308,11 +329,43 @@ std::string mode_table(const ModeSummary& mode) {
                         : "Mode: where the posterior density is highest",
                     {"Parameter", "Mode", "Standard error"},
                     {}};
-  for (const ModeParameter& p : mode.parameters) {
-    table.rows.push_back({with_unit(p.name, p.unit), number(p.value),
-                          p.at == "inside" ? number(p.standard_error, 3) : "on its " + p.at});
+  const auto profile = mode.profile();
+  const auto ends = [](const ProfileSummary& p) {
+    const auto end = [](double value, const std::string& open) {
+      return open.empty() ? number(value) : "open: " + open;
+    };
+    return std::vector<std::string>{end(p.lower, p.lower_open), end(p.upper, p.upper_open)};
+  };
+  if (profile) {
+    const double percent = 100 * profile->level;
+    table.heading.push_back(fmt::format("{:.4g} % profile interval from", percent));
+    table.heading.emplace_back("to");
   }
-  return html::table(table) +
+  const auto add = [&](std::vector<std::string> row, const std::optional<ProfileSummary>& p) {
+    if (profile) {
+      const auto cells = p ? ends(*p) : std::vector<std::string>{"–", "–"};
+      row.insert(row.end(), cells.begin(), cells.end());
+    }
+    table.rows.push_back(std::move(row));
+  };
+  for (const ModeParameter& p : mode.parameters) {
+    add({with_unit(p.name, p.unit), number(p.value),
+         p.at == "inside" ? number(p.standard_error, 3) : "on its " + p.at},
+        p.profile);
+  }
+  for (const ModeQuantity& q : mode.quantities) {
+    add({fmt::format("{} of {}{}{}", with_unit(q.name, q.unit), q.of, q.at.empty() ? "" : " ",
+                     q.at),
+         number(q.value), "–"},
+        q.profile);
+  }
+  const std::string of_profile =
+      profile ? "<p>The profile interval holds all values under which the likelihood, maximized "
+                "over everything else, is not far below its maximum (by chi-square's quantile: "
+                "Venzon and Moolgavkar 1988). It need not be symmetric, and does not change with "
+                "the way in which a parameter is written.</p>\n"
+              : "";
+  return html::table(table) + of_profile +
          fmt::format(
              "<p>Log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f} ({} observations, densities in SI "
              "units{}). Standard errors are those of the curvature there; a parameter on its bound "
@@ -327,7 +380,7 @@ std::string loo_table(const LooSummary& summary) {
       fmt::format("How well each {} is predicted from all others", summary.observation),
       {html::capital(summary.observation), "Log density", "Log density with itself", "Pareto k"},
       {}};
-  for (std::size_t i = 0; i < loo.terms.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(loo.terms.size(), most_rows); ++i) {
     const LooTerm& term = loo.terms[i];
     table.rows.push_back(
         {fmt::format("{}{}", i + 1, term.count == 1 ? "" : fmt::format(" ({}×)", term.count)),
@@ -343,7 +396,8 @@ std::string loo_table(const LooSummary& summary) {
              "effective parameters (natural logarithms, densities in SI units). Pareto k up to "
              "{:.2f} is good.</p>\n",
              loo.elpd(), loo.se(), loo.p_loo(), loo.threshold) +
-         html::details(fmt::format("Every {} left out", summary.observation), html::table(table));
+         html::details(fmt::format("Every {} left out", summary.observation),
+                       html::table(table) + rest_note(loo.terms.size(), loo_table_file));
 }
 
 std::string parameter_section(const StudyResult& result, const Plots& plots) {
@@ -359,8 +413,8 @@ std::string parameter_section(const StudyResult& result, const Plots& plots) {
   }
   html::Table priors{"What was believed before", {"Parameter", "Meaning", "Prior"}, {}, true};
   for (std::size_t i = 0; i < result.parameters.size(); ++i) {
-    priors.rows.push_back({escape(result.parameters[i].name), escape(plots.parameters[i].meaning),
-                           escape(html::raised(plots.parameters[i].prior_in_words))});
+    priors.rows.push_back({result.parameters[i].name, plots.parameters[i].meaning,
+                           html::raised(plots.parameters[i].prior_in_words)});
   }
   std::string out = html::table(table) + html::table(priors);
   if (result.mode) out += mode_table(*result.mode);
@@ -380,7 +434,7 @@ std::string parameter_section(const StudyResult& result, const Plots& plots) {
                                   {number(b.mean), number(b.sd), range(b.q05, b.q95)});
       }
       std::string failed = names_of(stage.checks, Verdict::fail);
-      stages.rows.back().push_back(stage.trusted ? "yes" : "no: " + escape(failed));
+      stages.rows.back().push_back(stage.trusted ? "yes" : "no: " + failed);
     }
     out += html::table(stages);
   }
@@ -392,10 +446,10 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
       fmt::format("<p>{}</p>\n", escape(fmt::format("{}.", html::raised(result.equation))));
   const History& r = plots.replicated;
   const std::string at = plots.at_name, u = plots.unit;
-  html::Table table{"Data, and what the fit says of them",
-                    {escape(at), with_unit("Measured", u), "Fitted mean", "90 % of the mean",
-                     "90 % of measurements"},
-                    {}};
+  html::Table table{
+      "Data, and what the fit says of them",
+      {at, with_unit("Measured", u), "Fitted mean", "90 % of the mean", "90 % of measurements"},
+      {}};
   std::size_t inside = 0;
   for (std::size_t i = 0; i < r.at.size(); ++i) {
     const double y = plots.measured[i];
@@ -404,9 +458,12 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
                           range(r.ci05[i], r.ci95[i], 3), range(r.pi05[i], r.pi95[i], 3)});
   }
   if (!r.at.empty()) {
+    const bool all = r.at.size() >= result.data_rows;
     out += fmt::format(
-        "<p>{} of {} measurements lie within the interval that should hold nine in ten.</p>\n",
-        inside, r.at.size());
+        "<p>{} of {} measurements{} lie within the interval that should hold nine in ten.</p>\n",
+        inside, r.at.size(),
+        all ? ""
+            : fmt::format(", evenly among the {}, ", given(static_cast<double>(result.data_rows))));
     out += html::table(table) + html::figures(fit_figures(plots));
   }
   if (result.coverage) out += coverage_table(*result.coverage);
@@ -417,10 +474,11 @@ std::string fit_section(const StudyResult& result, const Plots& plots) {
                            with_unit("V", p.volume_unit), with_unit("k = V/(F s)", p.k_unit)},
                           {}};
     for (const PointwiseRow& row : p.rows) {
+      if (pointwise.rows.size() == most_rows) break;
       pointwise.rows.push_back({given(row.cycles), number(row.force), number(row.slip),
                                 number(row.volume), number(row.k)});
     }
-    out += html::table(pointwise);
+    out += html::table(pointwise) + rest_note(p.rows.size(), pointwise_table_file);
   }
   if (result.loo) out += loo_table(*result.loo);
   return out + exhibits(plots, "fit");
@@ -430,21 +488,16 @@ std::string check_section(const StudyResult& result, const Plots& plots) {
   html::Table table{
       "Checks of the final posterior", {"Check", "Verdict", "What was found"}, {}, true};
   for (const Check& check : result.checks) {
-    std::string found = escape(html::raised(check.detail));
-    if (!check.advice.empty()) {
-      found += fmt::format("<br><em>{}</em>", escape(html::raised(check.advice)));
-    }
-    table.rows.push_back({escape(check.name),
-                          fmt::format("<span class=\"badge {}\">{}</span>", kind(check.verdict),
-                                      word(check.verdict)),
-                          found});
+    const std::string advice = check.advice.empty() ? "" : "\n" + html::raised(check.advice);
+    table.rows.push_back({check.name, word(check.verdict), html::raised(check.detail) + advice});
+    table.badges.push_back(kind(check.verdict));
   }
   html::Table draws{"Draws of each parameter",
                     {"Parameter", "R-hat", "Effective draws, centre", "Effective draws, tails"},
                     {}};
   for (const ParameterSummary& p : result.parameters) {
-    draws.rows.push_back({escape(p.name), fmt::format("{:.4f}", p.rhat),
-                          fmt::format("{:.0f}", p.ess_bulk), fmt::format("{:.0f}", p.ess_tail)});
+    draws.rows.push_back({p.name, fmt::format("{:.4f}", p.rhat), fmt::format("{:.0f}", p.ess_bulk),
+                          fmt::format("{:.0f}", p.ess_tail)});
   }
   return html::table(table) + html::table(draws) + html::figures(sampler_figures(result, plots));
 }
@@ -475,8 +528,8 @@ std::string method_section(const StudyResult& result, const Plots& plots) {
       "<p>The same study file, data and seed give the same numbers to the bit, whatever the number "
       "of threads: <code>wearwell fit {} --method {} --chains {} --warmup {} --draws {} "
       "--seed {}</code></p>\n",
-      escape(plots.files.front().name), result.method, result.chains, result.warmup, result.draws,
-      result.seed);
+      escape(plots.files.front().name), escape(result.method), result.chains, result.warmup,
+      result.draws, result.seed);
   return out + html::details("Study file", fmt::format("<pre tabindex=\"0\">{}</pre>\n",
                                                        escape(plots.study_text)));
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -39,6 +42,9 @@ struct PredictionSummary {
   Prediction drawn;
   std::optional<Prediction> exact;
   std::optional<double> measured;  ///< when the data hold a measurement there
+  /// Whose the mean with its interval is, and whose the measurement: "median bearing", "new bearing"
+  /// where items differ; else empty.
+  std::string mean_of = {}, measured_of = {};
 
   const Prediction& best() const { return exact ? *exact : drawn; }
 };
@@ -61,6 +67,7 @@ struct QuantitySummary {
   QuantityQuantiles drawn;
   std::optional<QuantityQuantiles> exact;
   std::optional<double> credible_level = {};  ///< of the bound
+  std::optional<double> safe_end = {};        ///< 0.05 or 0.95: the quantile to design with
 
   const QuantityQuantiles& best() const { return exact ? *exact : drawn; }
 };
@@ -82,6 +89,22 @@ struct CoverageRow {
 struct CoverageTable {
   std::string unit;
   std::vector<CoverageRow> rows;
+  std::size_t tests = 0;  ///< of the data: where they are more, rows are some of them, evenly
+};
+
+/// Where the likelihood is not far below its maximum (infer/profile.h). An open end is NaN, and
+/// says why.
+struct ProfileSummary {
+  double level = 0;
+  double lower = 0, upper = 0;
+  std::string lower_open, upper_open;
+};
+
+/// A quantity that follows from the parameters, where the likelihood is highest.
+struct ModeQuantity {
+  std::string name, of, at, unit;
+  double value = 0;
+  ProfileSummary profile;
 };
 
 /// One parameter at the mode of the posterior (infer/natural_mode.h).
@@ -91,6 +114,7 @@ struct ModeParameter {
   double value = 0;
   double standard_error = 0;  ///< NaN where a bound holds the parameter
   std::string at;             ///< "inside", "lower bound" or "upper bound"
+  std::optional<ProfileSummary> profile{};  ///< at the maximum of the likelihood
 };
 
 /// Where the posterior is highest in the parameters' own units.
@@ -104,6 +128,12 @@ struct ModeSummary {
   bool maximum_likelihood = false;  ///< all priors are flat or uniform, so it is that as well
   double observations = 0;          ///< of which BIC takes the logarithm
   int starts = 0, reached = 0;      ///< searches, and how many ended here
+  std::vector<ModeQuantity> quantities{};  ///< at the maximum of the likelihood
+
+  /// Any of the profiles; none where the mode is not that of the likelihood.
+  std::optional<ProfileSummary> profile() const {
+    return parameters.empty() ? std::nullopt : parameters.front().profile;
+  }
 };
 
 /// Leave-one-out cross-validation (infer/psis_loo.h).
@@ -122,7 +152,19 @@ struct LifeSummary {
   std::optional<Life> exact;
 
   const Life& best() const { return exact ? *exact : drawn; }
+
+  /// The limit is passed by now with a larger probability than the risk that is tolerated.
+  bool passed_beyond_risk() const { return best().passed > risk; }
 };
+
+/// "12 %", "less than 0.01 %".
+inline std::string probability_in_words(double p) {
+  constexpr double least = 1e-4;
+  if (std::isnan(p)) return "unknown";
+  if (p < least) return "less than 0.01 %";
+  if (p > 1 - least) return "more than 99.99 %";
+  return p > 0.99 ? fmt::format("{:.2f} %", 100 * p) : fmt::format("{:.2g} %", 100 * p);
+}
 
 /// The posterior after the first `rows` data sets.
 struct StageSummary {

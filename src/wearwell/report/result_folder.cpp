@@ -1,144 +1,140 @@
 #include "wearwell/report/result_folder.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
-#include <cerrno>
-#include <cstring>
+#include <algorithm>
 #include <fstream>
+#include <optional>
+#include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/sha1.h"
+#include "wearwell/base/staged_file.h"
 
 namespace wearwell {
 namespace fs = std::filesystem;
 
 namespace {
 
-// All that a result may hold: a folder with anything else in it is not ours to replace.
-bool is_result(const std::string& name) {
-  for (const char* file : {"summary.json", "predictions.csv", "plots.json", "report.html",
-                           "study.toml", "models.csv"}) {
-    if (name == file) return true;
+constexpr char list_name[] = "results.sha1";
+
+struct Listed {
+  std::string sha1, name;
+};
+
+std::string line_of(const Listed& each) {
+  return fmt::format("{}  {}\n", each.sha1, each.name);
+}
+
+/// Nothing when there is no list, or it is none of ours.
+std::optional<std::vector<Listed>> read_list(const fs::path& folder) {
+  constexpr std::size_t digits = 40, between = 2;
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(folder / list_name, error))) return {};
+  std::ifstream stream(folder / list_name, std::ios::binary);
+  std::vector<Listed> list;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.size() <= digits + between || line.substr(digits, between) != "  ") return {};
+    list.push_back({line.substr(0, digits), line.substr(digits + between)});
+    if (list.back().name.find('/') != std::string::npos) return {};
   }
-  if (name == "model.json") return true;
-  return name.starts_with("draws_") && name.ends_with(".csv");
+  return stream.bad() ? std::nullopt : std::optional(list);
 }
 
-void require_result(const std::string& name) {
-  if (!is_result(name)) throw std::logic_error("no name for a file of results: " + name);
+bool is_unchanged(const fs::path& file, const std::string& name, const std::vector<Listed>& list) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return false;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string sha1 = sha1_of(stream);
+  return stream.eof() && std::any_of(list.begin(), list.end(), [&](const Listed& each) {
+           return each.name == name && each.sha1 == sha1;
+         });
 }
 
-// Throws InputError unless `folder` is empty or holds an earlier result and nothing else.
-void require_replaceable(const fs::path& folder) {
-  const auto refuse = [&](const std::string& reason) {
-    throw InputError(fmt::format("will not replace {}: {}", folder.string(), reason));
+/// What is in the folder: of wearwell's writing, and the first that is not, with the reason.
+struct Content {
+  std::vector<std::string> own;
+  std::string foreign;
+};
+
+Content look_at(const fs::path& folder) {
+  Content content;
+  const auto list = read_list(folder);
+  const auto foreign = [&](const std::string& name, const char* why) {
+    if (content.foreign.empty()) content.foreign = fmt::format("it holds {}, {}", name, why);
   };
   std::error_code error;
-  const fs::directory_iterator entries(folder, error);
-  if (error) refuse(error.message());
-  bool empty = true;
-  for (const fs::directory_entry& entry : entries) {
-    empty = false;
-    const std::string name = entry.path().filename().string();
-    if (!is_result(name) || !entry.is_regular_file(error)) {
-      refuse(fmt::format("it holds {}, which is no result", name));
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (list && name == list_name) {
+      content.own.push_back(name);
+    } else if (!list) {
+      foreign(name, "and no results.sha1, the list of what wearwell wrote");
+    } else if (std::none_of(list->begin(), list->end(),
+                            [&](const Listed& each) { return each.name == name; })) {
+      foreign(name, "which is no result");
+    } else if (!is_unchanged(at->path(), name, *list)) {
+      foreign(name, "which was changed since wearwell wrote it");
+    } else {
+      content.own.push_back(name);
     }
   }
-  if (!empty && !fs::exists(folder / "summary.json", error)) {
-    refuse("it is not empty and holds no summary.json");
-  }
+  if (error) content.foreign = error.message();
+  return content;
 }
 
-// Removes `folder` and those above it up to `last`, as far as nobody has put anything into them.
-void remove_empty(fs::path folder, const fs::path& last) {
-  std::error_code ignored;
-  while (fs::remove(folder, ignored), folder != last) folder = folder.parent_path();
+/// The earlier results that may be replaced.
+std::vector<std::string> replaceable(const fs::path& target) {
+  const fs::path folder = behind_links(target);
+  std::error_code error;
+  if (!fs::exists(folder, error)) {
+    heal_folder(folder.parent_path());  // a program killed may have left it aside
+    if (!fs::exists(folder, error)) return {};
+  }
+  if (!fs::is_directory(folder, error))
+    throw InputError(fmt::format("cannot write to {}: it is not a folder", folder.string()));
+  heal_folder(folder);
+  const Content content = look_at(folder);
+  if (!content.foreign.empty())
+    throw InputError(fmt::format("will not replace {}: {}", folder.string(), content.foreign));
+  return content.own;
 }
 
 }  // namespace
 
-ResultFolder::ResultFolder(fs::path target) : target_(fs::absolute(target).lexically_normal()) {
-  if (!target_.has_filename()) target_ = target_.parent_path();
-  const std::string name = target_.string();
-  std::error_code error;
-  if (fs::exists(target_, error)) {
-    if (!fs::is_directory(target_, error)) {
-      throw InputError(fmt::format("cannot write to {}: it is not a folder", name));
-    }
-    require_replaceable(target_);
-  }
-  const fs::path parent = target_.parent_path();
-  for (fs::path missing = parent; !fs::exists(missing, error); missing = missing.parent_path()) {
-    made_parent_ = missing;
-  }
-  fs::create_directories(parent, error);
-  std::string pattern = (parent / ".wearwell.XXXXXX").string();
-  if (error || !mkdtemp(pattern.data())) {
-    const std::string reason = error ? error.message() : std::strerror(errno);
-    if (!made_parent_.empty()) remove_empty(parent, made_parent_);
-    throw InputError(fmt::format("cannot write to {}: {}", parent.string(), reason));
-  }
-  staging_ = pattern;
-  fs::permissions(staging_,
-                  fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
-                      fs::perms::others_read | fs::perms::others_exec,
-                  error);
-}
+ResultFolder::ResultFolder(const fs::path& target) : folder_(target, replaceable(target)) {}
 
-ResultFolder::~ResultFolder() {
-  std::error_code ignored;
-  if (!staging_.empty()) fs::remove_all(staging_, ignored);
-  if (!made_parent_.empty()) remove_empty(target_.parent_path(), made_parent_);
-}
-
-void ResultFolder::write(const std::string& name, const std::string& content) const {
-  require_result(name);
-  std::ofstream stream(staging_ / name, std::ios::binary);
-  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-  stream.close();
-  if (!stream) {
-    throw MachineError(
-        fmt::format("cannot write {} for {}: is the disk full?", name, target_.string()));
-  }
-}
-
-void ResultFolder::copy(const fs::path& file, const std::string& name) const {
-  require_result(name);
-  std::error_code error;
-  fs::copy_file(file, staging_ / name, error);
-  if (error) throw MachineError(fmt::format("cannot copy {}: {}", file.string(), error.message()));
+void ResultFolder::write(const std::string& name, std::string_view content) {
+  folder_.write(name, content);
+  list_ += line_of({sha1_of(content), name});
 }
 
 void ResultFolder::commit() {
-  std::error_code error;
-  const fs::path old = staging_.string() + ".old";
-  const bool replaces = fs::exists(target_, error);
-  if (replaces) fs::rename(target_, old, error);
-  if (!error) fs::rename(staging_, target_, error);
-  if (error) {
-    std::error_code ignored;
-    if (replaces && fs::exists(old, ignored)) fs::rename(old, target_, ignored);
-    throw MachineError(
-        fmt::format("cannot put results at {}: {}", target_.string(), error.message()));
-  }
-  staging_.clear();
-  made_parent_.clear();
-  fs::remove_all(old, error);
+  folder_.write(list_name, list_);
+  folder_.commit(look_at(folder_.target()).own);
 }
 
-void replace_file(const fs::path& file, const std::string& content) {
-  const fs::path staging = file.string() + ".new";
-  std::ofstream stream(staging, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("cannot write to {}", file.parent_path().string()));
-  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-  stream.close();
-  std::error_code error;
-  if (stream) fs::rename(staging, file, error);
-  if (!stream || error) {
-    std::error_code ignored;
-    fs::remove(staging, ignored);
-    throw MachineError(fmt::format("cannot write {}: is the disk full?", file.string()));
+void replace_result(const fs::path& folder, const std::string& name, std::string_view content) {
+  auto list = read_list(folder);
+  const auto write_list = [&] {
+    std::string text;
+    for (const Listed& each : *list) text += line_of(each);
+    write_file(folder / list_name, text, Links::replace);
+  };
+  const Listed now = {sha1_of(content), name};
+  const auto is_old = [&](const Listed& each) {
+    return each.name == name && each.sha1 != now.sha1;
+  };
+  // The old file and the new are both listed while one takes the other's place.
+  const bool listed = list && std::any_of(list->begin(), list->end(), [&](const Listed& each) {
+                        return each.name == name && each.sha1 == now.sha1;
+                      });
+  if (list && !listed) {
+    list->push_back(now);
+    write_list();
   }
+  write_file(folder / name, content, Links::replace);
+  if (list && std::erase_if(*list, is_old) > 0) write_list();
 }
 
 }  // namespace wearwell

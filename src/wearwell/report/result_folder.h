@@ -2,36 +2,37 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
+
+#include "wearwell/base/staged_folder.h"
 
 namespace wearwell {
 
-/// A folder of results that appears whole or not at all: files are written into a folder beside the
-/// target, which takes the target's place at `commit` and is removed when that never comes. So are
-/// the folders above the target that had to be made.
+/// A folder of results that appears whole or not at all (StagedFolder). Beside the results it holds
+/// `results.sha1`, the list of what wearwell wrote with a SHA-1 each, as `sha1sum` checks it: only
+/// what is listed and unchanged is ever replaced.
 class ResultFolder {
  public:
   /// Throws InputError when `target` is something else than an earlier result or an empty folder,
-  /// or cannot be written.
-  explicit ResultFolder(std::filesystem::path target);
-  ~ResultFolder();
-  ResultFolder(const ResultFolder&) = delete;
-  ResultFolder& operator=(const ResultFolder&) = delete;
+  /// or cannot be written, MachineError when the machine is at fault.
+  explicit ResultFolder(const std::filesystem::path& target);
 
-  const std::filesystem::path& path() const { return target_; }
+  const std::filesystem::path& path() const { return folder_.target(); }
 
-  /// `name` is one of the files that make a result. Throws MachineError when the disk refuses.
-  void write(const std::string& name, const std::string& content) const;
-  void copy(const std::filesystem::path& file, const std::string& name) const;
+  /// Throws MachineError when the disk refuses.
+  void write(const std::string& name, std::string_view content);
 
-  /// Throws MachineError; the earlier result stays then.
+  /// What others put into the target meanwhile stays there. Throws InputError when that has the
+  /// name of a result, MachineError when the disk refuses: the target is as it was then.
   void commit();
 
  private:
-  std::filesystem::path target_, staging_, made_parent_;
+  StagedFolder folder_;
+  std::string list_;
 };
 
-/// Replaces one file of a result folder, whole or not at all. Throws InputError when the folder
-/// cannot be written, MachineError when the disk refuses.
-void replace_file(const std::filesystem::path& file, const std::string& content);
+/// Replaces one file of a result folder, whole or not at all, and its line in the list.
+void replace_result(const std::filesystem::path& folder, const std::string& name,
+                    std::string_view content);
 
 }  // namespace wearwell

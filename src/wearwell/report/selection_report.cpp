@@ -57,7 +57,7 @@ std::string size_section(const SelectionResult& result) {
     const SubsetModel& model = *search.by_size[size].model;
     table.rows.push_back({fmt::format("{}", size), number(model.criterion), number(model.r2),
                           number(model.r2p), search.by_size[size].proven ? "yes" : "no",
-                          escape(difference(result, model.terms, before))});
+                          difference(result, model.terms, before)});
     before = model.terms;
   }
   std::string out = html::figures(size_figures(result)) + html::table(table);
@@ -76,7 +76,7 @@ std::string coefficient_section(const SelectionResult& result) {
       {"Term", "Scaled", "Standard error", "Original units", "Standard error", "In models found"},
       {}};
   for (const CoefficientRow& each : coefficient_rows(result)) {
-    table.rows.push_back({escape(each.term), each.selected ? number(each.scaled) : "–",
+    table.rows.push_back({each.term, each.selected ? number(each.scaled) : "–",
                           each.selected ? number(each.scaled_error) : "–", number(each.original),
                           number(each.original_error),
                           each.selected ? fmt::format("{:.0f} %", 100 * each.inclusion) : "–"});
@@ -104,8 +104,8 @@ std::string model_section(const SelectionResult& result) {
                           number(models[m].r2p), fmt::format("{:.2f}", selection.weights[m])});
     if (!selection.k_fold_press.empty())
       table.rows.back().push_back(number(1 - selection.k_fold_press[m] / selection.fit.tss));
-    table.rows.back().push_back(
-        m == 0 ? "" : escape(difference(result, models[m].terms, models.front().terms)));
+    table.rows.back().push_back(m == 0 ? ""
+                                       : difference(result, models[m].terms, models.front().terms));
   }
   std::string out = html::figures(support_figures(result)) + html::table(table);
   if (models.size() > most_models)

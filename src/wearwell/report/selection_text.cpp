@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/report/text_table.h"
 
 namespace wearwell {
@@ -132,6 +133,8 @@ std::string selection_text(const SelectionResult& result) {
       result.weights_column.empty() ? "" : fmt::format(", weighted by {}", result.weights_column));
   text += fmt::format("  R2 {}   R2p {}   RMSE {}   RMSEp {}\n", number(fit.r2), number(fit.r2p),
                       number(fit.rmse), number(fit.rmsep));
+  if (search.submodels > 1)
+    text += "  (R2p is of the best after a search: fresh data are predicted less well)\n";
   text += "\nCoefficients\n" + coefficient_table(result);
   text += "\nModels, best first\n" + model_table(result);
   if (result.settings.search.near > 0)
@@ -150,7 +153,7 @@ std::string selection_text(const SelectionResult& result) {
   if (!search.certified) text += gap_sentence(result) + "\n";
   text += fmt::format("{:.0f} {} in {:.2f} s\n", search.nodes,
                       search.cloud.sizes.empty() ? "nodes" : "models", search.seconds);
-  return text;
+  return printable_lines(text);
 }
 
 }  // namespace wearwell

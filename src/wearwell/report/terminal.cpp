@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "wearwell/base/printable.h"
+#include "wearwell/report/long_tables.h"
 #include "wearwell/report/text_table.h"
 
 namespace wearwell {
@@ -20,7 +22,7 @@ std::string number(double x) {
 }
 
 std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+  return printable(unit == "1" ? name : fmt::format("{} [{}]", name, unit));
 }
 
 std::string parameter_table(const std::vector<ParameterSummary>& parameters) {
@@ -36,12 +38,27 @@ std::string parameter_table(const std::vector<ParameterSummary>& parameters) {
   return text_table(rows);
 }
 
+std::string profile_ends(const ProfileSummary& profile) {
+  const auto end = [](double value, const std::string& open) {
+    return open.empty() ? number(value) : "open";
+  };
+  return end(profile.lower, profile.lower_open) + " .. " + end(profile.upper, profile.upper_open);
+}
+
 std::string mode_lines(const ModeSummary& mode) {
-  if (!mode.problem.empty()) return fmt::format("  there is none: {}\n", mode.problem);
+  if (!mode.problem.empty()) return fmt::format("  there is none: {}\n", printable(mode.problem));
   std::vector<std::vector<std::string>> rows = {{"", "at", "standard error"}};
+  const auto profile = mode.profile();
+  if (profile) rows[0].push_back(fmt::format("{:.4g} % profile interval", 100 * profile->level));
   for (const ModeParameter& p : mode.parameters) {
     rows.push_back({with_unit(p.name, p.unit), number(p.value),
                     p.at == "inside" ? number(p.standard_error) : "on its " + p.at});
+    if (profile) rows.back().push_back(p.profile ? profile_ends(*p.profile) : "-");
+  }
+  for (const ModeQuantity& q : mode.quantities) {
+    rows.push_back({fmt::format("{} of {}{}{}", with_unit(q.name, q.unit), q.of,
+                                q.at.empty() ? "" : " ", q.at),
+                    number(q.value), "-", profile_ends(q.profile)});
   }
   return text_table(rows) + fmt::format("  log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f}{}\n",
                                         mode.log_likelihood, mode.aic, mode.bic,
@@ -57,8 +74,9 @@ std::string loo_lines(const LooSummary& summary) {
   const Loo& loo = summary.loo;
   return fmt::format(
       "  each {} from all others: elpd {:.2f} (standard error {:.2f}), effective parameters "
-      "{:.1f}\n",
-      summary.observation, loo.elpd(), loo.se(), loo.p_loo());
+      "{:.1f}{}\n",
+      printable(summary.observation), loo.elpd(), loo.se(), loo.p_loo(),
+      loo.by_quadrature ? "" : fmt::format(", Monte Carlo error {:.2g}", loo.error));
 }
 
 // The draws of one parameter between their smallest and largest 0.5 %, in blocks of eight heights.
@@ -120,8 +138,11 @@ std::string stage_table(const std::vector<StageSummary>& stages) {
 std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
   const PredictionSummary& first = predictions.front();
   std::vector<std::vector<std::string>> rows = {
-      {first.at_name, with_unit(first.quantity, first.unit), "mean wear 5 %..95 %",
-       "measurement 5 %..95 %", "measured"}};
+      {first.at_name, with_unit(first.quantity, first.unit),
+       first.mean_of.empty() ? "mean wear 5 %..95 %" : first.mean_of + " 5 %..95 %",
+       first.mean_of.empty() ? "measurement 5 %..95 %"
+                             : "measurement of a " + first.measured_of + " 5 %..95 %",
+       "measured"}};
   for (const PredictionSummary& each : predictions) {
     const Prediction& p = each.best();
     rows.push_back({fmt::format("{}", each.at), number(p.mean),
@@ -134,12 +155,13 @@ std::string prediction_table(const std::vector<PredictionSummary>& predictions) 
 
 std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows = {
-      {"", "of the", "5 %", "50 %", "95 %", "B1", "B10", "B50"}};
+      {"", "of the", "5 %", "50 %", "95 %", "safe end", "B1", "B10", "B50"}};
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
     rows.push_back({with_unit(each.name, each.unit) + " " + each.at, each.of, number(q.q05),
-                    number(q.q50), number(q.q95)});
+                    number(q.q50), number(q.q95),
+                    each.safe_end ? fmt::format("{:.0f} %", 100 * *each.safe_end) : "-"});
     for (const double b : {q.b1, q.b10, q.b50}) {
       rows.back().push_back(each.is_life ? number(b) : "-");
     }
@@ -167,6 +189,15 @@ std::string bound_table(const std::vector<QuantitySummary>& quantities) {
                             text_table(rows);
 }
 
+// Of a table with a row for each observation; the files hold all.
+constexpr std::size_t most_rows = 200;
+
+std::string rest_line(std::size_t rows, const char* file) {
+  if (rows <= most_rows) return "";
+  return fmt::format("  ... and {} more{}\n", rows - most_rows,
+                     rows > most_rows_inline ? fmt::format(" in {}", file) : "");
+}
+
 std::string coverage_table(const CoverageTable& table) {
   std::vector<std::vector<std::string>> rows = {{"row", "type", "outcome",
                                                  with_unit("life", table.unit), "share below",
@@ -175,6 +206,7 @@ std::string coverage_table(const CoverageTable& table) {
   for (const CoverageRow& row : table.rows) {
     failures += row.failed();
     inside += row.failed() && row.inside();
+    if (rows.size() > most_rows) continue;
     rows.push_back(
         {fmt::format("{}", row.row), row.label, row.outcome,
          row.until ? fmt::format("{:.4g} .. {:.4g}", row.life, *row.until) : number(row.life),
@@ -185,22 +217,32 @@ std::string coverage_table(const CoverageTable& table) {
          : row.inside()    ? ""
                            : "outside"});
   }
-  return fmt::format("{}  {} of {} failures lie inside the 90 % intervals\n",
-                     text_table(rows, true), inside, failures);
+  return fmt::format("{}{}  {} of {} failures{} lie inside the 90 % intervals\n",
+                     text_table(rows, true), rest_line(table.rows.size(), coverage_table_file),
+                     inside, failures, chosen_tests(table));
 }
 
 std::string count(double x) {
-  return std::isfinite(x) ? fmt::format("{:.0f}", x) : "never";
+  return std::isnan(x) ? "unknown" : std::isfinite(x) ? fmt::format("{:.0f}", x) : "never";
 }
 
 std::string life_lines(const LifeSummary& summary) {
   const Life& life = summary.best();
-  return fmt::format(
-      "  {0} to {1} {2}:  B1 {3}   B10 {4}   B50 {5}   (5 %..95 %: {6} .. {7})\n"
-      "  after {8} {0}, inspect again within {9} {0}: {10} % risk of reaching the limit before\n",
-      summary.unit, number(summary.limit), summary.limit_unit, count(life.b1), count(life.b10),
-      count(life.b50), count(life.q05), count(life.q95), summary.now, count(life.inspect_within),
-      number(100 * summary.risk));
+  const std::string unit = printable(summary.unit);
+  const std::string lives = fmt::format(
+      "  {} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})\n", unit,
+      number(summary.limit), printable(summary.limit_unit), count(life.b1), count(life.b10),
+      count(life.b50), count(life.q05), count(life.q95));
+  const std::string passed = fmt::format(
+      "  after {} {} the limit is passed already with a probability of {}{}\n", summary.now, unit,
+      probability_in_words(life.passed),
+      summary.passed_beyond_risk()
+          ? fmt::format(": more than the risk of {} % that is tolerated", number(100 * summary.risk))
+          : "");
+  return lives + passed +
+         fmt::format(
+             "  if it is not passed, inspect again within {} {}: {} % risk of reaching it before\n",
+             count(life.inspect_within), unit, number(100 * summary.risk));
 }
 
 std::string pointwise_table(const PointwiseTable& p) {
@@ -208,10 +250,11 @@ std::string pointwise_table(const PointwiseTable& p) {
       {"cycles", with_unit("F", p.force_unit), with_unit("s", p.slip_unit),
        with_unit("V", p.volume_unit), with_unit("k = V/(F s)", p.k_unit)}};
   for (const PointwiseRow& row : p.rows) {
+    if (rows.size() > most_rows) break;
     rows.push_back({fmt::format("{}", row.cycles), number(row.force), number(row.slip),
                     number(row.volume), number(row.k)});
   }
-  return text_table(rows);
+  return text_table(rows) + rest_line(p.rows.size(), pointwise_table_file);
 }
 
 std::string painted(Verdict verdict, bool colour) {
@@ -224,9 +267,11 @@ std::string painted(Verdict verdict, bool colour) {
 std::string check_lines(const std::vector<Check>& checks, bool colour) {
   std::string out;
   for (const Check& check : checks) {
-    out +=
-        fmt::format("  {}  {:<20} {}\n", painted(check.verdict, colour), check.name, check.detail);
-    if (!check.advice.empty()) out += fmt::format("  {:>4}  {:<20} -> {}\n", "", "", check.advice);
+    out += fmt::format("  {}  {:<20} {}\n", painted(check.verdict, colour), printable(check.name),
+                       printable(check.detail));
+    if (!check.advice.empty()) {
+      out += fmt::format("  {:>4}  {:<20} -> {}\n", "", "", printable(check.advice));
+    }
   }
   return out;
 }
@@ -247,8 +292,9 @@ TerminalStyle terminal_style() {
 }
 
 std::string terminal_summary(const StudyResult& result, const TerminalStyle& style) {
-  std::string out = fmt::format("{}\n  {}\n  {}: {} data sets\n", result.title, result.equation,
-                                result.data_file, result.data_rows);
+  std::string out =
+      fmt::format("{}\n  {}\n  {}: {} data sets\n", printable(result.title),
+                  printable(result.equation), printable(result.data_file), result.data_rows);
   out += "\nParameters\n" + parameter_table(result.parameters);
   if (style.histograms) {
     out += '\n';
@@ -268,6 +314,8 @@ std::string terminal_summary(const StudyResult& result, const TerminalStyle& sty
   }
   out += quantity_table(result.quantities) + bound_table(result.quantities);
   if (result.life) out += "\nLife\n" + life_lines(*result.life);
+  // Of all above, the line feeds are ours; below, the colours too.
+  out = printable_lines(out);
   out += "\nChecks\n" + check_lines(result.checks, style.colour);
   out += result.trusted ? "\nTrusted: no check failed.\n"
                         : "\nNOT TRUSTED: at least one check failed; the numbers above are not to "

@@ -4,9 +4,15 @@
 
 #include <algorithm>
 
+#include "wearwell/base/printable.h"
+
 namespace wearwell {
 
-std::string text_table(const std::vector<std::vector<std::string>>& rows, bool words_last) {
+std::string text_table(const std::vector<std::vector<std::string>>& cells, bool words_last) {
+  std::vector<std::vector<std::string>> rows = cells;
+  for (auto& row : rows) {
+    for (std::string& cell : row) cell = printable(cell);
+  }
   std::vector<std::size_t> width;
   for (const auto& row : rows) {
     width.resize(std::max(width.size(), row.size()));

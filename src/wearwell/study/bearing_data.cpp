@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
@@ -17,10 +16,6 @@ namespace wearwell {
 namespace {
 
 using bearing::Contact;
-
-Unit counted(const std::string& name, const Unit& unit) {
-  return name == "speed" || name == "revolutions" ? in_turns(unit) : unit;
-}
 
 // One input of every inspection: from its column, or the same for all from [conditions].
 struct Series {
@@ -36,28 +31,29 @@ class Inputs {
       : data_(root.required_table("data")),
         columns_(data_.required_table("columns")),
         conditions_(root.table("conditions")),
-        table_(read_table(folder / data_.required_text("file"), data_.text("sql"))) {}
+        table_(read_table(data_, folder)) {}
 
   const Table& table() const { return table_; }
   const TomlReader& columns() const { return columns_; }
 
-  std::optional<Series> optional(const std::string& name, const std::string& si) const {
-    auto column = read_column(columns_, name, si);
+  std::optional<Series> optional(const std::string& name, const std::string& si) {
+    const auto column = read_column(columns_, name, si);
     const auto constant = conditions_ ? positive_quantity(*conditions_, name, si) : std::nullopt;
     refuse_both(name);
     if (constant) {
       return Series{std::vector<double>(table_.rows, constant->si()), constant, constant->unit};
     }
     if (!column) return {};
-    column->unit = counted(name, column->unit);
     Series series{si_numbers(table_, *column), {}, column->unit};
     for (std::size_t i = 0; i < table_.rows; ++i) {
       require(series.values[i] > 0, table_, *column, i, "positive");
     }
+    const bool grows = name == "revolutions" || name == "time";
+    read_.push_back({name, si, series.unit, series.values, !grows});
     return series;
   }
 
-  Series required(const std::string& name, const std::string& si) const {
+  Series required(const std::string& name, const std::string& si) {
     auto series = optional(name, si);
     if (!series) {
       columns_.fail(name, fmt::format("is missing; give it here, or in [conditions] if it is the "
@@ -133,6 +129,8 @@ class Inputs {
 
   std::optional<Contact> constant_contact() const { return contact_in(conditions_); }
 
+  const std::vector<DataColumn>& read() const { return read_; }
+
  private:
   bool has(const std::string& name) const {
     return columns_.has(name) || (conditions_ && conditions_->has(name));
@@ -145,19 +143,14 @@ class Inputs {
   TomlReader data_, columns_;
   std::optional<TomlReader> conditions_;
   Table table_;
+  std::vector<DataColumn> read_;
 };
 }  // namespace
-
-Unit in_turns(Unit unit) {
-  if (bearing::is_angle(unit.text)) unit.scale /= 2 * std::numbers::pi;
-  return unit;
-}
 
 std::optional<Quantity> positive_quantity(const TomlReader& table, const std::string& name,
                                           const std::string& si) {
   auto quantity = table.quantity(name, si);
   if (!quantity) return {};
-  quantity->unit = counted(name, quantity->unit);
   if (!(quantity->si() > 0)) table.fail(name, "must be positive");
   return quantity;
 }
@@ -168,7 +161,7 @@ std::optional<Contact> contact_in(const std::optional<TomlReader>& table) {
 
 BearingData read_bearing_data(const TomlReader& root, const std::filesystem::path& folder,
                               ObservationFamily family) {
-  const Inputs inputs(root, folder);
+  Inputs inputs(root, folder);
   const Table& table = inputs.table();
   const Series radius = inputs.required("radius", "m");
   const Series clearance = inputs.required("clearance", "m");
@@ -193,9 +186,9 @@ BearingData read_bearing_data(const TomlReader& root, const std::filesystem::pat
     }
   }
   if (inputs.first_of("revolutions", "speed", "time")) {
-    revolutions = inputs.required("revolutions", "1").values;
+    revolutions = inputs.required("revolutions", "rev").values;
   } else {
-    const Series speed = inputs.required("speed", "1/s"), time = inputs.required("time", "s");
+    const Series speed = inputs.required("speed", "rev/s"), time = inputs.required("time", "s");
     for (std::size_t i = 0; i < table.rows; ++i) {
       revolutions.push_back(speed.values[i] * time.values[i]);
     }
@@ -208,6 +201,8 @@ BearingData read_bearing_data(const TomlReader& root, const std::filesystem::pat
   const ColumnChoice depth = required_column(inputs.columns(), "depth", "m");
   data.depth_unit = depth.unit;
   data.inspections.depth = si_numbers(table, depth);
+  data.columns = inputs.read();
+  data.columns.push_back({"depth", "m", depth.unit, data.inspections.depth});
   for (std::size_t i = 0; i < table.rows; ++i) {
     const double d = data.inspections.depth[i];
     require(family == ObservationFamily::normal || d > 0, table, depth, i,

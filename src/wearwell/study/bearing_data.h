@@ -9,6 +9,7 @@
 #include "wearwell/bearing/contact.h"
 #include "wearwell/bearing/wear_fit.h"
 #include "wearwell/study/toml_reader.h"
+#include "wearwell/study/units_check.h"
 
 namespace wearwell {
 
@@ -25,16 +26,14 @@ struct BearingData {
   BearingCommon common;
   Unit depth_unit, pressure_unit;
   std::size_t bearings = 0;
+  std::vector<DataColumn> columns;  ///< as they were read
 };
 
 /// From [data] and [conditions]; `folder` is where relative paths start. Throws InputError.
 BearingData read_bearing_data(const TomlReader& root, const std::filesystem::path& folder,
                               ObservationFamily family);
 
-/// UDUNITS-2 counts angles in radians, bearings turns: the unit with its scale in turns.
-Unit in_turns(Unit unit);
-
-/// A quantity that must be positive; "speed" and "revolutions" count turns.
+/// A quantity that must be positive.
 std::optional<Quantity> positive_quantity(const TomlReader& table, const std::string& name,
                                           const std::string& si);
 

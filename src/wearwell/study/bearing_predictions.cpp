@@ -35,7 +35,7 @@ class Predictions {
     has_contact_ = predict.has("contact") || data.common.contact;
     radius_ = mine("radius", "m", data.common.radius);
     clearance_ = mine("clearance", "m", data.common.clearance);
-    speed_ = mine("speed", "1/s", data.common.speed);
+    speed_ = mine("speed", "rev/s", data.common.speed);
     force_ = positive_quantity(predict, "force", "N");
     const auto length = positive_quantity(predict, "length", "m");
     pressure_ = mine("pressure", "Pa", data.common.pressure);
@@ -53,10 +53,9 @@ class Predictions {
   }
 
   PredictedBearing read() {
-    const auto revolutions = predict_.quantities("revolutions", "1");
+    const auto revolutions = predict_.quantities("revolutions", "rev");
     const auto times = predict_.quantities("time", "s");
-    for (Quantity n : revolutions) {
-      n.unit = in_turns(n.unit);
+    for (const Quantity& n : revolutions) {
       depth("revolutions", n.si(), fmt::format("after {:.6g} revolutions", n.si()));
     }
     for (const Quantity& time : times) {
@@ -114,14 +113,13 @@ class Predictions {
 
   // The two ways to ask for a life: a number of revolutions, or a time at a speed.
   std::optional<double> required_revolutions() {
-    auto turns = positive_quantity(predict_, "required_revolutions", "1");
+    const auto turns = positive_quantity(predict_, "required_revolutions", "rev");
     const auto time = positive_quantity(predict_, "required_time", "s");
     if (turns && time) {
       predict_.fail("required_time", "is given beside required_revolutions; keep one of the two");
     }
     if (turns) {
       required_key_ = "required_revolutions";
-      turns->unit = in_turns(turns->unit);
       required_words_ = fmt::format("{:.6g} revolutions", turns->si());
       return turns->si();
     }
@@ -135,6 +133,8 @@ class Predictions {
   // A quantity of the bearing in the middle, and of a new one where bearings differ.
   void add(QuantityRequest request) {
     request.driver = [](const double* x) { return x[0]; };
+    // Wear that is faster than thought makes the depth larger and the life shorter.
+    request.safe_end = request.increasing ? 0.95 : 0.05;
     request.of = model_.has_scatter ? "median bearing" : "bearing";
     study_.quantities.push_back(request);
     if (!model_.has_scatter) return;
@@ -149,6 +149,15 @@ class Predictions {
     const Quantity& pressure = need(pressure_, "pressure", key);
     const Duty at = duty(key, revolutions, pressure.si());
     study_.predictions.push_back(depth_request(model_, data_, at, k_, {}));
+    double most = 0;  // p_a n of the inspections
+    for (const Duty& seen : data_.inspections.duty) {
+      most = std::max(most, seen.pressure * seen.revolutions);
+    }
+    study_.reaches.push_back(
+        {fmt::format("the depth {} at {}", when, in_words(pressure)),
+         fmt::format("the largest pressure times revolutions of an inspection is {:.4g} {}",
+                     from_si(data_.pressure_unit, most), data_.pressure_unit.text),
+         pressure.si() * revolutions, most});
     add({"depth",
          "",
          fmt::format("{} at {}", when, in_words(pressure)),
@@ -169,6 +178,12 @@ class Predictions {
       predict_.fail("limit", error.what());
     }
     const std::string to = "to " + in_words(limit);
+    const auto& depths = data_.inspections.depth;
+    const double deepest = *std::max_element(depths.begin(), depths.end());
+    study_.reaches.push_back({"the limit of " + in_words(limit),
+                              fmt::format("the deepest measured is {:.4g} {}",
+                                          from_si(data_.depth_unit, deepest), data_.depth_unit.text),
+                              limit.si(), deepest});
     if (!pressure_ && !required) {
       predict_.fail("limit",
                     "needs predict.pressure for the life until then, or required_revolutions (or "
@@ -251,6 +266,8 @@ PredictionRequest depth_request(const bearing::WearModel& model, const BearingDa
                             measured,
                             {}};
   if (model.has_scatter) {
+    request.mean_of = "median bearing";
+    request.measured_of = "new bearing";
     request.item = [model, depth](const double* x, double z) {
       return depth(x[0] * std::exp(model.scatter(x) * z));
     };

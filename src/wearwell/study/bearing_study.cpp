@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/bearing/wear_fit.h"
+#include "wearwell/bearing/wear_scores.h"
 #include "wearwell/study/bearing_data.h"
 #include "wearwell/study/bearing_exhibits.h"
 #include "wearwell/study/bearing_predictions.h"
@@ -73,6 +74,35 @@ std::string in_words(const bearing::WearModel& model, const BearingData& data) {
       rate, model.family == ObservationFamily::normal ? "normal" : "lognormal", sd);
 }
 
+// Wear grows within each bearing, or where all k are one, within each geometry.
+FitData fit_data(const bearing::WearModel& model, const BearingData& data) {
+  const bearing::Inspections& inspections = data.inspections;
+  std::vector<double> loading;
+  std::vector<std::size_t> group;
+  for (std::size_t i = 0; i < inspections.duty.size(); ++i) {
+    const bearing::Duty& duty = inspections.duty[i];
+    loading.push_back(duty.pressure * duty.revolutions);
+    std::size_t first = 0;
+    const auto alike = [&](std::size_t j) {
+      const bearing::Duty& other = inspections.duty[j];
+      return (!model.has_scatter || inspections.bearing[j] == inspections.bearing[i]) &&
+             other.contact == duty.contact && other.radius == duty.radius &&
+             other.clearance == duty.clearance;
+    };
+    while (!alike(first)) ++first;
+    group.push_back(first);
+  }
+  const Rise rise{"wear depth grows with pressure times revolutions", loading, inspections.depth,
+                  group, true};
+  return {bearing::wear_scores(model, inspections),
+          {},
+          {{"pressure times revolutions", loading}},
+          rise,
+          "row",
+          !model.has_scatter,
+          !model.has_scatter};
+}
+
 }  // namespace
 
 void read_bearing_study(const TomlReader& root, const std::filesystem::path& folder, Study& study) {
@@ -90,6 +120,7 @@ void read_bearing_study(const TomlReader& root, const std::filesystem::path& fol
   study.data_rows = data.inspections.depth.size();
   study.quantity = "wear depth";
   study.observed = data.inspections.depth;
+  study.data_columns = data.columns;
   if (model.has_scatter) study.observation = "bearing";
   study.meanings = {"specific wear rate"};
   if (!model.depth_error) study.meanings.emplace_back("scatter of one measured depth");
@@ -97,6 +128,7 @@ void read_bearing_study(const TomlReader& root, const std::filesystem::path& fol
   study.likelihood = [=, inspections = data.inspections](std::size_t rows) {
     return bearing::wear_likelihood(model, inspections, rows);
   };
+  study.fit_data = fit_data(model, data);
   const double k = study.parameters.front().start;
   study.stage_predictions = [=](std::size_t rows) {
     std::vector<PredictionRequest> requests;

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/study/clutch_tables.h"
 
 namespace wearwell::clutch {
@@ -78,7 +79,7 @@ std::string study_in_words(const ClutchStudy& study) {
       "  with 95 % intervals by the scatter of cycles alone, and by {} simulated repetitions of "
       "the fit (seed {}) as well\n",
       study.replicates, study.seed);
-  return out;
+  return printable_lines(out);
 }
 
 }  // namespace wearwell::clutch

@@ -9,6 +9,8 @@
 #include "wearwell/base/error.h"
 #include "wearwell/study/clutch_predict.h"
 #include "wearwell/study/clutch_study.h"
+#include "wearwell/study/clutch_tables.h"
+#include "wearwell/study/units_check.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -131,24 +133,41 @@ Check run_in_check(const RunInFit& fit) {
                   fit.agreeing, fit.starts));
 }
 
-Check map_check(const std::vector<WearMap>& maps) {
+// R2p of the search's winner is above that of the baselines, which are among what was searched,
+// whatever the data; points that no fit has seen can say otherwise.
+Check map_check(const std::vector<WearMap>& maps, const WearPoints& held_out) {
   Findings findings("wear map");
   const double r2p = maps[0].fit.r2p;
   if (!(r2p > 0.5))
     findings.add(Verdict::fail, fmt::format("R2p is {:.3f}", r2p),
                  "The inputs explain less than half of the wear rates: look for one that is "
                  "missing, or run longer points.");
+  const std::string searched = fmt::format("R2p {:.3f}, of the best after a search", r2p);
+  constexpr Index least_points = 5;
+  if (held_out.size() < least_points)
+    return findings.result(searched + "; too few points are held out to check it by");
+  const double spread = (held_out.w.array() - held_out.w.mean()).square().sum();
+  std::vector<Eigen::ArrayXd> errors;
+  std::vector<std::string> texts;
+  for (const WearMap& map : maps) {
+    errors.push_back((map.predict(held_out.at) - held_out.w).array().square());
+    texts.push_back(fmt::format("{} {:.3f}", map.name, 1 - errors.back().sum() / spread));
+  }
+  const auto n = static_cast<double>(held_out.size());
   for (std::size_t i = 1; i < maps.size(); ++i) {
-    if (!(r2p > maps[i].fit.r2p))
+    const Eigen::ArrayXd gain = errors[i] - errors[0];  // by the search, point by point
+    const double error = std::sqrt((gain - gain.mean()).square().sum() / (n * (n - 1)));
+    const double z = gain.mean() / error;
+    if (z < -1)
       findings.add(
-          Verdict::warn,
-          fmt::format("the {} model predicts as well (R2p {:.3f})", maps[i].name, maps[i].fit.r2p),
-          "Prefer the simpler model.");
+          z < -3 ? Verdict::fail : Verdict::warn,
+          fmt::format("the {} model predicts the held-out points better ({:.1f} standard errors)",
+                      maps[i].name, -z),
+          "The search has fitted noise: prefer the simpler model, or run longer points.");
   }
   return findings.result(
-      fmt::format("R2p {:.3f}, above linear ({:.3f}), full cubic ({:.3f}) and temperature alone "
-                  "({:.3f})",
-                  r2p, maps[1].fit.r2p, maps[2].fit.r2p, maps[3].fit.r2p));
+      fmt::format("{}; R2 of the {} held-out points: {}", searched, held_out.size(),
+                  fmt::join(texts, ", ")));
 }
 
 Check validation_check(const Validation& validation) {
@@ -206,6 +225,18 @@ Check sequence_check(const std::vector<SequenceResult>& sequences) {
   }
   return findings.result(sequences.empty() ? "no sequence was run"
                                            : fmt::format("{}", fmt::join(good, "; ")));
+}
+
+/// What was read of the cycles, to find mistaken units.
+std::vector<DataColumn> columns_of(const Campaign& campaign) {
+  std::vector<DataColumn> columns;
+  for (const Input& input : inputs) {
+    const bool celsius = input.value == &OperatingPoint::temperature;
+    columns.push_back({input.name, input.si, read_unit(celsius ? "degC" : input.si, input.si), {}});
+    for (const Cycle& cycle : campaign.cycles)
+      columns.back().values.push_back(cycle.at.*input.value + (celsius ? celsius_zero : 0));
+  }
+  return columns;
 }
 
 Check data_check(const Campaign& campaign, const ClutchResult& r) {
@@ -308,8 +339,9 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* p
     r.lives.push_back({name, at, predict_life(r.model, {cycle}, study.levels)});
   }
   r.checks = {
-      data_check(study.campaign, r),  run_in_check(r.run_in),         map_check(r.maps),
+      data_check(study.campaign, r),  run_in_check(r.run_in),         map_check(r.maps, r.held_out),
       scatter_check(r.scatter_fit()), validation_check(r.validation), sequence_check(r.sequences)};
+  if (const auto units = units_check(columns_of(study.campaign))) r.checks.push_back(*units);
   for (const Check& check : r.checks) r.trusted = r.trusted && check.verdict != Verdict::fail;
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return r;

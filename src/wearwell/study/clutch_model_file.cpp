@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <limits>
+#include <set>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/report/json_reader.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -22,9 +25,9 @@ Json to_json(const OperatingPoint& at) {
   return json;
 }
 
-OperatingPoint read_point(const Json& json) {
+OperatingPoint read_point(const JsonReader& json) {
   OperatingPoint at;
-  for (const Input& input : inputs) at.*input.value = json.at(input.name).get<double>();
+  for (const Input& input : inputs) at.*input.value = json.at(input.name).number();
   return at;
 }
 
@@ -38,14 +41,14 @@ Json to_json(const Eigen::MatrixXd& matrix) {
   return rows;
 }
 
-Eigen::MatrixXd read_matrix(const Json& json, Index size) {
-  if (std::ssize(json) != size) throw InputError("a covariance has the wrong size");
+Eigen::MatrixXd read_matrix(const JsonReader& json, Index size) {
+  const auto rows = json.items();
+  if (std::ssize(rows) != size) json.fail("is wrong: a covariance has the wrong size");
   Eigen::MatrixXd matrix(size, size);
   for (Index i = 0; i < size; ++i) {
-    const Json& row = json.at(static_cast<std::size_t>(i));
-    if (std::ssize(row) != size) throw InputError("a covariance has the wrong size");
-    for (Index j = 0; j < size; ++j)
-      matrix(i, j) = row.at(static_cast<std::size_t>(j)).get<double>();
+    const std::vector<double> row = rows[static_cast<std::size_t>(i)].numbers();
+    if (std::ssize(row) != size) json.fail("is wrong: a covariance has the wrong size");
+    matrix.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), size);
   }
   return matrix;
 }
@@ -57,22 +60,25 @@ Json to_json(const RunIn& run_in) {
           {"fast_energy", run_in.fast_energy}};
 }
 
-RunIn read_run_in(const Json& json) {
-  const RunIn run_in{json.at("slow").get<double>(), json.at("fast").get<double>(),
-                     json.at("slow_energy").get<double>(), json.at("fast_energy").get<double>()};
+RunIn read_run_in(const JsonReader& json) {
+  const RunIn run_in{json.at("slow").number(), json.at("fast").number(),
+                     json.at("slow_energy").number(), json.at("fast_energy").number()};
   if (!(run_in.slow >= 0 && run_in.fast >= 0 && run_in.slow_energy > 0 && run_in.fast_energy > 0))
-    throw InputError("the run-in must not be negative, and its energies must be positive");
+    json.fail("must not be negative, and its energies must be positive");
   return run_in;
 }
 
-int power(const Json& json, const char* name) {
-  const int n = json.at(name).get<int>();
-  if (n < 0 || n > 3) throw InputError(fmt::format("the power of {} must be 0 to 3", name));
-  return n;
-}
+struct Powers {
+  int ds, temperature, torque;
+};
 
-void require_cubic(int ds, int temperature, int torque) {
-  if (ds + temperature + torque > 3) throw InputError("a term has a degree above 3");
+Powers read_powers(const JsonReader& json) {
+  const auto power = [&](const char* name) {
+    return static_cast<int>(json.at(name).integer(0, 3));
+  };
+  const Powers powers{power("ds"), power("Td"), power("Mz")};
+  if (powers.ds + powers.temperature + powers.torque > 3) json.fail("has a degree above 3");
+  return powers;
 }
 
 Json to_json(const WearPolynomial& w) {
@@ -83,38 +89,77 @@ Json to_json(const WearPolynomial& w) {
   return {{"r", w.r}, {"q", w.q}, {"monomials", std::move(monomials)}};
 }
 
-WearPolynomial read_polynomial(const Json& json) {
-  WearPolynomial w{json.at("r").get<double>(), json.at("q").get<double>(), {}};
-  for (const Json& m : json.at("monomials")) {
-    w.monomials.push_back(
-        {power(m, "ds"), power(m, "Td"), power(m, "Mz"), m.at("coefficient").get<double>()});
-    require_cubic(w.monomials.back().ds, w.monomials.back().temperature, w.monomials.back().torque);
+WearPolynomial read_polynomial(const JsonReader& json) {
+  WearPolynomial w{json.at("r").number(), json.at("q").number(), {}};
+  for (const JsonReader& m : json.at("monomials").items()) {
+    const Powers p = read_powers(m);
+    w.monomials.push_back({p.ds, p.temperature, p.torque, m.at("coefficient").number()});
   }
   return w;
 }
 
-Json parse(const std::filesystem::path& file, const char* format, int version) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(fmt::format("cannot read {}", file.string()));
-  const Json json = Json::parse(stream);
-  if (!json.is_object() || json.value("format", "") != format)
-    throw InputError(fmt::format("it is no {}", format));
-  if (json.at("version").get<int>() != version)
-    throw InputError(fmt::format("it has version {}, this program reads version {}",
-                                 json.at("version").get<int>(), version));
-  return json;
+ModelTerm read_term(const JsonReader& json) {
+  const Powers p = read_powers(json);
+  ModelTerm term{json.at("name").text(),
+                 p.ds,
+                 p.temperature,
+                 p.torque,
+                 json.at("minimum").number(),
+                 json.at("range").number(),
+                 json.at("coefficient").number()};
+  if (!(term.range > 0)) json.fail("is wrong: the range of a term must be positive");
+  return term;
 }
 
-/// Runs `read` and names the file in what it throws.
-template <class F>
-auto naming(const std::filesystem::path& file, const F& read) {
-  try {
-    return read();
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
-  }
+ScatterLaw read_scatter(const JsonReader& json) {
+  const ScatterLaw law{[&] {
+                         try {
+                           return read_scatter_kind(json.at("kind").text());
+                         } catch (const InputError& error) {
+                           json.at("kind").fail(
+                                fmt::format("is wrong: {}", printable(error.what())));
+                         }
+                       }(),
+                       json.at("p").numbers()};
+  if (std::ssize(law.p) != size_of(law.kind)) json.fail("has the wrong number of parameters");
+  return law;
+}
+
+void check_format(const JsonReader& json, const std::filesystem::path& file, const char* format,
+                  int version) {
+  const auto name = json.json().is_object() ? json.find("format") : std::nullopt;
+  if (!name || name->json() != Json(format))
+    throw InputError(fmt::format("{}: it is no {}", file.string(), format));
+  const long long written = json.at("version").integer(0);
+  if (written != version)
+    throw InputError(fmt::format("{}: it has version {}, this program reads version {}",
+                                 file.string(), written, version));
+}
+
+PlateWear read_plate(const JsonReader& json, std::size_t replicates) {
+  PlateWear p;
+  p.plate = static_cast<int>(
+      json.at("plate").integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+  p.cycles = json.at("cycles").integer(0);
+  p.last_number = json.at("last_cycle").integer(0);
+  p.energy = json.at("energy").number(0);
+  p.volume = json.at("volume").number(0);
+  p.variance = json.at("variance").number(0);
+  const auto outside = json.at("outside").items();
+  if (outside.size() != p.outside.size())
+    json.at("outside").fail(fmt::format("should be a list of {}", p.outside.size()));
+  for (std::size_t i = 0; i < outside.size(); ++i) p.outside[i] = outside[i].integer(0, p.cycles);
+  p.outside_any = json.at("outside_any").integer(0, p.cycles);
+  p.clamped = json.at("clamped").integer(0, p.cycles);
+  if (const auto skipped = json.find("skipped")) p.skipped = skipped->integer(0);
+  const std::vector<double> volumes = json.at("replicates").numbers();
+  if (volumes.size() != replicates)
+    json.at("replicates")
+        .fail(fmt::format("is of another kind: it holds {} replicates and {} are wanted: go on as "
+                          "the state was made, with or without --scatter-only",
+                          volumes.size(), replicates));
+  p.replicates = Eigen::Map<const Eigen::ArrayXd>(volumes.data(), std::ssize(volumes));
+  return p;
 }
 
 }  // namespace
@@ -158,38 +203,32 @@ nlohmann::ordered_json to_json(const WearModel& model) {
 }
 
 WearModel read_model(const std::filesystem::path& file) {
-  return naming(file, [&] {
-    const Json json = parse(file, model_format, model_version);
-    WearModel model;
-    model.title = json.at("title").get<std::string>();
-    const Json& map = json.at("map");
-    model.r = map.at("r").get<double>();
-    model.q = map.at("q").get<double>();
-    for (const Json& term : map.at("terms")) {
-      model.terms.push_back({term.at("name").get<std::string>(), power(term, "ds"),
-                             power(term, "Td"), power(term, "Mz"), term.at("minimum").get<double>(),
-                             term.at("range").get<double>(), term.at("coefficient").get<double>()});
-      const ModelTerm& t = model.terms.back();
-      require_cubic(t.ds, t.temperature, t.torque);
-      if (!(t.range > 0)) throw InputError("the range of a term must be positive");
-    }
-    model.covariance = read_matrix(map.at("covariance"), std::ssize(model.terms));
-    model.run_in = read_run_in(json.at("run_in"));
-    model.run_in_covariance = read_matrix(json.at("run_in_covariance"), 4);
-    const Json& scatter = json.at("scatter");
-    model.scatter = {read_scatter_kind(scatter.at("kind").get<std::string>()),
-                     scatter.at("p").get<std::vector<double>>()};
-    if (std::ssize(model.scatter.p) != size_of(model.scatter.kind))
-      throw InputError("the scatter has the wrong number of parameters");
-    model.scatter_floor = scatter.at("floor").get<double>();
-    model.plate_sd = json.at("plate_sd").get<double>();
-    model.lowest = read_point(json.at("validity").at("lowest"));
-    model.highest = read_point(json.at("validity").at("highest"));
-    model.worn_out = json.at("worn_out").get<double>();
-    for (const Json& each : json.at("replicates"))
-      model.replicates.push_back({read_polynomial(each.at("w")), read_run_in(each.at("run_in"))});
-    return model;
-  });
+  const Json content = read_json(file);
+  const JsonReader json(content, file);
+  check_format(json, file, model_format, model_version);
+  WearModel model;
+  model.title = json.at("title").text();
+  const JsonReader map = json.at("map");
+  model.r = map.at("r").number();
+  model.q = map.at("q").number();
+  for (const JsonReader& term : map.at("terms").items()) model.terms.push_back(read_term(term));
+  model.covariance = read_matrix(map.at("covariance"), std::ssize(model.terms));
+  model.run_in = read_run_in(json.at("run_in"));
+  model.run_in_covariance = read_matrix(json.at("run_in_covariance"), 4);
+  model.scatter = read_scatter(json.at("scatter"));
+  model.scatter_floor = json.at("scatter").at("floor").number(0);
+  model.plate_sd = json.at("plate_sd").number(0);
+  const JsonReader validity = json.at("validity");
+  model.lowest = read_point(validity.at("lowest"));
+  model.highest = read_point(validity.at("highest"));
+  for (const Input& input : inputs) {
+    if (!(model.lowest.*input.value <= model.highest.*input.value))
+      validity.fail(fmt::format("has its lowest {0} above its highest {0}", input.name));
+  }
+  model.worn_out = json.at("worn_out").positive();
+  for (const JsonReader& each : json.at("replicates").items())
+    model.replicates.push_back({read_polynomial(each.at("w")), read_run_in(each.at("run_in"))});
+  return model;
 }
 
 std::string state_text(const std::vector<PlateWear>& plates, const std::string& model) {
@@ -204,6 +243,7 @@ std::string state_text(const std::vector<PlateWear>& plates, const std::string& 
                     {"outside", p.outside},
                     {"outside_any", p.outside_any},
                     {"clamped", p.clamped},
+                    {"skipped", p.skipped},
                     {"replicates", std::vector<double>(p.replicates.begin(), p.replicates.end())}});
   }
   const Json json = {{"format", state_format},
@@ -215,33 +255,19 @@ std::string state_text(const std::vector<PlateWear>& plates, const std::string& 
 
 std::vector<PlateWear> read_state(const std::filesystem::path& file, const std::string& model,
                                   std::size_t replicates) {
-  return naming(file, [&] {
-    const Json json = parse(file, state_format, state_version);
-    if (json.at("model").get<std::string>() != model)
-      throw InputError("the state belongs to another model");
-    std::vector<PlateWear> plates;
-    for (const Json& each : json.at("plates")) {
-      PlateWear p;
-      p.plate = each.at("plate").get<int>();
-      p.cycles = each.at("cycles").get<long long>();
-      p.last_number = each.at("last_cycle").get<long long>();
-      p.energy = each.at("energy").get<double>();
-      p.volume = each.at("volume").get<double>();
-      p.variance = each.at("variance").get<double>();
-      p.outside = each.at("outside").get<std::array<long long, 4>>();
-      p.outside_any = each.at("outside_any").get<long long>();
-      p.clamped = each.at("clamped").get<long long>();
-      const auto volumes = each.at("replicates").get<std::vector<double>>();
-      if (volumes.size() != replicates)
-        throw InputError(fmt::format(
-            "it holds {} replicates and {} are wanted: go on as the state was made, with or "
-            "without --scatter-only",
-            volumes.size(), replicates));
-      p.replicates = Eigen::Map<const Eigen::ArrayXd>(volumes.data(), std::ssize(volumes));
-      plates.push_back(std::move(p));
-    }
-    return plates;
-  });
+  const Json content = read_json(file);
+  const JsonReader json(content, file);
+  check_format(json, file, state_format, state_version);
+  if (json.at("model").text() != model)
+    throw InputError(fmt::format("{}: the state belongs to another model", file.string()));
+  std::vector<PlateWear> plates;
+  std::set<int> seen;
+  for (const JsonReader& each : json.at("plates").items()) {
+    plates.push_back(read_plate(each, replicates));
+    if (!seen.insert(plates.back().plate).second)
+      each.fail(fmt::format("is plate {} a second time", plates.back().plate));
+  }
+  return plates;
 }
 
 }  // namespace wearwell::clutch

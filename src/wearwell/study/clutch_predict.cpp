@@ -30,7 +30,7 @@ struct Batch {
 enum Place { plate, number, slip_speed, torque, temperature, closing_time, energy, places };
 constexpr const char* names[places] = {"plate",       "cycle",        "slip_speed", "torque",
                                        "temperature", "closing_time", "energy"};
-constexpr const char* dimensions[places] = {"1", "1", "1/s", "N m", "K", "s", "J"};
+constexpr const char* dimensions[places] = {"1", "cycle", "rad/s", "N m", "K", "s", "J"};
 
 class Reader {
  public:
@@ -66,17 +66,19 @@ class Reader {
       const auto& raw = batch.raw[static_cast<std::size_t>(c)];
       ArrayXd values = unit.offset + unit.scale * Eigen::Map<const ArrayXd>(raw.data(), n);
       if (c == temperature) {
-        values -= celsius_zero;
         if (!values.allFinite()) refuse(batch, c, values, "must be a finite number");
+        if (!(values >= 0).all()) refuse(batch, c, values, "is below absolute zero");
+        values -= celsius_zero;
       } else if (!(values > 0).all() || !values.allFinite()) {
         refuse(batch, c, values, "must be a positive number");
       }
       return values;
     };
     const auto whole = [&](int c) {
-      const auto& raw = batch.raw[static_cast<std::size_t>(c)];
+      auto raw = batch.raw[static_cast<std::size_t>(c)];
       const double most = c == plate ? 2e9 : 9e15;
       for (std::size_t i = 0; i < raw.size(); ++i) {
+        raw[i] *= columns_[static_cast<std::size_t>(c)].unit.scale;
         if (!(raw[i] >= 1 && raw[i] <= most) || raw[i] != std::trunc(raw[i]))
           throw InputError(
               fmt::format("{}, row {}, column '{}': {} must be a whole number of at "
@@ -101,7 +103,7 @@ class Reader {
   [[noreturn]] void refuse(const Batch& batch, int c, const ArrayXd& values,
                            const char* allowed) const {
     Index i = 0;
-    while (std::isfinite(values[i]) && (c == temperature || values[i] > 0)) ++i;
+    while (std::isfinite(values[i]) && (c == temperature ? values[i] >= 0 : values[i] > 0)) ++i;
     const double raw = batch.raw[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)];
     throw InputError(fmt::format("{}, row {}, column '{}': {} {}", stream_.source(),
                                  batch.first_row + static_cast<std::size_t>(i) + 1,
@@ -114,19 +116,19 @@ class Reader {
   ColumnStream::Batch chunk_;
 };
 
-void write_trace(std::FILE* out, std::size_t every, const Batch& batch,
-                 const CycleSum::Trace& trace) {
+std::string trace_lines(std::size_t every, const Batch& batch, const CycleSum::Trace& trace) {
   std::string text;
   const auto end = std::back_inserter(text);
   for (std::size_t i = 0; i < trace.volume.size(); ++i) {
     if ((batch.first_row + i + 1) % every != 0) continue;
     const unsigned bits = batch.rates.outside[i];
-    const std::string flags = names_of_inputs(bits) + (bits >> inputs.size() ? " negative" : "");
+    const std::string flags =
+        trace.skipped[i] ? "skipped"
+                         : names_of_inputs(bits) + (bits & CycleSum::negative ? " negative" : "");
     fmt::format_to(end, "{},{},{:.9g},{:.9g},{}\n", batch.cycles.plate[i], batch.cycles.number[i],
                    trace.volume[i] / mm3, trace.sd[i] / mm3, flags);
   }
-  if (std::fwrite(text.data(), 1, text.size(), out) != text.size())
-    throw MachineError("cannot write the trace: is the disk full?");
+  return text;
 }
 
 }  // namespace
@@ -150,11 +152,12 @@ CycleColumns columns_of(const std::vector<Cycle>& cycles, std::size_t first, std
   return columns;
 }
 
-std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum, std::FILE* trace,
-                       std::size_t every, int threads) {
+std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum,
+                       const std::function<void(std::string_view)>& trace, std::size_t every,
+                       int threads) {
   Reader reader(file);
   std::size_t rows = 0;
-  if (trace) fmt::print(trace, "plate,cycle,volume [mm^3],sd [mm^3],outside\n");
+  if (trace) trace("plate,cycle,volume [mm^3],sd [mm^3],outside\n");
   using BatchPointer = std::shared_ptr<Batch>;
   const auto read = [&](tbb::flow_control& control) {
     auto batch = std::make_shared<Batch>();
@@ -176,7 +179,7 @@ std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum, std::FI
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}, {}", reader.source(), error.what()));
     }
-    if (trace) write_trace(trace, every, *batch, steps);
+    if (trace) trace(trace_lines(every, *batch, steps));
     rows += static_cast<std::size_t>(batch->cycles.size());
   };
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);

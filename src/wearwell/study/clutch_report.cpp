@@ -1,18 +1,17 @@
 #include "wearwell/study/clutch_report.h"
+#include "wearwell/base/sha1.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
-#include <sstream>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/report/html.h"
 #include "wearwell/report/page.h"
 #include "wearwell/report/plot.h"
 #include "wearwell/study/clutch_tables.h"
-#include "wearwell/study/fingerprint.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -294,11 +293,9 @@ std::string checks_table(const ClutchResult& r) {
   html::Table table{"All checks", {"Check", "Verdict", "What was found"}, {}, true};
   for (const Check& check : r.checks) {
     const auto v = static_cast<std::size_t>(check.verdict);
-    std::string found = escape(html::raised(check.detail));
-    if (!check.advice.empty()) found += fmt::format("<br><em>{}</em>", escape(check.advice));
-    table.rows.push_back({escape(check.name),
-                          fmt::format("<span class=\"badge {}\">{}</span>", kinds[v], words[v]),
-                          found});
+    const std::string advice = check.advice.empty() ? "" : "\n" + check.advice;
+    table.rows.push_back({check.name, words[v], html::raised(check.detail) + advice});
+    table.badges.push_back(kinds[v]);
   }
   return html::table(table);
 }
@@ -355,8 +352,7 @@ std::string prediction_section(const ClutchResult& r) {
                     {}};
   for (const NamedLife& each : r.lives) {
     for (const LifeAtLevel& at : each.life.levels)
-      table.rows.push_back({escape(each.name), percent(at.level, 0),
-                            fmt::format("{:.0f}", at.repetitions),
+      table.rows.push_back({each.name, percent(at.level, 0), fmt::format("{:.0f}", at.repetitions),
                             fmt::format("{:.0f}", at.without_run_in),
                             "± " + number(2 * at.sd / mm3, 3), percent(at.relative),
                             "± " + number(2 * at.full_sd / mm3, 3), percent(at.full_relative)});
@@ -380,7 +376,7 @@ std::string map_section(const ClutchStudy& study, const ClutchResult& r) {
   const double unit = r.maps.front().fit.rmse;
   for (const WearMap& map : r.maps)
     models.rows.push_back(
-        {escape(map.name), fmt::format("{:.3f}", map.fit.r2), fmt::format("{:.3f}", map.fit.r2p),
+        {map.name, fmt::format("{:.3f}", map.fit.r2), fmt::format("{:.3f}", map.fit.r2p),
          fmt::format("{:.3f}", map.fit.rmse / unit), fmt::format("{:.3f}", map.fit.rmsep / unit),
          fmt::format("{}", map.terms.size())});
   html::Table terms{"Selected terms, each scaled to [0, 1]",
@@ -388,8 +384,7 @@ std::string map_section(const ClutchStudy& study, const ClutchResult& r) {
                     {}};
   for (std::size_t j = 0; j < r.model.terms.size(); ++j) {
     const auto at = static_cast<Eigen::Index>(j);
-    terms.rows.push_back({escape(r.model.terms[j].name),
-                          number(r.model.terms[j].coefficient / mm3_per_MJ),
+    terms.rows.push_back({r.model.terms[j].name, number(r.model.terms[j].coefficient / mm3_per_MJ),
                           number(std::sqrt(r.model.covariance(at, at)) / mm3_per_MJ, 3)});
   }
   html::Table surrogate{"Surrogate inputs, best R2p",
@@ -445,7 +440,7 @@ std::string scatter_section(const ClutchResult& r) {
                     {"sigma_w", "−log L", "AIC", "Kolmogorov-Smirnov p", "Lilliefors p"},
                     {}};
   for (const ScatterFit& fit : r.scatter.candidates)
-    table.rows.push_back({escape(html::raised(formula_of(fit.law.kind))),
+    table.rows.push_back({html::raised(formula_of(fit.law.kind)),
                           fmt::format("{:.2f}", fit.negative_log_likelihood),
                           fmt::format("{:.2f}", fit.aic), fmt::format("{:.3f}", fit.kolmogorov.p),
                           fmt::format("{:.3f}", fit.lilliefors.p)});
@@ -463,8 +458,9 @@ std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
                              r.search.submodels));
   fact("Time of the search", fmt::format("{:.1f} s", r.search.seconds));
   fact("Time taken", fmt::format("{:.1f} s", r.seconds));
-  fact(study.file.filename().string(), "SHA-1 " + sha1(study.file));
-  for (const auto& file : study.files) fact(file.filename().string(), "SHA-1 " + sha1(file));
+  fact(valid_utf8(study.file.filename().string()), "SHA-1 " + sha1_of(study.file_text));
+  for (std::size_t i = 0; i < study.files.size(); ++i)
+    fact(study.files[i].filename().string(), "SHA-1 " + study.sha1s.at(i));
   out += "</dl>\n";
   if (!r.closings.empty()) {
     html::Table table{
@@ -475,14 +471,11 @@ std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
       table.rows.push_back({fmt::format("{}", c.cycle.plate), fmt::format("{}", c.cycle.number),
                             number(c.cycle.at.slip_speed / rpm), number(c.cycle.at.closing_time, 3),
                             number(c.cycle.at.torque, 3), number(c.cycle.at.temperature, 4),
-                            number(c.cycle.energy / 1e3), escape(c.flag)});
+                            number(c.cycle.energy / 1e3), c.flag});
     out += html::table(table);
   }
-  std::ifstream stream(study.file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return out + html::details("Study file",
-                             fmt::format("<pre tabindex=\"0\">{}</pre>\n", escape(text.str())));
+  return out + html::details("Study file", fmt::format("<pre tabindex=\"0\">{}</pre>\n",
+                                                       escape(study.file_text)));
 }
 
 }  // namespace

@@ -6,8 +6,11 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/study/clutch_tables.h"
 #include "wearwell/study/clutch_truth.h"
+#include "wearwell/study/columns.h"
+#include "wearwell/study/fingerprint.h"
 #include "wearwell/study/toml_reader.h"
 
 namespace wearwell::clutch {
@@ -17,14 +20,11 @@ namespace fs = std::filesystem;
 
 constexpr int traced_closings = 3;  // of a simulated campaign
 
-fs::path beside(const fs::path& study, const std::string& name) {
-  return study.parent_path() / name;
-}
-
 void read_simulation(const TomlReader& table, ClutchStudy& study) {
   study.simulated = true;
-  study.files = {beside(study.file, table.required_text("design")),
-                 beside(study.file, table.required_text("truth"))};
+  const fs::path folder = study.file.parent_path();
+  study.files = {required_file(table, "design", folder), required_file(table, "truth", folder)};
+  const std::vector<ReadFile> read(study.files.begin(), study.files.end());
   const auto seed = table.integer("seed", 0, std::numeric_limits<long long>::max()).value_or(1);
   study.truth = read_truth(study.files[1]);
   Simulation simulation =
@@ -35,21 +35,23 @@ void read_simulation(const TomlReader& table, ClutchStudy& study) {
   study.realized = std::move(simulation.realized);
   study.plate_factors = std::move(simulation.plate_factors);
   study.worn_out = study.truth->worn_out;
+  for (const ReadFile& file : read) study.sha1s.push_back(file.sha1());
 }
 
 void read_data(const TomlReader& root, const TomlReader& table, ClutchStudy& study) {
-  study.files = {beside(study.file, table.required_text("design")),
-                 beside(study.file, table.required_text("cycles")),
-                 beside(study.file, table.required_text("weighings"))};
+  const fs::path folder = study.file.parent_path();
+  study.files = {required_file(table, "design", folder), required_file(table, "cycles", folder),
+                 required_file(table, "weighings", folder)};
+  const bool traces = table.has("traces");
+  if (traces) study.files.push_back(required_file(table, "traces", folder));
+  const std::vector<ReadFile> read(study.files.begin(), study.files.end());
   study.campaign.design = read_design(study.files[0]);
   study.campaign.cycles = read_cycles(study.files[1]);
   study.campaign.weighings = read_weighings(study.files[2]);
   study.campaign.cycles_source = study.files[1].string();
   study.campaign.weighings_source = study.files[2].string();
-  if (const auto traces = table.text("traces")) {
-    study.files.push_back(beside(study.file, *traces));
-    study.traces = read_traces(study.files.back());
-  }
+  if (traces) study.traces = read_traces(study.files.back());
+  for (const ReadFile& file : read) study.sha1s.push_back(file.sha1());
   const Lining lining = read_lining(root);
   study.campaign.density = lining.density;
   study.campaign.balance_sd = lining.balance_sd;
@@ -93,16 +95,22 @@ void read_life(const TomlReader& root, ClutchStudy& study) {
 
 }  // namespace
 
-bool is_clutch_study(const fs::path& file) {
-  const TomlReader root = TomlReader::parse_file(file);
+bool is_clutch_study(const TextFile& file) {
+  const TomlReader root = TomlReader::parse(file);
   return root.is_text("model") && root.text("model") == "clutch-wear";
 }
 
 ClutchStudy read_clutch_study(const fs::path& file) {
-  const TomlReader root = TomlReader::parse_file(file);
+  return read_clutch_study(read_text_file(file));
+}
+
+ClutchStudy read_clutch_study(const TextFile& text) {
+  const fs::path& file = text.path;
+  const TomlReader root = TomlReader::parse(text);
   ClutchStudy study;
   study.file = file;
-  study.title = root.text("title").value_or(file.stem().string());
+  study.file_text = text.text;
+  study.title = root.text("title").value_or(valid_utf8(file.stem().string()));
   root.required_text("model");
   const auto simulation = root.table("simulation");
   const auto data = root.table("data");

@@ -14,15 +14,18 @@
 #include "wearwell/clutch/tribometer.h"
 #include "wearwell/clutch/wear_model.h"
 #include "wearwell/infer/check.h"
+#include "wearwell/study/text_file.h"
 
 namespace wearwell::clutch {
 
 /// A study file of `model = "clutch-wear"`, read and checked.
 struct ClutchStudy {
   std::filesystem::path file;
+  std::string file_text;  ///< what it held when it was read
   std::string title;
   /// Where the campaign comes from: a rig's files or a simulation.
   std::vector<std::filesystem::path> files;  ///< that were read
+  std::vector<std::string> sha1s;            ///< of each, when it was read
   bool simulated = false;
   std::optional<Truth> truth;  ///< of a simulated campaign
   Campaign campaign;
@@ -38,9 +41,10 @@ struct ClutchStudy {
 };
 
 /// True when the file is a study of this trade. Throws InputError when it cannot be read.
-bool is_clutch_study(const std::filesystem::path& file);
+bool is_clutch_study(const TextFile& file);
 
 /// Throws InputError.
+ClutchStudy read_clutch_study(const TextFile& file);
 ClutchStudy read_clutch_study(const std::filesystem::path& file);
 
 /// A sequence of changing conditions, predicted and weighed.

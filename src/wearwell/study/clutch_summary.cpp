@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/report/text_table.h"
 #include "wearwell/study/clutch_tables.h"
 
@@ -274,7 +275,7 @@ std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
     rows.push_back({check.name, word(check.verdict), check.detail});
   out += "\nChecks\n" + text_table(rows, true);
   out += r.trusted ? "\nTrusted.\n" : "\nNot trusted: a check failed.\n";
-  return out;
+  return printable_lines(out);
 }
 
 }  // namespace wearwell::clutch

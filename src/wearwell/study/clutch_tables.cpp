@@ -36,14 +36,21 @@ std::vector<OperatingPoint> operating_points(const Table& table) {
   return points;
 }
 
-std::vector<long long> whole_numbers(const Table& table, std::string_view name, long long least) {
+/// What an int holds, and what a double tells apart.
+constexpr double most_plates = 2e9, most_cycles = 9e15;
+
+std::vector<long long> whole_numbers(const Table& table, std::string_view name, long long least,
+                                     double most) {
   std::vector<long long> whole;
-  const std::vector<double> values = labelled_numbers(table, name, "1");
+  const std::vector<double> values = labelled_numbers(table, name, name == "cycle" ? "cycle" : "1");
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] != std::round(values[i]) || values[i] < static_cast<double>(least) ||
-        values[i] > 9e15)
-      throw InputError(fmt::format("{}: {} must be a whole number of at least {}",
-                                   place(table, name, i), values[i], least));
+    const auto refuse = [&](const std::string& reason) {
+      const std::string heading = find_labelled(table, name, "1").heading;
+      throw InputError(fmt::format("{}: {} {}", place(table, heading, i), values[i], reason));
+    };
+    if (values[i] != std::round(values[i]) || values[i] < static_cast<double>(least))
+      refuse(fmt::format("must be a whole number of at least {}", least));
+    if (values[i] > most) refuse(fmt::format("is too large; at most {:.0f} is possible", most));
     whole.push_back(static_cast<long long>(values[i]));
   }
   return whole;
@@ -109,7 +116,7 @@ constexpr const char* point_headings =
 
 std::vector<DesignPoint> read_design(const std::filesystem::path& file) {
   const Table table = read_table(file);
-  const std::vector<long long> numbers = whole_numbers(table, "point", 1);
+  const std::vector<long long> numbers = whole_numbers(table, "point", 1, most_plates);
   const std::vector<std::string>& roles = texts(table, "role");
   const std::vector<OperatingPoint> at = operating_points(table);
   std::vector<DesignPoint> design;
@@ -129,8 +136,8 @@ std::vector<DesignPoint> read_design(const std::filesystem::path& file) {
 
 std::vector<Cycle> read_cycles(const std::filesystem::path& file) {
   const Table table = read_table(file);
-  const std::vector<long long> plates = whole_numbers(table, "plate", 1);
-  const std::vector<long long> numbers = whole_numbers(table, "cycle", 1);
+  const std::vector<long long> plates = whole_numbers(table, "plate", 1, most_plates);
+  const std::vector<long long> numbers = whole_numbers(table, "cycle", 1, most_cycles);
   const std::vector<OperatingPoint> at = operating_points(table);
   const std::vector<double> energy = labelled_numbers(table, "energy", "J");
   std::vector<Cycle> cycles;
@@ -141,8 +148,8 @@ std::vector<Cycle> read_cycles(const std::filesystem::path& file) {
 
 std::vector<Weighing> read_weighings(const std::filesystem::path& file) {
   const Table table = read_table(file);
-  const std::vector<long long> plates = whole_numbers(table, "plate", 1);
-  const std::vector<long long> numbers = whole_numbers(table, "cycle", 0);
+  const std::vector<long long> plates = whole_numbers(table, "plate", 1, most_plates);
+  const std::vector<long long> numbers = whole_numbers(table, "cycle", 0, most_cycles);
   const std::vector<double> mass = labelled_numbers(table, "mass", "kg");
   const std::vector<std::string>& blocks = texts(table, "block");
   std::vector<Weighing> weighings;
@@ -163,7 +170,7 @@ std::vector<Weighing> read_weighings(const std::filesystem::path& file) {
 
 std::vector<Sample> read_traces(const std::filesystem::path& file) {
   const Table table = read_table(file);
-  const std::vector<long long> plates = whole_numbers(table, "plate", 1);
+  const std::vector<long long> plates = whole_numbers(table, "plate", 1, most_plates);
   const std::vector<double> time = labelled_numbers(table, "time", "s");
   const std::vector<double> speed = column(table, inputs[0]), torque = column(table, inputs[1]),
                             temperature = column(table, inputs[2]);

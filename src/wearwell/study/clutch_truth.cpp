@@ -52,7 +52,7 @@ ScatterLaw read_scatter(const TomlReader& table) {
       {"m^3/J", "J/m^3", "", "", ""},
       {"m^3/J", "1", "", "", ""},
       {"m^3/J", "1", "J/m^3", "", ""},
-      {"m^3/J", "m^3/(J K)", "m^3 s/J", "m^3/(J N m)", "m^3/(J s)"}};
+      {"m^3/J", "m^3/(J K)", "m^3 s/(J rad)", "m^3/(J N m)", "m^3/(J s)"}};
   for (int i = 0; i < size_of(law.kind); ++i) {
     const std::string key = fmt::format("p{}", i + 1);
     const Quantity p = table.required_quantity(key, units[static_cast<int>(law.kind)][i]);
@@ -68,7 +68,7 @@ double read_celsius(const TomlReader& table, const char* key) {
 }
 
 OperatingPoint read_operating_point(const TomlReader& table) {
-  return {positive(table, "slip_speed", "1/s"), positive(table, "torque", "N m"),
+  return {positive(table, "slip_speed", "rad/s"), positive(table, "torque", "N m"),
           read_celsius(table, "temperature"), positive(table, "closing_time", "s")};
 }
 
@@ -95,7 +95,7 @@ Truth read_truth(const std::filesystem::path& file) {
   truth.run_in = {not_negative(run_in, "slow", "1"), not_negative(run_in, "fast", "1"),
                   positive(run_in, "slow_energy", "J"), positive(run_in, "fast_energy", "J")};
   truth.run_in_point = read_operating_point(run_in);
-  for (const Quantity& each : run_in.quantities("weighings", "1")) {
+  for (const Quantity& each : run_in.quantities("weighings", "cycle")) {
     const double cycles = each.si();
     const bool ascends = truth.run_in_weighings.empty() ||
                          cycles > static_cast<double>(truth.run_in_weighings.back());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 
 namespace wearwell {
 
@@ -10,7 +11,7 @@ std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::st
                                         const std::string& si) {
   if (!columns.has(name)) return {};
   if (columns.is_text(name)) {
-    if (si != "1") {
+    if (!may_be_plain(si)) {
       columns.fail(name, fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}",
                                      name, *columns.text(name), si));
     }
@@ -19,7 +20,8 @@ std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::st
   const TomlReader table = columns.required_table(name);
   ColumnChoice choice{table.required_text("column"), Unit{"1", 1, 0}};
   const auto unit = table.text("unit");
-  if (!unit && si != "1") table.fail("unit", fmt::format("is missing (one like \"{}\")", si));
+  if (!unit && !may_be_plain(si))
+    table.fail("unit", fmt::format("is missing (one like \"{}\")", si));
   if (unit) {
     try {
       choice.unit = read_unit(*unit, si);
@@ -34,12 +36,33 @@ ColumnChoice required_column(const TomlReader& columns, const std::string& name,
                              const std::string& si) {
   const auto choice = read_column(columns, name, si);
   if (!choice) {
-    columns.fail(name, si == "1"
+    columns.fail(name, may_be_plain(si)
                            ? "is missing: which column holds it?"
                            : fmt::format("is missing: {} = {{ column = \"...\", unit = \"{}\" }}",
                                          name, si));
   }
   return *choice;
+}
+
+std::filesystem::path required_file(const TomlReader& section, const std::string& key,
+                                    const std::filesystem::path& folder) {
+  const std::string name = section.required_text(key);
+  if (name.empty() || name.find('\0') != name.npos) section.fail(key, "names no file");
+  std::filesystem::path file = folder / name;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored))
+    section.fail(key, fmt::format("no such file: {}", valid_utf8(file.string())));
+  return file;
+}
+
+Table read_table(const TomlReader& section, const std::filesystem::path& folder) {
+  const std::filesystem::path file = required_file(section, "file", folder);
+  const auto sql = section.text("sql");
+  try {
+    return read_table(file, sql);
+  } catch (const QueryError& error) {
+    section.fail("sql", error.what());
+  }
 }
 
 void require(bool good, const Table& table, const ColumnChoice& choice, std::size_t row,

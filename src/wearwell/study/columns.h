@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,11 +16,19 @@ struct ColumnChoice {
   Unit unit;
 };
 
-/// Reads the choice for `name` from a [columns] table; a dimension other than "1" needs a unit.
+/// Reads the choice for `name` from a [columns] table; a dimension other than a number or a count needs a unit.
 std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::string& name,
                                         const std::string& si);
 ColumnChoice required_column(const TomlReader& columns, const std::string& name,
                              const std::string& si);
+
+/// The table that `section` names as its `file`, beside the study, through its `sql` if it has one.
+/// Throws InputError at these keys, and as read_table does.
+Table read_table(const TomlReader& section, const std::filesystem::path& folder);
+
+/// A file beside the study that must be there. Throws InputError at the key that names it.
+std::filesystem::path required_file(const TomlReader& section, const std::string& key,
+                                    const std::filesystem::path& folder);
 
 /// The chosen column's values, SI.
 inline std::vector<double> si_numbers(const Table& table, const ColumnChoice& choice) {

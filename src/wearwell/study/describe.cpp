@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/study/run_study.h"
 
 namespace wearwell {
@@ -62,8 +63,9 @@ std::string prior_in_words(const Parameter& parameter) {
 }
 
 std::string study_in_words(const Study& study) {
-  std::string out = fmt::format("{}\n  {}\n\nData\n  {}: {} data sets of {}\n", study.title,
-                                study.equation, study.data_file, study.data_rows, study.quantity);
+  std::string out =
+      fmt::format("{}\n  {}\n\nData\n  {}: {} data sets of {}\n", printable(study.title),
+                  study.equation, study.data_file, study.data_rows, study.quantity);
   for (const std::string& note : study.data_notes) out += fmt::format("  {}\n", note);
   out += "\nUnknowns\n";
   std::size_t width = 0;
@@ -75,8 +77,9 @@ std::string study_in_words(const Study& study) {
                        prior_in_words(p));
   }
   out += "\nWill be fitted\n";
-  out += study.stages ? fmt::format("  after each of 1, 2, ... {} data sets\n", study.data_rows)
-                      : fmt::format("  from all {} data sets\n", study.data_rows);
+  out += study.stages && study.data_rows <= most_stages
+             ? fmt::format("  after each of 1, 2, ... {} data sets\n", study.data_rows)
+             : fmt::format("  from all {} data sets\n", study.data_rows);
   const FitSettings settings = fit_settings(study, {});
   const RunSettings& run = settings.run;
   if (settings.method == Method::exact) {
@@ -113,7 +116,7 @@ std::string study_in_words(const Study& study) {
         life.unit_name, study.quantity, life.limit.value, life.limit.unit.text, life.now,
         life.unit_name, 100 * life.risk);
   }
-  return out;
+  return printable_lines(out);
 }
 
 }  // namespace wearwell

@@ -2,44 +2,42 @@
 
 #include <fmt/format.h>
 
-#include <boost/uuid/detail/sha1.hpp>
 #include <fstream>
-#include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/sha1.h"
 
 namespace wearwell {
 
-namespace {
-
-std::string digits(boost::uuids::detail::sha1& hash) {
-  boost::uuids::detail::sha1::digest_type digest;
-  hash.get_digest(digest);
-  std::string text;
-  for (const unsigned int word : digest) text += fmt::format("{:08x}", word);
-  return text;
-}
-
-}  // namespace
-
 std::string sha1(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  boost::uuids::detail::sha1 hash;
-  std::vector<char> buffer(1 << 16);
-  while (stream.read(buffer.data(), static_cast<std::streamsize>(buffer.size())),
-         stream.gcount() > 0) {
-    hash.process_bytes(buffer.data(), static_cast<std::size_t>(stream.gcount()));
-  }
+  const std::string digits = sha1_of(stream);
   if (!stream.eof()) throw InputError(fmt::format("cannot read {}", file.string()));
-  return digits(hash);
+  return digits;
+}
+
+ReadFile::ReadFile(std::filesystem::path file) : file_(std::move(file)), before_(look()) {}
+
+std::optional<ReadFile::State> ReadFile::look() const {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file_, error)) return {};
+  const State state{std::filesystem::file_size(file_, error),
+                    std::filesystem::last_write_time(file_, error)};
+  return error ? std::nullopt : std::optional(state);
+}
+
+std::string ReadFile::sha1() const {
+  if (!before_) return {};
+  std::string digits = wearwell::sha1(file_);
+  if (look() != before_)
+    throw InputError(fmt::format("{} was changed while it was read: try again", file_.string()));
+  return digits;
 }
 
 std::string fingerprint(const std::string& quantity, const std::vector<double>& observed) {
   std::string text = quantity;
   for (const double value : observed) text += fmt::format("\n{:.12g}", value);
-  boost::uuids::detail::sha1 hash;
-  hash.process_bytes(text.data(), text.size());
-  return digits(hash);
+  return sha1_of(text);
 }
 
 }  // namespace wearwell

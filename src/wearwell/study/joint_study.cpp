@@ -24,6 +24,7 @@ struct JointData {
   std::optional<double> work_per_cycle;  // J, where it is constant
   std::string work_in_words;
   std::optional<PointwiseTable> pointwise;
+  std::vector<DataColumn> columns;
 };
 
 // A profile of force and slip over one cycle: work per cycle.
@@ -33,7 +34,7 @@ double read_profile(const TomlReader& profile, const std::filesystem::path& fold
   const TomlReader columns = profile.required_table("columns");
   const ColumnChoice force = required_column(columns, "force", "N");
   const ColumnChoice slip = required_column(columns, "slip_increment", "m");
-  const Table table = read_table(folder / profile.required_text("file"), profile.text("sql"));
+  const Table table = read_table(profile, folder);
   try {
     return joint::work_per_cycle(
         si_numbers(table, force), si_numbers(table, slip),
@@ -69,7 +70,8 @@ PointwiseTable pointwise_table(const Table& table, const std::vector<double>& cy
 void read_work(const TomlReader& root, const TomlReader& columns,
                const std::filesystem::path& folder, const Table& table, JointData& data) {
   const auto conditions = root.table("conditions");
-  const auto constant = conditions ? conditions->quantity("work_per_cycle", "N m") : std::nullopt;
+  const auto constant =
+      conditions ? conditions->quantity("work_per_cycle", "N m/cycle") : std::nullopt;
   const auto profile = conditions ? conditions->table("profile") : std::nullopt;
   const auto work = read_column(columns, "work", "N m");
   const auto force = read_column(columns, "force", "N");
@@ -100,6 +102,7 @@ void read_work(const TomlReader& root, const TomlReader& columns,
     data.work_in_words = fmt::format("'{}' x '{}'", force->column, slip->column);
     const auto f = si_numbers(table, *force), s = si_numbers(table, *slip);
     for (std::size_t i = 0; i < table.rows; ++i) data.inspections.work.push_back(f[i] * s[i]);
+    data.columns.push_back({"force", "N", force->unit, f, true});
   } else {
     root.fail("conditions",
               "the friction work is missing; give conditions.work_per_cycle, conditions.profile, "
@@ -139,27 +142,27 @@ void read_pin_positions(const TomlReader& root, const TomlReader& columns, const
 JointData read_data(const TomlReader& root, const std::filesystem::path& folder,
                     ObservationFamily family) {
   const TomlReader data_table = root.required_table("data");
-  const std::filesystem::path file = folder / data_table.required_text("file");
-  const auto sql = data_table.text("sql");
   const TomlReader columns = data_table.required_table("columns");
-  const ColumnChoice cycles = required_column(columns, "cycles", "1");
+  const ColumnChoice cycles = required_column(columns, "cycles", "cycle");
   const bool positions = columns.has("dx") || columns.has("dy");
   if (positions && columns.has("volume")) {
     columns.fail("volume", "is given beside pin positions (dx, dy); keep one of the two");
   }
 
-  const Table table = read_table(file, sql);
+  const Table table = read_table(data_table, folder);
   JointData data;
   data.cycles = si_numbers(table, cycles);
   for (std::size_t i = 0; i < table.rows; ++i) {
     require(data.cycles[i] >= 0, table, cycles, i, "0 or more");
   }
+  data.columns.push_back({"cycles", "cycle", cycles.unit, data.cycles});
   if (positions) {
     read_pin_positions(root, columns, table, data);
   } else {
     const ColumnChoice volume = required_column(columns, "volume", "m^3");
     data.volume_unit = volume.unit;
     data.inspections.volume = si_numbers(table, volume);
+    data.columns.push_back({"volume", "m^3", volume.unit, data.inspections.volume});
     if (family == ObservationFamily::lognormal) {
       for (std::size_t i = 0; i < table.rows; ++i) {
         require(data.inspections.volume[i] > 0, table, volume, i,
@@ -245,6 +248,7 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
   study.pointwise = data.pointwise;
   study.quantity = "worn volume";
   study.observed = data.inspections.volume;
+  study.data_columns = data.columns;
   study.meanings = {"wear coefficient", "scatter of one measurement"};
   if (law.has_constant) study.meanings.push_back("volume before any work");
   if (law.has_exponent) study.meanings.push_back("exponent of the work");
@@ -252,11 +256,18 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
     return joint::archard_likelihood(law, family, inspections, rows);
   };
 
+  study.fit_data = FitData{joint::archard_scores(law, family, data.inspections),
+                           {},
+                           {{"friction work", work}},
+                           Rise{"worn volume grows with friction work", work,
+                                data.inspections.volume, {}, !law.has_constant},
+                           "inspection"};
+
   // Where the work per cycle is constant, it is so past and to come.
   const auto predict = root.table("predict");
   std::optional<double> rate = data.work_per_cycle;
   if (predict && !rate) {
-    if (const auto future = predict->quantity("work_per_cycle", "N m")) {
+    if (const auto future = predict->quantity("work_per_cycle", "N m/cycle")) {
       if (!(future->si() > 0)) predict->fail("work_per_cycle", "must be positive");
       rate = future->si();
     }
@@ -286,7 +297,7 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
   const double seen = *std::max_element(data.cycles.begin(), data.cycles.end());
   double end = seen;
   if (predict && rate) {
-    for (const Quantity& cycles : predict->quantities("cycles", "1")) {
+    for (const Quantity& cycles : predict->quantities("cycles", "cycle")) {
       end = std::max(end, cycles.si());
     }
     if (const auto limit = predict->quantity("limit", "m^3")) {
@@ -305,7 +316,7 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
   const auto need_rate = [&](const char* key) {
     if (!rate) predict->fail(key, "needs the work of future cycles; give predict.work_per_cycle");
   };
-  for (const Quantity& cycles : predict->quantities("cycles", "1")) {
+  for (const Quantity& cycles : predict->quantities("cycles", "cycle")) {
     need_rate("cycles");
     if (!(cycles.si() >= 0)) predict->fail("cycles", "must be 0 or more");
     std::optional<double> measured;
@@ -313,6 +324,9 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
       if (data.cycles[i] == cycles.si()) measured = data.inspections.volume[i];
     }
     study.predictions.push_back(request(cycles.si(), history.work_at(cycles.si()), measured));
+    study.reaches.push_back({fmt::format("the prediction at {:.6g} cycles", cycles.si()),
+                             fmt::format("the last inspection was after {:.6g} cycles", seen),
+                             cycles.si(), seen});
   }
   const auto risk = predict->quantity("risk", "1");
   if (risk && !(risk->si() > 0 && risk->si() < 1))
@@ -320,6 +334,15 @@ void read_joint_study(const TomlReader& root, const std::filesystem::path& folde
   if (const auto limit = predict->quantity("limit", "m^3")) {
     need_rate("limit");
     if (!(limit->si() > 0)) predict->fail("limit", "must be positive");
+    const auto& volumes = data.inspections.volume;
+    const double most = *std::max_element(volumes.begin(), volumes.end());
+    if (most > 0) {
+      study.reaches.push_back(
+          {fmt::format("the limit of {:.6g} {}", limit->value, limit->unit.text),
+           fmt::format("the largest volume measured is {:.4g} {}",
+                       from_si(data.volume_unit, most), data.volume_unit.text),
+           limit->si(), most});
+    }
     study.life = LifeRequest{Unit{"1", 1, 0},
                              "cycles",
                              *limit,

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <iterator>
 #include <string_view>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/staged_folder.h"
 
 namespace wearwell {
 namespace resource {
@@ -51,25 +52,21 @@ std::vector<std::string> new_study_trades() {
 }
 
 fs::path write_new_study(const std::string& trade, const fs::path& folder) {
+  heal_folder(behind_links(folder));
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw InputError(fmt::format("cannot make the folder {}{}", folder.string(),
-                                 error ? ": " + error.message() : ""));
-  }
-  if (!fs::is_empty(folder, error) || error) {
+  if (fs::exists(folder, error) &&
+      !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
     throw InputError(
         fmt::format("{} is not empty; a new study needs a folder of its own", folder.string()));
-  }
+  StagedFolder staged(folder);
   fs::path study;
-  for (const StudyFile& file : files) {
-    if (trade != file.trade) continue;
-    if (study.empty()) study = folder / file.name;
-    std::ofstream stream(folder / file.name, std::ios::binary);
-    stream << file.content();
-    stream.close();
-    if (!stream) throw MachineError(fmt::format("cannot write {}", (folder / file.name).string()));
+  // The study last: without its data it says nothing.
+  for (auto file = std::rbegin(files); file != std::rend(files); ++file) {
+    if (trade != file->trade) continue;
+    staged.write(file->name, file->content());
+    study = folder / file->name;
   }
+  staged.commit({});
   return study;
 }
 

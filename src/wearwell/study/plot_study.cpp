@@ -4,20 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 
+#include "wearwell/base/printable.h"
+#include "wearwell/base/sha1.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/study/describe.h"
-#include "wearwell/study/fingerprint.h"
 
 namespace wearwell {
 namespace {
 
 constexpr int curve_points = 120, bins = 40, grid_cells = 56, life_points = 120;
 constexpr std::size_t item_points = 20'000;
+constexpr std::size_t most_data_sets = 500;  // drawn, and predicted for the drawing
 
 struct Range {
   double low, high;
@@ -185,9 +185,14 @@ Curve life_curve(const LifeRequest& request, const Fit& fit) {
   return curve;
 }
 
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+// Data sets to draw, from 1: all, or the first, the last and others evenly between.
+std::vector<std::size_t> drawn_data_sets(std::size_t all) {
+  const std::size_t count = std::min(all, most_data_sets);
+  std::vector<std::size_t> drawn;
+  for (std::size_t i = 0; i < count; ++i) {
+    drawn.push_back(1 + (count > 1 ? i * (all - 1) / (count - 1) : 0));
+  }
+  return drawn;
 }
 
 }  // namespace
@@ -243,9 +248,9 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
   }
   plots.joint = joint_density(posterior, fit);
 
-  plots.study_text = content(study.file);
-  plots.files = {{study.file.filename().string(), sha1(study.file)},
-                 {study.data_file, sha1(study.file.parent_path() / study.data_file)}};
+  plots.study_text = study.file_text;
+  plots.files = {{valid_utf8(study.file.filename().string()), sha1_of(study.file_text)},
+                 {study.data_file, study.data_sha1}};
 
   // The draws of an improper posterior wander for ever: they predict nothing.
   if (!std::all_of(fit.tails.begin(), fit.tails.end(),
@@ -257,12 +262,13 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
 
   if (study.stage_predictions) {
     std::vector<PredictionRequest> observed;
-    for (std::size_t rows = 1; rows <= study.data_rows; ++rows) {
+    for (const std::size_t rows : drawn_data_sets(study.data_rows)) {
       observed.push_back(study.stage_predictions(rows).front());
       plots.measured.push_back(from_si(observed.back().unit, *observed.back().measured));
+      plots.history_at.push_back(study.history_at.empty() ? observed.back().at
+                                                          : study.history_at[rows - 1]);
     }
     plots.replicated = predict_all(observed, few);
-    plots.history_at = study.history_at.empty() ? plots.replicated.at : study.history_at;
     plots.history_note = study.history_note;
   }
   if (study.exhibits) plots.exhibits = study.exhibits(fit);

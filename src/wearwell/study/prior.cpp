@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "wearwell/base/error.h"
 
@@ -28,13 +29,13 @@ class PriorReader {
     }
   }
 
-  double dimensional(const char* key) { return keep(table_.required_quantity(key, spec_.si)); }
+  double dimensional(const char* key) { return keep(key, table_.required_quantity(key, spec_.si)); }
   // Standard deviations and scales: of a logarithm they are plain numbers.
   double size(const char* key) { return is_logarithm(spec_.si) ? plain(key) : dimensional(key); }
   double plain(const char* key) { return table_.required_quantity(key, "1").si(); }
   double bound(const char* key, double none) {
     const auto value = table_.quantity(key, spec_.si);
-    return value ? keep(*value) : none;
+    return value ? keep(key, *value) : none;
   }
 
   Family family(const std::string& law) {
@@ -70,7 +71,7 @@ class PriorReader {
 
   Unit unit() const {
     if (unit_) return *unit_;
-    if (spec_.si == "1") return Unit{"1", 1, 0};
+    if (may_be_plain(spec_.si)) return Unit{"1", 1, 0};
     table_.fail(
         "",
         fmt::format("no quantity here has a unit; add unit = \"{}\", or any other of its dimension",
@@ -98,8 +99,15 @@ class PriorReader {
     }
   }
 
-  double keep(const Quantity& quantity) {
+  double keep(const char* key, const Quantity& quantity) {
     refuse_offset(quantity.unit);
+    if (unit_ && !is_logarithm(spec_.si)) {
+      try {
+        refuse_two_readings(quantity, *unit_);
+      } catch (const InputError& error) {
+        table_.fail(key, error.what());
+      }
+    }
     if (!unit_) unit_ = quantity.unit;
     return quantity.si();
   }
@@ -158,8 +166,21 @@ Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
   } catch (const InputError& error) {
     table->fail("", error.what());
   }
-  parameter.start = start_inside(parameter.prior, spec.guess);
-  parameter.scale = spread(parameter.prior, parameter.start);
+  try {
+    parameter.start = start_inside(parameter.prior, spec.guess);
+    parameter.scale = spread(parameter.prior, parameter.start);
+  } catch (const std::runtime_error&) {  // of Boost's quantiles
+    table->fail("", "the law is so wide or so narrow that its quantiles are no finite numbers");
+  }
+  if (!(parameter.prior.lower < parameter.start && parameter.start < parameter.prior.upper)) {
+    table->fail("",
+                fmt::format("no number lies between the bounds {:.17g} and {:.17g} {}",
+                            from_si(parameter.unit, parameter.prior.lower),
+                            from_si(parameter.unit, parameter.prior.upper), parameter.unit.text));
+  }
+  if (!(parameter.scale > 0 && std::isfinite(parameter.scale))) {
+    table->fail("", "the law is so wide or so narrow that its spread is no number to count with");
+  }
   return parameter;
 }
 

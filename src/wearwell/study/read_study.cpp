@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/study/bearing_study.h"
+#include "wearwell/study/fingerprint.h"
 #include "wearwell/study/joint_study.h"
 #include "wearwell/study/sn_study.h"
 #include "wearwell/study/study.h"
@@ -44,8 +46,16 @@ void read_sampler(const TomlReader& root, Study& study) {
     Eigen::VectorXd widths(static_cast<Eigen::Index>(study.parameters.size()));
     for (std::size_t i = 0; i < study.parameters.size(); ++i) {
       const Parameter& parameter = study.parameters[i];
-      const Quantity width = half_width->required_quantity(parameter.name, parameter.si);
+      // A width is a difference: of a logarithm a plain number.
+      const bool logarithm = is_logarithm(parameter.si);
+      const Quantity width =
+          half_width->required_quantity(parameter.name, logarithm ? "1" : parameter.si);
       if (!(width.si() > 0)) half_width->fail(parameter.name, "must be positive");
+      try {
+        if (!logarithm) refuse_two_readings(width, parameter.unit);
+      } catch (const InputError& error) {
+        half_width->fail(parameter.name, error.what());
+      }
       widths[static_cast<Eigen::Index>(i)] = width.si();
     }
     study.metropolis.half_width = widths;
@@ -55,10 +65,16 @@ void read_sampler(const TomlReader& root, Study& study) {
 }  // namespace
 
 Study read_study(const std::filesystem::path& file) {
-  const TomlReader root = TomlReader::parse_file(file);
+  return read_study(read_text_file(file));
+}
+
+Study read_study(const TextFile& text) {
+  const std::filesystem::path& file = text.path;
+  const TomlReader root = TomlReader::parse(text);
   Study study;
   study.file = file;
-  study.title = root.text("title").value_or(file.stem().string());
+  study.file_text = text.text;
+  study.title = root.text("title").value_or(valid_utf8(file.stem().string()));
   const auto model = root.choice("model", {"archard-joint", "bearing-wear", "sn"});
   if (!model) root.fail("model", "is missing: \"archard-joint\", \"bearing-wear\" or \"sn\"");
   study.model = *model;
@@ -67,6 +83,7 @@ Study read_study(const std::filesystem::path& file) {
   if (const auto update = root.table("update")) {
     study.stages = update->choice("stages", {"row"}).has_value();
   }
+  const ReadFile data_read(file.parent_path() / study.data_file);
   if (*model == "archard-joint") {
     read_joint_study(root, file.parent_path(), study);
   } else if (*model == "sn") {
@@ -74,6 +91,7 @@ Study read_study(const std::filesystem::path& file) {
   } else {
     read_bearing_study(root, file.parent_path(), study);
   }
+  study.data_sha1 = data_read.sha1();
   read_sampler(root, study);
   root.finish();
   return study;

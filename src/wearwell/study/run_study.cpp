@@ -1,5 +1,6 @@
 #include "wearwell/study/run_study.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -70,6 +71,8 @@ PredictionSummary summarize(const PredictionRequest& request, const Fit& fit) {
                             {}};
   if (fit.exact) summary.exact = predicted(fit.exact->nodes);
   if (request.measured) summary.measured = from_si(request.unit, *request.measured);
+  summary.mean_of = request.mean_of;
+  summary.measured_of = request.measured_of;
   return summary;
 }
 
@@ -113,7 +116,8 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
 
 QuantitySummary summary_of(const QuantityRequest& request, const QuantityQuantiles& drawn) {
   return {request.name,    request.of, request.at, request.unit.text,
-          request.is_life, drawn,      {},         request.credible_level};
+          request.is_life, drawn,      {},         request.credible_level,
+          request.safe_end};
 }
 
 QuantitySummary summarize(const QuantityRequest& request, const Fit& fit) {
@@ -164,8 +168,38 @@ LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
   return summary;
 }
 
-ModeSummary summarize_mode(const Posterior& posterior, const NaturalMode& mode,
-                           double observations) {
+constexpr double profile_level = 0.9;  // as the posterior's 5 and 95 % beside it
+
+ProfileSummary summarize(const ProfileInterval& interval, const auto& in_unit) {
+  return {profile_level, in_unit(interval.lower.value), in_unit(interval.upper.value),
+          interval.lower.open, interval.upper.open};
+}
+
+void add_profiles(const Study& study, const Posterior& posterior, const Fit& fit,
+                  const NaturalMode& mode, ModeSummary& summary) {
+  const auto intervals = profile_intervals(posterior, fit, mode, profile_level);
+  for (std::size_t i = 0; i < intervals.size(); ++i) {
+    const Unit& unit = posterior.parameters()[i].unit;
+    summary.parameters[i].profile =
+        summarize(intervals[i], [&](double x) { return from_si(unit, x); });
+  }
+  summary.quantities.resize(study.profiled.size());
+  tbb::parallel_for(std::size_t{0}, study.profiled.size(), [&](std::size_t i) {
+    const ProfileRequest& request = study.profiled[i];
+    const auto in_unit = [&](double x) { return from_si(request.unit, request.si(x)); };
+    summary.quantities[i] = {
+        request.name,
+        request.of,
+        request.at,
+        request.unit.text,
+        in_unit(request.quantity.value(mode.position.data())),
+        summarize(profile_interval(posterior, fit, mode, request.quantity, profile_level),
+                  in_unit)};
+  });
+}
+
+ModeSummary summarize_mode(const Study& study, const Posterior& posterior, const Fit& fit,
+                           const NaturalMode& mode, double observations) {
   ModeSummary summary;
   summary.problem = mode.problem;
   if (!mode.problem.empty()) return summary;
@@ -175,7 +209,8 @@ ModeSummary summarize_mode(const Posterior& posterior, const NaturalMode& mode,
     const auto at = static_cast<Eigen::Index>(i);
     summary.parameters.push_back(
         {parameter.name, parameter.unit.text, from_si(parameter.unit, mode.position[at]),
-         mode.standard_error[at] / parameter.unit.scale, places[static_cast<int>(mode.place[i])]});
+         mode.standard_error[at] / parameter.unit.scale, places[static_cast<int>(mode.place[i])],
+         {}});
   }
   const double deviance = -2 * mode.log_likelihood;
   const auto unknowns = static_cast<double>(posterior.dimension());
@@ -187,6 +222,7 @@ ModeSummary summarize_mode(const Posterior& posterior, const NaturalMode& mode,
   summary.observations = observations;
   summary.starts = mode.starts;
   summary.reached = mode.reached;
+  if (mode.maximum) add_profiles(study, posterior, fit, mode, summary);
   return summary;
 }
 
@@ -198,7 +234,13 @@ bool proper(const Fit& fit) {
 std::vector<Check> all_checks(const Study& study, const Posterior& posterior, const Fit& fit,
                               const std::optional<LooSummary>& loo) {
   std::vector<Check> checks = trust_checks(posterior, fit);
-  if (loo) checks.push_back(loo_check(loo->loo, loo->observation));
+  if (study.fit_data && proper(fit)) {
+    checks.push_back(
+        fit_check(judge_fit(*study.fit_data, fit.pooled, loo ? loo->loo : Loo{})));
+  }
+  if (loo) checks.push_back(loo_check(loo->loo, loo->observation, posterior.dimension()));
+  if (const auto units = units_check(study.data_columns)) checks.push_back(*units);
+  if (!study.reaches.empty()) checks.push_back(extrapolation_check(study.reaches));
   if (study.checks) {
     for (Check& check : study.checks(fit)) checks.push_back(std::move(check));
   }
@@ -271,6 +313,11 @@ const char* method_name(Method method) {
   return "nuts";
 }
 
+void require_posterior(const Study& study) {
+  for (std::size_t rows = study.stages ? 1 : study.data_rows; rows <= study.data_rows; ++rows)
+    static_cast<void>(Posterior(study.parameters, study.likelihood(rows)));
+}
+
 StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads, bool with_plots,
                       Progress* progress) {
   const auto start = std::chrono::steady_clock::now();
@@ -281,7 +328,9 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
   FitSettings settings = fit_settings(study, choice);
   if (progress && settings.method != Method::exact) {
     const RunSettings& run = settings.run;
-    const long long fits = study.stages ? static_cast<long long>(study.data_rows) : 1;
+    const long long fits = study.stages && study.data_rows <= most_stages
+                               ? static_cast<long long>(study.data_rows)
+                               : 1;
     progress->expect(fits * run.chains * (run.warmup + run.draws));
     settings.run.progress = progress;
   }
@@ -292,12 +341,14 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
 
   std::optional<LooSummary> loo;
   if (proper(final)) {
-    Loo each = leave_one_out(posterior, final);
+    const bool scored = study.fit_data && study.fit_data->terms && study.fit_data->cheap;
+    Loo each = leave_one_out(posterior, final, scored ? &study.fit_data->scores : nullptr);
     if (!each.terms.empty()) loo = {study.observation, std::move(each)};
   }
   const NaturalMode natural = natural_mode(posterior, final);
   const ModeSummary mode = summarize_mode(
-      posterior, natural, loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
+      study, posterior, final, natural,
+      loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
   for (Shortfall& each : later_shortfalls(posterior, final, natural, loo ? &loo->loo : nullptr)) {
     final.shortfalls.push_back(std::move(each));
   }
@@ -324,15 +375,26 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
                      all_checks(study, posterior, final, loo),
                      true,
                      in_units(study, std::move(final.draws))};
-  result.trusted = trusted(result.checks);
   result.data_fingerprint = fingerprint(study.quantity, study.observed);
   result.mode = mode;
   result.loo = std::move(loo);
-  if (study.life) result.life = summarize(*study.life, final);
+  if (study.life) {
+    result.life = summarize(*study.life, final);
+    result.checks.push_back(limit_check(*result.life));
+  }
+  result.checks.push_back(sense_check(result));
+  result.trusted = trusted(result.checks);
   if (study.coverage) {
     result.coverage = study.coverage(final.exact ? final.exact->nodes : final.pooled);
   }
-  if (study.stages) {
+  if (study.stages && study.data_rows > most_stages) {
+    result.checks.push_back(
+        {"stages", Verdict::warn,
+         fmt::format("none: one fit for each of {} data sets is too much; at most {} are updated "
+                     "one by one",
+                     study.data_rows, most_stages),
+         "Leave update.stages out."});
+  } else if (study.stages) {
     // After the last data set the stage is the whole.
     const std::size_t last = study.data_rows - 1;
     result.stages.resize(study.data_rows);

@@ -8,6 +8,10 @@ namespace wearwell {
 /// What the study and `choice` (which comes first) say of how to fit, with the method's defaults.
 FitSettings fit_settings(const Study& study, const SamplerChoice& choice);
 
+/// Throws InputError where no posterior can be made of the study: prior, data and law contradict
+/// each other, at the end or at a stage.
+void require_posterior(const Study& study);
+
 const char* method_name(Method method);
 
 /// Fits, checks and predicts: the final posterior, and that of every stage when the study asks for

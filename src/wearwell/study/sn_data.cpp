@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
@@ -46,7 +45,7 @@ class Inputs {
     if (!column) {
       columns_.fail(name, fmt::format("is missing; give it here, or in [conditions] if it is the "
                                       "same for all: {} = \"NUMBER{}\"",
-                                      name, si == "1" ? "" : " " + si));
+                                      name, may_be_plain(si) ? "" : " " + si));
     }
     return {si_numbers(table_, *column), column->unit, column};
   }
@@ -107,6 +106,7 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
                      shear_stress(spring, mean.values[i])};
     }
     data.mean_stress_column = mean.column ? mean.column->column : "";
+    data.columns.push_back({"displacement_amplitude", "m", amplitude.unit, amplitude.values, true});
     return stresses;
   }
   if (extremes) {
@@ -119,10 +119,12 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
                      0.5 * (high.values[i] + low.values[i])};
     }
     data.mean_stress_column = high.column ? high.column->column : "";
+    data.columns.push_back({"max_stress", "Pa", high.unit, high.values, true});
     return stresses;
   }
   const auto alternating = inputs.read("alternating_stress", "Pa");
   data.stress_unit = alternating.unit;
+  data.columns.push_back({"alternating_stress", "Pa", alternating.unit, alternating.values, true});
   for (std::size_t i = 0; i < table.rows; ++i) {
     inputs.require(alternating.values[i] > 0, alternating, i, "alternating_stress", "positive");
     stresses[i].alternating = alternating.values[i];
@@ -177,16 +179,12 @@ Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t
 }  // namespace
 
 Unit life_unit(Unit unit) {
-  if (unit.text.find("cycle") != std::string::npos) {
-    unit.scale /= 2 * std::numbers::pi;
-  } else {
-    unit.text = unit.text == "1" ? "cycles" : unit.text + " cycles";
-  }
+  if (is_number(unit)) unit.text = unit.text == "1" ? "cycles" : unit.text + " cycles";
   return unit;
 }
 
 std::vector<Quantity> read_lives(const TomlReader& table, const std::string& key) {
-  std::vector<Quantity> lives = table.quantities(key, "1");
+  std::vector<Quantity> lives = table.quantities(key, "cycle");
   for (Quantity& life : lives) {
     life.unit = life_unit(life.unit);
     if (!(life.si() > 0)) table.fail(key, "a life must be positive");
@@ -238,19 +236,20 @@ SnData read_sn_data(const TomlReader& root, const std::filesystem::path& folder,
   const TomlReader section = root.required_table("data");
   const TomlReader columns = section.required_table("columns");
   const auto conditions = root.table("conditions");
-  const Table table = read_table(folder / section.required_text("file"), section.text("sql"));
+  const Table table = read_table(section, folder);
   SnData data;
   data.source = table.source;
   const std::vector<Stress> stresses = read_stresses(columns, conditions, table, correction, data);
 
-  ColumnChoice life = required_column(columns, "life", "1");
+  ColumnChoice life = required_column(columns, "life", "cycle");
   data.life_unit = life.unit = life_unit(life.unit);
-  auto until = read_column(columns, "life_until", "1");
+  auto until = read_column(columns, "life_until", "cycle");
   if (until) until->unit = life_unit(until->unit);
   const auto status = read_column(columns, "status", "1");
   const auto count = read_column(columns, "count", "1");
   const auto label = read_column(columns, "label", "1");
   const std::vector<double> lives = si_numbers(table, life);
+  data.columns.push_back({"life", "cycle", life.unit, lives});
   const std::vector<double> counts = count ? si_numbers(table, *count) : std::vector<double>();
   const bool without_tension_harmless =
       correction == MeanStress::swt || correction == MeanStress::walker;
@@ -266,10 +265,14 @@ SnData read_sn_data(const TomlReader& root, const std::filesystem::path& folder,
                                  place(table, status->column, i)));
       }
       // Only intervals have a second life; cells of other rows may be empty.
-      const Column& ends = table.column(until->column);
-      if (!ends.is_number) si_numbers(table, *until);  // says which cell is no number
-      test.until = to_si(until->unit, ends.numbers[i]);
-      require(test.until > test.life, table, *until, i, "more than the life where it begins");
+      const double end = cell_number(table, table.column(until->column), i);
+      if (std::isnan(end)) {
+        throw InputError(fmt::format("{}: no value; an interval ends at a second life",
+                                     place(table, until->column, i)));
+      }
+      test.until = to_si(until->unit, end);
+      require(test.until > test.life && std::isfinite(test.until), table, *until, i,
+              "more than the life where it begins, and finite");
     }
     if (count) {
       require(counts[i] >= 1 && counts[i] == std::floor(counts[i]) && counts[i] <= 1e6, table,

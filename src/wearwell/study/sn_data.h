@@ -8,6 +8,7 @@
 #include "wearwell/fatigue/life_test.h"
 #include "wearwell/fatigue/spring.h"
 #include "wearwell/study/columns.h"
+#include "wearwell/study/units_check.h"
 
 namespace wearwell {
 
@@ -20,6 +21,7 @@ struct SnData {
   std::string source;  ///< the file, for messages
   std::string mean_stress_column;
   std::optional<fatigue::HelicalSpring> spring;  ///< where the study gives displacements
+  std::vector<DataColumn> columns;               ///< as they were read
 };
 
 /// Reads [data] and what [conditions] holds for all rows. Stress stands there in one of four ways:
@@ -29,8 +31,7 @@ struct SnData {
 SnData read_sn_data(const TomlReader& root, const std::filesystem::path& folder,
                     fatigue::MeanStress correction);
 
-/// The unit of lives as people read it: "cycles", "1e5 cycles". UDUNITS-2 takes a cycle for an
-/// angle; here it is one.
+/// The unit of lives as people read it: "1e5 cycles" of "1e5".
 Unit life_unit(Unit unit);
 
 /// A life in [predict] or elsewhere: positive; a plain number counts cycles.

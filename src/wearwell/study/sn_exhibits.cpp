@@ -24,6 +24,7 @@ namespace colour = plot::colour;
 
 constexpr std::size_t curve_points = 40, density_points = 100, haigh_points = 24;
 constexpr std::size_t most_rows = 14;
+constexpr std::size_t most_tests = 1000;  // drawn
 
 Numbers spaced(double low, double high, std::size_t count) {
   Numbers points;
@@ -33,12 +34,29 @@ Numbers spaced(double low, double high, std::size_t count) {
   return points;
 }
 
+// All tests, or some of them evenly.
+SnData drawn_tests(const SnData& data) {
+  if (data.tests.size() <= most_tests) return data;
+  SnData few = data;
+  few.tests.clear();
+  few.labels.clear();
+  for (std::size_t i = 0; i < most_tests; ++i) {
+    const std::size_t row = i * (data.tests.size() - 1) / (most_tests - 1);
+    few.tests.push_back(data.tests[row]);
+    few.labels.push_back(data.labels[row]);
+  }
+  return few;
+}
+
 // What the figures share: the law, the data, and a posterior of few points.
 class Drawing {
  public:
   Drawing(const SnLaw& law, const SnData& data, const SnPredictions& predictions, const Fit& fit)
       : law_(law),
-        data_(data),
+        data_(drawn_tests(data)),
+        thinned_(data.tests.size() > most_tests ? fmt::format(" {} of {} tests are drawn, evenly.",
+                                                              most_tests, data.tests.size())
+                                                : ""),
         predictions_(predictions),
         draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled)) {
     double tests = 0;
@@ -97,8 +115,8 @@ class Drawing {
     add_tests(moved, marks);
     return {"sn-curve", "Life against stress",
             fmt::format("{}. The inner band holds the life that half of all specimens outlast, the "
-                        "outer band the life of the next one, with 90 % probability.{}",
-                        where_drawn(), arrows_note()),
+                        "outer band the life of the next one, with 90 % probability.{}{}",
+                        where_drawn(), arrows_note(), thinned_),
             plot::plot("Alternating stress against life, with bands and tests",
                        {life_title(), true, from_si(data_.life_unit, shortest_ / 20),
                         from_si(data_.life_unit, longest_ * 20)},
@@ -168,14 +186,17 @@ class Drawing {
       marks.push_back(plot::arrows({{"x", on_x}, {"y", on_y}, {"life", on_life}}, "triangle-right",
                                    {colour::chains[2], "run-outs", 1, 0, false, 90}));
     }
-    return {"lives", "Life of the next one, by stress",
+    return {
+        "lives", "Life of the next one, by stress",
+        std::string(
             "The density of log10 life that the fit predicts under each stress, all drawn to one "
             "scale, with the tests that it rests on. A test left of the short stroke lies below "
-            "its B10.",
-            plot::plot("Predicted density of life at each stress, with the tests",
-                       {life_title(), true, shown(std::pow(10, low)), shown(std::pow(10, high))},
-                       {"", false, {}, {}, names}, marks,
-                       static_cast<int>(std::max<std::size_t>(220, 48 * n)))};
+            "its B10.") +
+            thinned_,
+        plot::plot("Predicted density of life at each stress, with the tests",
+                   {life_title(), true, shown(std::pow(10, low)), shown(std::pow(10, high))},
+                   {"", false, {}, {}, names}, marks,
+                   static_cast<int>(std::max<std::size_t>(220, 48 * n)))};
   }
 
   // Mean against alternating stress of one life; nothing to draw where the mean does not matter.
@@ -247,8 +268,8 @@ class Drawing {
     return {"haigh", fmt::format("Haigh diagram of {}", told),
             fmt::format("Alternating against mean stress that {} are borne at: by half of all "
                         "specimens, and by the next one with 90 % probability. Tests by whether "
-                        "they failed before.",
-                        told),
+                        "they failed before.{}",
+                        told, thinned_),
             plot::plot("Haigh diagram: alternating against mean stress at one life, with the tests",
                        {fmt::format("Mean stress [{}]", data_.stress_unit.text), false, x.front(),
                         x.back()},
@@ -326,7 +347,8 @@ class Drawing {
   }
 
   const SnLaw& law_;
-  const SnData& data_;
+  const SnData data_;
+  const std::string thinned_;
   const SnPredictions& predictions_;
   WeightedDraws draws_;
   StressLine line_{0, {}};

@@ -8,6 +8,7 @@
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
@@ -33,6 +34,17 @@ const Unit& percent() {
 
 std::string in_words(const Quantity& quantity) {
   return fmt::format("{:.6g} {}", quantity.value, quantity.unit.text);
+}
+
+// Whose lives are predicted: of all tests, or of some evenly where nearly each has a stress of its own.
+std::vector<std::size_t> covered_tests(std::size_t tests, std::size_t stresses) {
+  constexpr std::size_t most_stresses = 500;
+  const std::size_t count = stresses > most_stresses ? most_stresses : tests;
+  std::vector<std::size_t> covered;
+  for (std::size_t i = 0; i < count; ++i) {
+    covered.push_back(count == tests ? i : i * (tests - 1) / (count - 1));
+  }
+  return covered;
 }
 
 bool same(const Stress& a, const Stress& b) {
@@ -417,6 +429,25 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
   return result;
 }
 
+namespace {
+
+// The life by which a share has failed, on the scale on which lives scatter: it fixes log10_a. Of a
+// random limit it would be an integral.
+ProfiledQuantity life_by_likelihood(const SnLaw& law, const Stress& stress, double share) {
+  const double z = quantile(law.standard(), share);
+  return {0,
+          [=](const double* x) {
+            return life_center(law, x, law.log10_reversed(x, stress)) + z * x[law.sigma_index()];
+          },
+          [=](const double* x, double life) {
+            const double center = life - z * x[law.sigma_index()];
+            const double log10_life = law.logarithmic() ? center : std::log10(center);
+            return law.log10_reversed(x, stress) - x[1] * log10_life;
+          }};
+}
+
+}  // namespace
+
 void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
                        Study& study) {
   const double level = predictions.credible_level;
@@ -424,6 +455,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
                            const Unit& unit) {
     QuantityRequest result{name, of, at, unit, true, false, {}, {}, {}};
     result.credible_level = level;
+    result.safe_end = 0.05;  // the shorter life, the smaller share and stress
     return result;
   };
   for (const StressPoint& point : predictions.points) {
@@ -438,6 +470,10 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     for (const double percent_failed : predictions.percents) {
       group.requests.push_back(
           request(fmt::format("B{:.6g} life", percent_failed), of, at, data.life_unit));
+      if (law.limit) continue;
+      study.profiled.push_back({group.requests.back().name, of, at, data.life_unit,
+                                life_by_likelihood(law, point.stress, percent_failed / 100),
+                                [=](double life) { return cycles(law, life); }});
     }
     for (const Quantity& to : predictions.survival_to) {
       group.requests.push_back(request("survival to " + in_words(to), of, at, percent()));
@@ -462,33 +498,47 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
 
 CoverageTable sn_coverage(const SnLaw& law, const SnData& data, const WeightedDraws& draws) {
   static constexpr const char* outcomes[] = {"failure", "runout", "left", "interval"};
-  CoverageTable table{data.life_unit.text, std::vector<CoverageRow>(data.tests.size())};
   // Tests of one stress have one prediction.
-  std::vector<std::size_t> first(data.tests.size());
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    while (!same(data.tests[first[i]].stress, data.tests[i].stress)) ++first[i];
-  }
-  std::vector<std::optional<MixedLife>> lives(data.tests.size());
-  tbb::parallel_for(std::size_t{0}, lives.size(), [&](std::size_t i) {
-    if (first[i] != i) return;
-    lives[i] = next_life(law, draws, data.tests[i].stress);
-    lives[i]->merge();
-  });
+  using Key = std::pair<double, double>;
+  const auto key = [&](std::size_t test) {
+    return Key{data.tests[test].stress.alternating, data.tests[test].stress.mean};
+  };
+  std::set<Key> stresses;
+  for (std::size_t i = 0; i < data.tests.size(); ++i) stresses.insert(key(i));
+  const std::vector<std::size_t> tests = covered_tests(data.tests.size(), stresses.size());
+
+  struct Predicted {
+    std::optional<MixedLife> life;
+    double q05 = 0, q95 = 0, b10 = 0;
+  };
+  std::map<Key, Predicted> predicted;
+  for (const std::size_t i : tests) predicted[key(i)];
+  std::vector<std::pair<const Key, Predicted>*> each;
+  for (auto& entry : predicted) each.push_back(&entry);
   const auto in_unit = [&](double value) { return from_si(data.life_unit, value); };
-  for (std::size_t i = 0; i < data.tests.size(); ++i) {
+  tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
+    auto& [stress, p] = *each[i];
+    p.life = next_life(law, draws, {stress.first, stress.second});
+    p.life->merge();
+    p.q05 = in_unit(p.life->quantile(0.05));
+    p.q95 = in_unit(p.life->quantile(0.95));
+    p.b10 = in_unit(p.life->quantile(0.1));
+  });
+
+  CoverageTable table{data.life_unit.text, {}, data.tests.size()};
+  for (const std::size_t i : tests) {
     const LifeTest& test = data.tests[i];
-    const MixedLife& life = *lives[first[i]];
-    CoverageRow& row = table.rows[i];
-    row = {i + 1,
-           data.labels[i],
-           outcomes[static_cast<int>(test.outcome)],
-           in_unit(test.life),
-           {},
-           life.cdf(test.life),
-           in_unit(life.quantile(0.05)),
-           in_unit(life.quantile(0.95)),
-           in_unit(life.quantile(0.1))};
-    if (test.outcome == Outcome::interval) row.until = in_unit(test.until);
+    const Predicted& p = predicted.at(key(i));
+    table.rows.push_back({i + 1,
+                          data.labels[i],
+                          outcomes[static_cast<int>(test.outcome)],
+                          in_unit(test.life),
+                          {},
+                          p.life->cdf(test.life),
+                          p.q05,
+                          p.q95,
+                          p.b10});
+    if (test.outcome == Outcome::interval) table.rows.back().until = in_unit(test.until);
   }
   return table;
 }

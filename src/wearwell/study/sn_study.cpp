@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/fatigue/sn_likelihood.h"
+#include "wearwell/fatigue/sn_scores.h"
 #include "wearwell/study/prior.h"
 #include "wearwell/study/sn_data.h"
 #include "wearwell/study/sn_exhibits.h"
@@ -119,7 +120,8 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
   parameters.push_back(read_prior(priors, {"b", "1", -INFINITY, 0, guess.b}));
   if (log_strength) parameters.push_back(*log_strength);
   if (law.has_gamma()) parameters.push_back(read_prior(priors, {"gamma", "1", 0, 1, 0.5}));
-  parameters.push_back(read_prior(priors, {"sigma", "1", 0, INFINITY, guess.sigma}));
+  const char* sigma_si = law.logarithmic() ? "1" : "cycle";
+  parameters.push_back(read_prior(priors, {"sigma", sigma_si, 0, INFINITY, guess.sigma}));
   if (law.limit) {
     double lowest = INFINITY;
     for (const LifeTest& test : data.tests) {
@@ -140,13 +142,13 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
 std::vector<std::string> meanings(const SnLaw& law) {
   std::vector<std::string> words = {"logarithm of the stress at one cycle", "Basquin's exponent"};
   if (law.has_strength()) {
-    words.push_back(law.correction == MeanStress::soderberg ? "logarithm of the yield strength"
-                    : law.correction == MeanStress::morrow
-                        ? "logarithm of the true fracture strength"
-                        : "logarithm of the ultimate strength");
+    words.emplace_back(law.correction == MeanStress::soderberg ? "logarithm of the yield strength"
+                       : law.correction == MeanStress::morrow
+                           ? "logarithm of the true fracture strength"
+                           : "logarithm of the ultimate strength");
   }
   if (law.has_gamma()) words.emplace_back("Walker's exponent");
-  words.push_back(law.logarithmic() ? "scatter of log10 life" : "scatter of life");
+  words.emplace_back(law.logarithmic() ? "scatter of log10 life" : "scatter of life");
   if (law.limit) {
     words.emplace_back("logarithm of the median fatigue limit");
     words.emplace_back("scatter of the logarithm of the fatigue limit");
@@ -200,7 +202,7 @@ std::string in_words(const SnLaw& law) {
 // "9 tests: 8 failures, 1 runout", and what stresses and lives they span.
 std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
   static constexpr const char* outcomes[] = {"failure", "runout", "left-censored", "interval"};
-  int counts[4] = {}, all = 0;
+  long long counts[4] = {}, all = 0;
   std::vector<double> alternating, mean, life;
   for (const LifeTest& test : data.tests) {
     counts[static_cast<int>(test.outcome)] += test.count;
@@ -228,6 +230,29 @@ std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
   return {tests, stresses, "life " + span(life, data.life_unit.text)};
 }
 
+// By what residuals may follow: the stress that the law takes for the cause, at the values where
+// searches start, and the mean stress.
+FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Parameter>& parameters) {
+  std::vector<double> start;
+  for (const Parameter& parameter : parameters) start.push_back(parameter.start);
+  FitData result{fatigue::sn_scores(law, data.tests), {}, {{"stress", {}}}, Rise{}, "row", true,
+                 !law.limit};
+  std::vector<double> mean;
+  Rise& rise = *result.rise;
+  rise.law = "life grows as stress falls";
+  for (const LifeTest& test : data.tests) {
+    const double stress = law.log10_reversed(start.data(), test.stress);
+    result.counts.push_back(test.count);
+    result.drivers[0].value.push_back(stress);
+    mean.push_back(test.stress.mean);
+    if (test.outcome != fatigue::Outcome::failure) continue;
+    rise.driver.push_back(-stress);
+    rise.value.push_back(std::log10(test.life));
+  }
+  if (law.correction != MeanStress::none) result.drivers.push_back({"mean stress", mean});
+  return result;
+}
+
 }  // namespace
 
 void read_sn_study(const TomlReader& root, const std::filesystem::path& folder, Study& study) {
@@ -252,7 +277,9 @@ void read_sn_study(const TomlReader& root, const std::filesystem::path& folder, 
   study.likelihood = [=, tests = data.tests](std::size_t rows) {
     return fatigue::sn_likelihood(law, tests, rows);
   };
+  study.fit_data = fit_data(law, data, study.parameters);
   study.data_notes = notes(law, data);
+  study.data_columns = data.columns;
   SnPredictions predictions;
   if (const auto predict = root.table("predict")) {
     predictions = read_sn_predictions(*predict, law, data);

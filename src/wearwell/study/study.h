@@ -13,8 +13,13 @@
 #include "wearwell/bayes/observation.h"
 #include "wearwell/bayes/parameter.h"
 #include "wearwell/infer/fit.h"
+#include "wearwell/infer/fit_check.h"
+#include "wearwell/infer/profile.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/report/result.h"
+#include "wearwell/study/sense.h"
+#include "wearwell/study/text_file.h"
+#include "wearwell/study/units_check.h"
 
 namespace wearwell {
 
@@ -30,6 +35,8 @@ struct PredictionRequest {
   std::optional<double> measured;  ///< SI
   ItemFunction item =
       {};  ///< the mean of one item where items differ; the prediction interval is its
+  /// Whose the mean and the prediction interval are, where these differ: "median bearing".
+  std::string mean_of = {}, measured_of = {};
 };
 
 /// When a limit is reached.
@@ -56,6 +63,8 @@ struct QuantityRequest {
   Function scatter;  ///< standard deviation of ln driver between items, for one not yet seen; else
                      ///< empty
   std::optional<double> credible_level = {};  ///< of `QuantityQuantiles::bound`
+  /// The quantile that a careful engineer designs with: 0.05 of a life, 0.95 of a needed length.
+  std::optional<double> safe_end = {};
 };
 
 /// Quantities that have no single driver: all of them at once from the points of a posterior, SI.
@@ -64,8 +73,17 @@ struct QuantityGroup {
   std::function<std::vector<QuantityQuantiles>(const WeightedDraws& draws)> from_draws;
 };
 
+/// A quantity of which the maximum likelihood value and the profile interval are told.
+struct ProfileRequest {
+  std::string name, of, at;
+  Unit unit;
+  ProfiledQuantity quantity;
+  std::function<double(double)> si;  ///< from the scale on which it is profiled; monotone, rising
+};
+
 inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
-inline constexpr int min_draws = 10;     ///< fewer have no diagnostics
+inline constexpr std::size_t most_stages = 300;  ///< more data sets are not updated one by one
+inline constexpr int min_draws = 10;             ///< fewer have no diagnostics
 inline constexpr int max_iterations = 10'000'000;
 
 /// How to draw, as far as somebody said; the rest are the method's defaults.
@@ -80,13 +98,18 @@ struct SamplerChoice {
 struct Study {
   std::string title, model, equation;
   std::filesystem::path file;  ///< the study file
+  std::string file_text;       ///< what it held when it was read
   std::string data_file;       ///< as the study file names it
+  std::string data_sha1;       ///< of the file when it was read
   std::size_t data_rows = 0;   ///< data sets; the posterior can be updated after each
   /// What was observed, row by row in SI: what the likelihood is a density of.
   std::vector<double> observed;
-  std::string observation = "row";  ///< what the likelihood's factors are of: "row", "bearing"
+  std::vector<DataColumn> data_columns;  ///< what was read, to find mistaken units
+  std::string observation = "row";       ///< what the likelihood's factors are of: "row", "bearing"
   std::vector<Parameter> parameters;
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
+  std::optional<FitData> fit_data;  ///< by which the fit is checked
+  std::vector<Reach> reaches;       ///< how far what is asked for goes beyond the data
   bool stages = false;  ///< the posterior after 1, 2, ... data sets as well
   std::vector<PredictionRequest> predictions;
   /// What to predict at the stage after `rows` data sets, beside `predictions`: that inspection and
@@ -94,6 +117,7 @@ struct Study {
   std::function<std::vector<PredictionRequest>(std::size_t rows)> stage_predictions;
   std::vector<QuantityRequest> quantities;
   std::vector<QuantityGroup> quantity_groups;
+  std::vector<ProfileRequest> profiled;
   std::optional<LifeRequest> life;
   std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
   std::vector<double> history_at;  ///< where each data set lies along it; where it was if empty
@@ -114,6 +138,7 @@ struct Study {
 
 /// Reads a study file and its data; paths in it are relative to the file. Throws InputError with
 /// file:line:column and key, or with file, row and column of the data.
+Study read_study(const TextFile& file);
 Study read_study(const std::filesystem::path& file);
 
 }  // namespace wearwell

@@ -2,17 +2,104 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+// Some text that is no TOML ("[.=") breaks an assertion of toml++, and without its assertions the
+// behaviour is undefined. So they are on here, and throw: in the headers, because Debian's library
+// is built without.
+namespace wearwell {
+namespace {
+struct NoToml {};
+[[noreturn]] void assertion_failed() {
+  throw NoToml();
+}
+}  // namespace
+}  // namespace wearwell
+#undef NDEBUG
+#undef TOML_SHARED_LIB
+#undef TOML_HEADER_ONLY
+#define TOML_HEADER_ONLY 1
+#define TOML_ASSERT(expr) ((expr) ? static_cast<void>(0) : wearwell::assertion_failed())
+#define TOML_MAX_NESTED_VALUES 32
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <sstream>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
 
 namespace wearwell {
+namespace {
+
+constexpr int most_parts = 32;  // of a dotted key
+
+/// The length of the string or comment that begins at `at`; 0 where none does.
+std::size_t skipped(const std::string& text, std::size_t at) {
+  const char quote = text[at];
+  if (quote == '#') return std::min(text.find('\n', at), text.size()) - at;
+  if (quote != '"' && quote != '\'') return 0;
+  const bool long_one = text.compare(at, 3, std::string(3, quote)) == 0;
+  const std::string end(long_one ? 3 : 1, quote);
+  for (std::size_t i = at + end.size(); i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\') {
+      ++i;
+    } else if (text.compare(i, end.size(), end) == 0) {
+      return i + end.size() - at;
+    } else if (text[i] == '\n' && !long_one) {
+      return i - at;  // never closed, which the parser says better
+    }
+  }
+  return text.size() - at;
+}
+
+/// toml++ goes down a call for each part of a dotted key; a key of many thousands is a table that
+/// the stack cannot hold.
+void refuse_long_keys(const std::string& text, const std::string& name) {
+  int parts = 1, line = 1;
+  for (std::size_t i = 0; i < text.size();) {
+    if (const std::size_t length = skipped(text, i)) {
+      line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
+                                          text.begin() + static_cast<std::ptrdiff_t>(i + length),
+                                          '\n'));
+      i += length;
+      continue;
+    }
+    const char c = text[i++];
+    if (c == '.') {
+      if (++parts > most_parts)
+        throw InputError(fmt::format("{}:{}: a key of more than {} parts is none of a study", name,
+                                     line, most_parts));
+    } else if (c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') {
+      parts = 1;
+      if (c == '\n') ++line;
+    }
+  }
+}
+
+/// The line at which an assertion fails: no shorter part of the text breaks it.
+std::size_t line_of_failure(std::string_view text) {
+  std::vector<std::size_t> ends;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '\n' || at + 1 == text.size()) ends.push_back(at + 1);
+  }
+  const auto fails = [&](std::size_t end) {
+    try {
+      static_cast<void>(toml::parse(text.substr(0, end), std::string_view()));
+    } catch (const toml::parse_error&) {
+    } catch (const NoToml&) {
+      return true;
+    }
+    return false;
+  };
+  const auto first =
+      std::partition_point(ends.begin(), ends.end(), [&](std::size_t end) { return !fails(end); });
+  return static_cast<std::size_t>(first - ends.begin()) + 1;
+}
+
+}  // namespace
 
 struct TomlReader::State {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
@@ -34,18 +121,16 @@ TomlReader::TomlReader(TomlReader&&) noexcept = default;
 TomlReader::~TomlReader() = default;
 
 TomlReader TomlReader::parse_file(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored))
-    throw InputError(fmt::format("no such file: {}", name));
-  if (std::filesystem::is_directory(file, ignored)) {
-    throw InputError(fmt::format("{} is a folder, not a study file", name));
-  }
-  std::ifstream stream(file);
-  if (!stream) throw InputError(fmt::format("{} cannot be read (permissions?)", name));
+  return parse(read_text_file(file));
+}
+
+TomlReader TomlReader::parse(const TextFile& file) {
+  const std::string name = valid_utf8(file.path.string());
+  refuse_long_keys(file.text, name);
   try {
     auto state = std::make_shared<State>();
-    state->root = std::make_shared<const toml::table>(toml::parse(stream, name));
+    state->root = std::make_shared<const toml::table>(
+        toml::parse(std::string_view(file.text), std::string_view(name)));
     state->table = state->root.get();
     state->file = name;
     if (state->table->empty()) throw InputError(fmt::format("{} is empty", name));
@@ -53,6 +138,10 @@ TomlReader TomlReader::parse_file(const std::filesystem::path& file) {
   } catch (const toml::parse_error& error) {
     throw InputError(fmt::format("{}:{}:{}: {}", name, error.source().begin.line,
                                  error.source().begin.column, error.description()));
+  } catch (const NoToml&) {
+    throw InputError(fmt::format(
+        "{}:{}: no TOML: a key or a value is missing where one must stand, behind '[' or '='", name,
+        line_of_failure(file.text)));
   }
 }
 
@@ -126,11 +215,16 @@ namespace {
 
 // What a node holds as a quantity; throws InputError without a place.
 Quantity read_node(const toml::node& node, std::string_view si) {
-  if (const auto text = node.value_exact<std::string>()) return read_quantity(*text, si);
+  if (const auto text = node.value_exact<std::string>()) {
+    const Quantity quantity = read_quantity(*text, si);
+    if (!std::isfinite(quantity.si()))
+      throw InputError(fmt::format("'{}' is too large a number", *text));
+    return quantity;
+  }
   const auto number = node.value<double>();
   if (!number || node.is_boolean()) throw InputError("must be a number, or a text like '1.5 mm'");
   if (!std::isfinite(*number)) throw InputError("must be finite");
-  if (si != "1") {
+  if (!may_be_plain(si)) {
     throw InputError(
         fmt::format("{} has no unit (write one like \"{} {}\")", *number, *number, si));
   }

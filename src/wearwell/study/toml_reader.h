@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wearwell/base/unit.h"
+#include "wearwell/study/text_file.h"
 
 namespace wearwell {
 
@@ -17,7 +18,9 @@ namespace wearwell {
 /// for. All throw InputError.
 class TomlReader {
  public:
-  /// Parses a file. Throws InputError when it cannot be read or is not TOML.
+  /// Throws InputError when it is not TOML.
+  static TomlReader parse(const TextFile& file);
+  /// Or when it cannot be read.
   static TomlReader parse_file(const std::filesystem::path& file);
 
   TomlReader(const TomlReader&);
@@ -37,7 +40,7 @@ class TomlReader {
 
   std::optional<long long> integer(std::string_view key, long long least, long long most) const;
 
-  /// "NUMBER UNIT" of the dimension of `si`; where that is "1", a plain number too.
+  /// "NUMBER UNIT" of the dimension of `si`; where that is a number or a count, a plain number too.
   std::optional<Quantity> quantity(std::string_view key, std::string_view si) const;
   Quantity required_quantity(std::string_view key, std::string_view si) const;
   /// One quantity or a list of them.

@@ -25,7 +25,7 @@ LabelledColumn find_labelled(const std::vector<std::string>& headings, std::stri
     if (name_part(heading) != name) continue;
     const std::size_t open = heading.find('['), close = heading.rfind(']');
     if (open == std::string::npos || close == std::string::npos || close < open) {
-      if (si == "1") return {heading, Unit{"1", 1, 0}};
+      if (may_be_plain(si)) return {heading, Unit{"1", 1, 0}};
       throw InputError(
           fmt::format("{}, column '{}' has no unit: name it '{} [{}]'", source, heading, name, si));
     }
@@ -39,7 +39,7 @@ LabelledColumn find_labelled(const std::vector<std::string>& headings, std::stri
   for (const std::string& heading : headings) names.emplace_back(name_part(heading));
   const auto nearest = std::find(names.begin(), names.end(), nearest_name(name, names));
   throw InputError(fmt::format("{} has no column '{}{}' (nearest: '{}')", source, name,
-                               si == "1" ? "" : fmt::format(" [{}]", si),
+                               may_be_plain(si) ? "" : fmt::format(" [{}]", si),
                                headings[static_cast<std::size_t>(nearest - names.begin())]));
 }
 
@@ -52,7 +52,14 @@ LabelledColumn find_labelled(const Table& table, std::string_view name, std::str
 std::vector<double> labelled_numbers(const Table& table, std::string_view name,
                                      std::string_view si) {
   const LabelledColumn found = find_labelled(table, name, si);
-  return si_numbers(table, found.heading, found.unit);
+  std::vector<double> values = si_numbers(table, found.heading, found.unit);
+  for (std::size_t i = 0; si == "K" && i < values.size(); ++i) {
+    if (values[i] < 0) {
+      throw InputError(fmt::format("{}: {:.6g} is below absolute zero",
+                                   place(table, found.heading, i), from_si(found.unit, values[i])));
+    }
+  }
+  return values;
 }
 
 }  // namespace wearwell

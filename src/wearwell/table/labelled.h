@@ -15,7 +15,7 @@ struct LabelledColumn {
 };
 
 /// The heading among `headings` that is "name [unit]" with a unit of the dimension of `si`; where
-/// that is "1" the name alone will do. Throws InputError that names `source` and the nearest
+/// a plain number will do so will the name alone. Throws InputError that names `source` and the nearest
 /// heading, or the unit that is missing or wrong.
 LabelledColumn find_labelled(const std::vector<std::string>& headings, std::string_view name,
                              std::string_view si, const std::string& source);

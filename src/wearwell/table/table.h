@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
 
 namespace wearwell {
@@ -29,14 +30,31 @@ struct Table {
   const Column& column(std::string_view name) const;
 };
 
-/// Reads any file that DuckDB reads, by its ending: CSV or TSV with a header, Parquet, JSON. `sql`,
-/// when given, is one query over the view `data`. Throws InputError: no such file, unreadable,
-/// empty, no rows, two columns of one name, malformed.
-Table read_table(const std::filesystem::path& file, const std::optional<std::string>& sql = {});
+/// What a query of the user may take; its memory is bounded too, by half of the machine's.
+struct QueryLimits {
+  double seconds = 60;
+};
+
+/// A query that is refused or fails.
+struct QueryError : InputError {
+  using InputError::InputError;
+};
+
+/// Reads exactly this file, by its ending: .csv, .tsv or .txt with headings in the first line,
+/// .json, .ndjson, .jsonl (each also with .gz behind), .parquet. `sql`, when given, is one SELECT
+/// over the table `data`; it can read nothing else. Throws InputError: no such file, no regular
+/// file, unreadable, empty, cut off, no rows, two columns of one name, malformed, not UTF-8, dots
+/// that may be marks for thousands; and QueryError.
+Table read_table(const std::filesystem::path& file, const std::optional<std::string>& sql = {},
+                 const QueryLimits& limits = {});
 
 /// A column's values in SI. Throws InputError naming file, row, column and value where one is
-/// missing, not a number or not finite.
+/// missing, not a number, has two readings, or is not finite.
 std::vector<double> si_numbers(const Table& table, std::string_view column, const Unit& unit);
+
+/// The number in a cell, NaN where it is empty. Throws InputError that names file, row, column and
+/// value where it is no number.
+double cell_number(const Table& table, const Column& column, std::size_t index);
 
 /// "FILE, row 3, column 'volume'": where a value stands; `index` is 0-based.
 std::string place(const Table& table, std::string_view column, std::size_t index);

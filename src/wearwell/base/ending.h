@@ -1,0 +1,34 @@
+#pragma once
+
+#include <csignal>
+#include <filesystem>
+
+namespace wearwell {
+
+/// From here on SIGINT, SIGTERM and SIGHUP end the program at once, as they do anyway, but not
+/// before what is half written is removed. A signal that is ignored stays ignored.
+void remove_half_written_on_signals();
+
+/// Waits for the end when it has begun: what fails now fails because its files are gone.
+void wait_if_ending();
+
+/// While one lives, a signal ends the program before or after, never between a change of the disk
+/// and the note of it; so it lives for a few system calls only. Not to be nested.
+class Uninterrupted {
+ public:
+  Uninterrupted();
+  ~Uninterrupted();
+  Uninterrupted(const Uninterrupted&) = delete;
+  Uninterrupted& operator=(const Uninterrupted&) = delete;
+
+  /// `path` (absolute) goes when the program is ended by a signal; the last one noted goes first.
+  /// A folder goes only when it is empty by then.
+  void note(const std::filesystem::path& path, bool is_folder);
+  /// It is whole, or gone; and all that was noted within it.
+  void forget(const std::filesystem::path& path);
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace wearwell

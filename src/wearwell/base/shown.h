@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace wearwell {
+
+/// A message as a terminal or a log may show it: valid UTF-8 on one line, control characters as
+/// \x1b, without the classes of errors of the JSON library, and what is longer than a person reads
+/// (a value in quotes, a word, the whole) cut, with its length in its place.
+std::string shown(std::string_view message);
+
+}  // namespace wearwell

@@ -1,0 +1,310 @@
+#include "wearwell/base/staged_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <fstream>
+
+#include "wearwell/base/ending.h"
+#include "wearwell/base/error.h"
+
+// The hidden folder:
+//
+//   journal      since `commit`: what is to be done (see Journal)
+//   new/WITHIN/  the files; after the exchange, what was in the target before
+//   old/NAME/    what was in the target, where the file system has no exchange
+//   fill/        the files, once they are to be moved into the target one by one
+//
+// `heal` brings it to its end from wherever it stands: a kill, a failure and success differ only in
+// how far things had come.
+namespace wearwell {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr mode_t for_all = 0777, for_owner = 0700;
+
+/// Of the target's files: new ones, those that are replaced by a new one, those that go.
+enum Kind : char { added = '+', replaced_by_new = '=', removed = '-' };
+
+struct Journal {
+  fs::path within;
+  std::vector<std::pair<char, std::string>> files;
+
+  bool lists(const std::string& name) const {
+    return std::any_of(files.begin(), files.end(),
+                       [&](const auto& each) { return each.second == name; });
+  }
+};
+
+// Parts end in zeros, since names may hold anything else; the last one says that it is whole.
+constexpr char end_of_journal[] = "whole";
+
+std::string text_of(const Journal& journal) {
+  std::string text = journal.within.string() + '\0';
+  for (const auto& [kind, name] : journal.files) text += kind + name + '\0';
+  return text + end_of_journal + '\0';
+}
+
+/// False when there is none, or only part of one: then nothing had been put into place.
+bool read_journal(const fs::path& file, Journal& journal) {
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(stream, part, '\0');) parts.push_back(part);
+  if (parts.size() < 2 || parts.back() != end_of_journal) return false;
+  journal.within = parts.front();
+  for (std::size_t i = 1; i + 1 < parts.size(); ++i)
+    journal.files.emplace_back(parts[i].front(), parts[i].substr(1));
+  return true;
+}
+
+std::vector<std::string> entries(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    names.push_back(at->path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool is_there(const fs::path& path) {
+  struct stat ignored;
+  return lstat(path.c_str(), &ignored) == 0;
+}
+
+/// Under its own name, or one that says why it has none.
+void move_and_keep(const fs::path& from, const fs::path& folder) {
+  const std::string name = from.filename().string();
+  for (int copy = 0; copy < 1000; ++copy) {
+    const std::string suffix = copy == 0 ? "" : copy == 1 ? ".kept" : fmt::format(".kept{}", copy);
+    if (rename_new(from, folder / (name + suffix)) || errno != EEXIST) return;
+  }
+}
+
+/// What was in the target before: listed files go, others return to the target.
+void clear_away(const fs::path& before, const fs::path& target, const Journal& journal) {
+  for (const std::string& name : entries(before)) {
+    if (journal.lists(name)) {
+      unlink((before / name).c_str());
+    } else if (is_there(target)) {
+      move_and_keep(before / name, target);
+    }
+  }
+  rmdir(before.c_str());
+}
+
+void fill(const fs::path& from, const fs::path& target, const Journal& journal) {
+  for (const auto& [kind, name] : journal.files) {
+    if (kind == removed) {
+      unlink((target / name).c_str());
+    } else if (kind == replaced_by_new) {
+      std::rename((from / name).c_str(), (target / name).c_str());
+    } else if (is_there(from / name)) {
+      move_and_keep(from / name, target);
+    }
+  }
+  rmdir(from.c_str());
+}
+
+/// Brings a hidden folder to its end; leaves it where that cannot be done without loss.
+void heal(const fs::path& area) {
+  const fs::path place = area.parent_path();
+  for (const std::string& name : entries(area)) {
+    if (name != "journal" && name != "new" && name != "old" && name != "fill") return;  // not ours
+  }
+  Journal journal;
+  std::error_code ignored;
+  if (!read_journal(area / "journal", journal)) {
+    fs::remove_all(area, ignored);
+    return;
+  }
+  if (journal.within.empty()) {
+    if (is_there(area / "fill")) fill(area / "fill", place, journal);
+    fs::remove_all(area / "new", ignored);
+  } else {
+    const fs::path target = place / journal.within, old = area / "old" / target.filename();
+    if (is_there(old)) {
+      if (!rename_new(old, target)) clear_away(old, target, journal);
+    }
+    rmdir((area / "old").c_str());
+    clear_away(area / "new" / journal.within, target, journal);
+    for (fs::path up = journal.within.parent_path(); !up.empty(); up = up.parent_path())
+      rmdir((area / "new" / up).c_str());
+    rmdir((area / "new").c_str());
+  }
+  const std::vector<std::string> left = entries(area);
+  if (left == std::vector<std::string>{"journal"}) fs::remove_all(area, ignored);
+}
+
+}  // namespace
+
+void heal_folder(const fs::path& folder) {
+  for_each_abandoned(folder, [](const fs::path& path, bool is_folder) {
+    if (is_folder) {
+      heal(path);
+    } else {
+      unlink(path.c_str());
+    }
+  });
+}
+
+StagedFolder::StagedFolder(const fs::path& target, const std::vector<std::string>& own)
+    : target_(behind_links(target)) {
+  struct stat there, parent, working;
+  if (stat(target_.c_str(), &there) == 0) {
+    if (!S_ISDIR(there.st_mode)) fail_to_write(target_, ENOTDIR);
+    heal_folder(target_);
+    const fs::path above = target_.parent_path();
+    const std::vector<std::string> held = entries(target_);
+    const bool holds_more = std::any_of(held.begin(), held.end(), [&](const std::string& name) {
+      return std::find(own.begin(), own.end(), name) == own.end();
+    });
+    const bool must_stay = stat(above.c_str(), &parent) != 0 || parent.st_dev != there.st_dev ||
+                           parent.st_ino == there.st_ino ||
+                           access(above.c_str(), W_OK | X_OK) != 0 ||
+                           (stat(".", &working) == 0 && working.st_dev == there.st_dev &&
+                            working.st_ino == there.st_ino);
+    place_ = must_stay || holds_more ? target_ : above;
+  } else {
+    place_ = target_.parent_path();
+    while (!is_there(place_) && place_.has_relative_path()) place_ = place_.parent_path();
+  }
+  if (place_ != target_) {
+    heal_folder(place_);
+    within_ = target_.lexically_relative(place_);
+  }
+  open_area(place_);
+  make_folder(area_ / "new", for_all);
+  fs::path folder = area_ / "new";
+  for (const fs::path& part : within_) make_folder(folder /= part, for_all);
+}
+
+void StagedFolder::open_area(const fs::path& place) {
+  while (!lock_) {
+    const fs::path area = staging_name(place);
+    Uninterrupted now;
+    if (mkdir(area.c_str(), for_owner) != 0) {
+      if (errno == EEXIST) continue;
+      fail_to_write(target_, errno);
+    }
+    Descriptor opened(::open(area.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    if (!opened) {
+      const int error = errno;
+      if (error == ENOENT) continue;  // somebody took it for abandoned and removed it
+      rmdir(area.c_str());
+      fail_to_write(target_, error);
+    }
+    if (!lock_staging(opened, area)) continue;  // likewise
+    now.note(area, true);
+    now.note(area / "journal", false);
+    area_ = area;
+    lock_ = std::move(opened);
+  }
+}
+
+void StagedFolder::make_folder(const fs::path& folder, unsigned mode) {
+  Uninterrupted now;
+  if (mkdir(folder.c_str(), mode) != 0) {
+    const int error = errno;
+    heal(area_);
+    now.forget(area_);
+    area_.clear();
+    fail_to_write(target_, error);
+  }
+  now.note(folder, true);
+}
+
+StagedFolder::~StagedFolder() {
+  if (area_.empty()) return;
+  Uninterrupted now;
+  heal(area_);
+  now.forget(area_);
+}
+
+void StagedFolder::write(const std::string& name, std::string_view content) {
+  const fs::path file = area_ / "new" / within_ / name;
+  const Descriptor opened = [&] {
+    Uninterrupted now;
+    now.note(file, false);
+    return create_file(file);
+  }();
+  if (!opened) fail_to_write(target_ / name, errno);
+  names_.push_back(name);
+  write_all(opened, content, target_ / name);
+  flush_to_disk(opened, target_ / name);
+}
+
+void StagedFolder::write_journal(const std::vector<std::string>& replaced) {
+  const auto has = [](const std::vector<std::string>& list, const std::string& name) {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  };
+  Journal journal{within_, {}};
+  for (const std::string& name : replaced) {
+    if (!has(names_, name)) journal.files.emplace_back(removed, name);
+  }
+  for (const std::string& name : names_) {
+    const bool there = has(replaced, name);
+    journal.files.emplace_back(there ? replaced_by_new : added, name);
+    if (!there && is_there(target_ / name))
+      throw InputError(fmt::format("will not replace {}: it is not of an earlier run",
+                                   (target_ / name).string()));
+  }
+  const Descriptor file = [&] {
+    const Uninterrupted now;
+    return create_file(area_ / "journal");
+  }();
+  if (!file) fail_to_write(target_, errno);
+  write_all(file, text_of(journal), target_);
+  flush_to_disk(file, target_);
+}
+
+void StagedFolder::commit(const std::vector<std::string>& replaced) {
+  flush_folder(area_ / "new" / within_);
+  write_journal(replaced);
+  flush_folder(area_);
+  put_into_place();
+  flush_folder(target_);
+  flush_folder(target_.parent_path());
+  if (place_ != target_.parent_path()) flush_folder(place_);
+}
+
+void StagedFolder::put_into_place() {
+  Uninterrupted now;
+  const fs::path files = area_ / "new" / within_;
+  const auto check = [&](bool done) {
+    if (!done) fail_to_write(target_, errno);
+  };
+  struct stat there;
+  if (within_.empty()) {
+    check(std::rename(files.parent_path().c_str(), (area_ / "fill").c_str()) == 0);
+  } else if (stat(target_.c_str(), &there) == 0) {
+    if (!S_ISDIR(there.st_mode)) fail_to_write(target_, ENOTDIR);
+    chmod(files.c_str(), there.st_mode & 07777);
+    if (!exchange(files, target_)) {
+      if (errno != EINVAL && errno != ENOSYS) fail_to_write(target_, errno);
+      const fs::path old = area_ / "old";
+      check(mkdir(old.c_str(), for_owner) == 0);
+      check(std::rename(target_.c_str(), (old / target_.filename()).c_str()) == 0);
+      check(rename_new(files, target_));
+    }
+  } else {
+    // Folders above may have appeared meanwhile: the first that is missing is put into place.
+    fs::path from = area_ / "new", to = place_;
+    for (const fs::path& part : within_) {
+      from /= part;
+      to /= part;
+      if (!is_there(to)) break;
+    }
+    check(rename_new(from, to));
+  }
+  heal(area_);
+  now.forget(area_);
+  area_.clear();
+}
+
+}  // namespace wearwell

@@ -1,0 +1,194 @@
+#include "wearwell/infer/fit_check.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "wearwell/base/rng.h"
+#include "wearwell/infer/residual_tests.h"
+
+namespace wearwell {
+namespace {
+
+// Draws that are judged: enough for a median.
+constexpr double evaluations = 60'000;
+constexpr Eigen::Index fewest_draws = 40, most_draws = 400;
+// An observation that stands for more alike is judged as so many.
+constexpr int most_alike = 1000;
+constexpr std::uint64_t seed = 20261121;  // of the scores of observations in intervals
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// A score between the two ends, at random where they differ.
+double drawn(const NormalScore& score, Rng& rng) {
+  constexpr double most = 1e6;  // its square is still a number
+  if (score.exact()) return std::clamp(score.low, -most, most);
+  const double sign = score.low + score.high > 0 ? -1 : 1;  // in the tail that has the digits
+  const double a = sign > 0 ? score.low : -score.high, b = sign > 0 ? score.high : -score.low;
+  const double low = normal_cdf(a), high = normal_cdf(b);
+  const double p = low + (high - low) * rng.uniform();
+  if (!(p > 0)) return sign * std::clamp(b, -most, most);
+  return sign * normal_score(std::log(p), std::log1p(-p));
+}
+
+struct Judged {
+  std::string name;
+  ResidualTest test;
+  std::string finding, advice;
+};
+
+std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>& row) {
+  const auto each = [&](const std::vector<double>& values) {
+    std::vector<double> all;
+    for (const std::size_t i : row) all.push_back(values[i]);
+    return all;
+  };
+  const std::string other_law =
+      "The law misses something that the data show: look at the residuals, try another law or "
+      "exponent, or ask whether a prior holds it off.";
+  std::vector<Judged> tests;
+  tests.push_back({"scatter", scatter_test,
+                   "residuals are not of the size that the scatter says",
+                   "The scatter that is known or believed is not that of these data: see what it "
+                   "was taken for, or let it be fitted."});
+  tests.push_back({"location", location_test, "residuals do not lie about zero", other_law});
+  for (const Driver& driver : data.drivers) {
+    const std::vector<double> values = each(driver.value);
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    if (!(*least < *most)) continue;
+    tests.push_back({"trend with " + driver.name,
+                     [values](std::span<const double> z) { return trend_test(z, values); },
+                     "residuals follow " + driver.name, other_law});
+  }
+  if (data.drivers.empty()) return tests;
+  const std::vector<double> along = each(data.drivers.front().value);
+  std::vector<std::size_t> order(along.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return along[a] < along[b]; });
+  tests.push_back({"order along " + data.drivers.front().name,
+                   [order](std::span<const double> z) {
+                     std::vector<double> ordered;
+                     for (const std::size_t i : order) ordered.push_back(z[i]);
+                     return neighbour_test(ordered);
+                   },
+                   "residuals of neighbours along " + data.drivers.front().name + " are alike",
+                   other_law});
+  return tests;
+}
+
+std::string suspect(const FitData& data, std::size_t row) {
+  return fmt::format("{} {} lies farther out than the others let expect", data.noun, row + 1);
+}
+
+// How far out the outermost observation lies: by its law given all others where that is known.
+FitTest extreme(const FitData& data, const Loo& loo, const std::vector<double>& residuals,
+                const std::vector<std::vector<double>>& scores) {
+  FitTest result{"extreme residual", 1, "",
+                 fmt::format("Look whether that {} is a mistake of reading, typing or unit; if not, "
+                             "the law cannot expect it.",
+                             data.noun)};
+  if (data.terms && data.cheap && loo.terms.size() == residuals.size()) {
+    // One impossible observation may make the others impossible too: of these the farthest.
+    constexpr double impossible = 1e-100;
+    const auto rank = [&](std::size_t i) {
+      return std::make_pair(std::max(loo.terms[i].tail, impossible), -std::abs(residuals[i]));
+    };
+    std::size_t worst = 0;
+    for (std::size_t i = 0; i < loo.terms.size(); ++i) {
+      if (rank(i) < rank(worst)) worst = i;
+    }
+    result.p = std::min(1.0, loo.observations() * loo.terms[worst].tail);
+    result.finding = suspect(data, worst);
+    return result;
+  }
+  std::vector<double> p;
+  for (const auto& z : scores) p.push_back(extreme_test(z));
+  result.p = std::min(1.0, 2 * median(p));
+  const auto farthest =
+      std::max_element(residuals.begin(), residuals.end(),
+                       [](double a, double b) { return std::abs(a) < std::abs(b); });
+  result.finding = suspect(data, static_cast<std::size_t>(farthest - residuals.begin()));
+  return result;
+}
+
+}  // namespace
+
+FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo& loo) {
+  FitOutcome outcome;
+  const Eigen::VectorXd first = draws.values.row(0);
+  const std::size_t rows = data.scores(first.data()).size();
+  std::vector<std::size_t> row;  // of each single observation
+  for (std::size_t i = 0; i < rows; ++i) {
+    row.insert(row.end(),
+               static_cast<std::size_t>(data.counts.empty() ? 1 : std::min(data.counts[i], most_alike)), i);
+  }
+  const Eigen::Index count =
+      std::min(draws.values.rows(),
+               std::clamp(static_cast<Eigen::Index>(evaluations / static_cast<double>(row.size())),
+                          fewest_draws, most_draws));
+  std::vector<std::vector<double>> scores(static_cast<std::size_t>(count));
+  tbb::parallel_for(std::size_t{0}, scores.size(), [&](std::size_t s) {
+    const Eigen::VectorXd x =
+        draws.values.row(static_cast<Eigen::Index>(s) * draws.values.rows() / count);
+    const std::vector<NormalScore> ends = data.scores(x.data());
+    Rng rng(seed, s);
+    for (const std::size_t i : row) scores[s].push_back(drawn(ends[i], rng));
+  });
+  for (std::size_t i = 0, at = 0; i < rows; ++i) {
+    std::vector<double> values;
+    for (const auto& z : scores) values.push_back(z[at]);
+    outcome.residuals.push_back(median(values));
+    while (at < row.size() && row[at] == i) ++at;
+  }
+
+  for (const Judged& judged : tests_of(data, row)) {
+    std::vector<double> p(scores.size());
+    tbb::parallel_for(std::size_t{0}, scores.size(),
+                      [&](std::size_t s) { p[s] = judged.test(scores[s]); });
+    outcome.tests.push_back(
+        {judged.name, std::min(1.0, 2 * median(p)), judged.finding, judged.advice});
+  }
+  outcome.tests.push_back(extreme(data, loo, outcome.residuals, scores));
+  if (data.rise) {
+    const std::string impossible =
+        "No parameters of the law can do that. Look whether signs, columns or units were mistaken, "
+        "and whether what was measured is wear at all.";
+    outcome.tests.push_back({"fall", fall_test(*data.rise),
+                             fmt::format("by the law {}, in the data it falls", data.rise->law),
+                             impossible});
+    if (data.rise->from_zero) {
+      outcome.tests.push_back({"sign", sign_test(*data.rise),
+                               fmt::format("by the law {} from zero, in the data it goes below",
+                                           data.rise->law),
+                               impossible});
+    }
+  }
+  double least = 1;
+  for (const FitTest& test : outcome.tests) least = std::min(least, test.p);
+  outcome.p = std::min(1.0, least * static_cast<double>(outcome.tests.size()));
+  return outcome;
+}
+
+Check fit_check(const FitOutcome& outcome) {
+  Findings findings("fit");
+  const auto tests = static_cast<double>(outcome.tests.size());
+  std::vector<FitTest> sorted = outcome.tests;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const FitTest& a, const FitTest& b) { return a.p < b.p; });
+  for (const FitTest& test : sorted) {
+    if (!(test.p * tests < fit_warns_below)) break;
+    findings.add(test.p * tests < fit_fails_below ? Verdict::fail : Verdict::warn,
+                 fmt::format("{} (p = {:.1g})", test.finding, test.p), test.advice);
+  }
+  return findings.result(fmt::format("of {} tests of the residuals the smallest p value is {:.2g} ({})",
+                                     outcome.tests.size(), sorted.front().p, sorted.front().name));
+}
+
+}  // namespace wearwell

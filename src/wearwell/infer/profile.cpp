@@ -1,0 +1,288 @@
+#include "wearwell/infer/profile.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+
+#include "wearwell/infer/natural_density.h"
+#include "wearwell/math/view.h"
+
+namespace wearwell {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+// Farther than this from the mode, in widths, an end is at infinity.
+constexpr double far = 1e6;
+
+constexpr int most_searches = 80;
+
+// What is profiled, and how far a plausible change of it is.
+struct Target {
+  ProfiledQuantity quantity;
+  double at_mode, width, lower, upper;
+};
+
+// The density of the other parameters where a quantity has one value.
+class Held final : public LogDensity {
+ public:
+  Held(const NaturalDensity& whole, const Box& box, const Eigen::VectorXd& unit,
+       const ProfiledQuantity& quantity, double value)
+      : whole_(whole), box_(box), unit_(unit), quantity_(quantity), value_(value) {}
+
+  int dimension() const override { return whole_.dimension() - 1; }
+
+  double value(std::span<const double> others) const override {
+    const Eigen::VectorXd x = whole(others);
+    return inside(x) ? whole_.value(view(x)) : -std::numeric_limits<double>::infinity();
+  }
+
+  double value_and_gradient(std::span<const double> others,
+                            std::span<double> gradient) const override {
+    Eigen::VectorXd x = whole(others), slope(x.size());
+    if (!inside(x)) return -std::numeric_limits<double>::infinity();
+    const double value = whole_.value_and_gradient(view(x), view(slope));
+    const Eigen::Index fixed = quantity_.parameter;
+    for (Eigen::Index i = 0, j = 0; i < x.size(); ++i) {
+      if (i == fixed) continue;
+      // How the fixed one follows, by a central difference.
+      const double middle = x[i], step = 1e-5 * unit_[i];
+      x[i] = middle + step;
+      const double up = quantity_.solve(x.data(), value_);
+      x[i] = middle - step;
+      const double down = quantity_.solve(x.data(), value_);
+      x[i] = middle;
+      gradient[static_cast<std::size_t>(j++)] = slope[i] + slope[fixed] * (up - down) / (2 * step);
+    }
+    return value;
+  }
+
+  Eigen::VectorXd whole(std::span<const double> others) const {
+    Eigen::VectorXd x(whole_.dimension());
+    for (Eigen::Index i = 0, j = 0; i < x.size(); ++i) {
+      x[i] = i == quantity_.parameter ? 0 : others[static_cast<std::size_t>(j++)];
+    }
+    x[quantity_.parameter] = quantity_.solve(x.data(), value_);
+    return x;
+  }
+
+ private:
+  bool inside(const Eigen::VectorXd& x) const {
+    const Eigen::Index i = quantity_.parameter;
+    return box_.lower[i] <= x[i] && x[i] <= box_.upper[i];
+  }
+
+  const NaturalDensity& whole_;
+  const Box& box_;
+  const Eigen::VectorXd& unit_;
+  const ProfiledQuantity& quantity_;
+  double value_;
+};
+
+Eigen::VectorXd without(const Eigen::VectorXd& x, Eigen::Index left_out) {
+  Eigen::VectorXd others(x.size() - 1);
+  others << x.head(left_out), x.tail(x.size() - 1 - left_out);
+  return others;
+}
+
+// One end, sought from the mode outward: the signed root of the deviance is nearly a straight line.
+class Search {
+ public:
+  Search(const NaturalDensity& density, const Box& box, const Eigen::VectorXd& unit,
+         const Target& target, const NaturalMode& mode, double root)
+      : density_(density),
+        box_(box),
+        unit_(unit),
+        target_(target),
+        root_(root),
+        others_box_{without(box.lower, target.quantity.parameter),
+                    without(box.upper, target.quantity.parameter)},
+        others_unit_(without(unit, target.quantity.parameter)),
+        highest_(mode.log_posterior) {
+    const Eigen::VectorXd x = mode.position.cwiseMax(box.lower).cwiseMin(box.upper);
+    mode_others_ = last_others_ = without(x, target.quantity.parameter);
+    last_ = target.at_mode;
+  }
+
+  ProfileEnd end(int direction) {
+    const double bound = direction > 0 ? target_.upper : target_.lower;
+    Point inner{target_.at_mode, -root_};
+    double step = target_.width * root_;
+    for (int i = 0; i < most_searches; ++i) {
+      const double wanted = inner.at + direction * step;
+      const bool at_bound = direction * (wanted - bound) >= 0;
+      const double at = at_bound ? bound : wanted;
+      const Point next{at, excess(at)};
+      if (!problem_.empty()) return {nothing, problem_};
+      if (next.excess >= 0) return between(inner, next);
+      if (at_bound) return {nothing, "the likelihood allows all values up to the bound"};
+      if (std::abs(at - target_.at_mode) > far * target_.width) break;
+      // To where a straight line would reach, and a little beyond.
+      const double reached = std::max(next.excess + root_, 1e-3 * root_);
+      step = std::abs(at - target_.at_mode) * std::clamp(1.02 * root_ / reached - 1, 0.05, 3.0);
+      inner = next;
+    }
+    return {nothing, direction > 0 ? "the likelihood allows all larger values"
+                                   : "the likelihood allows all smaller values"};
+  }
+
+ private:
+  struct Point {
+    double at, excess;
+  };
+
+  // The root of the deviance, less the one that is sought; sets `problem_` where no search ended.
+  double excess(double at) {
+    const Held held(density_, box_, unit_, target_.quantity, at);
+    Summit summit;
+    if (held.dimension() == 0) {
+      summit.x.resize(0);
+      summit.value = held.value({});
+      summit.converged = true;
+    } else {
+      // Along the straight line through mode and last answer.
+      const double moved = last_ - target_.at_mode;
+      const double share = moved != 0 ? (at - target_.at_mode) / moved : 1;
+      const Eigen::VectorXd ahead = mode_others_ + share * (last_others_ - mode_others_);
+      summit = climb(held, ahead, others_unit_, others_box_);
+      if (!std::isfinite(summit.value))
+        summit = climb(held, last_others_, others_unit_, others_box_);
+    }
+    if (summit.value == -std::numeric_limits<double>::infinity()) return INFINITY;
+    const double fall = highest_ - summit.value;
+    if (!summit.converged || std::isnan(fall)) {
+      problem_ = "a search under a held value did not come to an end";
+      return nothing;
+    }
+    if (fall < -1e-6 * (1 + std::abs(highest_))) {
+      problem_ = "the likelihood is higher elsewhere than at the mode";
+      return nothing;
+    }
+    last_ = at;
+    last_others_ = summit.x;
+    return std::sqrt(2 * std::max(fall, 0.0)) - root_;
+  }
+
+  // False position with the Illinois correction.
+  ProfileEnd between(Point low, Point high) {
+    for (int i = 0; i < most_searches; ++i) {
+      if (high.excess < 1e-9 * root_) return {high.at, ""};
+      const bool finite = std::isfinite(high.excess);
+      const double at =
+          finite ? high.at - high.excess * (high.at - low.at) / (high.excess - low.excess)
+                 : 0.5 * (low.at + high.at);
+      if (!(std::abs(high.at - low.at) > 1e-9 * target_.width)) break;
+      const Point next{at, excess(at)};
+      if (!problem_.empty()) return {nothing, problem_};
+      if (std::abs(next.excess) < 1e-7 * root_) return {at, ""};
+      if (next.excess < 0) {
+        if (last_side_ < 0 && finite) high.excess *= 0.5;
+        low = next;
+        last_side_ = -1;
+      } else {
+        if (last_side_ > 0) low.excess *= 0.5;
+        high = next;
+        last_side_ = 1;
+      }
+    }
+    return {0.5 * (low.at + high.at), ""};
+  }
+
+  const NaturalDensity& density_;
+  const Box& box_;
+  const Eigen::VectorXd& unit_;
+  const Target& target_;
+  double root_;
+  Box others_box_;
+  Eigen::VectorXd others_unit_;
+  double highest_;
+  Eigen::VectorXd mode_others_, last_others_;
+  double last_;
+  int last_side_ = 0;
+  std::string problem_;
+};
+
+class Profiler {
+ public:
+  Profiler(const Posterior& posterior, const Fit& fit, const NaturalMode& mode, double level)
+      : density_(posterior),
+        mode_(mode),
+        unit_(natural_widths(posterior, fit.whitening)),
+        box_(natural_box(posterior, unit_)),
+        // The root of chi-square's quantile with one degree of freedom.
+        root_(boost::math::quantile(boost::math::normal(), 0.5 * (1 + level))) {}
+
+  ProfileInterval of_parameter(Eigen::Index i) const {
+    const double error = mode_.standard_error[i];
+    Target target{{i, [i](const double* x) { return x[i]; },
+                   [](const double*, double value) { return value; }},
+                  std::clamp(mode_.position[i], box_.lower[i], box_.upper[i]),
+                  error > 0 ? error : unit_[i],
+                  box_.lower[i],
+                  box_.upper[i]};
+    ProfileInterval interval;
+    for (const bool up : {false, true}) {
+      const Place held = up ? Place::upper_bound : Place::lower_bound;
+      (up ? interval.upper : interval.lower) =
+          mode_.place[static_cast<std::size_t>(i)] == held
+              ? ProfileEnd{nothing, "the mode lies on the bound"}
+              : Search(density_, box_, unit_, target, mode_, root_).end(up ? 1 : -1);
+    }
+    return interval;
+  }
+
+  ProfileInterval of(const ProfiledQuantity& quantity) const {
+    const Eigen::VectorXd x = mode_.position.cwiseMax(box_.lower).cwiseMin(box_.upper);
+    // Its spread to first order, all widths taken as independent: enough for a first step.
+    double squares = 0;
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      Eigen::VectorXd up = x, down = x;
+      up[i] = std::min(x[i] + 1e-3 * unit_[i], box_.upper[i]);
+      down[i] = std::max(x[i] - 1e-3 * unit_[i], box_.lower[i]);
+      const double slope =
+          (quantity.value(up.data()) - quantity.value(down.data())) / (up[i] - down[i]) * unit_[i];
+      squares += slope * slope;
+    }
+    const Target target{quantity, quantity.value(x.data()), 0.1 * std::sqrt(squares), -INFINITY,
+                        INFINITY};
+    ProfileInterval interval;
+    if (!std::isfinite(target.at_mode) || !(target.width > 0) || !std::isfinite(target.width)) {
+      interval.lower = interval.upper = {nothing, "it has no finite value at the mode"};
+      return interval;
+    }
+    interval.lower = Search(density_, box_, unit_, target, mode_, root_).end(-1);
+    interval.upper = Search(density_, box_, unit_, target, mode_, root_).end(1);
+    return interval;
+  }
+
+ private:
+  NaturalDensity density_;
+  const NaturalMode& mode_;
+  Eigen::VectorXd unit_;
+  Box box_;
+  double root_;
+};
+
+}  // namespace
+
+std::vector<ProfileInterval> profile_intervals(const Posterior& posterior, const Fit& fit,
+                                               const NaturalMode& mode, double level) {
+  const Profiler profiler(posterior, fit, mode, level);
+  std::vector<ProfileInterval> intervals(static_cast<std::size_t>(posterior.dimension()));
+  tbb::parallel_for(std::size_t{0}, intervals.size(), [&](std::size_t i) {
+    intervals[i] = profiler.of_parameter(static_cast<Eigen::Index>(i));
+  });
+  return intervals;
+}
+
+ProfileInterval profile_interval(const Posterior& posterior, const Fit& fit,
+                                 const NaturalMode& mode, const ProfiledQuantity& quantity,
+                                 double level) {
+  return Profiler(posterior, fit, mode, level).of(quantity);
+}
+
+}  // namespace wearwell

@@ -1,0 +1,120 @@
+#include "wearwell/study/sense.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace wearwell {
+namespace {
+
+std::string with_unit(const std::string& unit) {
+  return unit == "1" ? "" : " " + unit;
+}
+
+class Sense {
+ public:
+  // A 90 % interval, and what else is said of the same number.
+  void interval(const std::string& what, const std::string& unit, double q05, double q95,
+                const std::vector<double>& others, bool may_never_end) {
+    bool defined = !std::isnan(q05) && !std::isnan(q95);
+    for (const double each : others) defined = defined && !std::isnan(each);
+    if (!defined) {
+      findings_.add(Verdict::fail, fmt::format("{} could not be computed", what),
+                    "Some parameters that the posterior holds possible give no number: bound the "
+                    "prior that lets them be.");
+      return;
+    }
+    if (std::isinf(q95) && may_never_end) {
+      findings_.add(Verdict::warn,
+                    fmt::format("{} may have no end: its 90 % interval goes from {:.3g}{} on", what,
+                                q05, with_unit(unit)),
+                    advice);
+      return;
+    }
+    if (!(q05 > 0) || !std::isfinite(q95)) return;
+    const double decades = std::log10(q95 / q05);
+    if (decades <= widest_interval) return;
+    findings_.add(Verdict::warn,
+                  fmt::format("the 90 % interval of {} spans {:.1f} decades, {:.3g} to {:.3g}{}", what,
+                              decades, q05, q95, with_unit(unit)),
+                  advice);
+  }
+
+  Check result() {
+    return findings_.result(fmt::format(
+        "every result is a number, and no 90 % interval spans more than {:.0f} decades",
+        widest_interval));
+  }
+
+ private:
+  static constexpr const char* advice =
+      "The data hardly say anything of it. Test more, or nearer to what is asked.";
+  Findings findings_{"sense"};
+};
+
+}  // namespace
+
+Check extrapolation_check(const std::vector<Reach>& reaches) {
+  Findings findings("extrapolation");
+  double farthest = 0;
+  for (const Reach& each : reaches) {
+    const double times = each.asked / each.seen;
+    farthest = std::max(farthest, times);
+    if (times <= farthest_reach) continue;
+    findings.add(Verdict::warn,
+                 fmt::format("{} is {:.3g} times as far as the data reach: {}", each.what, times,
+                             each.seen_as),
+                 "Nothing was seen there: the answer is the law's, drawn beyond the data. Inspect "
+                 "before, and fit again.");
+  }
+  return findings.result(fmt::format(
+      "what is asked for lies within {:.3g} times what the data hold (up to {:.3g} passes)", farthest,
+      farthest_reach));
+}
+
+Check limit_check(const LifeSummary& life) {
+  Findings findings("limit");
+  const std::string passed =
+      fmt::format("after {} {} the limit is passed already with a probability of {}; {} % is "
+                  "tolerated",
+                  life.now, life.unit, probability_in_words(life.best().passed), 100 * life.risk);
+  if (life.passed_beyond_risk()) {
+    findings.add(Verdict::fail, passed,
+                 "Do not wait for the next inspection: replace or measure now. The interval to the "
+                 "next inspection holds only if the limit is not passed.");
+  }
+  return findings.result(passed);
+}
+
+Check sense_check(const StudyResult& result) {
+  Sense sense;
+  for (const ParameterSummary& each : result.parameters) {
+    const ExactSummary p = each.best();
+    // Means and deviations that do not exist are the matter of another check.
+    if (std::isnan(p.q05) || std::isnan(p.q95)) {
+      sense.interval(each.name, each.unit, p.q05, p.q95, {}, false);
+    }
+  }
+  for (const PredictionSummary& each : result.predictions) {
+    const Prediction& p = each.best();
+    sense.interval(fmt::format("the {} at {} {}", each.quantity, each.at, each.at_name), each.unit,
+                   p.ci05, p.ci95, {p.mean, p.pi05, p.pi95}, false);
+  }
+  for (const QuantitySummary& each : result.quantities) {
+    const QuantityQuantiles& q = each.best();
+    sense.interval(fmt::format("{} of the {}{}{}", each.name, each.of, each.at.empty() ? "" : " ",
+                               each.at),
+                   each.unit, q.q05, q.q95,
+                   {q.q50, q.b1, q.b10, q.b50, q.predictive.value_or(0), q.bound.value_or(0)},
+                   false);
+  }
+  if (result.life) {
+    const Life& life = result.life->best();
+    sense.interval(fmt::format("the life to {:.6g} {}", result.life->limit, result.life->limit_unit),
+                   result.life->unit, life.q05, life.q95,
+                   {life.b1, life.b10, life.b50, life.inspect_within, life.passed}, true);
+  }
+  return sense.result();
+}
+
+}  // namespace wearwell

@@ -1,0 +1,170 @@
+#include "wearwell/infer/fit_check.h"
+
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cmath>
+
+#include "wearwell/base/rng.h"
+#include "wearwell/infer/residual_tests.h"
+#include "wearwell/prob/standard_law.h"
+
+namespace wearwell {
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<double> normals(std::size_t n, Rng& rng) {
+  std::vector<double> z(n);
+  for (double& each : z) each = rng.normal();
+  return z;
+}
+
+// The share of 20,000 samples with a p value below each level: the level, within four standard
+// errors and `slack` of it.
+void expect_level(const ResidualTest& test, std::size_t n, double slack) {
+  constexpr int samples = 20'000;
+  const std::array<double, 3> levels = {0.2, 0.05, 0.005};
+  std::array<int, 3> below{};
+  Rng rng(7, n);
+  for (int i = 0; i < samples; ++i) {
+    const double p = test(normals(n, rng));
+    ASSERT_GE(p, 0);
+    ASSERT_LE(p, 1);
+    for (std::size_t l = 0; l < levels.size(); ++l) below[l] += p < levels[l];
+  }
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    const double share = below[l] / double(samples);
+    const double error = std::sqrt(levels[l] * (1 - levels[l]) / samples);
+    EXPECT_NEAR(share, levels[l], 4 * error + slack * levels[l]) << n << " at " << levels[l];
+  }
+}
+
+TEST(ResidualTests, HoldTheirLevels) {
+  for (const std::size_t n : {5u, 12u, 60u}) {
+    expect_level(scatter_test, n, 0);
+    expect_level(location_test, n, 0);
+    std::vector<double> driver(n);
+    for (std::size_t i = 0; i < n; ++i) driver[i] = 1e4 * std::pow(double(i), 2);
+    expect_level([&](std::span<const double> z) { return trend_test(z, driver); }, n, 0);
+    expect_level(neighbour_test, n, n > 40 ? 0.1 : 0);  // beyond, from two moments and the range
+    const auto fall = [&](std::span<const double> z) {
+      return fall_test({"", driver, {z.begin(), z.end()}, {}, true});
+    };
+    expect_level(fall, n, 0);
+    const auto sign = [&](std::span<const double> z) {
+      return sign_test({"", driver, {z.begin(), z.end()}, {}, true});
+    };
+    expect_level(sign, n, 0);
+  }
+}
+
+// Of the bound of Bonferroni only the tail is exact.
+TEST(ResidualTests, ExtremeHoldsItsTail) {
+  constexpr int samples = 50'000;
+  for (const std::size_t n : {5u, 12u}) {
+    int below = 0;
+    Rng rng(8, n);
+    for (int i = 0; i < samples; ++i) below += extreme_test(normals(n, rng)) < 0.01;
+    EXPECT_LE(below, 0.01 * samples + 4 * std::sqrt(0.01 * samples)) << n;
+    EXPECT_GE(below, 0.006 * samples) << n;
+  }
+}
+
+TEST(ResidualTests, SeeWhatTheyAreFor) {
+  const std::vector<double> along = {1, 2, 3, 4, 5, 6, 7, 8};
+  const std::vector<double> rising = {-1.6, -1.1, -0.8, -0.2, 0.3, 0.6, 1.2, 1.5};
+  const std::vector<double> bent = {-1, -0.2, 0.5, 1, 1.1, 0.4, -0.3, -1.1};
+  std::vector<double> outlier = {0.1, -0.05, 0.02, 0.08, -0.1, 0.03, 0.06, 3};
+  EXPECT_LT(trend_test(rising, along), 1e-5);
+  EXPECT_LT(neighbour_test(bent), 0.01);
+  EXPECT_LT(extreme_test(outlier), 1e-5);
+  EXPECT_GT(extreme_test(rising), 0.5);
+  std::vector<double> large = rising;
+  for (double& z : large) z *= 10;
+  EXPECT_LT(scatter_test(large), 1e-10);
+  EXPECT_NEAR(trend_test(large, along) / trend_test(rising, along), 1, 1e-9);
+}
+
+// By hand: two items whose levels differ, wear falls within each.
+TEST(ResidualTests, FallsWithinItems) {
+  const Rise items{"", {1, 2, 3, 1, 2, 3}, {30, 20.1, 10, 5000, 4990, 4980.1}, {0, 0, 0, 1, 1, 1}, true};
+  EXPECT_LT(fall_test(items), 1e-4);
+  EXPECT_GT(fall_test({"", items.driver, items.value, {}, true}), 0.1);
+}
+
+// y ~ N(mu, 1) with mu flat: posterior draws of mu are N(mean, 1/n).
+struct Normal {
+  std::vector<double> y;
+  WeightedDraws draws;
+  FitData data;
+
+  Normal(std::vector<double> values, std::vector<double> along, std::size_t censored = 0)
+      : y(std::move(values)) {
+    Rng rng(3, 0);
+    double mean = 0;
+    for (const double each : y) mean += each / double(y.size());
+    draws.values.resize(500, 1);
+    for (int i = 0; i < 500; ++i) draws.values(i, 0) = mean + rng.normal() / std::sqrt(double(y.size()));
+    draws.weights = Eigen::VectorXd::Constant(500, 1. / 500);
+    data.scores = [*this, censored](const double* x) {
+      std::vector<NormalScore> scores;
+      for (std::size_t i = 0; i < y.size(); ++i) {
+        const double z = y[i] - x[0];
+        scores.push_back({z, i < censored ? INFINITY : z});
+      }
+      return scores;
+    };
+    data.drivers = {{"work", std::move(along)}};
+  }
+};
+
+TEST(FitCheck, NamesWhatIsWrong) {
+  std::vector<double> along;
+  for (int i = 0; i < 20; ++i) along.push_back(i);
+  Rng rng(4, 0);
+  std::vector<double> right = normals(20, rng), trend = right, outlier = right;
+  for (std::size_t i = 0; i < 20; ++i) trend[i] += 0.5 * double(i);
+  outlier[6] = 30;
+  const auto verdict = [&](const std::vector<double>& y) {
+    const Normal normal(y, along);
+    return fit_check(judge_fit(normal.data, normal.draws, {}));
+  };
+  EXPECT_EQ(verdict(right).verdict, Verdict::pass) << verdict(right).detail;
+  EXPECT_EQ(verdict(trend).verdict, Verdict::fail);
+  EXPECT_THAT(verdict(trend).detail, HasSubstr("residuals follow work"));
+  EXPECT_EQ(verdict(outlier).verdict, Verdict::fail);
+  EXPECT_THAT(verdict(outlier).detail, HasSubstr("row 7 lies farther out"));
+}
+
+// A run-out's score is drawn from beyond where it was stopped: whoever took the stop for the life
+// would see too many that are short.
+TEST(FitCheck, RunOutsAreDrawn) {
+  Rng rng(5, 0);
+  constexpr std::size_t n = 60;
+  std::vector<double> life = normals(n, rng);
+  const std::vector<double> along = normals(n, rng);
+  std::partition(life.begin(), life.end(), [](double y) { return y > 0; });
+  std::size_t stopped = 0;
+  for (double& y : life) {
+    if (y > 0) y = 0, ++stopped;
+  }
+  Normal normal(life, along, stopped);
+  for (int i = 0; i < 500; ++i) normal.draws.values(i, 0) = 0.1 * rng.normal();
+  EXPECT_EQ(fit_check(judge_fit(normal.data, normal.draws, {})).verdict, Verdict::pass);
+  const Normal as_failures(life, along, 0);
+  EXPECT_LT(judge_fit(as_failures.data, normal.draws, {}).p, 0.001);
+}
+
+TEST(NormalScore, KeepsTheDigitsOfBothTails) {
+  for (const double z : {-300., -40., -9., -2., 0.5, 3., 8., 45., 500.}) {
+    const double score = normal_score(log_cdf_and_slope(StandardLaw::normal, z).value,
+                                      log_survival_and_slope(StandardLaw::normal, z).value);
+    EXPECT_NEAR(score, z, 1e-7 * std::abs(z)) << z;
+  }
+  EXPECT_EQ(normal_score(0, -INFINITY), INFINITY);
+  EXPECT_EQ(normal_score(-INFINITY, 0), -INFINITY);
+}
+
+}  // namespace
+}  // namespace wearwell
