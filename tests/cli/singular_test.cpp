@@ -18,11 +18,12 @@ class SingularStudy : public ScratchTest {
   json exact(const std::string& model, const std::string& columns, const std::string& rows,
              const std::string& rest) {
     write("data.csv", columns + "\n" + rows);
-    write("study.toml", fmt::format("title = \"x\"\nmodel = \"{}\"\n[data]\nfile = \"data.csv\"\n{}",
-                                    model, rest));
-    const CommandResult run = run_wearwell(
-        fmt::format("fit '{0}/study.toml' --method exact --warmup 200 --draws 200 --json -o '{0}/out'",
-                    folder().string()));
+    write(
+        "study.toml",
+        fmt::format("title = \"x\"\nmodel = \"{}\"\n[data]\nfile = \"data.csv\"\n{}", model, rest));
+    const CommandResult run = run_wearwell(fmt::format(
+        "fit '{0}/study.toml' --method exact --warmup 200 --draws 200 --json -o '{0}/out'",
+        folder().string()));
     EXPECT_LE(run.exit_code, 1) << run.err;
     return json::parse(run.out);
   }
@@ -43,7 +44,8 @@ sigma = { law = "flat", lower = "0 mm^3" }
 
   // log10 of life = (log10 of stress - 3.3)/-0.1, and as much as `deviation` beside it.
   json line(double deviation) {
-    const double stress[] = {400, 350, 300, 280, 260, 240}, beside[] = {1, -1, 0.5, -0.2, 0.7, -1.3};
+    const double stress[] = {400, 350, 300, 280, 260, 240},
+                 beside[] = {1, -1, 0.5, -0.2, 0.7, -1.3};
     std::string rows;
     for (int i = 0; i < 6; ++i) {
       const double log_life = (std::log10(stress[i]) - 3.3) / -0.1 + deviation * beside[i];
@@ -78,7 +80,9 @@ TEST_F(SingularStudy, ConstantAndSlopeThatTheDataDoNotTellApart) {
                      "V0 = { law = \"flat\", unit = \"mm^3\" }\n")["trusted"]);
 }
 
-TEST_F(SingularStudy, LivesExactlyOnALineAreNotTrusted) { EXPECT_FALSE(line(0)["trusted"]); }
+TEST_F(SingularStudy, LivesExactlyOnALineAreNotTrusted) {
+  EXPECT_FALSE(line(0)["trusted"]);
+}
 
 // Six lives, two parameters of the line: sigma has density sigma^-4 exp(-S/2 sigma^2) with S the sum of squares beside
 // the best line, b so well known that its factor 1/b is a constant.

@@ -46,8 +46,8 @@ Verdicts judge(const Posterior& posterior) {
   Verdicts verdicts{fit(posterior, exact_settings()), {}};
   const NaturalMode mode = natural_mode(posterior, verdicts.fit);
   Loo loo = leave_one_out(posterior, verdicts.fit);
-  for (Shortfall& each : later_shortfalls(posterior, verdicts.fit, mode,
-                                          loo.terms.empty() ? nullptr : &loo)) {
+  for (Shortfall& each :
+       later_shortfalls(posterior, verdicts.fit, mode, loo.terms.empty() ? nullptr : &loo)) {
     verdicts.fit.shortfalls.push_back(std::move(each));
   }
   verdicts.checks = trust_checks(posterior, verdicts.fit);
@@ -56,9 +56,15 @@ Verdicts judge(const Posterior& posterior) {
 
 Parameter parameter(const std::string& name, double lower, double upper, double start,
                     const Family& family = Flat{}) {
-  return {name, "1",          Unit{"1", 1, 0},
-          "",   make_law(family, lower, upper), start,
-          1,    lower == 0 ? 0 : -infinity, infinity};
+  return {name,
+          "1",
+          Unit{"1", 1, 0},
+          "",
+          make_law(family, lower, upper),
+          start,
+          1,
+          lower == 0 ? 0 : -infinity,
+          infinity};
 }
 
 // y = a + b x with normal scatter; a, b and sigma are flat. Searches start far from the data.
@@ -154,8 +160,8 @@ Posterior joint(const std::vector<double>& work, const std::vector<double>& volu
   }
   joint::Archard law;
   law.has_constant = constant;
-  return {parameters, joint::archard_likelihood(law, ObservationFamily::normal, {work, volume},
-                                                work.size())};
+  return {parameters,
+          joint::archard_likelihood(law, ObservationFamily::normal, {work, volume}, work.size())};
 }
 
 // k and V0 are not told apart by inspections after the same work.
@@ -193,8 +199,8 @@ Posterior life_tests(const std::vector<double>& stress, const std::vector<double
 
 // Lives that do not depend on stress: the slope 1/b of log life is 0, b has no end.
 TEST(Stages, LivesThatIgnoreStressHoldNoSlope) {
-  const Verdicts found = judge(life_tests({2e8, 3e8, 4e8}, {1.0e5, 1.1e5, 1.05e5},
-                                          fatigue::LifeFamily::log10_normal, 0.2));
+  const Verdicts found = judge(
+      life_tests({2e8, 3e8, 4e8}, {1.0e5, 1.1e5, 1.05e5}, fatigue::LifeFamily::log10_normal, 0.2));
   EXPECT_FALSE(found.trusted());
   EXPECT_FALSE(found.fit.exact);
 }

@@ -67,8 +67,8 @@ Distribution::Distribution(const WeightedDraws& draws,
                                   : 0.5 * a + 0.5 * b - at_node;
       // Evenly spread mass has the variance of a third of the square of half its width. The square of
       // the width itself may be no number.
-      half_width = std::hypot(
-          half_width, half * std::sqrt(12 * (along.square - along.mean * along.mean)));
+      half_width =
+          std::hypot(half_width, half * std::sqrt(12 * (along.square - along.mean * along.mean)));
     }
     if (!std::isfinite(center + half_width) || !std::isfinite(center - half_width)) {
       center = at_node;
@@ -134,8 +134,8 @@ double Distribution::quantile(double p) const {
     highest = std::max(highest, center_[j] + half_width_[j]);
   }
   const auto excess = [&](double x) { return cdf(x) - p; };
-  double reach = std::max({2 * half_width_[i], 1e-12 * std::abs(center_[i]),
-                           std::numeric_limits<double>::min()});
+  double reach = std::max(
+      {2 * half_width_[i], 1e-12 * std::abs(center_[i]), std::numeric_limits<double>::min()});
   double a = std::max(lowest, center_[i] - reach), b = std::min(highest, center_[i] + reach);
   while (a > lowest && excess(a) > 0) a = std::max(lowest, a - (reach *= 2));
   while (b < highest && excess(b) < 0) b = std::min(highest, b + (reach *= 2));
@@ -170,7 +170,8 @@ Eigen::VectorXd WeightedSampler::operator()(Rng& rng) const {
     const Along along(draws_, i, axis);
     // Density 1 + tilt t over -1/2..1/2, by inversion.
     const double tilt = std::clamp(12 * along.mean, -2.0, 2.0), share = rng.uniform();
-    const double root = std::sqrt(std::max(0.0, (1 - 0.5 * tilt) * (1 - 0.5 * tilt) + 2 * tilt * share));
+    const double root =
+        std::sqrt(std::max(0.0, (1 - 0.5 * tilt) * (1 - 0.5 * tilt) + 2 * tilt * share));
     const double t = 2 * share / (root + 1 - 0.5 * tilt) - 0.5;
     x += (along.of_lower(t, t * t) * (lower - node) + along.of_upper(t, t * t) * (upper - node))
              .transpose();

@@ -33,8 +33,8 @@ CellParts::CellParts(const GaussLegendre& rule, int dimension)
 // One matrix an axis, applied to the values at all nodes: `matrix` along `which`, masses elsewhere.
 Eigen::VectorXd CellParts::applied(std::span<const double> values, int which,
                                    const Eigen::MatrixXd& matrix) const {
-  Eigen::VectorXd result = Eigen::Map<const Eigen::VectorXd>(
-      values.data(), static_cast<Eigen::Index>(values.size()));
+  Eigen::VectorXd result =
+      Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   Eigen::Index stride = 1;
   for (int a = 0; a < d_; ++a, stride *= p_) {
     const Eigen::MatrixXd& along = a == which ? matrix : mass_;

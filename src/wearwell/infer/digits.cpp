@@ -14,7 +14,8 @@ constexpr double fewest_doubles = 1e4;
 constexpr double most_noise = 1e-3;
 
 const char* const advice =
-    "The data agree with each other, or with the law, to their last digits: what scatter they have was "
+    "The data agree with each other, or with the law, to their last digits: what scatter they have "
+    "was "
     "rounded away. Give them with more digits, measure from a nearer zero, or state the scatter.";
 
 // Of the log density at `center`, along one direction.
@@ -42,12 +43,13 @@ std::vector<Shortfall> digits(const Posterior& posterior, const Whitening& white
     const double doubles =
         std::sqrt(variance[i]) / (std::numeric_limits<double>::epsilon() * std::abs(mean[i]));
     if (!(doubles < fewest_doubles)) continue;
-    found.push_back({Stage::digits, Verdict::fail,
-                     fmt::format("{} is known to {:.2g} of its own size, which double precision does "
-                                 "not resolve",
-                                 posterior.parameters()[static_cast<std::size_t>(i)].name,
-                                 std::sqrt(variance[i]) / std::abs(mean[i])),
-                     advice});
+    found.push_back(
+        {Stage::digits, Verdict::fail,
+         fmt::format("{} is known to {:.2g} of its own size, which double precision does "
+                     "not resolve",
+                     posterior.parameters()[static_cast<std::size_t>(i)].name,
+                     std::sqrt(variance[i]) / std::abs(mean[i])),
+         advice});
   }
   double loudest = 0;
   for (Eigen::Index a = 0; a < whitening.scale.cols(); ++a) {

@@ -73,10 +73,11 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const Shape& shape
   std::vector<Shortfall> found;
   constexpr double most_above = 3;
   if (!shape.mode.found) {
-    found.push_back({Stage::mode, fit.exact ? Verdict::warn : Verdict::fail,
-                     fit.exact ? "there is none, or it was not found; quadrature vouches for the numbers"
-                               : "there is none, or it was not found",
-                     "Give priors that hold every parameter, or better guesses by their location."});
+    found.push_back(
+        {Stage::mode, fit.exact ? Verdict::warn : Verdict::fail,
+         fit.exact ? "there is none, or it was not found; quadrature vouches for the numbers"
+                   : "there is none, or it was not found",
+         "Give priors that hold every parameter, or better guesses by their location."});
   } else if (fit.exact && shape.highest > fit.exact->highest + most_above) {
     found.push_back({Stage::quadrature, Verdict::fail,
                      fmt::format("a density e^{:.1f} times that of any node was met beside them",
@@ -85,8 +86,7 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const Shape& shape
   }
   for (const Tail& tail : shape.tails) {
     if (tail.known) continue;
-    const std::string& name =
-        posterior.parameters()[static_cast<std::size_t>(tail.parameter)].name;
+    const std::string& name = posterior.parameters()[static_cast<std::size_t>(tail.parameter)].name;
     found.push_back({Stage::tails, Verdict::fail,
                      fmt::format("how the posterior ends with {} {} could not be measured", name,
                                  tail.towards_bound ? "near its bound"
@@ -157,7 +157,8 @@ Fit fit(const Posterior& posterior, const FitSettings& settings) {
     fit.diagnostics.push_back(diagnose(chains_of(fit.draws, i)));
   }
   fit.shortfalls = shortfalls(posterior, shape, settings, fit, integral);
-  for (Shortfall& each : digits(posterior, fit.whitening, fit.exact ? fit.exact->nodes : fit.pooled)) {
+  for (Shortfall& each :
+       digits(posterior, fit.whitening, fit.exact ? fit.exact->nodes : fit.pooled)) {
     fit.shortfalls.push_back(std::move(each));
   }
   return fit;

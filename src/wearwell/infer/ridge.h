@@ -12,8 +12,7 @@ namespace wearwell {
 /// The density of all coordinates but one, which is held. Refers to `whole`, which must outlive it.
 class Slice final : public LogDensity {
  public:
-  Slice(const LogDensity& whole, int held)
-      : whole_(whole), held_(static_cast<std::size_t>(held)) {}
+  Slice(const LogDensity& whole, int held) : whole_(whole), held_(static_cast<std::size_t>(held)) {}
 
   double at = 0;  ///< the value of the held coordinate
 

@@ -29,8 +29,8 @@ Eigen::VectorXd conditional_widths(const Eigen::MatrixXd& covariance, int axis) 
   Eigen::VectorXd width(d - 1);
   for (Eigen::Index j = 0; j < d - 1; ++j) {
     const Eigen::Index from = j + (j >= axis);
-    const double left = covariance(from, from) -
-                        std::pow(covariance(from, axis), 2) / covariance(axis, axis);
+    const double left =
+        covariance(from, from) - std::pow(covariance(from, axis), 2) / covariance(axis, axis);
     width[j] = std::sqrt(std::max(left, 1e-6 * covariance(from, from)));
   }
   return width;
@@ -49,8 +49,8 @@ Station visit_at(Slice& slice, double z, const Whitening& whitening,
   for (Eigen::Index j = 0; j < d - 1; ++j) {
     const Eigen::Index from = j + (j >= axis);
     center[j] = whitening.center[from];
-    rest[j] = center[j] + covariance(from, axis) / covariance(axis, axis) *
-                              (z - whitening.center[axis]);
+    rest[j] =
+        center[j] + covariance(from, axis) / covariance(axis, axis) * (z - whitening.center[axis]);
   }
   return visit(slice, {rest, center}, conditional_widths(covariance, axis));
 }
@@ -68,8 +68,8 @@ Splines::Splines(std::vector<double> at, Eigen::MatrixXd values)
   };
   for (Eigen::Index i = 1; i + 1 < n; ++i) {
     const double a = gap(i - 1), b = gap(i);
-    const Eigen::RowVectorXd bend = 6 * ((values_.row(i + 1) - values_.row(i)) / b -
-                                         (values_.row(i) - values_.row(i - 1)) / a);
+    const Eigen::RowVectorXd bend =
+        6 * ((values_.row(i + 1) - values_.row(i)) / b - (values_.row(i) - values_.row(i - 1)) / a);
     const double pivot = 2 * (a + b) - a * above[i - 1];
     above[i] = b / pivot;
     second_.row(i) = (bend - a * second_.row(i - 1)) / pivot;
@@ -86,8 +86,8 @@ void Splines::operator()(double t, double* value) const {
   const double gap = at_[k + 1] - at_[k], b = (inside - at_[k]) / gap, a = 1 - b;
   const double of_a = (a * a * a - a) * gap * gap / 6, of_b = (b * b * b - b) * gap * gap / 6;
   for (Eigen::Index j = 0; j < values_.cols(); ++j) {
-    value[j] = a * values_(i, j) + b * values_(i + 1, j) + of_a * second_(i, j) +
-               of_b * second_(i + 1, j);
+    value[j] =
+        a * values_(i, j) + b * values_(i + 1, j) + of_a * second_(i, j) + of_b * second_(i + 1, j);
   }
   if (inside == t) return;
   const bool high = t > inside;
@@ -211,7 +211,8 @@ void RidgeMap::follow(const Posterior& posterior) {
     lower_ = std::min(lower_, at[i]);
     upper_ = std::max(upper_, at[i]);
   }
-  log_integral_ = top + std::log(integral * unit_) + 0.5 * static_cast<double>(r) * std::log(2 * M_PI);
+  log_integral_ =
+      top + std::log(integral * unit_) + 0.5 * static_cast<double>(r) * std::log(2 * M_PI);
   splines_ = Splines(std::move(at), std::move(values));
 }
 

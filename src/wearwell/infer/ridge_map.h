@@ -40,9 +40,9 @@ class RidgeMap {
 
   /// The map where u[axis] is t.
   struct Frame {
-    Coordinates center;                // z where the other u are 0
+    Coordinates center;                     // z where the other u are 0
     std::array<double, most * most> scale;  // by column, of the other u
-    double log_jacobian = 0;           // of z by u, less log_scale()
+    double log_jacobian = 0;                // of z by u, less log_scale()
   };
   Frame at(double t) const;
   void to_real(const Frame& frame, const Coordinates& u, Coordinates& z) const;

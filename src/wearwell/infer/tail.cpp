@@ -19,6 +19,9 @@ constexpr double slack = 0.05;
 constexpr double far_log = 40;
 constexpr int steps = 20;
 
+// Stations without a conditional mode, after which the ridge is lost.
+constexpr int most_failures = 6;
+
 // A density that has fallen by so much (log), and falls like so high a power, has no tail.
 constexpr double fallen = 300, steep = 50;
 
@@ -39,8 +42,8 @@ double prior_index(const Parameter& parameter, bool upward, bool towards_bound) 
     return -log_density(prior, x).slope * x;
   }
   const double size = std::isfinite(prior.upper - prior.lower) ? prior.upper - prior.lower
-                      : upward ? prior.upper - parameter.start
-                               : parameter.start - prior.lower;
+                      : upward                                 ? prior.upper - parameter.start
+                                                               : parameter.start - prior.lower;
   const double distance = near * size;
   const double x = upward ? prior.upper - distance : prior.lower + distance;
   if (!(prior.lower < x && x < prior.upper)) return 0;
@@ -51,14 +54,28 @@ double prior_index(const Parameter& parameter, bool upward, bool towards_bound) 
 // of the density of the parameter there, and of the likelihood.
 struct Walk {
   std::vector<double> log_distance, log_density, log_likelihood;
-  bool lost = false;      // the others' conditional mode, or the numbers
-  bool vanished = false;  // there is no density left
+  std::vector<bool> converged;  // whether the others had a mode there
+  bool lost = false;            // the others' conditional mode, or the numbers
+  bool vanished = false;        // there is no density left
+
+  // Without the stations where the others had no mode.
+  Walk sound() const {
+    Walk kept{{}, {}, {}, {}, lost, vanished};
+    for (std::size_t i = 0; i < converged.size(); ++i) {
+      if (!converged[i]) continue;
+      kept.log_distance.push_back(log_distance[i]);
+      kept.log_density.push_back(log_density[i]);
+      kept.log_likelihood.push_back(log_likelihood[i]);
+    }
+    return kept;
+  }
+
+  std::size_t stations() const { return log_density.size(); }
 
   // By the far half, the median of slopes between neighbours: one bad station does not matter.
   double index() const {
     std::vector<double> slopes;
-    for (std::size_t i = std::max<std::size_t>(1, log_density.size() / 2); i < log_density.size();
-         ++i) {
+    for (std::size_t i = std::max<std::size_t>(1, stations() / 2); i < stations(); ++i) {
       slopes.push_back((log_density[i] - log_density[i - 1]) /
                        (log_distance[i] - log_distance[i - 1]));
     }
@@ -74,7 +91,6 @@ struct Walk {
     return half != last && log_likelihood[last] > log_likelihood[half] + slack * way;
   }
 };
-
 
 }  // namespace
 
@@ -125,7 +141,8 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
   int failures = 0;
   for (int step = 0; step < steps; ++step) {
     const double way = far_log * (step + 1) / steps;
-    slice.at = mode.position[i] + (outward ? 1 : -1) * (whole_line ? unit * std::expm1(0.5 * way) : way);
+    slice.at =
+        mode.position[i] + (outward ? 1 : -1) * (whole_line ? unit * std::expm1(0.5 * way) : way);
     Station station = visit(slice, guesses(before, last, slice.at - last.at), last.width);
     if (!std::isfinite(station.log_density)) {
       // The end of the likelihood's domain, or of the range of doubles on the way up.
@@ -136,8 +153,8 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
       tail.highest = station.log_density;
       tail.highest_at = slice.whole(station.rest);
     }
-    if (!station.converged) {
-      if (++failures < 2) continue;
+    failures += !station.converged;
+    if (failures > most_failures) {
       walk.lost = true;
       break;
     }
@@ -148,10 +165,11 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
     walk.log_distance.push_back(distance);
     walk.log_density.push_back(station.log_marginal - (whole_line ? 0 : distance));
     walk.log_likelihood.push_back(posterior.likelihood()->value(view(x)));
+    walk.converged.push_back(station.converged);
     const double rise = station.log_marginal - last.log_marginal;
     before = std::move(last);
     last = std::move(station);
-    if (last.log_marginal < top - fallen && rise < -steep) {
+    if (last.converged && last.log_marginal < top - fallen && rise < -steep) {
       walk.vanished = true;
       break;
     }
@@ -175,12 +193,19 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
     return tail;
   }
   constexpr std::size_t enough = 5;  // stations
-  const Walk way = walk(posterior, mode, tail, outward);
-  if (way.vanished) {
-    tail.index = tail.towards_bound ? -infinity : infinity;
-  } else {
-    tail.known = way.log_density.size() >= enough;
-    tail.index = tail.known ? way.index() : tail.towards_bound ? -infinity : infinity;
+  const Walk all = walk(posterior, mode, tail, outward), way = all.sound();
+  tail.index = tail.towards_bound ? -infinity : infinity;
+  if (!way.vanished && way.stations() >= enough) {
+    tail.index = way.index();
+  } else if (!way.vanished) {
+    // Where the others have no mode either, the posterior may be improper along all of them: that much
+    // is told by any stations.
+    tail.known = false;
+    const double index = all.stations() >= enough ? all.index() : tail.index;
+    if (!Tail{i, upward, tail.towards_bound, index}.integrable()) {
+      tail.index = index;
+      tail.known = true;
+    }
   }
   if (all_proper && !way.likelihood_grows()) {
     tail.index = !tail.known          ? of_prior

@@ -53,10 +53,11 @@ std::vector<Shortfall> later_shortfalls(const Posterior& posterior, const Fit& f
   if (mode.problem.empty() && fit.exact) {
     const double there = posterior.value(view(posterior.to_real(view(mode.position))));
     if (there > fit.exact->highest + most_above) {
-      found.push_back({Stage::quadrature, Verdict::fail,
-                       fmt::format("at the mode the density is e^{:.1f} times that of any node",
-                                   there - fit.exact->highest),
-                       "The posterior has a narrow peak that quadrature missed: believe no number."});
+      found.push_back(
+          {Stage::quadrature, Verdict::fail,
+           fmt::format("at the mode the density is e^{:.1f} times that of any node",
+                       there - fit.exact->highest),
+           "The posterior has a narrow peak that quadrature missed: believe no number."});
     }
   }
   if (mode.fell_short) {
