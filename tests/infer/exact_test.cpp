@@ -66,6 +66,38 @@ TEST(Exact, AllSixteenJointPosteriors) {
   EXPECT_EQ(compared, 20);
 }
 
+// tests/golden/joint_quantiles.py: nested Gauss-Legendre rules. After one inspection the posterior opens
+// like a funnel, and a tenth of the mass lies where k is known a hundred times better than in the middle.
+TEST(Exact, QuantilesOfJointPosteriorsIntoTheTails) {
+  std::ifstream file(PROJECT_SOURCE_DIR "/tests/golden/joint_quantiles.csv");
+  std::string line;
+  std::getline(file, line);
+  int compared = 0;
+  while (std::getline(file, line)) {
+    std::vector<std::string> cells;
+    std::stringstream row(line);
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    const bool lognormal = cells[0] == "lognormal";
+    const Posterior posterior =
+        joint_posterior(lognormal, false, lognormal ? 7 : 15, std::stoul(cells[1]));
+    const ExactPosterior exact = integrated(posterior);
+    ASSERT_EQ(exact.failure, "") << line;
+    EXPECT_LE(exact.error, 1e-5) << line;
+    const int i = cells[2] == "sigma";
+    const double unit = i ? 1e9 : 1e13;
+    const Distribution marginal(exact.nodes, [=](const double* x) { return x[i] * unit; });
+    EXPECT_NEAR(exact.mean[i] * unit, std::stod(cells[3]), 2e-5 * std::stod(cells[3])) << line;
+    const double probabilities[] = {0.01, 0.05, 0.5, 0.95, 0.99};
+    const double sd = exact.sd[i] * unit;
+    for (std::size_t q = 0; q < 5; ++q) {
+      const double tolerance = (q == 0 || q == 4 ? 6e-3 : 2e-3) * sd;
+      EXPECT_NEAR(marginal.quantile(probabilities[q]), std::stod(cells[4 + q]), tolerance) << line;
+    }
+    ++compared;
+  }
+  EXPECT_EQ(compared, 20);
+}
+
 // The evidence of a normal mean with a normal prior is a normal density: y ~ N(mu, 1), mu ~ N(0,
 // 2), y = 1.5.
 TEST(Exact, EvidenceOfConjugateNormal) {

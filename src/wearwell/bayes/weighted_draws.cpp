@@ -10,15 +10,38 @@
 
 namespace wearwell {
 
+namespace {
+
+// Where a cell's node lies along one axis and what its mass is spread like, in cell lengths.
+struct Along {
+  double node = 0, mean = 0, square = 1.0 / 12;
+
+  Along(const WeightedDraws& draws, Eigen::Index i, std::size_t axis) {
+    if (!draws.has_cells()) return;
+    const auto a = static_cast<Eigen::Index>(axis);
+    node = draws.cells.node(i, a);
+    mean = draws.cells.mean(i, a);
+    square = draws.cells.square(i, a);
+  }
+
+  // Of the parabola through what a quantity is at the node and at both ends: how much the lower and the
+  // upper end move its value at `at`, whose mean square is `squared`.
+  double of_lower(double at, double squared) const {
+    return (squared - at * (node + 0.5) + 0.5 * node) / (0.5 + node);
+  }
+  double of_upper(double at, double squared) const {
+    return (squared - at * (node - 0.5) - 0.5 * node) / (0.5 - node);
+  }
+};
+
+}  // namespace
+
 Distribution::Distribution(const WeightedDraws& draws,
                            const std::function<double(const double* x)>& quantity)
     : cells_(!draws.lower.empty()) {
   struct Point {
     double center, half_width, weight;
   };
-  // A node in the middle of its cell counts for four of Simpson's six parts, so that a quantity that
-  // bends within the cell keeps its mean.
-  const double of_ends = draws.centered() ? 1.0 / 3 : 1;
   // Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
   constexpr double negligible = 1e-8;
   const double least = cells_ ? negligible / static_cast<double>(draws.values.rows()) : 0;
@@ -32,21 +55,27 @@ Distribution::Distribution(const WeightedDraws& draws,
       undefined += weight;
       continue;
     }
-    double middle = at_node, half_width = 0;
+    double center = at_node, half_width = 0;
     for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
       const double a = quantity(draws.lower[axis].row(i).data());
       const double b = quantity(draws.upper[axis].row(i).data());
       const double half = 0.5 * b - 0.5 * a;
       if (!std::isfinite(half)) continue;
-      middle += of_ends * (0.5 * a + 0.5 * b - at_node);
-      half_width = std::hypot(half_width, half);  // its square may be no number
+      const Along along(draws, i, axis);
+      center += draws.has_cells() ? along.of_lower(along.mean, along.square) * (a - at_node) +
+                                        along.of_upper(along.mean, along.square) * (b - at_node)
+                                  : 0.5 * a + 0.5 * b - at_node;
+      // Evenly spread mass has the variance of a third of the square of half its width. The square of
+      // the width itself may be no number.
+      half_width = std::hypot(
+          half_width, half * std::sqrt(12 * (along.square - along.mean * along.mean)));
     }
-    if (!std::isfinite(middle + half_width) || !std::isfinite(middle - half_width)) {
-      middle = at_node;
+    if (!std::isfinite(center + half_width) || !std::isfinite(center - half_width)) {
+      center = at_node;
       half_width = 0;
     }
     total += weight;
-    points.push_back({middle, half_width, weight});
+    points.push_back({center, half_width, weight});
   }
   if (undefined > negligible * (total + undefined)) points.clear();  // it has no distribution
   std::sort(points.begin(), points.end(),
@@ -131,11 +160,20 @@ Eigen::VectorXd WeightedSampler::operator()(Rng& rng) const {
   const Eigen::Index i = found - cumulated_.begin();
   Eigen::VectorXd x = draws_.values.row(i);
   for (std::size_t axis = 0; axis < draws_.lower.size(); ++axis) {
-    const double t = rng.uniform() - 0.5;
     const auto lower = draws_.lower[axis].row(i), upper = draws_.upper[axis].row(i),
                node = draws_.values.row(i);
-    const double of_ends = draws_.centered() ? 4 * t * t : 1;  // a parabola through the three
-    x += (t * (upper - lower) + of_ends * (0.5 * (upper + lower) - node)).transpose();
+    if (!draws_.has_cells()) {
+      const double t = rng.uniform() - 0.5;
+      x += (t * (upper - lower) + (0.5 * (upper + lower) - node)).transpose();
+      continue;
+    }
+    const Along along(draws_, i, axis);
+    // Density 1 + tilt t over -1/2..1/2, by inversion.
+    const double tilt = std::clamp(12 * along.mean, -2.0, 2.0), share = rng.uniform();
+    const double root = std::sqrt(std::max(0.0, (1 - 0.5 * tilt) * (1 - 0.5 * tilt) + 2 * tilt * share));
+    const double t = 2 * share / (root + 1 - 0.5 * tilt) - 0.5;
+    x += (along.of_lower(t, t * t) * (lower - node) + along.of_upper(t, t * t) * (upper - node))
+             .transpose();
   }
   return x;
 }

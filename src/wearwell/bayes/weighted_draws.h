@@ -14,26 +14,31 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 
 /// A posterior as weighted points: the draws of a sampler, all of one weight, or the nodes of a
 /// quadrature. A node stands for a cell; `lower` and `upper` hold, for each axis of the
-/// integration, the points where the cell ends.
+/// integration, the points where the cell ends. Sums over `weights` are as exact as the quadrature;
+/// distributions are read off the cells.
 struct WeightedDraws {
   Points values;              ///< points x parameters, natural, SI
   Eigen::VectorXd weights;    ///< sum to 1
   std::vector<Points> lower;  ///< one per axis, like `values`; empty for draws
   std::vector<Points> upper;
-  /// What each cell holds when its mass is spread evenly over it, where that is not its node's
-  /// weight; sum to 1. Given for nodes in the middle of their cells.
-  Eigen::VectorXd cell_weights = {};
 
-  bool centered() const { return cell_weights.size() > 0; }
+  /// What lies in the cells, where it is known better than by the weights and the middle.
+  struct Cells {
+    Eigen::VectorXd mass;  ///< of each cell; sum to 1
+    /// Points x axes, in cell lengths from -1/2 to 1/2: where the node lies, where the mass lies in
+    /// the mean, and its mean square about the middle.
+    Points node, mean, square;
+  };
+  Cells cells = {};
+
+  bool has_cells() const { return cells.mass.size() > 0; }
 
   /// The weight of point i where it stands for its cell.
-  double cell_weight(Eigen::Index i) const {
-    return cell_weights.size() > 0 ? cell_weights[i] : weights[i];
-  }
+  double cell_weight(Eigen::Index i) const { return has_cells() ? cells.mass[i] : weights[i]; }
 };
 
 /// The distribution of one number: points, each spread evenly over center +- half_width (0 for
-/// draws).
+/// draws), which keep mean and variance of their cells.
 class Distribution {
  public:
   Distribution(const WeightedDraws& draws, const std::function<double(const double* x)>& quantity);
@@ -51,7 +56,7 @@ class Distribution {
   bool cells_ = false;
 };
 
-/// One draw: a point by its weight, then evenly within its cell.
+/// One draw: a point by its weight, then a place within its cell, by a density linear along each axis.
 class WeightedSampler {
  public:
   explicit WeightedSampler(const WeightedDraws& draws);

@@ -12,13 +12,14 @@ namespace {
 
 constexpr int iterations = 300;
 constexpr double longest_step = 30;  // in units
+constexpr double plateau = 1e-9;     // curvature in units that rounding may turn round
 
 using Indices = std::vector<Eigen::Index>;
 
 class Climb {
  public:
-  Climb(const LogDensity& density, const Eigen::VectorXd& unit, const Box& box)
-      : density_(density), unit_(unit), box_(box) {}
+  Climb(const LogDensity& density, const Eigen::VectorXd& unit, const Box& box, double enough)
+      : density_(density), unit_(unit), box_(box), enough_(enough) {}
 
   Summit from(const Eigen::VectorXd& start) const {
     Summit summit{inside(start), 0, Eigen::VectorXd(start.size()), {}, false};
@@ -33,7 +34,7 @@ class Climb {
         if (bend > 0) difference[a] = 1e-4 * std::min(unit_[a], 1 / std::sqrt(bend));
       }
       const Step step = newton(summit);
-      if (step.hill && step.gain < 1e-14) {
+      if (step.hill && step.gain < enough_) {
         summit.converged = true;
         return summit;
       }
@@ -73,9 +74,15 @@ class Climb {
     Eigen::MatrixXd result(n, n);
     Eigen::VectorXd above(n), below(n);
     for (Eigen::Index i = 0; i < n; ++i) {
+      // No smaller than what the digits of x can tell.
+      const double by = std::max(difference[i], 1e-11 * std::abs(x[i]));
       Eigen::VectorXd up = x, down = x;
-      up[i] = std::min(x[i] + difference[i], box_.upper[i]);
-      down[i] = std::max(x[i] - difference[i], box_.lower[i]);
+      up[i] = std::min(x[i] + by, box_.upper[i]);
+      down[i] = std::max(x[i] - by, box_.lower[i]);
+      if (!(up[i] > down[i])) {
+        result.col(i).setZero();
+        continue;
+      }
       density_.value_and_gradient(view(up), view(above));
       density_.value_and_gradient(view(down), view(below));
       result.col(i) = (below - above) / (up[i] - down[i]);
@@ -83,25 +90,69 @@ class Climb {
     return 0.5 * (result + result.transpose());
   }
 
+  // The step to the top of the parabola within the box: as long as it leaves through a bound, the
+  // parameter that does so first ends there, and the others make the best of it.
   Step newton(const Summit& summit) const {
-    const Indices free = free_at(summit);
+    Indices free = free_at(summit);
     Step step{Eigen::VectorXd::Zero(summit.x.size()), 0, true};
-    if (free.empty()) return step;
-    const Eigen::VectorXd unit = unit_(free);
-    const Eigen::MatrixXd scaled =
-        unit.asDiagonal() * summit.curvature(free, free) * unit.asDiagonal();
-    const Eigen::VectorXd slope = summit.gradient(free).cwiseProduct(unit);
+    Eigen::VectorXd gradient = summit.gradient;
+    while (!free.empty()) {
+      const Eigen::VectorXd unit = unit_(free);
+      const Eigen::VectorXd slope = gradient(free).cwiseProduct(unit);
+      const Parabola top = parabola(summit.curvature(free, free), unit, slope);
+      if (step.move.isZero(0)) step.hill = top.hill;
+      const Eigen::VectorXd move = top.move.cwiseProduct(unit);
+      // How much of it stays inside.
+      double share = 1;
+      std::size_t leaves = free.size();
+      for (std::size_t j = 0; j < free.size(); ++j) {
+        const double by = move[static_cast<Eigen::Index>(j)], at = summit.x[free[j]];
+        const double way = (by > 0 ? box_.upper : box_.lower)[free[j]] - at;
+        if (std::abs(by) * share > std::abs(way)) {
+          share = std::abs(way / by);
+          leaves = j;
+        }
+      }
+      if (leaves == free.size()) {
+        step.move(free) = move;
+        break;
+      }
+      const Eigen::Index held = free[leaves];
+      step.move[held] =
+          (move[static_cast<Eigen::Index>(leaves)] > 0 ? box_.upper : box_.lower)[held] -
+          summit.x[held];
+      free.erase(free.begin() + static_cast<std::ptrdiff_t>(leaves));
+      gradient -= step.move[held] * summit.curvature.col(held);
+    }
+    step.gain = std::abs(step.move.dot(summit.gradient));
+    return step;
+  }
+
+  struct Parabola {
+    Eigen::VectorXd move;  // in units
+    bool hill;
+  };
+
+  // In units, or in widths where these are smaller: beside a width of 1e-8 the curvature of a width of
+  // 1 would drown in rounding.
+  static Parabola parabola(const Eigen::MatrixXd& curvature, const Eigen::VectorXd& unit,
+                           const Eigen::VectorXd& slope) {
+    Eigen::VectorXd width = Eigen::VectorXd::Ones(unit.size());
+    for (Eigen::Index i = 0; i < unit.size(); ++i) {
+      const double bend = curvature(i, i) * unit[i] * unit[i];
+      if (bend > 1) width[i] = 1 / std::sqrt(bend);
+    }
+    const Eigen::VectorXd size = unit.cwiseProduct(width);
+    const Eigen::MatrixXd scaled = size.asDiagonal() * curvature * size.asDiagonal();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
-    step.hill = eigen.eigenvalues()[0] > 0;
     const Eigen::VectorXd bend = eigen.eigenvalues().cwiseAbs();
     const double least = std::max(1e-12 * bend.maxCoeff(), 1e-300);
-    const Eigen::VectorXd along = eigen.eigenvectors().transpose() * slope;
-    Eigen::VectorXd move = eigen.eigenvectors() * along.cwiseQuotient(bend.cwiseMax(least));
+    const Eigen::VectorXd along = eigen.eigenvectors().transpose() * slope.cwiseProduct(width);
+    Eigen::VectorXd move =
+        width.cwiseProduct(eigen.eigenvectors() * along.cwiseQuotient(bend.cwiseMax(least)));
     const double reach = move.cwiseAbs().maxCoeff();
     if (reach > longest_step) move *= longest_step / reach;
-    step.gain = move.dot(slope);
-    step.move(free) = move.cwiseProduct(unit);
-    return step;
+    return {move, eigen.eigenvalues()[0] > -plateau * std::min(1.0, bend.maxCoeff())};
   }
 
   // The first of ever shorter steps that goes up, along `move` or else along the gradient.
@@ -125,13 +176,14 @@ class Climb {
   const LogDensity& density_;
   const Eigen::VectorXd& unit_;
   const Box& box_;
+  double enough_;
 };
 
 }  // namespace
 
 Summit climb(const LogDensity& density, const Eigen::VectorXd& start, const Eigen::VectorXd& unit,
-             const Box& box) {
-  return Climb(density, unit, box).from(start);
+             const Box& box, double enough) {
+  return Climb(density, unit, box, enough).from(start);
 }
 
 }  // namespace wearwell

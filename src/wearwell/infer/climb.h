@@ -24,8 +24,9 @@ struct Summit {
 /// differences of the gradient and made positive, steps halved until they go up, parameters on a
 /// bound held there as long as the density rises beyond it (Bertsekas 1982). For few parameters,
 /// strongly correlated ones and starts far from any maximum, where L-BFGS gives up in its first
-/// line search. `unit` > 0 is about how far a parameter may move.
+/// line search. `unit` > 0 is about how far a parameter may move; the climb ends where another step
+/// promises less than `enough` of the log density.
 Summit climb(const LogDensity& density, const Eigen::VectorXd& start, const Eigen::VectorXd& unit,
-             const Box& box);
+             const Box& box, double enough = 1e-14);
 
 }  // namespace wearwell

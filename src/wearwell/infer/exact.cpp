@@ -6,7 +6,9 @@
 #include <cmath>
 #include <queue>
 
+#include "wearwell/infer/cell_parts.h"
 #include "wearwell/infer/lattice.h"
+#include "wearwell/infer/ridge_map.h"
 #include "wearwell/math/quadrature.h"
 #include "wearwell/math/view.h"
 
@@ -14,7 +16,8 @@ namespace wearwell {
 namespace {
 
 constexpr int max_d = max_exact_dimension;
-using Coordinates = std::array<double, max_d>;
+using Coordinates = RidgeMap::Coordinates;
+static_assert(RidgeMap::most == max_d);
 
 // Nodes per axis and the largest mass of one cell, by dimension: few enough evaluations, cells
 // small enough that spreading a node's mass evenly over its cell keeps quantiles within about 0.1 %
@@ -22,12 +25,16 @@ using Coordinates = std::array<double, max_d>;
 constexpr std::array<int, max_d + 1> nodes_per_axis = {0, 10, 7, 5, 4};
 constexpr std::array<double, max_d + 1> max_cell_mass = {0, 1. / 40, 1. / 80, 1. / 400, 1. / 1000};
 
-// Growth ends where no proper posterior reaches: a factor of e^300 on a half-line, 10^12 typical
-// changes on a whole line.
-constexpr double farthest_on_half_line = 300, farthest_on_whole_line = 1e12;
+// Growth ends where no proper posterior reaches: a factor of e^200 on a half-line (beyond, densities
+// of heavy tails end to be numbers), 10^12 typical changes on a whole line.
+constexpr double farthest_on_half_line = 200, farthest_on_whole_line = 1e12;
 
 // Nodes with less of the mass are left out of the result.
 constexpr double negligible_share = 1e-9;
+
+// What a sound integral may differ by (log) from the highest density that the walk along the ridge
+// met, and from its Laplace approximation.
+constexpr double most_above = 3, most_from_laplace = 4;
 
 struct Cell {
   Coordinates lower, upper;
@@ -41,15 +48,18 @@ struct Cell {
 
 class Integrator {
  public:
-  Integrator(const Posterior& posterior, const Whitening& whitening, const ExactSettings& settings)
+  Integrator(const Posterior& posterior, const Whitening& whitening, const ExactSettings& settings,
+             const Posterior& shape)
       : posterior_(posterior),
-        whitening_(whitening),
+        own_shape_(&shape == &posterior),
         settings_(settings),
         d_(posterior.dimension()),
         p_(nodes_per_axis[d_]),
         rule_(gauss_legendre(p_)),
         points_(static_cast<std::size_t>(std::pow(p_, d_))),
-        reference_(posterior.value(view(whitening.center))) {
+        map_(shape, whitening),
+        reference_(own_shape_ ? map_.highest() : posterior.value(view(whitening.center))),
+        log_jacobian_(map_.at(0).log_jacobian) {
     // Parameters are standardized about the center by their first-order spread.
     center_x_.resize(d_);
     scale_x_.setZero(d_);
@@ -60,6 +70,17 @@ class Integrator {
       scale_x_ += (x - center_x_).cwiseAbs2();
     }
     scale_x_ = scale_x_.cwiseSqrt();
+    scale_x_ = scale_x_.cwiseMax(std::numeric_limits<double>::min());
+    // How far each coordinate goes with each u, at the center.
+    const RidgeMap::Frame frame = map_.at(0);
+    Coordinates u{}, from, to;
+    map_.to_real(frame, u, from);
+    for (int a = 0; a < d_; ++a) {
+      u.fill(0);
+      u[a] = 1;
+      map_.to_real(a == map_.axis() ? map_.at(1) : frame, u, to);
+      for (int i = 0; i < d_; ++i) unit_[a][i] = std::abs(to[i] - from[i]);
+    }
     for (int i = 0; i < p_; ++i) {
       top_.push_back(rule_.weight[i] * std::legendre(p_ - 1, rule_.node[i]));
       next_.push_back(rule_.weight[i] * std::legendre(p_ - 2, rule_.node[i]));
@@ -68,12 +89,16 @@ class Integrator {
 
   ExactPosterior run() {
     moments_exist_ = settings_.second_moments;
+    if (own_shape_ && map_.endless()) failure_ = "its mass does not end: it is improper or far too wide";
     lower_.fill(-6);
     upper_.fill(6);
+    lower_[map_.axis()] = map_.lower();
+    upper_[map_.axis()] = map_.upper();
     add_grid(lower_, upper_, d_ <= 2 ? 4 : 2);
     do {
       refine();
     } while (failure_.empty() && grow());
+    if (failure_.empty()) verify();
     return result();
   }
 
@@ -98,19 +123,14 @@ class Integrator {
     return v;
   }
 
-  // The real line's coordinates and the natural parameters of u.
-  void to_real(const Coordinates& u, Coordinates& z) const {
-    Eigen::Map<Eigen::VectorXd>(z.data(), d_) =
-        whitening_.center +
-        whitening_.scale.lazyProduct(Eigen::Map<const Eigen::VectorXd>(u.data(), d_));
-  }
+  // The natural parameters of u.
   void to_natural(const Coordinates& z, Coordinates& x) const {
     const auto n = static_cast<std::size_t>(d_);
     posterior_.to_natural(std::span(z.data(), n), std::span(x.data(), n));
   }
   Eigen::VectorXd natural(const Coordinates& u) const {
     Coordinates z, x;
-    to_real(u, z);
+    map_.to_real(map_.at(u[map_.axis()]), u, z);
     to_natural(z, x);
     return Eigen::Map<const Eigen::VectorXd>(x.data(), d_);
   }
@@ -120,13 +140,23 @@ class Integrator {
     Cell cell{lower, upper, values_.size(), 0, 0, 0, 0};
     Coordinates u, z, x;
     const double v = volume(cell);
+    // Nodes with the same place along the axis share a frame.
+    const int axis = map_.axis();
+    std::array<RidgeMap::Frame, 10> frames;
+    for (int i = 0; i < p_; ++i) {
+      frames[i] = map_.at(0.5 * (lower[axis] + upper[axis]) +
+                          0.5 * rule_.node[i] * (upper[axis] - lower[axis]));
+    }
+    const auto stride = static_cast<std::size_t>(std::pow(p_, axis));
     for (std::size_t i = 0; i < points_; ++i) {
       node(cell, i, u);
-      to_real(u, z);
-      const double log_value =
+      const RidgeMap::Frame& frame = frames[i / stride % p_];
+      map_.to_real(frame, u, z);
+      const double log_density =
           posterior_.value(std::span(z.data(), static_cast<std::size_t>(d_))) - reference_;
-      if (log_value > 300) failure_ = "the density grows without bound";
-      const double f = std::exp(log_value);
+      if (log_density > 300) failure_ = "the density grows without bound";
+      highest_ = std::max(highest_, log_density);
+      const double f = std::exp(log_density + frame.log_jacobian - log_jacobian_);
       values_.push_back(f);
       if (f == 0) continue;
       to_natural(z, x);
@@ -137,7 +167,8 @@ class Integrator {
       }
       const double weight = node_weight(i) * v * f;
       cell.mass += weight;
-      cell.control += weight * (moments_exist_ ? moments : 1);
+      if (!std::isfinite(moments)) overflowed_ = true;
+      cell.control += weight * (moments_exist_ && !overflowed_ ? moments : 1);
     }
     evaluations_ += static_cast<long>(points_);
     cell.error = cell.control;  // until it is compared with its halves
@@ -215,6 +246,11 @@ class Integrator {
       }
       queue.pop();
       halve(i);
+      if (overflowed_) {
+        overflowed_ = false;
+        forget_moments();
+        return refine();
+      }
       for (const std::size_t half : {i, cells_.size() - 1})
         queue.emplace(priority(cells_[half]), half);
     }
@@ -242,7 +278,7 @@ class Integrator {
     for (int i = 0; i < d_; ++i) {
       const Law& prior = posterior_.parameters()[static_cast<std::size_t>(i)].prior;
       const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
-      const double way = reach * std::abs(whitening_.scale(i, axis));
+      const double way = reach * unit_[axis][i];
       if (way > (whole_line ? farthest_on_whole_line : farthest_on_half_line)) return true;
     }
     return false;
@@ -291,8 +327,54 @@ class Integrator {
   void forget_moments() {
     moments_exist_ = false;
     for (Cell& cell : cells_) {
-      cell.error *= cell.mass / std::max(cell.control, std::numeric_limits<double>::min());
+      const double share = cell.mass / std::max(cell.control, std::numeric_limits<double>::min());
+      cell.error = std::isfinite(cell.error) ? cell.error * share : cell.mass;
       cell.control = cell.mass;
+    }
+  }
+
+  // Was there anything on the way that no node has seen?
+  void verify() {
+    sum();
+    if (!std::isfinite(error_) || !(mass_ > 0)) {
+      failure_ = "its mass is no number";
+      return;
+    }
+    if (!own_shape_) return;
+    if (map_.highest() > reference_ + highest_ + most_above) {
+      failure_ = fmt::format("a density e^{:.1f} times that of any node was met beside them",
+                             map_.highest() - reference_ - highest_);
+      contradicted_ = true;
+      return;
+    }
+    const double off = log_mass() - map_.log_integral();
+    if (std::abs(off) > most_from_laplace) {
+      contradicted_ = true;
+      failure_ = fmt::format(
+          "the integral is e^{:.1f} times what curvature along the ridge says", off);
+    }
+  }
+
+  double log_mass() const {
+    return reference_ + std::log(mass_) + log_jacobian_ + map_.log_scale();
+  }
+
+  // The node, its weight, and where its cell ends.
+  void write_node(const Cell& cell, std::size_t index, Eigen::Index row,
+                  WeightedDraws& nodes) const {
+    nodes.weights[row] = values_[cell.first + index] * node_weight(index) * volume(cell) / mass_;
+    Coordinates u;
+    node(cell, index, u);
+    nodes.values.row(row) = natural(u);
+    for (int a = 0; a < d_; ++a, index /= p_) {
+      const double at = u[a];
+      const double middle = 0.5 * (cell.lower[a] + cell.upper[a]);
+      const double half = 0.5 * (cell.upper[a] - cell.lower[a]);
+      u[a] = middle + half * rule_.cell_edge[index % p_];
+      nodes.lower[a].row(row) = natural(u);
+      u[a] = middle + half * rule_.cell_edge[index % p_ + 1];
+      nodes.upper[a].row(row) = natural(u);
+      u[a] = at;
     }
   }
 
@@ -300,41 +382,38 @@ class Integrator {
     sum();
     ExactPosterior exact;
     exact.failure = failure_;
+    exact.contradicted = contradicted_;
     exact.evaluations = evaluations_;
     exact.error = error_ / control_;
-    std::vector<std::pair<const Cell*, std::size_t>> kept;
+    exact.highest = reference_ + highest_;
+    std::vector<std::pair<const Cell*, std::vector<std::size_t>>> kept;
+    Eigen::Index n = 0;
     for (const Cell& cell : cells_) {
       const double v = volume(cell);
+      std::vector<std::size_t> here;
       for (std::size_t i = 0; i < points_; ++i) {
         const double share = values_[cell.first + i] * node_weight(i) * v / mass_;
-        if (share > negligible_share) kept.emplace_back(&cell, i);
+        if (share > negligible_share) here.push_back(i);
       }
+      n += static_cast<Eigen::Index>(here.size());
+      if (!here.empty()) kept.emplace_back(&cell, std::move(here));
     }
-    const auto n = static_cast<Eigen::Index>(kept.size());
     WeightedDraws& nodes = exact.nodes;
     nodes.values.resize(n, d_);
     nodes.weights.resize(n);
+    nodes.cells.mass.resize(n);
+    for (Points* each : {&nodes.cells.node, &nodes.cells.mean, &nodes.cells.square}) {
+      each->resize(n, d_);
+    }
     nodes.lower.assign(d_, Points(n, d_));
     nodes.upper.assign(d_, Points(n, d_));
-    for (Eigen::Index row = 0; row < n; ++row) {
-      const auto [cell, index] = kept[row];
-      nodes.weights[row] =
-          values_[cell->first + index] * node_weight(index) * volume(*cell) / mass_;
-      Coordinates u;
-      node(*cell, index, u);
-      nodes.values.row(row) = natural(u);
-      std::size_t rest = index;
-      for (int a = 0; a < d_; ++a, rest /= p_) {
-        const double at = u[a];
-        const double middle = 0.5 * (cell->lower[a] + cell->upper[a]);
-        const double half = 0.5 * (cell->upper[a] - cell->lower[a]);
-        u[a] = middle + half * rule_.cell_edge[rest % p_];
-        nodes.lower[a].row(row) = natural(u);
-        u[a] = middle + half * rule_.cell_edge[rest % p_ + 1];
-        nodes.upper[a].row(row) = natural(u);
-        u[a] = at;
-      }
+    Eigen::Index row = 0;
+    for (const auto& [cell, indices] : kept) {
+      const std::span values(&values_[cell->first], points_);
+      parts_.describe(values, indices, volume(*cell), row, nodes.cells);
+      for (const std::size_t index : indices) write_node(*cell, index, row++, nodes);
     }
+    nodes.cells.mass /= nodes.cells.mass.sum();
     nodes.weights /= nodes.weights.sum();
     exact.mean = nodes.values.transpose() * nodes.weights;
     const Eigen::MatrixXd centered = nodes.values.rowwise() - exact.mean.transpose();
@@ -344,19 +423,22 @@ class Integrator {
     bool proper = true;
     for (const Parameter& parameter : posterior_.parameters()) proper &= parameter.prior.proper;
     if (proper) {
-      exact.log_evidence =
-          reference_ + std::log(mass_) + std::log(std::abs(whitening_.scale.determinant()));
+      exact.log_evidence = log_mass();
     }
     return exact;
   }
 
   const Posterior& posterior_;
-  const Whitening& whitening_;
+  bool own_shape_;
   const ExactSettings& settings_;
   int d_, p_;
   GaussLegendre rule_;
   std::size_t points_;
-  double reference_;
+  RidgeMap map_;
+  double reference_, log_jacobian_;
+  std::array<Coordinates, max_d> unit_;
+  CellParts parts_{rule_, d_};
+  double highest_ = -INFINITY;  // log density of any node, over the reference
   std::vector<double> top_, next_;
   Eigen::VectorXd center_x_, scale_x_;
   Coordinates lower_{}, upper_{};
@@ -365,13 +447,20 @@ class Integrator {
   double mass_ = 0, control_ = 0, error_ = 0;
   long evaluations_ = 0;
   bool moments_exist_ = true;
+  bool overflowed_ = false;  // a second moment is no number
   std::string failure_;
+  bool contradicted_ = false;
 };
 
 }  // namespace
 
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings) {
+  return integrate(posterior, whitening, settings, posterior);
+}
+
+ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
+                         const ExactSettings& settings, const Posterior& shape) {
   if (posterior.dimension() > max_exact_dimension) {
     throw std::logic_error("integrate: too many parameters");
   }
@@ -381,7 +470,7 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
     ExactPosterior exact = integrate_on_lattice(posterior, whitening, settings);
     if (exact.failure.empty()) return exact;
   }
-  return Integrator(posterior, whitening, settings).run();
+  return Integrator(posterior, whitening, settings, shape).run();
 }
 
 Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,

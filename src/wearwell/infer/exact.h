@@ -27,19 +27,28 @@ struct ExactPosterior {
   Eigen::MatrixXd covariance;
   std::optional<double>
       log_evidence;  ///< log of the integral of likelihood x prior; only when every prior is proper
-  double error = 0;  ///< estimated relative error of mass and second moments
+  double error = 0;  ///< estimated relative error of mass and second moments: the reached tolerance
+  double highest = 0;  ///< log density (on the real line) of the highest node
   long evaluations = 0;
   std::string failure;  ///< empty when the mass converged; else what happened, and the nodes are
                         ///< not to be trusted
+  bool contradicted = false;  ///< it failed because of what the walk along the ridge met
 };
 
 /// Integrates a posterior with up to `max_exact_dimension` parameters: four on a lattice
 /// (lattice.h), fewer, or where that does not converge, by adaptive boxes. Works on the whitened real
-/// line: boxes are halved along the axis that resolves worst until the estimated error of mass and
-/// second moments is below the tolerance, and the region grows where mass or second moments still
-/// lie at its edge.
+/// line, along the ridge where the posterior opens like a funnel or bends (ridge_map.h): boxes are
+/// halved along the axis that resolves worst until the estimated error of mass and second moments is
+/// below the tolerance, and the region grows where mass or second moments still lie at its edge. The
+/// outcome is held against what the walk along the ridge met: a higher density than that of any node,
+/// or another integral by Laplace's approximation by far, is a failure.
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings = {});
+
+/// The same along the ridge of `shape`, a posterior much like it (of all observations, where this one
+/// lacks one and has no gradient).
+ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
+                         const ExactSettings& settings, const Posterior& shape);
 
 /// Independent draws from the exact posterior: `chains` x `draws`, a stream of random numbers each.
 Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,

@@ -11,6 +11,7 @@
 #include "wearwell/infer/exact.h"
 #include "wearwell/infer/run_chains.h"
 #include "wearwell/infer/settings.h"
+#include "wearwell/infer/stage.h"
 #include "wearwell/infer/tail.h"
 
 namespace wearwell {
@@ -36,6 +37,7 @@ struct Fit {
   WeightedDraws pooled;                  ///< all draws of all chains, of one weight
   std::vector<Diagnostics> diagnostics;  ///< of the draws, one a parameter
   int max_treedepth = 0;                 ///< that NUTS was allowed
+  std::vector<Shortfall> shortfalls = {};  ///< what any stage did not reach
 };
 
 /// The draws of one parameter, as diagnostics take them: views, valid while the draws live.

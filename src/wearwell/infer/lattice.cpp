@@ -186,11 +186,16 @@ class Lattice {
       }
     }
     ExactPosterior exact;
+    exact.highest = reference_ + highest_;
     const auto n = static_cast<Eigen::Index>(kept.size());
     WeightedDraws& nodes = exact.nodes;
     nodes.values.resize(n, d);
     nodes.weights.resize(n);
-    nodes.cell_weights.resize(n);
+    WeightedDraws::Cells& cells = nodes.cells;
+    cells.mass.resize(n);
+    cells.node = Points::Zero(n, d);
+    cells.mean = Points::Zero(n, d);
+    cells.square = Points::Constant(n, d, 1.0 / 12);
     nodes.lower.assign(d, Points(n, d));
     nodes.upper.assign(d, Points(n, d));
     tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, n, 256), [&](const auto& part) {
@@ -210,11 +215,11 @@ class Lattice {
           nodes.upper[axis].row(row) = natural(between(*line, above, below, a, 0.5, t));
         }
         nodes.weights[row] = weight;
-        nodes.cell_weights[row] = std::max(0.0, held);
+        cells.mass[row] = std::max(0.0, held);
       }
     });
     nodes.weights /= nodes.weights.sum();
-    nodes.cell_weights /= nodes.cell_weights.sum();
+    cells.mass /= cells.mass.sum();
     exact.mean = middle + first;
     exact.covariance = second - first * first.transpose();
     if (!moments) exact.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());

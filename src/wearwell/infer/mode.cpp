@@ -13,8 +13,34 @@ namespace {
 // In units of the transform's own scale: a mode farther from a plausible start is no mode.
 constexpr double far = 12;
 
+// Newton's method follows a scale over as many factors of e.
+constexpr double farthest = 60;
+
 // A summit flatter than this in some direction is a ridge.
 constexpr double least_curvature = 1e-4;
+
+// Of a symmetric matrix, over its diagonal: sizes of 1e-9 and 1 may stand side by side.
+double least_eigenvalue(const Eigen::MatrixXd& curvature) {
+  const double flattest = curvature.diagonal().minCoeff();
+  if (!(flattest > 0)) return flattest;
+  const Eigen::VectorXd size = curvature.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = size.asDiagonal() * curvature * size.asDiagonal();
+  return flattest * scaled.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+}
+
+// Curved downwards in every direction, differences of 1e-4 resolve it, and another step of Newton's
+// promises nothing.
+bool is_summit(const LogDensity& density, const Mode& mode) {
+  constexpr double steepest = 1e5, promise = 1e-3;
+  const Eigen::MatrixXd& curvature = mode.curvature;
+  if (!curvature.allFinite() || !(curvature.diagonal().maxCoeff() < steepest)) return false;
+  if (!(curvature.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > least_curvature)) {
+    return false;
+  }
+  Eigen::VectorXd slope(mode.position.size());
+  density.value_and_gradient(view(mode.position), view(slope));
+  return slope.dot(curvature.ldlt().solve(slope)) < promise;
+}
 
 }  // namespace
 
@@ -41,25 +67,31 @@ Mode find_mode(const LogDensity& density, const Eigen::VectorXd& start) {
     for (double& slope : gradient) slope = std::isfinite(value) ? -slope : 0;
     return -value;
   };
-  Minimum best = minimize(objective, start);
-  if (!best.converged) {
-    const auto n = start.size();
-    const Summit summit =
-        climb(density, start, Eigen::VectorXd::Ones(n),
-              {Eigen::VectorXd::Constant(n, -INFINITY), Eigen::VectorXd::Constant(n, INFINITY)});
-    best = {summit.x, -summit.value, summit.converged};
-  }
+  const Minimum near = minimize(objective, start);
   Mode mode{start, density.value(view(start)), {}, false};
-  if ((best.position - start).cwiseAbs().maxCoeff() < far) {
-    mode.position = best.position;
-    mode.log_density = -best.value;
-    mode.found = best.converged;
+  if (near.converged && (near.position - start).cwiseAbs().maxCoeff() < far) {
+    mode.position = near.position;
+    mode.log_density = -near.value;
+    mode.curvature = curvature_at(density, mode.position);
+    mode.found = is_summit(density, mode);
+    if (mode.found) return mode;
   }
-  mode.curvature = curvature_at(density, mode.position);
-  mode.found =
-      mode.found && mode.curvature.allFinite() &&
-      mode.curvature.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() > least_curvature;
-  if (!mode.found) mode.position = start;
+  // Newton's method, which sets its differences by the widths that it meets and follows ridges.
+  const auto n = start.size();
+  const Box everywhere{Eigen::VectorXd::Constant(n, -INFINITY),
+                       Eigen::VectorXd::Constant(n, INFINITY)};
+  const Summit summit = climb(density, start, Eigen::VectorXd::Ones(n), everywhere);
+  if (summit.converged && summit.curvature.allFinite() &&
+      (summit.x - start).cwiseAbs().maxCoeff() < farthest) {
+    mode.position = summit.x;
+    mode.log_density = summit.value;
+    mode.curvature = summit.curvature;
+    mode.found = least_eigenvalue(mode.curvature) > least_curvature;
+    if (mode.found) return mode;
+  }
+  mode.position = start;
+  mode.log_density = density.value(view(start));
+  mode.curvature = curvature_at(density, start);
   return mode;
 }
 

@@ -32,6 +32,9 @@ Box natural_box(const Posterior& posterior, const Eigen::VectorXd& width) {
     };
     box.lower[i] = prior.lower + gap(prior.lower);
     box.upper[i] = prior.upper - gap(prior.upper);
+    if (!(box.lower[i] < box.upper[i])) {
+      box.lower[i] = box.upper[i] = prior.lower + 0.5 * (prior.upper - prior.lower);
+    }
   }
   return box;
 }

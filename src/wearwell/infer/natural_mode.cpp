@@ -20,6 +20,9 @@ constexpr double far = 1e3;
 // Curvature in units of the posterior's width below which a direction is a plateau.
 constexpr double least_curvature = 1e-7;
 
+// Curvature in units of the distance between two bounds below which the data tell nothing there.
+constexpr double least_told = 1e-3;
+
 std::vector<Eigen::VectorXd> starts(const Posterior& posterior, const Fit& fit) {
   std::vector<Eigen::VectorXd> all;
   Eigen::VectorXd x(posterior.dimension());
@@ -45,10 +48,13 @@ std::vector<Eigen::VectorXd> starts(const Posterior& posterior, const Fit& fit) 
   return all;
 }
 
+constexpr const char* nowhere = "the search found no point of positive density";
+constexpr const char* no_end = "the search did not come to an end";
+
 // Why the highest point found is no mode; empty when it is one.
 std::string problem_of(const Posterior& posterior, const Box& box, const Summit& best,
                        const Eigen::VectorXd& center, const Eigen::VectorXd& width) {
-  if (!std::isfinite(best.value)) return "the search found no point of positive density";
+  if (!std::isfinite(best.value)) return nowhere;
   for (Eigen::Index i = 0; i < best.x.size(); ++i) {
     const Parameter& parameter = posterior.parameters()[static_cast<std::size_t>(i)];
     const bool lower = best.x[i] <= box.lower[i], upper = best.x[i] >= box.upper[i];
@@ -63,7 +69,7 @@ std::string problem_of(const Posterior& posterior, const Box& box, const Summit&
                          from_si(parameter.unit, best.x[i]), parameter.unit.text);
     }
   }
-  if (!best.converged) return "the search did not come to an end";
+  if (!best.converged) return no_end;
   return {};
 }
 
@@ -84,6 +90,7 @@ NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
       std::max_element(summits.begin(), summits.end(),
                        [](const Summit& a, const Summit& b) { return a.value < b.value; });
   mode.problem = problem_of(posterior, box, *best, center, width);
+  mode.fell_short = mode.problem == no_end || mode.problem == nowhere;
   if (!mode.problem.empty()) return mode;
 
   mode.starts = static_cast<int>(summits.size());
@@ -104,7 +111,9 @@ NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
     mode.place.push_back(lower ? Place::lower_bound : upper ? Place::upper_bound : Place::inside);
     if (lower) mode.position[i] = prior.lower;
     if (upper) mode.position[i] = prior.upper;
-    if (!lower && !upper) inside.push_back(i);
+    const double range = prior.upper - prior.lower;
+    const bool known = std::abs(best->curvature(i, i)) * range * range < least_told;
+    if (!lower && !upper && !known) inside.push_back(i);
   }
   mode.standard_error =
       Eigen::VectorXd::Constant(width.size(), std::numeric_limits<double>::quiet_NaN());

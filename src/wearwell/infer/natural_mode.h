@@ -18,12 +18,13 @@ enum class Place { inside, lower_bound, upper_bound };
 struct NaturalMode {
   std::string problem;        ///< why there is no mode; empty when there is one, else nothing below
                               ///< means anything
+  bool fell_short = false;    ///< the problem is the search's, not the posterior's
   Eigen::VectorXd position;   ///< natural, SI; on the bound where a bound holds it
   std::vector<Place> place;   ///< one a parameter
   double log_likelihood = 0;  ///< natural logarithm, data in SI
   double log_posterior = 0;   ///< log prior + log likelihood, parameters and data in SI
-  /// From the curvature there: standard errors of parameters that no bound holds, the held ones
-  /// being taken for known; NaN for those.
+  /// From the curvature there: standard errors of parameters that no bound holds, nor two bounds
+  /// closer than the data can tell; the held ones are taken for known: NaN for those.
   Eigen::VectorXd standard_error;
   bool maximum = false;  ///< every prior is flat or uniform: the likelihood is highest here as well
   int starts = 0;        ///< searches

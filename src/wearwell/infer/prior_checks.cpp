@@ -18,6 +18,13 @@ std::string in_unit(const Parameter& parameter, double si) {
   return fmt::format("{:.4g}{}", from_si(parameter.unit, si), unit);
 }
 
+// What a prior of this parameter may look like where the data do not hold it.
+std::string prior_for(const Parameter& parameter) {
+  if (is_logarithm(parameter.si)) return "normal, or uniform between bounds";
+  if (parameter.natural_lower == 0) return "half-normal, or uniform with an upper bound";
+  return "normal, or uniform between bounds";
+}
+
 Verdict dependence_on(const Parameter& parameter) {
   return std::holds_alternative<Flat>(parameter.prior.family) ? Verdict::fail : Verdict::warn;
 }
@@ -34,9 +41,8 @@ Check proper_posterior(const Posterior& posterior, const Fit& fit) {
                     : tail.upward      ? "large values"
                                        : "minus infinity");
     const std::string give_prior = fmt::format(
-        "Bound {} or give it a proper prior (half-normal, uniform with an upper bound): the data "
-        "alone do not hold it.",
-        parameter.name);
+        "Bound {} or give it a proper prior ({}): the data alone do not hold it.", parameter.name,
+        prior_for(parameter));
     const std::string power =
         tail.towards_bound
             ? fmt::format("its density grows like distance^{:.2f}", -tail.index)

@@ -268,7 +268,7 @@ std::optional<Refitted> fitted_without(const Posterior& posterior, const Whiteni
   settings.tolerance = 1e-3;
   settings.max_evaluations = 4'000'000;
   settings.second_moments = false;
-  const ExactPosterior exact = integrate(others, whitening, settings);
+  const ExactPosterior exact = integrate(others, whitening, settings, posterior);
   if (!exact.failure.empty()) return {};
   double density = 0, below = 0, above = 0;
   for (Eigen::Index i = 0; i < exact.nodes.values.rows(); ++i) {

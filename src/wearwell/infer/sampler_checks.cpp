@@ -7,6 +7,20 @@
 
 namespace wearwell {
 
+namespace {
+
+// What this method can do next, and which other could take its place.
+std::string draw_more(const Fit& fit) {
+  if (fit.exact) return "Draw more (--draws, --warmup), or use --method exact.";
+  if (fit.method == Method::metropolis) {
+    return "Draw more (--draws, --warmup), or use --method nuts.";
+  }
+  return "Draw more (--draws, --warmup); if that does not help, priors that say more make the "
+         "posterior easier to walk.";
+}
+
+}  // namespace
+
 Check convergence(const Posterior& posterior, const Fit& fit, bool agrees_with_exact) {
   constexpr double largest_rhat = 1.01,
                    tolerable_rhat = 1.05;  // the latter where quadrature agrees
@@ -28,7 +42,7 @@ Check convergence(const Posterior& posterior, const Fit& fit, bool agrees_with_e
               "tails (at least {:.0f})",
               posterior.parameters()[i].name, d.rhat, largest_rhat, d.ess_bulk, d.ess_tail,
               least_ess),
-          "Draw more (--draws, --warmup), or use --method nuts or exact.");
+          draw_more(fit));
     }
   }
   return findings.result(
@@ -51,9 +65,12 @@ Check divergences(const Fit& fit, bool agrees_with_exact) {
   if (divergent > 0) {
     findings.add(share > tolerated && !agrees_with_exact ? Verdict::fail : Verdict::warn,
                  fmt::format("{} of {} transitions diverged{}", divergent, total,
-                             agrees_with_exact ? ", but quadrature agrees" : ""),
-                 "The sampler may have missed a narrow region: raise [sampler] target_accept, or "
-                 "compare with --method exact.");
+                             agrees_with_exact ? ", but quadrature agrees with the draws" : ""),
+                 agrees_with_exact
+                     ? "Nothing: quadrature vouches for the numbers."
+                     : fmt::format("The sampler may have missed a narrow region: raise [sampler] "
+                                   "target_accept{}.",
+                                   fit.exact ? ", or use --method exact" : ""));
   }
   if (deepest > 0) {
     findings.add(Verdict::warn,

@@ -1,10 +1,11 @@
 #include "wearwell/infer/tail.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
-#include "wearwell/math/minimizer.h"
+#include "wearwell/infer/ridge.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -13,70 +14,67 @@ namespace {
 // A fitted index of 2.03 is read as 2: slopes are measured at a finite distance.
 constexpr double slack = 0.05;
 
-// The walk ends where doubles end to resolve the density: e^40 times the start, or e^20 away on a
-// whole line.
+// The walk ends where doubles end to resolve the density: e^40 times the start, or e^20 widths away on
+// a whole line.
 constexpr double far_log = 40;
 constexpr int steps = 20;
 
-// The density of all coordinates but one, which is held.
-class Slice final : public LogDensity {
- public:
-  Slice(const LogDensity& whole, int held) : whole_(whole), held_(held) {}
+// A density that has fallen by so much (log), and falls like so high a power, has no tail.
+constexpr double fallen = 300, steep = 50;
 
-  double at = 0;  ///< the value of the held coordinate
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  int dimension() const override { return whole_.dimension() - 1; }
-
-  double value(std::span<const double> x) const override {
-    const Buffer full = expand(x);
-    return whole_.value(std::span(full.data(), x.size() + 1));
-  }
-
-  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
-    const Buffer full = expand(x);
-    Buffer slope{};
-    const double value = whole_.value_and_gradient(std::span(full.data(), x.size() + 1),
-                                                   std::span(slope.data(), x.size() + 1));
-    for (std::size_t i = 0; i < x.size(); ++i) gradient[i] = slope[i + (i >= held_)];
-    return value;
-  }
-
- private:
-  using Buffer = std::array<double, max_dimension>;
-
-  Buffer expand(std::span<const double> x) const {
-    Buffer full;
-    for (std::size_t i = 0; i < x.size(); ++i) full[i + (i >= held_)] = x[i];
-    full[held_] = at;
-    return full;
-  }
-
-  const LogDensity& whole_;
-  std::size_t held_;
-};
-
-struct Station {
-  Eigen::VectorXd rest;     // conditional mode of the other coordinates
-  double log_marginal = 0;  // of the held coordinate, by Laplace
-};
-
-Station visit(const Slice& slice, const Eigen::VectorXd& guess) {
-  if (slice.dimension() == 0) return {guess, slice.value({})};
-  const Objective objective = [&](std::span<const double> x, std::span<double> gradient) {
-    if (gradient.empty()) return -slice.value(x);
-    const double value = slice.value_and_gradient(x, gradient);
-    for (double& slope : gradient) slope = std::isfinite(value) ? -slope : 0;
-    return -value;
-  };
-  const Minimum best = minimize(objective, guess, 500);
-  // A direction without curvature counts as one of unit width: it can only make a tail look heavier
-  // by a constant.
-  const Eigen::VectorXd eigenvalues =
-      curvature_at(slice, best.position).selfadjointView<Eigen::Lower>().eigenvalues();
-  const double log_determinant =
-      eigenvalues.unaryExpr([](double c) { return std::log(c > 1e-8 ? c : 1.0); }).sum();
-  return {best.position, -best.value - 0.5 * log_determinant};
+const Parameter& parameter_of(const Posterior& posterior, int i) {
+  return posterior.parameters()[static_cast<std::size_t>(i)];
 }
+
+// Of the prior itself: at a billionth of the way to the bound, or a billion times as far.
+double prior_index(const Parameter& parameter, bool upward, bool towards_bound) {
+  const Law& prior = parameter.prior;
+  constexpr double near = 1e-9;
+  if (!towards_bound) {
+    const double size = std::max(std::abs(parameter.start), parameter.scale);
+    const double x = (upward ? 1 : -1) * size / near;
+    if (!(prior.lower < x && x < prior.upper)) return infinity;
+    return -log_density(prior, x).slope * x;
+  }
+  const double size = std::isfinite(prior.upper - prior.lower) ? prior.upper - prior.lower
+                      : upward ? prior.upper - parameter.start
+                               : parameter.start - prior.lower;
+  const double distance = near * size;
+  const double x = upward ? prior.upper - distance : prior.lower + distance;
+  if (!(prior.lower < x && x < prior.upper)) return 0;
+  return (upward ? 1 : -1) * log_density(prior, x).slope * distance;
+}
+
+// What was met on the way, station by station: logarithms of the distance (from 0, or to the bound),
+// of the density of the parameter there, and of the likelihood.
+struct Walk {
+  std::vector<double> log_distance, log_density, log_likelihood;
+  bool lost = false;      // the others' conditional mode, or the numbers
+  bool vanished = false;  // there is no density left
+
+  // By the far half, the median of slopes between neighbours: one bad station does not matter.
+  double index() const {
+    std::vector<double> slopes;
+    for (std::size_t i = std::max<std::size_t>(1, log_density.size() / 2); i < log_density.size();
+         ++i) {
+      slopes.push_back((log_density[i] - log_density[i - 1]) /
+                       (log_distance[i] - log_distance[i - 1]));
+    }
+    const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+    std::nth_element(slopes.begin(), middle, slopes.end());
+    return -*middle;
+  }
+
+  bool likelihood_grows() const {
+    if (log_likelihood.size() < 2) return true;
+    const std::size_t half = log_likelihood.size() / 2, last = log_likelihood.size() - 1;
+    const double way = std::abs(log_distance[last] - log_distance[half]);
+    return half != last && log_likelihood[last] > log_likelihood[half] + slack * way;
+  }
+};
+
 
 }  // namespace
 
@@ -88,52 +86,121 @@ bool Tail::has_moment(int order) const {
   return towards_bound || index > 1 + order + slack;
 }
 
-std::vector<Tail> tails(const Posterior& posterior, const Mode& mode) {
-  std::vector<Tail> all;
-  const int d = posterior.dimension();
-  for (int i = 0; i < d; ++i) {
-    Slice slice(posterior, i);
-    const Law& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
-    const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
-    Eigen::VectorXd at_mode(d - 1);
-    for (int j = 0; j < d - 1; ++j) at_mode[j] = mode.position[j + (j >= i)];
-    for (const bool outward : {false, true}) {
-      // On a half-line z is minus the log of the closeness to the bound; below an upper bound it
-      // runs downwards.
-      const bool upward =
-          std::isfinite(prior.upper) && !std::isfinite(prior.lower) ? !outward : outward;
-      Tail tail{i, upward, std::isfinite(upward ? prior.upper : prior.lower), 0};
+namespace {
 
-      // Log distance (from 0, or from the bound) and log marginal density of x there, station by
-      // station.
-      std::array<double, steps> log_distance, log_density;
-      Eigen::VectorXd rest = at_mode, before = at_mode;
-      int count = 0;
-      for (int step = 0; step < steps; ++step) {
-        const double way = far_log * (step + 1) / steps;
-        const double z =
-            mode.position[i] + (outward ? 1 : -1) * (whole_line ? std::expm1(0.5 * way) : way);
-        slice.at = z;
-        const Station station =
-            visit(slice, whole_line ? rest : Eigen::VectorXd(2 * rest - before));
-        if (!std::isfinite(station.log_marginal)) break;
-        before = rest;
-        rest = station.rest;
-        // p(x) = p(z) / |dx/dz|; on half-lines and intervals log |dx/dz| changes as log distance
-        // does.
-        log_distance[count] = whole_line ? 0.5 * way : tail.towards_bound ? -way : way;
-        log_density[count] = station.log_marginal - (whole_line ? 0 : log_distance[count]);
-        ++count;
-      }
-      const int half = count / 2;
-      if (count < steps / 2) {
-        tail.index = tail.towards_bound ? -std::numeric_limits<double>::infinity()
-                                        : std::numeric_limits<double>::infinity();
-      } else {
-        tail.index = -(log_density[count - 1] - log_density[half]) /
-                     (log_distance[count - 1] - log_distance[half]);
-      }
-      all.push_back(tail);
+// The place of the mode on the ridge along parameter i.
+Station at_mode(const Slice& slice, const Mode& mode, int i) {
+  const Eigen::Index d = mode.position.size();
+  Eigen::VectorXd rest(d - 1), width = Eigen::VectorXd::Ones(d - 1);
+  for (Eigen::Index j = 0; j < d - 1; ++j) {
+    const Eigen::Index from = j + (j >= i);
+    rest[j] = mode.position[from];
+    const double bend = mode.curvature(from, from);
+    if (mode.found && bend > 0) width[j] = 1 / std::sqrt(bend);
+  }
+  Station station = visit(slice, {rest}, width);
+  if (!station.converged) station.rest = rest;
+  return station;
+}
+
+// Of coordinate i about the mode, the others free: the size of the first step on a whole line.
+double width_at(const Mode& mode, int i) {
+  if (!mode.found) return 1;
+  const Eigen::VectorXd size = mode.curvature.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = size.asDiagonal() * mode.curvature * size.asDiagonal();
+  const double width = size[i] * std::sqrt(scaled.inverse()(i, i));
+  return std::isfinite(width) && width > 0 ? width : 1;
+}
+
+Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward) {
+  const int i = tail.parameter;
+  const Law& prior = parameter_of(posterior, i).prior;
+  const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
+  Slice slice(posterior, i);
+  slice.at = mode.position[i];
+  Station last = at_mode(slice, mode, i), before = last;
+  const double top = last.log_marginal;
+  const double unit = whole_line ? width_at(mode, i) : 1;
+  Walk walk;
+  int failures = 0;
+  for (int step = 0; step < steps; ++step) {
+    const double way = far_log * (step + 1) / steps;
+    slice.at = mode.position[i] + (outward ? 1 : -1) * (whole_line ? unit * std::expm1(0.5 * way) : way);
+    Station station = visit(slice, guesses(before, last, slice.at - last.at), last.width);
+    if (!std::isfinite(station.log_density)) {
+      // The end of the likelihood's domain, or of the range of doubles on the way up.
+      (last.log_marginal > top + 1 ? walk.lost : walk.vanished) = true;
+      break;
+    }
+    if (tail.highest_at.size() == 0 || station.log_density > tail.highest) {
+      tail.highest = station.log_density;
+      tail.highest_at = slice.whole(station.rest);
+    }
+    if (!station.converged) {
+      if (++failures < 2) continue;
+      walk.lost = true;
+      break;
+    }
+    // p(x) = p(z) / |dx/dz|; on half-lines and intervals log |dx/dz| changes as log distance does.
+    const double distance = whole_line ? 0.5 * way : tail.towards_bound ? -way : way;
+    Eigen::VectorXd x(posterior.dimension());
+    posterior.to_natural(view(slice.whole(station.rest)), view(x));
+    walk.log_distance.push_back(distance);
+    walk.log_density.push_back(station.log_marginal - (whole_line ? 0 : distance));
+    walk.log_likelihood.push_back(posterior.likelihood()->value(view(x)));
+    const double rise = station.log_marginal - last.log_marginal;
+    before = std::move(last);
+    last = std::move(station);
+    if (last.log_marginal < top - fallen && rise < -steep) {
+      walk.vanished = true;
+      break;
+    }
+  }
+  return walk;
+}
+
+Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, bool all_proper) {
+  const Parameter& parameter = parameter_of(posterior, i);
+  const Law& prior = parameter.prior;
+  // On a half-line z is minus the log of the closeness to the bound; below an upper bound it runs
+  // downwards.
+  const bool upward =
+      std::isfinite(prior.upper) && !std::isfinite(prior.lower) ? !outward : outward;
+  const double bound = upward ? prior.upper : prior.lower;
+  const double natural = upward ? parameter.natural_upper : parameter.natural_lower;
+  Tail tail{i, upward, std::isfinite(bound)};
+  const double of_prior = prior_index(parameter, upward, tail.towards_bound);
+  if (tail.towards_bound && bound != natural) {
+    tail.index = of_prior;
+    return tail;
+  }
+  constexpr std::size_t enough = 5;  // stations
+  const Walk way = walk(posterior, mode, tail, outward);
+  if (way.vanished) {
+    tail.index = tail.towards_bound ? -infinity : infinity;
+  } else {
+    tail.known = way.log_density.size() >= enough;
+    tail.index = tail.known ? way.index() : tail.towards_bound ? -infinity : infinity;
+  }
+  if (all_proper && !way.likelihood_grows()) {
+    tail.index = !tail.known          ? of_prior
+                 : tail.towards_bound ? std::min(tail.index, of_prior)
+                                      : std::max(tail.index, of_prior);
+    tail.known = true;
+  }
+  return tail;
+}
+
+}  // namespace
+
+std::vector<Tail> tails(const Posterior& posterior, const Mode& mode) {
+  const bool all_proper =
+      std::all_of(posterior.parameters().begin(), posterior.parameters().end(),
+                  [](const Parameter& parameter) { return parameter.prior.proper; });
+  std::vector<Tail> all;
+  for (int i = 0; i < posterior.dimension(); ++i) {
+    for (const bool outward : {false, true}) {
+      all.push_back(measure(posterior, mode, i, outward, all_proper));
     }
   }
   return all;

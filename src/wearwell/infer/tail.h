@@ -10,12 +10,19 @@ namespace wearwell {
 /// How a posterior ends in one direction of one parameter: its marginal density falls like
 /// |x|^-index far out, or like (distance to the bound)^-index towards a bound. Found by walking
 /// outward along the ridge (the other parameters at their conditional mode) and integrating them
-/// out by Laplace's approximation; nothing is assumed about the model.
+/// out by Laplace's approximation; nothing is assumed about the model but that a likelihood has no
+/// pole inside its natural support. Towards a bound inside that support the tail is the prior's, and
+/// nothing is measured. Where every prior is proper and the likelihood does not grow along the walk,
+/// the tail is no heavier than the prior's.
 struct Tail {
   int parameter = 0;
   bool upward = true;  ///< towards larger values
   bool towards_bound = false;
   double index = 0;  ///< infinity for a tail that falls faster than any power
+  bool known = true;  ///< false: the ridge was lost before the index could be measured
+  /// The highest density met on the way, and where on the real line; empty when there was no way.
+  double highest = 0;
+  Eigen::VectorXd highest_at = {};
 
   /// The posterior has a finite integral in this direction.
   bool integrable() const;

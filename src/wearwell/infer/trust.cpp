@@ -1,11 +1,23 @@
 #include "wearwell/infer/trust.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "wearwell/infer/prior_checks.h"
 #include "wearwell/infer/sampler_checks.h"
+#include "wearwell/math/view.h"
 
 namespace wearwell {
+namespace {
+
+// An outlier or two may cost more than one parameter each; no more.
+constexpr double most_effective = 3;
+
+// Of the log density at the mode over that of the highest node.
+constexpr double most_above = 3;
+
+}  // namespace
 
 std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit) {
   std::vector<Check> checks = {proper_posterior(posterior, fit)};
@@ -14,7 +26,15 @@ std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit) {
     checks.push_back(bounds(posterior, fit));
     checks.push_back(prior_data_conflict(posterior, fit));
   }
-  if (fit.method == Method::exact) return checks;
+  const auto with_computation = [&] {
+    checks.push_back(computation(
+        fit.shortfalls,
+        fit.exact ? fmt::format("every stage came to its end; quadrature to a relative {:.1g}",
+                                fit.exact->error)
+                  : "every stage came to its end"));
+    return checks;
+  };
+  if (fit.method == Method::exact) return with_computation();
 
   const Check agreement = exact_agreement(posterior, fit);
   const bool agrees = agreement.verdict == Verdict::pass;
@@ -24,7 +44,39 @@ std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit) {
     checks.push_back(energy(fit));
   }
   checks.push_back(agreement);
-  return checks;
+  return with_computation();
+}
+
+std::vector<Shortfall> later_shortfalls(const Posterior& posterior, const Fit& fit,
+                                        const NaturalMode& mode, const Loo* loo) {
+  std::vector<Shortfall> found;
+  if (mode.problem.empty() && fit.exact) {
+    const double there = posterior.value(view(posterior.to_real(view(mode.position))));
+    if (there > fit.exact->highest + most_above) {
+      found.push_back({Stage::quadrature, Verdict::fail,
+                       fmt::format("at the mode the density is e^{:.1f} times that of any node",
+                                   there - fit.exact->highest),
+                       "The posterior has a narrow peak that quadrature missed: believe no number."});
+    }
+  }
+  if (mode.fell_short) {
+    found.push_back({Stage::natural_mode, Verdict::fail, mode.problem,
+                     "Do not compare with published maximum likelihood fits; give priors that hold "
+                     "every parameter."});
+  }
+  if (loo) {
+    const double effective = loo->p_loo();
+    const double most = most_effective * posterior.dimension();
+    if (!(effective <= most)) {
+      found.push_back(
+          {Stage::leave_one_out, Verdict::fail,
+           fmt::format("the effective number of parameters is {:.3g}, of {} parameters", effective,
+                       posterior.dimension()),
+           "Some observation is beyond what the model expects, or the posterior was not integrated "
+           "as it is: look at each observation's density."});
+    }
+  }
+  return found;
 }
 
 bool trusted(const std::vector<Check>& checks) {

@@ -5,15 +5,22 @@
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/check.h"
 #include "wearwell/infer/fit.h"
+#include "wearwell/infer/natural_mode.h"
+#include "wearwell/infer/psis_loo.h"
 
 namespace wearwell {
 
 /// All checks that apply to this fit (prior_checks.h, sampler_checks.h), in the order in which a reader should care:
-/// proper-posterior, prior-cut, bounds, prior-data-conflict, convergence, divergences, energy, exact-agreement.
+/// proper-posterior, prior-cut, bounds, prior-data-conflict, convergence, divergences, energy, exact-agreement,
+/// computation. The last tells what any stage of the computation fell short of (stage.h).
 ///
 /// A `flat` law is the absence of knowledge: an answer that hangs on where it was cut fails. A `uniform` law, or a bound on
 /// another law, is knowledge: the same dependence is a warning.
 std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit);
+
+/// What the stages after the fit fell short of, to be added to its own. `loo` may be null.
+std::vector<Shortfall> later_shortfalls(const Posterior& posterior, const Fit& fit,
+                                        const NaturalMode& mode, const Loo* loo);
 
 /// No check fails.
 bool trusted(const std::vector<Check>& checks);

@@ -16,6 +16,17 @@ using Map = Eigen::Map<Eigen::VectorXd>;
 Whitening whitening_at(const Mode& mode) {
   const Eigen::Index n = mode.position.size();
   if (!mode.found) return {mode.position, Eigen::MatrixXd::Identity(n, n)};
+  // Widths that are far apart are first made alike, or the wide ones would drown in the rounding of
+  // the narrow ones.
+  constexpr double far_apart = 1e10;
+  const Eigen::VectorXd diagonal = mode.curvature.diagonal();
+  if (diagonal.minCoeff() > 0 && diagonal.maxCoeff() > far_apart * diagonal.minCoeff()) {
+    const Eigen::VectorXd width = diagonal.cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXd scaled = width.asDiagonal() * mode.curvature * width.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
+    const Eigen::VectorXd size = eigen.eigenvalues().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
+    return {mode.position, width.asDiagonal() * eigen.eigenvectors() * size.asDiagonal()};
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(mode.curvature);
   const Eigen::VectorXd size = eigen.eigenvalues().unaryExpr(
       [](double curvature) { return curvature > 0.01 ? 1 / std::sqrt(curvature) : 1.0; });

@@ -199,8 +199,7 @@ void add_profiles(const Study& study, const Posterior& posterior, const Fit& fit
 }
 
 ModeSummary summarize_mode(const Study& study, const Posterior& posterior, const Fit& fit,
-                           double observations) {
-  const NaturalMode mode = natural_mode(posterior, fit);
+                           const NaturalMode& mode, double observations) {
   ModeSummary summary;
   summary.problem = mode.problem;
   if (!mode.problem.empty()) return summary;
@@ -346,8 +345,13 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
     Loo each = leave_one_out(posterior, final, scored ? &study.fit_data->scores : nullptr);
     if (!each.terms.empty()) loo = {study.observation, std::move(each)};
   }
+  const NaturalMode natural = natural_mode(posterior, final);
   const ModeSummary mode = summarize_mode(
-      study, posterior, final, loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
+      study, posterior, final, natural,
+      loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
+  for (Shortfall& each : later_shortfalls(posterior, final, natural, loo ? &loo->loo : nullptr)) {
+    final.shortfalls.push_back(std::move(each));
+  }
 
   StudyResult result{WEARWELL_VERSION,
                      study.title,

@@ -89,7 +89,7 @@ WeightedDraws reduced(const WeightedDraws& draws, Eigen::Index count, const Redu
     }
     return values;
   };
-  WeightedDraws result{reduce(draws.values), draws.weights, {}, {}, draws.cell_weights};
+  WeightedDraws result{reduce(draws.values), draws.weights, {}, {}, draws.cells};
   for (const Points& ends : draws.lower) result.lower.push_back(reduce(ends));
   for (const Points& ends : draws.upper) result.upper.push_back(reduce(ends));
   return result;

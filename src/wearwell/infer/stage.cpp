@@ -1,0 +1,34 @@
+#include "wearwell/infer/stage.h"
+
+#include <fmt/format.h>
+
+namespace wearwell {
+
+const char* stage_name(Stage stage) {
+  switch (stage) {
+    case Stage::mode:
+      return "search for the mode";
+    case Stage::tails:
+      return "tails";
+    case Stage::quadrature:
+      return "quadrature";
+    case Stage::digits:
+      return "digits";
+    case Stage::natural_mode:
+      return "mode in the parameters' own units";
+    case Stage::leave_one_out:
+      return "leave-one-out";
+  }
+  return "";
+}
+
+Check computation(const std::vector<Shortfall>& shortfalls, const std::string& precision) {
+  Findings findings("computation");
+  for (const Shortfall& each : shortfalls) {
+    findings.add(each.verdict, fmt::format("{}: {}", stage_name(each.stage), each.what),
+                 each.advice);
+  }
+  return findings.result(precision);
+}
+
+}  // namespace wearwell

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "wearwell/infer/check.h"
+
+namespace wearwell {
+
+/// The stages of a fit that can fall short of what they promise. A new stage gets an entry here; a
+/// test walks over the list and asks of each that its failure ends trust.
+enum class Stage { mode, tails, quadrature, digits, natural_mode, leave_one_out };
+
+inline constexpr std::array all_stages = {Stage::mode,   Stage::tails,        Stage::quadrature,
+                                          Stage::digits, Stage::natural_mode, Stage::leave_one_out};
+
+/// What a stage did not reach. Verdict::warn where something else vouches for the numbers.
+struct Shortfall {
+  Stage stage;
+  Verdict verdict;
+  std::string what;
+  std::string advice;
+};
+
+/// "search for the mode".
+const char* stage_name(Stage stage);
+
+/// The check "computation": one finding a shortfall. `precision` is what is said when there is none.
+Check computation(const std::vector<Shortfall>& shortfalls, const std::string& precision);
+
+}  // namespace wearwell
