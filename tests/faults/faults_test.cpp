@@ -311,7 +311,9 @@ class Faults : public testing::TestWithParam<Writer> {
     if (line.starts_with("write(1<")) return "standard output";
     const std::size_t begin = line.find(folder.string());
     if (begin == std::string::npos) return std::nullopt;
-    return fs::path(line.substr(begin, line.find_first_of("\">", begin) - begin)).parent_path();
+    return fs::path(line.substr(begin, line.find_first_of("\">", begin) - begin))
+        .parent_path()
+        .string();
   }
 
   /// The log of strace with these options.
