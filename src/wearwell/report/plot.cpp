@@ -7,14 +7,17 @@
 #include <cstring>
 #include <iterator>
 
+#include "wearwell/base/printable.h"
+
 namespace wearwell::plot {
 namespace {
 
 // The name of a column as CSV and Vega take it whole: a comma would make two of it, a point or a
 // bracket something inside of it.
-std::string in_heading(std::string name) {
+std::string in_heading(const std::string& text) {
+  std::string name = printable(text);
   for (char& c : name) {
-    if (std::strchr(",.[]\"'\\\n\r", c)) c = ' ';
+    if (std::strchr(",.[]\"'\\", c)) c = ' ';
   }
   return name;
 }
