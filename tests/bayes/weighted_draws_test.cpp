@@ -216,7 +216,9 @@ TEST(WeightedSampler, ChoosesPointsByWeight) {
 TEST(WeightedDraws, CentredCellsBend) {
   WeightedDraws draws;
   draws.values = Points::Zero(1, 2);
-  draws.weights = draws.cell_weights = Eigen::VectorXd::Ones(1);
+  draws.weights = Eigen::VectorXd::Ones(1);
+  draws.cells = {draws.weights, Points::Zero(1, 1), Points::Zero(1, 1),
+                 Points::Constant(1, 1, 1. / 12)};
   draws.lower = {Points(1, 2)};
   draws.upper = {Points(1, 2)};
   draws.lower[0] << -1, 1;

@@ -104,10 +104,10 @@ try {
     faults.push(`dialog: ${dialog.message()}`);
     dialog.dismiss();
   });
-  await page.goto(address);
+  await page.goto(address, {timeout: 120000});
   await page.waitForFunction(
       () => [...document.querySelectorAll('figure')].every((each) => each.dataset.drawn || each.dataset.failed), null,
-      {timeout: 30000});
+      {timeout: 120000});
   // Our own figures are drawn in spite of it: only what is not ours may fail.
   const failed = await page.evaluate(() => [...document.querySelectorAll('figure[data-failed]')].map((each) => each.id));
   for (const id of failed) {

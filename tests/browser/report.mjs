@@ -64,10 +64,10 @@ async function open(context, report, complaints) {
     const url = request.url();
     if (url !== address && !url.startsWith('data:') && !url.startsWith('blob:')) complaints.push(`request: ${url}`);
   });
-  await page.goto(address);
+  await page.goto(address, {timeout: 120000});
   await page.waitForFunction(
       () => document.querySelectorAll('figure').length === document.querySelectorAll('figure[data-drawn]').length,
-      null, {timeout: 30000});
+      null, {timeout: 120000});
   return page;
 }
 

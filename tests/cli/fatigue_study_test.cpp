@@ -103,7 +103,12 @@ TEST_F(FatigueStudy, CasesAgreeWithTheGridOfR) {
   std::map<std::string, double> width;  // of the 90 % interval
   for (const std::string study : {"case1", "case2"}) {
     const json result = fit(example + study + ".toml", "--method exact --draws 100");
-    EXPECT_TRUE(result["trusted"]);
+    // With nine tests the data show a steeper line than the bound of b allows: the residuals follow
+    // the stress, and the check of fit says so.
+    EXPECT_EQ(result["trusted"], study == "case1");
+    for (const json& check : result["checks"]) {
+      EXPECT_TRUE(check["verdict"] != "fail" || check["name"] == "fit") << check;
+    }
     const std::string number = study.substr(4);
     std::size_t i = 0;
     for (const std::string name : {"log10_a", "b", "log10_Sut", "sigma"}) {

@@ -5,10 +5,16 @@
 #include <sys/mount.h>
 
 #include <functional>
+#include <optional>
+#include <regex>
+#include <set>
 
 #include "support/disk_content.h"
 #include "support/run_command.h"
 #include "support/scratch.h"
+#include "wearwell/base/lock_file.h"
+#include "wearwell/base/sha1.h"
+#include "wearwell/base/staged_file.h"
 #include "wearwell/clutch/wear_model.h"
 #include "wearwell/study/clutch_model_file.h"
 
@@ -23,6 +29,9 @@ using Tree = std::map<std::string, std::string>;
 
 const std::string program = "'" WEARWELL_BINARY "' ";
 
+/// When what a command leaves that met a fault is whole or as before.
+enum class Whole { at_once, once_healed };
+
 /// A command, run in a folder that holds what `prepare` puts there.
 struct Writer {
   const char* name;
@@ -31,7 +40,23 @@ struct Writer {
   std::string target;  ///< what it writes, in that folder
   /// Tells a whole new target from `fresh`, that of a run without a fault.
   std::function<bool(const fs::path& target, const Tree& fresh)> is_whole;
+  Whole after_a_fault = Whole::at_once;
 };
+
+void PrintTo(const Writer& writer, std::ostream* out) {
+  *out << writer.name;
+}
+
+std::string names_that_differ(const Tree& one, const Tree& other) {
+  std::set<std::string> names;
+  for (const auto& [name, text] : one) {
+    if (!other.contains(name) || other.at(name) != text) names.insert(name);
+  }
+  for (const auto& [name, text] : other) {
+    if (!one.contains(name)) names.insert(name);
+  }
+  return testing::PrintToString(names);
+}
 
 bool is_equal(const fs::path& target, const Tree& fresh) {
   return fs::is_directory(target) ? tree(target) == fresh : Tree{{"", content(target)}} == fresh;
@@ -49,8 +74,13 @@ bool is_listed_whole(const fs::path& target, const Tree& fresh) {
   for (const auto& [name, text] : fresh) {
     if (!names.contains(name)) return false;
   }
-  return run_command("cd '" + target.string() + "' && sha1sum --quiet -c results.sha1").exit_code ==
-         0;
+  std::istringstream list(names["results.sha1"]);
+  std::size_t listed = 0;
+  for (std::string sha1, name; list >> sha1 && std::getline(list >> std::ws, name); ++listed) {
+    std::istringstream text(names[name]);
+    if (sha1_of(text) != sha1) return false;
+  }
+  return listed + 1 == names.size();
 }
 
 void run_or_throw(const fs::path& folder, const std::string& arguments) {
@@ -71,8 +101,25 @@ const std::string predict =
 const std::string simulate =
     "clutch simulate --design design.csv --truth truth.toml --traces 1 -o campaign";
 
+/// One fit, not one a stage: the disk sees the same.
 void copy_joint(const fs::path& folder) {
   fs::copy(examples + "joint", folder / "joint", fs::copy_options::recursive);
+  const std::string study = content(folder / "joint" / "study.toml");
+  const std::string stages = std::regex_replace(study, std::regex("\\[update\\][^\\[]*"), "");
+  if (stages == study) throw std::runtime_error("no stages to leave out");
+  std::ofstream(folder / "joint" / "study.toml") << stages;
+}
+
+/// Results whose report is of an earlier version, as their list says.
+void prepare_earlier_report(const fs::path& folder) {
+  copy_joint(folder);
+  run_or_throw(folder, "fit joint/study.toml -o out --quiet --method exact --chains 1 --draws 10");
+  const fs::path out = folder / "out";
+  std::string list = content(out / "results.sha1");
+  const std::string now = sha1_of(content(out / "report.html"));
+  std::ofstream(out / "report.html") << "an earlier report";
+  list.replace(list.find(now), now.size(), sha1_of("an earlier report"));
+  std::ofstream(out / "results.sha1") << list;
 }
 
 void write_table(const fs::path& folder) {
@@ -124,9 +171,14 @@ const std::vector<Writer>& writers() {
       {"fit_again", fit, then(copy_joint, fit + " --seed 2"), "out", is_listed_whole},
       {"select", select, write_table, "out", is_listed_whole},
       {"select_again", select, then(write_table, select + " --keep 3"), "out", is_listed_whole},
-      {"report", "report out",
-       then(copy_joint, "fit joint/study.toml -o out --quiet --chains 1 --draws 10"), "out",
-       is_equal},
+      {"report", "report out", prepare_earlier_report, "out", is_equal},
+      // Its folder holds more than results, and stays: two files are put into it, one by one.
+      {"report_beside_notes", "report out",
+       [](const fs::path& folder) {
+         prepare_earlier_report(folder);
+         std::ofstream(folder / "out" / "notes.txt") << "kept";
+       },
+       "out", is_equal, Whole::once_healed},
       {"predict", predict, write_model_and_cycles, "state.json", is_equal},
       {"predict_again", predict,
        [](const fs::path& folder) {
@@ -145,6 +197,16 @@ const std::vector<Writer>& writers() {
        is_equal}};
   return all;
 }
+
+/// What changes the disk, or tells that it has.
+constexpr const char* changing[] = {"mkdir",  "write",     "fsync", "flock",  "chmod", "fchmod",
+                                    "rename", "renameat2", "link",  "unlink", "rmdir"};
+
+/// The count-th call of its kind in one run.
+struct Call {
+  std::string kind;
+  int count;
+};
 
 class Faults : public testing::TestWithParam<Writer> {
  protected:
@@ -176,9 +238,22 @@ class Faults : public testing::TestWithParam<Writer> {
     const bool is_new = fs::exists(target) && GetParam().is_whole(target, fresh_);
     if (must_be_new) {
       EXPECT_TRUE(is_new);
-    } else {
-      EXPECT_TRUE(is_new || look(target) == old_)
-          << testing::PrintToString(entries(folder)) << testing::PrintToString(look(target));
+      return;
+    }
+    const Tree now = look(target);
+    EXPECT_TRUE(is_new || now == old_)
+        << "beside the target: " << testing::PrintToString(entries(folder))
+        << "\nother than before: " << names_that_differ(now, old_)
+        << "\nother than new: " << names_that_differ(now, fresh_);
+  }
+
+  /// The next to write here and there, whoever it is, by the way that all take.
+  static void heal(const fs::path& folder) {
+    const fs::path target = folder / GetParam().target;
+    for (const fs::path& where : {folder, target}) {
+      if (!fs::is_directory(where)) continue;
+      write_file(where / "next.csv", "next");
+      fs::remove(where / "next.csv");
     }
   }
 
@@ -189,28 +264,69 @@ class Faults : public testing::TestWithParam<Writer> {
     }
   }
 
-  /// Runs the command under strace with a fault at the n-th call of one kind; false when there are
-  /// fewer.
-  bool run_with(const std::string& call, const std::string& fault, int n, CommandResult& run,
+  /// Runs the command under strace with a fault at one call; false when it was not come to.
+  bool run_with(const Call& at, const std::string& fault, CommandResult& run,
                 fs::path& folder) const {
     folder = scene();
+    const std::string log = traced(folder,
+                                   "-e trace=" + at.kind + " -e inject=" + at.kind + ":" + fault +
+                                       ":when=" + std::to_string(at.count),
+                                   run);
+    return log.find("INJECTED") != std::string::npos ||
+           log.find("killed by SIGKILL") != std::string::npos;
+  }
+
+  /// Where a fault may tell something new: the calls that touch the scene, or standard output. Of
+  /// those of one kind in one folder (or on one stream), the first, the middle and the last: between
+  /// them nothing differs but the file that is next.
+  std::vector<Call> calls() const {
+    std::string kinds;
+    for (const char* kind : changing) kinds += std::string(kinds.empty() ? "" : ",") + kind;
+    CommandResult run;
+    const fs::path folder = scene();
+    std::istringstream log(traced(folder, "-y -e trace=" + kinds, run));
+    EXPECT_LE(run.exit_code, 1) << run.err;
+    std::map<std::string, int> counts;
+    std::vector<std::string> places;
+    std::map<std::string, std::vector<Call>> at;
+    for (std::string line; std::getline(log, line);) {
+      const std::string kind = line.substr(0, line.find('('));
+      const Call call = {kind, ++counts[kind]};
+      const std::optional<std::string> place = place_of(line, folder);
+      if (!place) continue;
+      if (!at.contains(kind + *place)) places.push_back(kind + *place);
+      at[kind + *place].push_back(call);
+    }
+    std::vector<Call> chosen;
+    for (const std::string& place : places) {
+      const std::vector<Call>& all = at[place];
+      for (const std::size_t i : std::set<std::size_t>{0, all.size() / 2, all.size() - 1})
+        chosen.push_back(all[i]);
+    }
+    return chosen;
+  }
+
+  /// The folder of the file that a call names, without the random part; or the stream.
+  static std::optional<std::string> place_of(const std::string& line, const fs::path& folder) {
+    if (line.starts_with("write(1<")) return "standard output";
+    const std::size_t begin = line.find(folder.string());
+    if (begin == std::string::npos) return std::nullopt;
+    return fs::path(line.substr(begin, line.find_first_of("\">", begin) - begin))
+        .parent_path()
+        .string();
+  }
+
+  /// The log of strace with these options.
+  std::string traced(const fs::path& folder, const std::string& options, CommandResult& run) const {
     const fs::path log = root_ / "strace";
-    run = run_command("cd '" + folder.string() + "' && exec strace -qq -o '" + log.string() +
-                      "' -e trace=" + call + " -e inject=" + call + ":" + fault +
-                      ":when=" + std::to_string(n) + " " + program + GetParam().arguments);
-    const std::string text = content(log);
-    return text.find("INJECTED") != std::string::npos ||
-           text.find("killed by SIGKILL") != std::string::npos;
+    run = run_command("cd '" + folder.string() + "' && exec strace -qq -o '" + log.string() + "' " +
+                      options + " " + program + GetParam().arguments);
+    return content(log);
   }
 
   fs::path root_;
   Tree old_, fresh_;
 };
-
-/// What changes the disk, or tells that it has.
-constexpr const char* changing[] = {"mkdir",  "write",  "fsync",     "flock",  "chmod",
-                                    "fchmod", "rename", "renameat2", "unlink", "rmdir"};
-constexpr int most_calls = 200;
 
 #define SKIP_WITHOUT_STRACE()                                     \
   if (run_command("strace -qq -o /dev/null true").exit_code != 0) \
@@ -218,56 +334,42 @@ constexpr int most_calls = 200;
 
 TEST_P(Faults, KilledAtEachCall) {
   SKIP_WITHOUT_STRACE();
-  int kills = 0;
-  for (const char* call : changing) {
-    for (int n = 1; n <= most_calls; ++n) {
-      SCOPED_TRACE(testing::Message() << "killed at " << call << " " << n);
-      CommandResult run;
-      fs::path folder;
-      if (!run_with(call, "signal=KILL", n, run, folder)) {
-        EXPECT_LE(run.exit_code, 1) << run.err;
-        break;
-      }
-      ++kills;
-      EXPECT_EQ(run.exit_code, 128 + SIGKILL);
-      expect_whole_or_as_before(folder, false);
-      // The next start that writes here and there, of another command.
-      const CommandResult next = run_command("cd '" + folder.string() + "' && " + program +
-                                             "bearing chart --output next.csv");
-      ASSERT_EQ(next.exit_code, 0) << next.err;
-      if (fs::is_directory(folder / GetParam().target))
-        run_command("cd '" + folder.string() + "' && " + program + "bearing chart --output " +
-                    GetParam().target + "/next.csv && rm " + GetParam().target + "/next.csv");
-      expect_whole_or_as_before(folder, false);
-      // A lock is taken over, and taken away, by the next who locks the same.
-      if (GetParam().arguments == predict)
-        run_command("cd '" + folder.string() + "' && " + program + predict);
-      expect_nothing_hidden(folder);
-      ASSERT_FALSE(HasFailure());
-    }
+  const std::vector<Call> all = calls();
+  EXPECT_GE(all.size(), 10u);
+  for (const Call& call : all) {
+    SCOPED_TRACE(testing::Message() << "killed at " << call.kind << " " << call.count);
+    CommandResult run;
+    fs::path folder;
+    ASSERT_TRUE(run_with(call, "signal=KILL", run, folder)) << run.err;
+    EXPECT_EQ(run.exit_code, 128 + SIGKILL);
+    if (GetParam().after_a_fault == Whole::at_once) expect_whole_or_as_before(folder, false);
+    heal(folder);
+    expect_whole_or_as_before(folder, false);
+    // A lock is taken over, and taken away, by the next who locks the same.
+    if (GetParam().arguments == predict)
+      const LockFile next(folder / GetParam().target, [] { FAIL() << "waits for the dead"; });
+    expect_nothing_hidden(folder);
+    ASSERT_FALSE(HasFailure());
   }
-  EXPECT_GE(kills, 10);
 }
 
 TEST_P(Faults, ErrorAtEachCall) {
   SKIP_WITHOUT_STRACE();
-  int errors = 0;
-  for (const char* call : changing) {
-    for (int n = 1; n <= most_calls; ++n) {
-      SCOPED_TRACE(testing::Message() << "EIO at " << call << " " << n);
-      CommandResult run;
-      fs::path folder;
-      if (!run_with(call, "error=EIO", n, run, folder)) break;
-      ++errors;
-      EXPECT_THAT(run.exit_code, AnyOf(0, 1, 3));
-      if (run.exit_code == 3) {
-        EXPECT_THAT(run.err, ContainsRegex("^wearwell: [^\n]*Input/output error[^\n]*\n$"));
-      }
-      expect_whole_or_as_before(folder, run.exit_code <= 1);
-      ASSERT_FALSE(HasFailure()) << run.err;
+  const std::vector<Call> all = calls();
+  EXPECT_GE(all.size(), 10u);
+  for (const Call& call : all) {
+    SCOPED_TRACE(testing::Message() << "EIO at " << call.kind << " " << call.count);
+    CommandResult run;
+    fs::path folder;
+    ASSERT_TRUE(run_with(call, "error=EIO", run, folder)) << run.err;
+    EXPECT_THAT(run.exit_code, AnyOf(0, 1, 3));
+    if (run.exit_code == 3) {
+      EXPECT_THAT(run.err, ContainsRegex("^wearwell: [^\n]*Input/output error[^\n]*\n$"));
     }
+    if (GetParam().after_a_fault == Whole::once_healed) heal(folder);
+    expect_whole_or_as_before(folder, run.exit_code <= 1);
+    ASSERT_FALSE(HasFailure()) << run.err;
   }
-  EXPECT_GE(errors, 10);
 }
 
 TEST_P(Faults, FullDisk) {

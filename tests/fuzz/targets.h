@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ostream>
 #include <span>
 #include <string_view>
 
@@ -11,6 +12,10 @@ struct Target {
   const char* name;  ///< of its folder in tests/fuzz/corpus
   void (*run)(std::string_view bytes);
 };
+
+inline void PrintTo(const Target& target, std::ostream* out) {
+  *out << target.name;
+}
 
 std::span<const Target> targets();
 

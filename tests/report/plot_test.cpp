@@ -22,6 +22,15 @@ TEST(Plot, HoldsItsOwnData) {
   EXPECT_EQ(Json::parse(spec.dump()), spec);
 }
 
+// A comma in a name would make two columns of it; a point or brackets, a part of something.
+TEST(Plot, AnyNameIsOneColumn) {
+  const Json spec = plot("", {"x"}, {"y"},
+                         {line({{"x", {1}}, {"y", {2}}, {"N.m, \"[2]\u2028", {3}}}, {"#123456"})});
+  const Json& layer = spec["layer"][0];
+  EXPECT_EQ(layer["data"]["values"], "x,y,N m    2  u2028\n1,2,3");
+  EXPECT_EQ(layer["encoding"]["tooltip"][0]["field"], "N m    2  u2028");
+}
+
 TEST(Plot, OneLegendForAllMarks) {
   const Json spec = plot("", {"x"}, {"y"},
                          {area({{"x", {1}}, {"y", {2}}, {"y2", {1}}}, {"#aaaaaa", "band"}),

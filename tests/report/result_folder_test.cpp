@@ -208,5 +208,44 @@ TEST_F(ResultFolderTest, ReplacesOneResultAndItsLine) {
   EXPECT_FALSE(fs::exists(folder() / "results.sha1")) << "no folder of results";
 }
 
+TEST_F(ResultFolderTest, OneResultIsReplacedBesideWhatIsNotOurs) {
+  {
+    ResultFolder result(target);
+    result.write("report.html", "page");
+    result.write("summary.json", "1");
+    result.commit();
+  }
+  write("results/notes.txt", "precious");
+  write("results/summary.json", "edited");
+  replace_result(target, "report.html", "other page");
+  EXPECT_THAT(entries(target),
+              ElementsAre("notes.txt", "report.html", "results.sha1", "summary.json"));
+  EXPECT_EQ(content(target / "report.html"), "other page");
+  EXPECT_EQ(content(target / "notes.txt"), "precious");
+  EXPECT_EQ(content(target / "summary.json"), "edited");
+  EXPECT_EQ(run_command("cd '" + target.string() + "' && sha1sum -c results.sha1").out,
+            "report.html: OK\nsummary.json: FAILED\n");
+  EXPECT_THAT(entries(folder()), ElementsAre("results"));
+}
+
+// The others are not written again: as many of them as there may be, they are linked.
+TEST_F(ResultFolderTest, OneResultIsReplacedWithTheFolder) {
+  put_result("1");
+  const auto inode = [](const fs::path& path) {
+    struct stat there = {};
+    EXPECT_EQ(stat(path.c_str(), &there), 0);
+    return there.st_ino;
+  };
+  const auto summary = inode(target / "summary.json"), folder_before = inode(target);
+  replace_result(target, "report.html", "page");
+  EXPECT_EQ(inode(target / "summary.json"), summary);
+  EXPECT_NE(inode(target), folder_before) << "not in one step";
+  EXPECT_THAT(entries(folder()), ElementsAre("results"));
+  fs::remove(target / "report.html");
+  fs::create_directory(target / "report.html");
+  EXPECT_THAT(message_of<InputError>([&] { replace_result(target, "report.html", "page"); }),
+              HasSubstr("report.html: Is a directory"));
+}
+
 }  // namespace
 }  // namespace wearwell

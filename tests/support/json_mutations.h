@@ -26,18 +26,8 @@ inline void mutations(
       };
   std::set<std::string> places;
   walk(whole, "", places);
-  const Json replacements[] = {nullptr,
-                               -1,
-                               0.5,
-                               1e308,
-                               18446744073709551615u,
-                               true,
-                               "",
-                               "<b>\x1b[2J",
-                               Json::array(),
-                               Json::object(),
-                               Json::array({1}),
-                               Json::array({nullptr})};
+  const Json replacements[] = {nullptr, -1,           1e308,         18446744073709551615u,
+                               true,    "<b>\x1b[2J", Json::array(), Json::object()};
   for (const std::string& place : places) {
     const Json::json_pointer pointer(place);
     for (const Json& other : replacements) {

@@ -47,6 +47,10 @@ bool is_of_the_request(int error) {
   }
 }
 
+bool means_no_locks(int error) {
+  return error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP || error == EINVAL;
+}
+
 bool is_same(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
@@ -149,9 +153,17 @@ bool is_staging_name(const std::string& name) {
          name.find_first_not_of(letters, prefix.size()) == std::string::npos;
 }
 
-bool lock_staging(const Descriptor& opened, const fs::path& path) {
-  // A file system without locks has no healing: there no abandoned name can be told from a live one.
-  if (flock(opened.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+bool lock_staging(const Descriptor& opened, const fs::path& path, const fs::path& target) {
+  if (flock(opened.get(), LOCK_EX | LOCK_NB) != 0) {
+    const int error = errno;
+    if (error == EWOULDBLOCK) return false;
+    // A file system without locks has no healing: there no abandoned name can be told from a live
+    // one.
+    if (!means_no_locks(error)) {
+      std::remove(path.c_str());
+      fail_to_write(target, error);
+    }
+  }
   struct stat mine, there;
   return fstat(opened.get(), &mine) == 0 && lstat(path.c_str(), &there) == 0 &&
          is_same(mine, there);

@@ -51,8 +51,11 @@ bool exchange(const std::filesystem::path& one, const std::filesystem::path& oth
 /// `.wearwell.unfinished.` and twelve letters. It is locked as long as its owner lives.
 std::filesystem::path staging_name(const std::filesystem::path& folder);
 bool is_staging_name(const std::string& name);
-/// False when another took it in the meantime.
-bool lock_staging(const Descriptor& opened, const std::filesystem::path& path);
+/// False when another took it in the meantime. When the lock fails where locks are, the name is
+/// removed again, and it throws as fail_to_write(target): the next to look there, this program
+/// among them, would take it for abandoned.
+bool lock_staging(const Descriptor& opened, const std::filesystem::path& path,
+                  const std::filesystem::path& target);
 
 /// Calls `heal` with each entry of a folder that has such a name, is of this user and whose owner
 /// has ended without removing it.

@@ -33,7 +33,7 @@ StagedFile::StagedFile(const fs::path& target, Links links) {
     Descriptor file = create_file(staging);
     if (!file && errno == EEXIST) continue;
     if (!file) fail_to_write(target_, errno);
-    if (!lock_staging(file, staging)) continue;
+    if (!lock_staging(file, staging, target_)) continue;
     now.note(staging, false);
     file_ = std::move(file);
     staging_ = staging;

@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 
 #include "wearwell/base/ending.h"
 #include "wearwell/base/error.h"
@@ -77,13 +78,15 @@ bool is_there(const fs::path& path) {
   return lstat(path.c_str(), &ignored) == 0;
 }
 
-/// Under its own name, or one that says why it has none.
-void move_and_keep(const fs::path& from, const fs::path& folder) {
+/// Under its own name, or one that says why it has none. 0, or why it stays where it is.
+int move_and_keep(const fs::path& from, const fs::path& folder) {
   const std::string name = from.filename().string();
   for (int copy = 0; copy < 1000; ++copy) {
     const std::string suffix = copy == 0 ? "" : copy == 1 ? ".kept" : fmt::format(".kept{}", copy);
-    if (rename_new(from, folder / (name + suffix)) || errno != EEXIST) return;
+    if (rename_new(from, folder / (name + suffix))) return 0;
+    if (errno != EEXIST) return errno;
   }
+  return EEXIST;
 }
 
 /// What was in the target before: listed files go, others return to the target.
@@ -98,33 +101,41 @@ void clear_away(const fs::path& before, const fs::path& target, const Journal& j
   rmdir(before.c_str());
 }
 
-void fill(const fs::path& from, const fs::path& target, const Journal& journal) {
+/// 0, or why a file could not be put into place or taken away: what is left can be done later.
+int fill(const fs::path& from, const fs::path& target, const Journal& journal) {
+  int trouble = 0;
   for (const auto& [kind, name] : journal.files) {
+    int error = 0;
     if (kind == removed) {
-      unlink((target / name).c_str());
+      if (unlink((target / name).c_str()) != 0) error = errno;
     } else if (kind == replaced_by_new) {
-      std::rename((from / name).c_str(), (target / name).c_str());
+      if (std::rename((from / name).c_str(), (target / name).c_str()) != 0) error = errno;
     } else if (is_there(from / name)) {
-      move_and_keep(from / name, target);
+      error = move_and_keep(from / name, target);
     }
+    if (error != 0 && error != ENOENT) trouble = error;  // done before, or kept in the target
   }
-  rmdir(from.c_str());
+  if (trouble == 0) rmdir(from.c_str());
+  return trouble;
 }
 
-/// Brings a hidden folder to its end; leaves it where that cannot be done without loss.
-void heal(const fs::path& area) {
+/// Brings a hidden folder to its end; leaves it where that cannot be done without loss. 0, or why
+/// the target is not what it was to be.
+int heal(const fs::path& area) {
   const fs::path place = area.parent_path();
   for (const std::string& name : entries(area)) {
-    if (name != "journal" && name != "new" && name != "old" && name != "fill") return;  // not ours
+    if (name != "journal" && name != "new" && name != "old" && name != "fill")
+      return 0;  // not ours
   }
   Journal journal;
   std::error_code ignored;
+  int trouble = 0;
   if (!read_journal(area / "journal", journal)) {
     fs::remove_all(area, ignored);
-    return;
+    return 0;
   }
   if (journal.within.empty()) {
-    if (is_there(area / "fill")) fill(area / "fill", place, journal);
+    if (is_there(area / "fill")) trouble = fill(area / "fill", place, journal);
     fs::remove_all(area / "new", ignored);
   } else {
     const fs::path target = place / journal.within, old = area / "old" / target.filename();
@@ -139,6 +150,7 @@ void heal(const fs::path& area) {
   }
   const std::vector<std::string> left = entries(area);
   if (left == std::vector<std::string>{"journal"}) fs::remove_all(area, ignored);
+  return trouble;
 }
 
 }  // namespace
@@ -199,7 +211,7 @@ void StagedFolder::open_area(const fs::path& place) {
       rmdir(area.c_str());
       fail_to_write(target_, error);
     }
-    if (!lock_staging(opened, area)) continue;  // likewise
+    if (!lock_staging(opened, area, target_)) continue;  // likewise
     now.note(area, true);
     now.note(area / "journal", false);
     area_ = area;
@@ -237,6 +249,26 @@ void StagedFolder::write(const std::string& name, std::string_view content) {
   names_.push_back(name);
   write_all(opened, content, target_ / name);
   flush_to_disk(opened, target_ / name);
+}
+
+void StagedFolder::keep(const std::string& name) {
+  if (within_.empty()) {
+    names_.push_back(name);  // the target stays, and the file in it
+    return;
+  }
+  {
+    const fs::path file = area_ / "new" / within_ / name;
+    Uninterrupted now;
+    if (link((target_ / name).c_str(), file.c_str()) == 0) {
+      now.note(file, false);
+      names_.push_back(name);
+      return;
+    }
+  }
+  std::ifstream stream(target_ / name, std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) throw MachineError(fmt::format("cannot read {}", (target_ / name).string()));
+  write(name, content);
 }
 
 void StagedFolder::write_journal(const std::vector<std::string>& replaced) {
@@ -302,9 +334,10 @@ void StagedFolder::put_into_place() {
     }
     check(rename_new(from, to));
   }
-  heal(area_);
+  const int trouble = heal(area_);
   now.forget(area_);
   area_.clear();
+  if (trouble != 0) fail_to_write(target_, trouble);
 }
 
 }  // namespace wearwell

@@ -33,6 +33,9 @@ class StagedFolder {
 
   void write(const std::string& name, std::string_view content);
 
+  /// Takes over a file of the target as it is, without a copy where the file system has hard links.
+  void keep(const std::string& name);
+
   /// The files of `replaced` in the target make room; whatever else is there stays. Throws
   /// InputError when one that stays has the name of one that was written: nothing is done then.
   /// Returns when the disk has all.

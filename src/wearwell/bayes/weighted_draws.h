@@ -38,7 +38,9 @@ struct WeightedDraws {
 };
 
 /// The distribution of one number: points, each spread evenly over center +- half_width (0 for
-/// draws), which keep mean and variance of their cells.
+/// draws), which keep mean and variance of their cells. Nodes of a quadrature without weight do not
+/// count; where the number is NaN with more than 1e-8 of the weight it has no distribution, and all
+/// that is asked of it is NaN.
 class Distribution {
  public:
   Distribution(const WeightedDraws& draws, const std::function<double(const double* x)>& quantity);

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <system_error>
 
 #include "wearwell/base/ending.h"
 #include "wearwell/base/error.h"
@@ -38,16 +39,18 @@ void fill_standard_streams() {
   }
 }
 
-// Empty when all that was printed has arrived.
-std::string trouble_with_output() {
+// Empty when all that was printed has arrived. `error`: why printing ended early, where it did; what
+// was to be printed then is not in the buffer any more, and flushing it fails no second time.
+std::string trouble_with_output(int error) {
   errno = 0;
   std::cout.flush();
   if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return {};
+  if (error == 0) error = errno;
   return fmt::format("cannot write to standard output: {}",
-                     errno ? std::strerror(errno) : "what was printed is not complete");
+                     error ? std::strerror(error) : "what was printed is not complete");
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, int& output_error) {
   using namespace wearwell;
   int exit_code = 0;
   CLI::App app(
@@ -76,10 +79,13 @@ int run(int argc, char** argv) {
     return complain(error.what(), machine_failed);
   } catch (const std::filesystem::filesystem_error& error) {
     return complain(error.what(), machine_failed);
+  } catch (const std::system_error& error) {
+    if (!std::ferror(stdout)) return complain(error.what(), machine_failed);
+    output_error = error.code().value();  // said in main
+    return machine_failed;
   } catch (const std::bad_alloc&) {
     return complain("out of memory", machine_failed);
   } catch (const std::exception& error) {
-    if (std::ferror(stdout)) return machine_failed;  // said in main
     return complain(fmt::format("internal error, please report it: {}", error.what()),
                     machine_failed);
   }
@@ -92,7 +98,8 @@ int main(int argc, char** argv) {
   fill_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is a full disk, not an end
   wearwell::remove_half_written_on_signals();
-  const int exit_code = run(argc, argv);
-  const std::string trouble = trouble_with_output();
+  int output_error = 0;
+  const int exit_code = run(argc, argv, output_error);
+  const std::string trouble = trouble_with_output(output_error);
   return trouble.empty() ? exit_code : complain(trouble, machine_failed);
 }

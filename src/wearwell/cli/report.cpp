@@ -18,6 +18,7 @@ void rebuild(const std::filesystem::path& folder) {
     throw InputError(fmt::format(
         "{} holds a clutch study, whose report is written by wearwell fit only: fit it again",
         folder.string()));
+  heal_results(folder);
   const StudyResult result = read_result(folder);
   if (!result.plots) {
     throw InputError(

@@ -43,6 +43,14 @@ Check proper_posterior(const Posterior& posterior, const Fit& fit) {
     const std::string give_prior = fmt::format(
         "Bound {} or give it a proper prior ({}): the data alone do not hold it.", parameter.name,
         prior_for(parameter));
+    if (!tail.known) {
+      findings.add(Verdict::fail,
+                   fmt::format("the posterior may be improper: how it ends with {} could not be "
+                               "measured",
+                               where),
+                   give_prior);
+      continue;
+    }
     const std::string power =
         tail.towards_bound
             ? fmt::format("its density grows like distance^{:.2f}", -tail.index)

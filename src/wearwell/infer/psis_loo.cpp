@@ -10,8 +10,8 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <stdexcept>
 
+#include "wearwell/infer/mode.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -69,8 +69,19 @@ class Without final : public LogDensity {
     const double all = whole_->value(x);
     return std::isfinite(all) ? all - whole_->pointwise(x)[term_] : all;
   }
-  double value_and_gradient(std::span<const double>, std::span<double>) const override {
-    throw std::logic_error("a likelihood without one observation is only for quadrature");
+  // By differences: no likelihood tells the gradients of its terms. Only searches for a peak ask.
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    constexpr double step = 6e-6;  // the cube root of the rounding error
+    std::vector<double> moved(x.begin(), x.end());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double h = step * (x[i] != 0 ? std::abs(x[i]) : 1);
+      moved[i] = x[i] + h;
+      const double above = value(moved);
+      moved[i] = x[i] - h;
+      gradient[i] = (above - value(moved)) / (2 * h);
+      moved[i] = x[i];
+    }
+    return value(x);
   }
 
  private:
@@ -268,19 +279,26 @@ std::optional<Refitted> fitted_without(const Posterior& posterior, const Whiteni
   settings.tolerance = 1e-3;
   settings.max_evaluations = 4'000'000;
   settings.second_moments = false;
-  const ExactPosterior exact = integrate(others, whitening, settings, posterior);
+  ExactPosterior exact = integrate(others, whitening, settings, posterior);
+  if (!exact.failure.empty()) {
+    // Without an observation that pulled it far away the posterior lies elsewhere.
+    const Mode mode = find_mode(others, whitening.center);
+    if (mode.found) exact = integrate(others, whitening_at(mode), settings);
+  }
   if (!exact.failure.empty()) return {};
-  double density = 0, below = 0, above = 0;
+  std::vector<double> log_density;
+  double below = 0, above = 0;
   for (Eigen::Index i = 0; i < exact.nodes.values.rows(); ++i) {
     const Eigen::VectorXd x = exact.nodes.values.row(i);
     const double weight = exact.nodes.weights[i];
-    density += weight * std::exp(posterior.likelihood()->pointwise(view(x))[term]);
+    if (!(weight > 0)) continue;
+    log_density.push_back(std::log(weight) + posterior.likelihood()->pointwise(view(x))[term]);
     if (!scores) continue;
     const NormalScore score = (*scores)(x.data())[term];
     below += weight * normal_cdf(score.high);
     above += weight * normal_cdf(-score.low);
   }
-  const double elpd = std::log(density);
+  const double elpd = log_sum_exp(log_density);
   if (!std::isfinite(elpd)) return {};
   return Refitted{elpd, scores ? std::min(1.0, 2 * std::min(below, above)) : 1, exact.error};
 }

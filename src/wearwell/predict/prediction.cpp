@@ -36,8 +36,8 @@ struct Mixture {
 
   double quantile(double p) const {
     if (!std::isfinite(middle) || !std::isfinite(width)) return std::nan("");
-    // Every look at all laws is dear: few of them say where about the quantile lies, and Newton's
-    // method is there in three steps.
+    // Every look at all laws is dear: few of them say where about the quantile lies, and Halley's
+    // method is there in two steps.
     constexpr std::size_t few = 256;
     if (weight.size() > 4 * few) {
       const double near = some(few).bracketed(p);
@@ -62,20 +62,23 @@ struct Mixture {
     return chosen;
   }
 
-  // Newton's method from a point near the quantile; NaN where it does not settle at once.
+  // Halley's method from a point near the quantile; NaN where it does not settle at once.
   double polished(double p, double near) const {
-    constexpr double close = 1e-6;  // the step from there is good to its square
+    constexpr double close = 1e-4;  // the step from there is good to its third power
     const bool lognormal = family == ObservationFamily::lognormal;
     double t = lognormal ? std::log(near) : near;
     for (int step = 0; step < 8; ++step) {
-      double below = 0, slope = 0;
+      double below = 0, slope = 0, bend = 0;
       for (std::size_t i = 0; i < weight.size(); ++i) {
+        const double each = weight[i] * density(law[i], t);
         below += weight[i] * law[i].cdf(t);
-        slope += weight[i] * density(law[i], t);
+        slope += each;
+        if (each > 0) bend += each * (law[i].location - t) / (law[i].scale * law[i].scale);
       }
-      t += (p - below) / slope;
+      const double newton = (below - p) / slope;
+      t -= newton / std::clamp(1 - 0.5 * newton * bend / slope, 0.5, 2.0);
       if (!std::isfinite(t)) break;
-      if (std::abs(p - below) <= close) return lognormal ? std::exp(t) : t;
+      if (std::abs(below - p) <= close) return lognormal ? std::exp(t) : t;
     }
     return std::nan("");
   }
@@ -167,8 +170,13 @@ Life predict_life(const WeightedDraws& draws, const Function& life, double now, 
   const Distribution lives(draws, life);
   const double reached = lives.cdf(now);
   const double wait = lives.quantile(reached + risk * (1 - reached)) - now;
-  return {lives.quantile(0.01), lives.quantile(0.1),  lives.quantile(0.5),
-          lives.quantile(0.05), lives.quantile(0.95), std::max(0.0, wait), reached};
+  return {lives.quantile(0.01),
+          lives.quantile(0.1),
+          lives.quantile(0.5),
+          lives.quantile(0.05),
+          lives.quantile(0.95),
+          std::max(0.0, wait),
+          reached};
 }
 
 }  // namespace wearwell

@@ -54,11 +54,17 @@
       ast: true,  // expressions are interpreted: the page's policy forbids to make functions of text
       mode: 'vega-lite',
       formatLocale: {decimal: '.', thousands: '\u202f', grouping: [3], currency: ['', '']},
-      actions: {export: {svg: true, png: true}, source: true, compiled: false, editor: false},
+      actions: {export: {svg: true, png: true}, source: false, compiled: false, editor: false},
       downloadFileName: name,
       scaleFactor: {svg: 1, png: 2},
       tooltip: {theme: matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'},
     });
+    // As text: Vega's own page of the source would take texts in it for markup.
+    const source = document.createElement('a');
+    source.textContent = 'View Source';
+    source.target = '_blank';
+    source.href = URL.createObjectURL(new Blob([JSON.stringify(specification, null, 2)], {type: 'text/plain'}));
+    figure.querySelector('.vega-actions').append(source);
     const summary = figure.querySelector('summary');
     if (summary) summary.setAttribute('aria-label', `Menu: ${figure.querySelector('h3').textContent}`);
     figure.dataset.drawn = 'true';

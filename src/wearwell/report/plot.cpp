@@ -4,15 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
+
+#include "wearwell/base/printable.h"
 
 namespace wearwell::plot {
 namespace {
 
-// A name from elsewhere does not make two columns of one.
-std::string in_heading(std::string name) {
+// The name of a column as CSV and Vega take it whole: a comma would make two of it, a point or a
+// bracket something inside of it.
+std::string in_heading(const std::string& text) {
+  std::string name = printable(text);
   for (char& c : name) {
-    if (c == ',' || c == '"' || c == '\n' || c == '\r') c = ' ';
+    if (std::strchr(",.[]\"'\\", c)) c = ' ';
   }
   return name;
 }
@@ -54,7 +59,8 @@ Json layer(const Columns& data, Json mark, const Look& look) {
   Json tooltip = Json::array();
   for (const auto& column : data) {
     if (column.first.size() > 2 && column.first != "density") {
-      tooltip.push_back({{"field", in_heading(column.first)}, {"type", "quantitative"}, {"format", ".4~g"}});
+      tooltip.push_back(
+          {{"field", in_heading(column.first)}, {"type", "quantitative"}, {"format", ".4~g"}});
     }
   }
   if (!tooltip.empty()) encoding["tooltip"] = tooltip;

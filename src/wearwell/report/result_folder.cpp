@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "wearwell/base/error.h"
@@ -24,6 +26,12 @@ struct Listed {
 
 std::string line_of(const Listed& each) {
   return fmt::format("{}  {}\n", each.sha1, each.name);
+}
+
+std::string text_of(const std::vector<Listed>& list) {
+  std::string text;
+  for (const Listed& each : list) text += line_of(each);
+  return text;
 }
 
 /// Nothing when there is no list, or it is none of ours.
@@ -86,14 +94,11 @@ Content look_at(const fs::path& folder) {
 /// The earlier results that may be replaced.
 std::vector<std::string> replaceable(const fs::path& target) {
   const fs::path folder = behind_links(target);
+  heal_results(folder);
   std::error_code error;
-  if (!fs::exists(folder, error)) {
-    heal_folder(folder.parent_path());  // a program killed may have left it aside
-    if (!fs::exists(folder, error)) return {};
-  }
+  if (!fs::exists(folder, error)) return {};
   if (!fs::is_directory(folder, error))
     throw InputError(fmt::format("cannot write to {}: it is not a folder", folder.string()));
-  heal_folder(folder);
   const Content content = look_at(folder);
   if (!content.foreign.empty())
     throw InputError(fmt::format("will not replace {}: {}", folder.string(), content.foreign));
@@ -114,27 +119,54 @@ void ResultFolder::commit() {
   folder_.commit(look_at(folder_.target()).own);
 }
 
+void heal_results(const fs::path& target) {
+  const fs::path folder = behind_links(target);
+  std::error_code error;
+  if (!fs::exists(folder, error)) heal_folder(folder.parent_path());  // it may have been left aside
+  if (fs::is_directory(folder, error)) heal_folder(folder);
+}
+
 void replace_result(const fs::path& folder, const std::string& name, std::string_view content) {
   auto list = read_list(folder);
-  const auto write_list = [&] {
-    std::string text;
-    for (const Listed& each : *list) text += line_of(each);
-    write_file(folder / list_name, text, Links::replace);
-  };
-  const Listed now = {sha1_of(content), name};
-  const auto is_old = [&](const Listed& each) {
-    return each.name == name && each.sha1 != now.sha1;
-  };
-  // The old file and the new are both listed while one takes the other's place.
-  const bool listed = list && std::any_of(list->begin(), list->end(), [&](const Listed& each) {
-                        return each.name == name && each.sha1 == now.sha1;
-                      });
-  if (list && !listed) {
-    list->push_back(now);
-    write_list();
+  if (!list) {
+    write_file(folder / name, content, Links::replace);
+    return;
   }
-  write_file(folder / name, content, Links::replace);
-  if (list && std::erase_if(*list, is_old) > 0) write_list();
+  std::error_code error;
+  const fs::file_status there = fs::symlink_status(folder / name, error);
+  if (fs::is_directory(there)) fail_to_write(folder / name, EISDIR);
+  const std::string before = text_of(*list);
+  const Listed now = {sha1_of(content), name};
+  const auto has_name = [&](const Listed& each) { return each.name == name; };
+  const auto line = std::find_if(list->begin(), list->end(), has_name);
+  if (line == list->end()) {
+    list->push_back(now);
+  } else {
+    *line = now;
+    list->erase(std::remove_if(line + 1, list->end(), has_name), list->end());
+  }
+
+  const std::set<std::string> changed = {name, list_name};
+  const auto own = [&] {
+    std::vector<std::string> names = look_at(folder).own;
+    if (fs::is_regular_file(there) && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+    return names;
+  };
+  const std::vector<std::string> old = own();
+  StagedFolder staged(folder, old);
+  for (const std::string& each : old) {
+    if (!changed.contains(each)) staged.keep(each);
+  }
+  staged.write(name, content);
+  staged.write(list_name, text_of(*list));
+  const auto list_now = read_list(folder);
+  if (!list_now || text_of(*list_now) != before)
+    throw InputError(fmt::format("will not replace {}: another run wrote to {} meanwhile", name,
+                                 folder.string()));
+  std::vector<std::string> replaced = own();
+  if (std::find(replaced.begin(), replaced.end(), name) == replaced.end()) replaced.push_back(name);
+  staged.commit(replaced);
 }
 
 }  // namespace wearwell

@@ -31,7 +31,11 @@ class ResultFolder {
   std::string list_;
 };
 
-/// Replaces one file of a result folder, whole or not at all, and its line in the list.
+/// What a run that was killed had begun to put into place is brought to its end, or removed.
+void heal_results(const std::filesystem::path& target);
+
+/// Replaces one file of a result folder and its line in the list, both or none (StagedFolder); of a
+/// folder without a list, the file alone. Throws InputError when another run wrote there meanwhile.
 void replace_result(const std::filesystem::path& folder, const std::string& name,
                     std::string_view content);
 

@@ -198,8 +198,8 @@ std::vector<std::size_t> drawn_data_sets(std::size_t all) {
 }  // namespace
 
 // Evenly through the posterior, in slices of its first parameter and within each along the second.
-WeightedDraws thinned(const WeightedDraws& draws) {
-  constexpr Eigen::Index count = 4000, slices = 200;
+WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count) {
+  const Eigen::Index slices = count / 20;
   const Eigen::Index all = draws.values.rows();
   std::vector<Eigen::Index> order(static_cast<std::size_t>(all));
   std::iota(order.begin(), order.end(), 0);
@@ -214,7 +214,7 @@ WeightedDraws thinned(const WeightedDraws& draws) {
     auto begin = order.begin();
     for (auto end = begin; end != order.end();) {
       mass += draws.weights[*end++];
-      if (mass * slices < 1 && end != order.end()) continue;
+      if (mass * static_cast<double>(slices) < 1 && end != order.end()) continue;
       sort_along(1, begin, end);
       begin = end;
       mass = 0;
@@ -222,12 +222,12 @@ WeightedDraws thinned(const WeightedDraws& draws) {
   }
 
   WeightedDraws few{Points::Zero(count, draws.values.cols()),
-                    Eigen::VectorXd::Constant(count, 1.0 / count),
+                    Eigen::VectorXd::Constant(count, 1.0 / static_cast<double>(count)),
                     {},
                     {}};
   double mass = draws.weights[order[0]];
   for (Eigen::Index i = 0, at = 0; i < count; ++i) {
-    while (mass * count < static_cast<double>(i) + 0.5 && at + 1 < all) {
+    while (mass * static_cast<double>(count) < static_cast<double>(i) + 0.5 && at + 1 < all) {
       mass += draws.weights[order[static_cast<std::size_t>(++at)]];
     }
     few.values.row(i) = draws.values.row(order[static_cast<std::size_t>(at)]);
@@ -258,7 +258,7 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
     return plots;
   }
   const WeightedDraws few = thinned(best(fit));
-  plots.history = predict_all(study.history, few);
+  plots.history = predict_all(study.history, thinned(best(fit), 1000));
 
   if (study.stage_predictions) {
     std::vector<PredictionRequest> observed;

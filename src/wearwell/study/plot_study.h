@@ -14,7 +14,7 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
 
 /// A few points of one weight that stand for the tens of thousands of a quadrature, for curves:
 /// their quantiles move by less than a plot shows.
-WeightedDraws thinned(const WeightedDraws& draws);
+WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count = 4000);
 
 /// The density of `parameter` after every stage, over one range: that of the 90 % intervals of the
 /// later half of the stages.
