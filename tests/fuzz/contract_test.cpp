@@ -1,7 +1,7 @@
 // Wrong studies, wrong data and wrong options, made by mutating the examples, judged by what every run promises whatever it is
 // given: an exit code of 0 to 3; on 2 and 3 one message and nothing written; on 0 no number that is not one.
 //
-// WEARWELL_FUZZ_RUNS sets how many are tried (`make fuzz` tries thousands), WEARWELL_FUZZ_SEED which.
+// WEARWELL_FUZZ_RUNS sets how many are tried, WEARWELL_FUZZ_SEED which.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

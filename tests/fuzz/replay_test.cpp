@@ -1,5 +1,4 @@
-// Every seed and every case that a fuzzer once found, and a few mutations of each: what `make fuzz` looks for with coverage,
-// looked for without.
+// Every seed of the corpus, every case that was once a finding, and a few mutations of each: read or refused, nothing else.
 #include <gtest/gtest.h>
 
 #include <filesystem>
