@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "wearwell/base/rng.h"
-#include "wearwell/bearing/wear_number.h"
+#include "wearwell/models/bearing/wear_number.h"
 
 namespace wearwell::bearing {
 namespace {

@@ -13,13 +13,13 @@
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/run_chains.h"
-#include "wearwell/study/study.h"
+#include "support/posterior_study.h"
 
 namespace wearwell {
 namespace {
 
 Posterior posterior_of(const std::string& example) {
-  const Study study = read_study(PROJECT_SOURCE_DIR "/examples/" + example);
+  const PosteriorStudy study = read_posterior_study(PROJECT_SOURCE_DIR "/examples/" + example);
   return {study.parameters, study.likelihood(study.data_rows)};
 }
 

@@ -82,6 +82,55 @@ TEST_F(StagedFolderTest, KeepsWhatItMayNotReplace) {
                                   {"out/figures/x", "precious"}}));
 }
 
+TEST_F(StagedFolderTest, HasFoldersInside) {
+  put(target, {{"x", "1"}, {"tables/a", "1"}, {"tables/gone", "1"}});
+  EXPECT_THAT(files_in(target), ElementsAre("tables/a", "tables/gone", "x"));
+  put(target, {{"x", "2"}, {"tables/a", "2"}, {"tables/b", "2"}}, files_in(target));
+  EXPECT_EQ(tree(target),
+            (Tree{{"x", "2"}, {"tables/", ""}, {"tables/a", "2"}, {"tables/b", "2"}}));
+  put(target, {{"x", "3"}}, files_in(target));
+  EXPECT_EQ(tree(target), (Tree{{"x", "3"}}));
+}
+
+// The same where the target has to stay, and is filled file by file.
+TEST_F(StagedFolderTest, FillsFoldersInside) {
+  put(target, {{"tables/a", "1"}, {"tables/gone", "1"}, {"old/b", "1"}});
+  const std::vector<std::string> own = files_in(target);
+  write("out/tables/notes.txt", "precious");
+  put(target, {{"x", "2"}, {"tables/a", "2"}, {"new/c", "2"}}, own);
+  EXPECT_EQ(tree(target), (Tree{{"x", "2"},
+                                {"tables/", ""},
+                                {"tables/a", "2"},
+                                {"tables/notes.txt", "precious"},
+                                {"new/", ""},
+                                {"new/c", "2"}}));
+}
+
+TEST_F(StagedFolderTest, KeepsWhatOthersPutIntoAFolderInside) {
+  put(target, {{"tables/a", "1"}});
+  for (const char* name : {"tables/a", "x"}) {  // with and without that folder among the new
+    StagedFolder staged(target, {"tables/a"});
+    staged.write(name, "2");
+    write(std::string("out/tables/notes-") + name[0], "precious");
+    staged.commit({"tables/a"});
+  }
+  EXPECT_EQ(tree(target), (Tree{{"x", "2"},
+                                {"tables/", ""},
+                                {"tables/notes-t", "precious"},
+                                {"tables/notes-x", "precious"}}));
+}
+
+TEST_F(StagedFolderTest, AFileWhereAFolderIsNeededIsNotReplaced) {
+  put(target, {{"x", "1"}});
+  StagedFolder staged(target, {"x"});
+  staged.write("x", "2");
+  staged.write("tables/a", "2");
+  write("out/tables", "precious");
+  EXPECT_THAT(message_of<InputError>([&] { staged.commit({"x"}); }),
+              HasSubstr("out/tables: it is not of an earlier run"));
+  EXPECT_EQ(tree(target), (Tree{{"x", "1"}, {"tables", "precious"}}));
+}
+
 TEST_F(StagedFolderTest, KeepsAFolderThatAppearsMeanwhile) {
   StagedFolder staged(target);
   staged.write("x", "1");

@@ -1,4 +1,4 @@
-// A folder of results that somebody else made: wherever a text may stand in summary.json, plots.json and the draws there
+// A folder of results that somebody else made: wherever a text may stand in summary.json, report.json and the draws there
 // is one that would run a script or fetch something, were it taken for markup or code. `wearwell report` makes a page of it,
 // and headless Chromium opens the page: nothing may have run, and nothing may have been asked for.
 //
@@ -19,15 +19,15 @@ const evil = '"\'><img src=x onerror="window.owned=1"><svg onload="window.owned=
 const evilName = 'k"><img src=x onerror="window.owned=6"><script>window.owned=7</script>';
 
 // Words of which only some may stand there; anything else is refused.
-const fixed = new Set(['at', 'verdict', 'outcome']);
-const isFixed = (key, value) => key === 'verdict' || key === 'outcome' ||
-                                (key === 'at' && /^(inside|lower bound|upper bound)$/.test(value));
+const fixed = new Set(['at', 'verdict', 'outcome', 'callout', 'badge', 'format']);
+const isFixed = (key, value) => key !== 'at' || /^(inside|lower bound|upper bound)$/.test(value);
 
 function poisoned(value, key = '') {
   if (typeof value === 'string') return fixed.has(key) && isFixed(key, value) ? value : value + evil;
   if (Array.isArray(value)) return value.map((each) => poisoned(each, key));
   if (value === null || typeof value !== 'object') return value;
-  return Object.fromEntries(Object.entries(value).map(([name, each]) => [name, poisoned(each, name)]));
+  // Our own plots stay as they are; hostile ones are put beside them.
+  return Object.fromEntries(Object.entries(value).map(([name, each]) => [name, name === 'specification' ? each : poisoned(each, name)]));
 }
 
 const hostileFigure = {
@@ -68,11 +68,16 @@ function poison() {
     return Object.fromEntries(Object.entries(object).map(([key, each]) => [key === first ? evilName : key, renamed(each)]));
   };
   write('summary.json', poisoned(renamed(summary)));
-  const plots = poisoned(read('plots.json'));
-  // What our own plots are made of is data for Vega; the rest of the attack needs figures from plots.json.
-  plots.exhibits = {fit: {figures: [hostileFigure, fetchingFigure],
-                          tables: [{caption: evil, heading: [evil, evil], rows: [[evil, evil]], words: true, badges: [evil]}]}};
-  write('plots.json', plots);
+  const own = read('report.json');
+  const report = poisoned(own);
+  report.sections.forEach((section, i) => { section.id = own.sections[i].id; });
+  const fit = report.sections.find((section) => section.id === 'fit');
+  fit.blocks.push({figures: [hostileFigure, fetchingFigure]},
+                  {table: evil, caption: evil, words: true,
+                   columns: [{name: evil, unit: evil, format: 'significant', digits: 4, range: false}],
+                   rows: [[evil], [{badge: 'warn', word: evil}]]});
+  report.sections.push({id: evil, name: evil, title: evil, blocks: [{prose: evil, lead: true}]});
+  write('report.json', report);
   for (const name of readdirSync(folder).filter((each) => each.startsWith('draws_'))) {
     const lines = readFileSync(join(folder, name), 'utf8').split('\n');
     const heading = lines.findIndex((line) => line !== '' && !line.startsWith('#'));

@@ -8,8 +8,8 @@
 
 #include "wearwell/base/rng.h"
 #include "wearwell/bayes/posterior.h"
-#include "wearwell/bearing/wear_fit.h"
-#include "wearwell/bearing/wear_number.h"
+#include "wearwell/models/bearing/wear_fit.h"
+#include "wearwell/models/bearing/wear_number.h"
 #include "wearwell/infer/exact.h"
 #include "wearwell/infer/mode.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wearwell/study/clutch_study.h"
+#include "wearwell/models/clutch/clutch_study.h"
 
 namespace wearwell::clutch {
 namespace {

@@ -8,12 +8,12 @@
 #include <cmath>
 
 #include "wearwell/base/rng.h"
-#include "wearwell/bearing/wear_scores.h"
-#include "wearwell/fatigue/sn_likelihood.h"
-#include "wearwell/fatigue/sn_scores.h"
+#include "wearwell/models/bearing/wear_scores.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
+#include "wearwell/models/fatigue/sn_scores.h"
 #include "wearwell/infer/fit_check.h"
 #include "wearwell/infer/prior_checks.h"
-#include "wearwell/joint/archard.h"
+#include "wearwell/models/joint/archard.h"
 
 namespace wearwell {
 namespace {

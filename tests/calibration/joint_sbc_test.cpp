@@ -10,7 +10,7 @@
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/run_chains.h"
-#include "wearwell/joint/archard.h"
+#include "wearwell/models/joint/archard.h"
 
 namespace wearwell {
 namespace {

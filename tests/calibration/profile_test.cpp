@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "wearwell/base/rng.h"
-#include "wearwell/bearing/profile.h"
+#include "wearwell/models/bearing/profile.h"
 
 namespace wearwell::bearing {
 namespace {

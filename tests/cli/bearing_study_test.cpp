@@ -10,7 +10,7 @@
 
 #include "support/run_command.h"
 #include "support/scratch.h"
-#include "wearwell/table/table.h"
+#include "wearwell/input/table.h"
 
 namespace wearwell {
 namespace {

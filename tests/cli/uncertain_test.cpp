@@ -1,4 +1,4 @@
-#include "wearwell/cli/uncertain.h"
+#include "wearwell/models/bearing/uncertain.h"
 
 #include <gtest/gtest.h>
 

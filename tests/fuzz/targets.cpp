@@ -11,13 +11,12 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
-#include "wearwell/cli/uncertain.h"
-#include "wearwell/report/read_result.h"
-#include "wearwell/report/report.h"
-#include "wearwell/study/clutch_model_file.h"
-#include "wearwell/study/study.h"
-#include "wearwell/study/toml_reader.h"
-#include "wearwell/table/labelled.h"
+#include "wearwell/models/bearing/uncertain.h"
+#include "wearwell/models/registry.h"
+#include "wearwell/study/saved_result.h"
+#include "wearwell/models/clutch/clutch_model_file.h"
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/input/labelled.h"
 
 namespace wearwell::fuzz {
 namespace {
@@ -142,8 +141,7 @@ void study(std::string_view bytes) {
   static_cast<void>(copied);
   const fs::path file = file_of("study.toml", bytes);
   read_or_refuse([&] {
-    const Study read = read_study(file);
-    demand(!read.parameters.empty(), "a study has parameters");
+    demand(!read_study(source_of(file), all_models())->in_words().empty(), "a study has words");
   });
 }
 
@@ -166,27 +164,28 @@ void result(const char* name, std::string_view bytes) {
   static const bool complete = [] {
     const fs::path seeds = PROJECT_SOURCE_DIR "/tests/fuzz/corpus";
     fs::copy_file(seeds / "summary/joint_lognormal_flat.json", scratch() / "summary.json");
-    fs::copy_file(seeds / "plots/joint_lognormal_flat.json", scratch() / "plots.json");
+    fs::copy_file(seeds / "report/joint_lognormal_flat.json", scratch() / "report.json");
     file_of("draws_1.csv", "lp__,k,sigma\n-1,1e-3,2\n-2,2e-3,3\n");
     return true;
   }();
   static_cast<void>(complete);
   file_of(name, bytes);
   read_or_refuse([&] {
-    const StudyResult read = read_result(scratch());
-    if (read.plots) html_report(read);
+    read_saved_result(scratch());
+    const SavedReport read = read_saved_report(scratch());
+    report_html(read.header, read.sections);
   });
 }
 void summary(std::string_view bytes) {
   result("summary.json", bytes);
 }
-void plots(std::string_view bytes) {
-  result("plots.json", bytes);
+void report(std::string_view bytes) {
+  result("report.json", bytes);
 }
 
 constexpr Target all[] = {{"unit", unit},   {"heading", heading}, {"toml", toml},
                           {"table", table}, {"study", study},     {"model", model},
-                          {"state", state}, {"summary", summary}, {"plots", plots}};
+                          {"state", state}, {"summary", summary}, {"report", report}};
 
 }  // namespace
 

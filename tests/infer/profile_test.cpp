@@ -9,7 +9,7 @@
 
 #include "infer/test_posteriors.h"
 #include "support/formula.h"
-#include "wearwell/fatigue/sn_likelihood.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/prob/standard_law.h"
 
 namespace wearwell {

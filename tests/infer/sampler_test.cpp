@@ -5,7 +5,7 @@
 #include <tbb/global_control.h>
 
 #include "infer/test_posteriors.h"
-#include "wearwell/fatigue/sn_likelihood.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/metropolis.h"

@@ -5,11 +5,11 @@
 
 #include "infer/test_posteriors.h"
 #include "support/formula.h"
-#include "wearwell/fatigue/sn_likelihood.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/infer/natural_mode.h"
 #include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
-#include "wearwell/joint/archard.h"
+#include "wearwell/models/joint/archard.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "support/formula.h"
-#include "wearwell/joint/archard.h"
+#include "wearwell/models/joint/archard.h"
 
 namespace wearwell {
 namespace {

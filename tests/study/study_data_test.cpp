@@ -1,11 +1,11 @@
 // Where a study names its data: files, columns, second lives, whole numbers.
 #include <gmock/gmock.h>
 
+#include "support/posterior_study.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
-#include "wearwell/study/clutch_tables.h"
-#include "wearwell/study/columns.h"
-#include "wearwell/study/study.h"
+#include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/input/columns.h"
 
 namespace wearwell {
 namespace {
@@ -33,7 +33,7 @@ log10_a = { law = "flat", unit = "log10(MPa)" }
 b = { law = "flat" }
 sigma = { law = "flat" }
 )toml");
-    return message_of<InputError>([&] { read_study(study); });
+    return message_of<InputError>([&] { read_posterior_study(study); });
   }
 };
 
@@ -59,15 +59,15 @@ TEST_F(StudyDataTest, FilesAreNamedAtTheirKey) {
         .required_table("data");
   };
   EXPECT_THAT(
-      message_of<InputError>([&] { read_table(section("file = \"non.csv\"\n"), folder()); }),
+      message_of<InputError>([&] { read_table(section("file = \"non.csv\"\n"), Source{{folder() / "study.toml", ""}}); }),
       AllOf(HasSubstr("s.toml:3:8: data.file: no such file: "), HasSubstr("non.csv")));
   write("a.csv", "x\n1\n");
   EXPECT_THAT(message_of<InputError>([&] {
-                read_table(section("file = \"a.csv\"\nsql = \"drop view data\"\n"), folder());
+                read_table(section("file = \"a.csv\"\nsql = \"drop view data\"\n"), Source{{folder() / "study.toml", ""}});
               }),
               HasSubstr("s.toml:4:7: data.sql: "));
-  EXPECT_EQ(read_table(section("file = \"a.csv\"\n"), folder()).rows, 1U);
-  EXPECT_THAT(message_of<InputError>([&] { read_table(section("file = \"\"\n"), folder()); }),
+  EXPECT_EQ(read_table(section("file = \"a.csv\"\n"), Source{{folder() / "study.toml", ""}}).rows, 1U);
+  EXPECT_THAT(message_of<InputError>([&] { read_table(section("file = \"\"\n"), Source{{folder() / "study.toml", ""}}); }),
               HasSubstr("s.toml:3:8: data.file: names no file"));
 }
 

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "wearwell/study/study.h"
+#include "support/posterior_study.h"
 
 namespace wearwell {
 namespace {
@@ -68,7 +68,7 @@ TEST(UnitsCheck, NoFalseAlarmInTheExamples) {
     for (const auto& entry : std::filesystem::directory_iterator(
              std::filesystem::path(PROJECT_SOURCE_DIR "/examples") / folder)) {
       if (entry.path().extension() != ".toml") continue;
-      const Study study = read_study(entry.path());
+      const PosteriorStudy study = read_posterior_study(entry.path());
       EXPECT_GE(study.data_columns.size(), 2u) << entry.path();
       const auto check = units_check(study.data_columns);
       EXPECT_FALSE(check) << entry.path() << ": " << check->detail;

@@ -1,21 +1,19 @@
 #pragma once
 
 #include <chrono>
-#include <cstdio>
 #include <mutex>
 #include <string>
 
+#include "wearwell/base/monitor.h"
+
 namespace wearwell {
 
-/// A line that says how far long work is, how fast it goes and how long it will take, rewritten in
-/// place ten times a second and wiped at the end. Nothing is shown of work that is done within
-/// `patience`. Thread-safe.
+/// Counts the steps of long work for a monitor: tells it ten times a second how far the work is, and
+/// throws `Cancelled` once it asks to stop. Thread-safe.
 class Progress {
  public:
-  /// `terminal`: where to write; nullptr for nowhere. `what`: the steps, "iterations".
-  Progress(std::FILE* terminal, std::string what,
-           std::chrono::milliseconds patience = std::chrono::milliseconds(500));
-  ~Progress();
+  /// `what`: the steps, "iterations".
+  Progress(const Monitor& monitor, std::string what);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
@@ -24,36 +22,36 @@ class Progress {
 
   void advance(long long steps);
 
+  /// Throws `Cancelled` when the monitor asked for it.
+  void look() const;
+
  private:
   using Clock = std::chrono::steady_clock;
 
   std::mutex mutex_;
-  std::FILE* terminal_;
+  const Monitor& monitor_;
   std::string what_;
   Clock::time_point start_, next_;
   long long total_ = 0, done_ = 0;
-  bool shown_ = false;
 };
 
-/// Steps of one thread, handed on in batches so that threads do not wait for each other.
+/// Steps of one thread, handed on a hundred at a time so that threads do not wait for each other.
 class ProgressSteps {
  public:
   /// `progress` may be nullptr.
   explicit ProgressSteps(Progress* progress) : progress_(progress) {}
-  ~ProgressSteps() { flush(); }
   ProgressSteps(const ProgressSteps&) = delete;
   ProgressSteps& operator=(const ProgressSteps&) = delete;
 
+  /// Throws `Cancelled`.
   void step() {
-    if (++pending_ == 100) flush();
+    if (++pending_ < batch) return;
+    pending_ = 0;
+    if (progress_) progress_->advance(batch);
   }
 
  private:
-  void flush() {
-    if (progress_ && pending_ > 0) progress_->advance(pending_);
-    pending_ = 0;
-  }
-
+  static constexpr int batch = 100;
   Progress* progress_;
   int pending_ = 0;
 };

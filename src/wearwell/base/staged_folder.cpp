@@ -41,6 +41,10 @@ struct Journal {
     return std::any_of(files.begin(), files.end(),
                        [&](const auto& each) { return each.second == name; });
   }
+  bool lists_within(const std::string& folder) const {
+    return std::any_of(files.begin(), files.end(),
+                       [&](const auto& each) { return each.second.starts_with(folder + '/'); });
+  }
 };
 
 // Parts end in zeros, since names may hold anything else; the last one says that it is whole.
@@ -78,6 +82,11 @@ bool is_there(const fs::path& path) {
   return lstat(path.c_str(), &ignored) == 0;
 }
 
+bool is_folder(const fs::path& path) {
+  struct stat there;
+  return lstat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode);
+}
+
 /// Under its own name, or one that says why it has none. 0, or why it stays where it is.
 int move_and_keep(const fs::path& from, const fs::path& folder) {
   const std::string name = from.filename().string();
@@ -89,13 +98,18 @@ int move_and_keep(const fs::path& from, const fs::path& folder) {
   return EEXIST;
 }
 
-/// What was in the target before: listed files go, others return to the target.
-void clear_away(const fs::path& before, const fs::path& target, const Journal& journal) {
+/// What was in the target before: listed files go, others return to the target. `within`: "tables/" in
+/// a folder of the target.
+void clear_away(const fs::path& before, const fs::path& target, const Journal& journal,
+                const std::string& within = {}) {
   for (const std::string& name : entries(before)) {
-    if (journal.lists(name)) {
+    if (journal.lists(within + name)) {
       unlink((before / name).c_str());
-    } else if (is_there(target)) {
-      move_and_keep(before / name, target);
+    } else if (is_folder(before / name) && journal.lists_within(within + name)) {
+      clear_away(before / name, target / name, journal, within + name + '/');
+    } else {
+      if (!within.empty() && is_there(target.parent_path())) mkdir(target.c_str(), for_all);
+      if (is_there(target)) move_and_keep(before / name, target);
     }
   }
   rmdir(before.c_str());
@@ -106,14 +120,19 @@ int fill(const fs::path& from, const fs::path& target, const Journal& journal) {
   int trouble = 0;
   for (const auto& [kind, name] : journal.files) {
     int error = 0;
+    const fs::path folder = fs::path(name).parent_path();
+    if (!folder.empty() && kind != removed) mkdir((target / folder).c_str(), for_all);
     if (kind == removed) {
       if (unlink((target / name).c_str()) != 0) error = errno;
     } else if (kind == replaced_by_new) {
       if (std::rename((from / name).c_str(), (target / name).c_str()) != 0) error = errno;
     } else if (is_there(from / name)) {
-      error = move_and_keep(from / name, target);
+      error = move_and_keep(from / name, target / folder);
     }
     if (error != 0 && error != ENOENT) trouble = error;  // done before, or kept in the target
+    if (folder.empty()) continue;
+    rmdir((from / folder).c_str());  // each once it is empty
+    if (kind == removed) rmdir((target / folder).c_str());
   }
   if (trouble == 0) rmdir(from.c_str());
   return trouble;
@@ -155,6 +174,17 @@ int heal(const fs::path& area) {
 
 }  // namespace
 
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const std::string& name : entries(folder)) {
+    const std::vector<std::string> inside =
+        is_folder(folder / name) ? entries(folder / name) : std::vector<std::string>{};
+    if (inside.empty()) files.push_back(name);
+    for (const std::string& each : inside) files.push_back(name + '/' + each);
+  }
+  return files;
+}
+
 void heal_folder(const fs::path& folder) {
   for_each_abandoned(folder, [](const fs::path& path, bool is_folder) {
     if (is_folder) {
@@ -172,7 +202,7 @@ StagedFolder::StagedFolder(const fs::path& target, const std::vector<std::string
     if (!S_ISDIR(there.st_mode)) fail_to_write(target_, ENOTDIR);
     heal_folder(target_);
     const fs::path above = target_.parent_path();
-    const std::vector<std::string> held = entries(target_);
+    const std::vector<std::string> held = files_in(target_);
     const bool holds_more = std::any_of(held.begin(), held.end(), [&](const std::string& name) {
       return std::find(own.begin(), own.end(), name) == own.end();
     });
@@ -238,8 +268,14 @@ StagedFolder::~StagedFolder() {
   now.forget(area_);
 }
 
-void StagedFolder::write(const std::string& name, std::string_view content) {
+fs::path StagedFolder::staged(const std::string& name) {
   const fs::path file = area_ / "new" / within_ / name;
+  if (!is_there(file.parent_path())) make_folder(file.parent_path(), for_all);
+  return file;
+}
+
+void StagedFolder::write(const std::string& name, std::string_view content) {
+  const fs::path file = staged(name);
   const Descriptor opened = [&] {
     Uninterrupted now;
     now.note(file, false);
@@ -257,7 +293,7 @@ void StagedFolder::keep(const std::string& name) {
     return;
   }
   {
-    const fs::path file = area_ / "new" / within_ / name;
+    const fs::path file = staged(name);
     Uninterrupted now;
     if (link((target_ / name).c_str(), file.c_str()) == 0) {
       now.note(file, false);
@@ -282,9 +318,11 @@ void StagedFolder::write_journal(const std::vector<std::string>& replaced) {
   for (const std::string& name : names_) {
     const bool there = has(replaced, name);
     journal.files.emplace_back(there ? replaced_by_new : added, name);
-    if (!there && is_there(target_ / name))
+    const fs::path file = target_ / name, folder = file.parent_path();
+    const bool blocked = is_there(folder) && folder != target_ && !is_folder(folder);
+    if (blocked || (!there && is_there(file)))
       throw InputError(fmt::format("will not replace {}: it is not of an earlier run",
-                                   (target_ / name).string()));
+                                   (blocked ? folder : file).string()));
   }
   const Descriptor file = [&] {
     const Uninterrupted now;
@@ -296,7 +334,11 @@ void StagedFolder::write_journal(const std::vector<std::string>& replaced) {
 }
 
 void StagedFolder::commit(const std::vector<std::string>& replaced) {
-  flush_folder(area_ / "new" / within_);
+  const fs::path files = area_ / "new" / within_;
+  for (const std::string& name : entries(files)) {
+    if (is_folder(files / name)) flush_folder(files / name);
+  }
+  flush_folder(files);
   write_journal(replaced);
   flush_folder(area_);
   put_into_place();

@@ -31,6 +31,7 @@ class StagedFolder {
   /// Where the files will be: absolute.
   const std::filesystem::path& target() const { return target_; }
 
+  /// `name`: of a file, or of one in a folder of the target, "tables/life.csv".
   void write(const std::string& name, std::string_view content);
 
   /// Takes over a file of the target as it is, without a copy where the file system has hard links.
@@ -43,6 +44,7 @@ class StagedFolder {
 
  private:
   void make_folder(const std::filesystem::path& folder, unsigned mode);
+  std::filesystem::path staged(const std::string& name);
   void open_area(const std::filesystem::path& place);
   void write_journal(const std::vector<std::string>& replaced);
   void put_into_place();
@@ -54,6 +56,10 @@ class StagedFolder {
   Descriptor lock_;
   std::vector<std::string> names_;
 };
+
+/// The files of a folder, those of the folders in it as "tables/life.csv"; a folder that is empty as
+/// itself. Nothing when there is none.
+std::vector<std::string> files_in(const std::filesystem::path& folder);
 
 /// Removes what killed programs left half written in `folder`, or completes what they had begun to
 /// put into place.

@@ -9,8 +9,8 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/staged_file.h"
-#include "wearwell/report/comparison.h"
-#include "wearwell/report/read_result.h"
+#include "wearwell/study/comparison.h"
+#include "wearwell/study/saved_result.h"
 
 namespace wearwell {
 namespace {
@@ -25,9 +25,9 @@ int run_compare(const CompareOptions& options) {
   if (!options.page.empty() && options.page.extension() != ".html") {
     throw InputError(fmt::format("-o {}: the page must be named FILE.html", options.page.string()));
   }
-  std::vector<std::pair<std::string, StudyResult>> results;
+  std::vector<std::pair<std::string, SavedResult>> results;
   for (const auto& folder : options.folders) {
-    results.emplace_back(folder.string(), read_result(folder));
+    results.emplace_back(folder.string(), read_saved_result(folder));
   }
   const Comparison comparison = compare(std::move(results));
   if (!options.page.empty()) write_file(options.page, comparison_page(comparison));
@@ -38,7 +38,7 @@ int run_compare(const CompareOptions& options) {
     if (!options.page.empty()) fmt::print("The page is {}\n", options.page.string());
   }
   return std::all_of(comparison.studies.begin(), comparison.studies.end(),
-                     [](const auto& each) { return each.result.trusted; })
+                     [](const auto& each) { return each.result.header.trusted; })
              ? 0
              : 1;
 }

@@ -6,25 +6,14 @@
 #include <cstdio>
 #include <memory>
 
-#include "wearwell/base/error.h"
-#include "wearwell/base/progress.h"
 #include "wearwell/base/same_file.h"
-#include "wearwell/cli/clutch_fit.h"
-#include "wearwell/cli/option_value.h"
-#include "wearwell/report/csv.h"
-#include "wearwell/report/json.h"
-#include "wearwell/report/long_tables.h"
-#include "wearwell/report/plots_json.h"
-#include "wearwell/report/report.h"
-#include "wearwell/report/result_folder.h"
-#include "wearwell/report/terminal.h"
-#include "wearwell/study/clutch_study.h"
-#include "wearwell/study/run_study.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/present/progress_line.h"
+#include "wearwell/study/posterior_study.h"
+#include "wearwell/study/result_writer.h"
 
 namespace wearwell {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct FitOptions {
   std::filesystem::path study, output;
@@ -33,57 +22,34 @@ struct FitOptions {
   bool json = false, quiet = false, no_report = false;
 };
 
-int run_fit(const FitOptions& options) {
+int run_fit(const FitOptions& options, Models models) {
   const std::filesystem::path output =
       options.output.empty() ? std::filesystem::path(options.study.stem().string() + "-results")
                              : options.output;
-  const TextFile file = read_text_file(options.study);
+  const Source source = source_of(options.study);
   refuse_overwriting({{"the study", options.study}}, {{"--output", output}});
-  if (clutch::is_clutch_study(file)) {
-    const SamplerChoice& sampler = options.sampler;
-    if (sampler.method || sampler.chains || sampler.draws || sampler.warmup || sampler.seed)
-      throw InputError(
-          "--method, --chains, --draws, --warmup and --seed are for studies that sample a "
-          "posterior; a clutch study has its seeds in the study file");
-    return clutch::fit_clutch_study(
-        {file, output, options.threads, options.json, options.quiet, options.no_report});
-  }
-  const Study study = read_study(file);
+  const auto study = read_study(source, models);
   ResultFolder folder(output);
-  const StudyResult result = [&] {
-    const bool shown = !options.quiet && isatty(STDERR_FILENO);
-    Progress progress(shown ? stderr : nullptr, "iterations");
-    return run_study(study, options.sampler, options.threads, !options.no_report, &progress);
+  const Result result = [&] {
+    ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);
+    const Monitor monitor{.progress = [&](const Step& step) { line.show(step); },
+                          .threads = options.threads};
+    return study->run({options.sampler, !options.no_report}, monitor);
   }();
-
-  const std::string summary =
-      to_json(result).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-  folder.write("summary.json", summary);
-  for (std::size_t c = 0; c < result.posterior_draws.size(); ++c) {
-    folder.write(fmt::format("draws_{}.csv", c + 1), draws_csv(result, c));
-  }
-  folder.write("predictions.csv", predictions_csv(result));
-  for (const auto& [name, content] : long_tables(result)) folder.write(name, content);
-  if (!options.no_report) {
-    const Json plots = to_json(*result.plots);
-    folder.write("plots.json", plots.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-    folder.write("report.html", html_report(result));
-  }
-  folder.write("study.toml", study.file_text);
-  folder.commit();
+  write_result(result, source.study.text, folder);
 
   if (options.json) {
-    fmt::print("{}", summary);
+    fmt::print("{}", summary_text(result));
   } else if (!options.quiet) {
-    fmt::print("{}Results are in {}\n", terminal_summary(result, terminal_style()),
+    fmt::print("{}Results are in {}\n", terminal_text(result, terminal_style()),
                folder.path().string());
   }
-  return result.trusted ? 0 : 1;
+  return result.header.trusted ? 0 : 1;
 }
 
 }  // namespace
 
-void add_fit_command(CLI::App& app, int& exit_code) {
+void add_fit_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<FitOptions>();
   CLI::App* fit = app.add_subcommand(
       "fit", "Estimate a study's parameters, predict, and say whether to trust it");
@@ -119,7 +85,7 @@ void add_fit_command(CLI::App& app, int& exit_code) {
       "Exit codes: 0 done and trusted; 1 done, but a check failed; 2 the request or the data is "
       "wrong, nothing\n"
       "written; 3 the machine failed.");
-  fit->callback([options, &exit_code] { exit_code = run_fit(*options); });
+  fit->callback([options, models, &exit_code] { exit_code = run_fit(*options, models); });
 }
 
 }  // namespace wearwell

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
-#include "wearwell/study/new_study.h"
+#include "wearwell/study/example.h"
 
 namespace wearwell {
 namespace {
@@ -17,17 +18,22 @@ struct NewOptions {
 
 }  // namespace
 
-void add_new_command(CLI::App& app, int& exit_code) {
+void add_new_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<NewOptions>();
+  std::vector<std::string> trades;
+  for (const Model& model : models) trades.emplace_back(model.trade);
   CLI::App* command =
       app.add_subcommand("new", "Write a commented study with data, that runs as it is");
   command->add_option("TRADE", options->trade, "What to start from")
       ->required()
-      ->check(CLI::IsMember(new_study_trades()));
+      ->check(CLI::IsMember(trades));
   command->add_option("DIR", options->folder, "Folder for it: new or empty")->required();
   command->footer("Example:\n  wearwell new joint my-joint && wearwell fit my-joint/study.toml");
-  command->callback([options, &exit_code] {
-    const std::filesystem::path study = write_new_study(options->trade, options->folder);
+  command->callback([options, models, &exit_code] {
+    const auto model = std::find_if(models.begin(), models.end(), [&](const Model& each) {
+      return each.trade == options->trade;
+    });
+    const std::filesystem::path study = write_example(*model, options->folder);
     fmt::print("Now run: wearwell fit {}\n", study.string());
     exit_code = 0;
   });

@@ -11,13 +11,13 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/same_file.h"
-#include "wearwell/cli/option_value.h"
-#include "wearwell/cli/search_line.h"
-#include "wearwell/cli/select_data.h"
-#include "wearwell/report/result_folder.h"
-#include "wearwell/report/selection_json.h"
-#include "wearwell/report/selection_report.h"
-#include "wearwell/report/selection_text.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/selection/search_line.h"
+#include "wearwell/selection/data.h"
+#include "wearwell/present/result_folder.h"
+#include "wearwell/selection/json.h"
+#include "wearwell/selection/report.h"
+#include "wearwell/selection/text.h"
 
 namespace wearwell {
 namespace {

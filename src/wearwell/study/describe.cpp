@@ -62,7 +62,7 @@ std::string prior_in_words(const Parameter& parameter) {
   return parameter.unit.text == "1" ? words : words + " " + parameter.unit.text;
 }
 
-std::string study_in_words(const Study& study) {
+std::string study_in_words(const PosteriorStudy& study) {
   std::string out =
       fmt::format("{}\n  {}\n\nData\n  {}: {} data sets of {}\n", printable(study.title),
                   study.equation, study.data_file, study.data_rows, study.quantity);

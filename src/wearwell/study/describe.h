@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "wearwell/study/study.h"
+#include "wearwell/study/posterior_study.h"
 
 namespace wearwell {
 
@@ -11,6 +11,6 @@ std::string prior_in_words(const Parameter& parameter);
 
 /// What `wearwell fit` would do, ending with a newline: equation, data, unknowns with their units
 /// and priors, predictions, sampler.
-std::string study_in_words(const Study& study);
+std::string study_in_words(const PosteriorStudy& study);
 
 }  // namespace wearwell

@@ -108,7 +108,7 @@ Curve prior_curve(const Parameter& parameter, Range range) {
   return curve;
 }
 
-ParameterPlots plot_parameter(const Study& study, std::size_t i, const Fit& fit) {
+ParameterPlots plot_parameter(const PosteriorStudy& study, std::size_t i, const Fit& fit) {
   const Parameter& parameter = study.parameters[i];
   const auto index = static_cast<Eigen::Index>(i);
   const Distribution posterior = distribution(parameter, index, best(fit));
@@ -235,7 +235,7 @@ WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count) {
   return few;
 }
 
-Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit) {
+Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit) {
   Plots plots;
   plots.quantity = study.quantity;
   if (study.stage_predictions) {
@@ -248,8 +248,8 @@ Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit)
   }
   plots.joint = joint_density(posterior, fit);
 
-  plots.study_text = study.file_text;
-  plots.files = {{valid_utf8(study.file.filename().string()), sha1_of(study.file_text)},
+  plots.study_text = study.file.text;
+  plots.files = {{valid_utf8(study.file.path.filename().string()), sha1_of(study.file.text)},
                  {study.data_file, study.data_sha1}};
 
   // The draws of an improper posterior wander for ever: they predict nothing.

@@ -4,13 +4,13 @@
 
 #include "wearwell/bayes/weighted_draws.h"
 #include "wearwell/infer/fit.h"
-#include "wearwell/report/plots.h"
-#include "wearwell/study/study.h"
+#include "wearwell/study/plots.h"
+#include "wearwell/study/posterior_study.h"
 
 namespace wearwell {
 
 /// Everything that a report draws of the final posterior; some tens of milliseconds.
-Plots plot_study(const Study& study, const Posterior& posterior, const Fit& fit);
+Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit);
 
 /// A few points of one weight that stand for the tens of thousands of a quadrature, for curves:
 /// their quantiles move by less than a plot shows.

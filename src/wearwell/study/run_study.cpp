@@ -15,7 +15,7 @@
 #include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/predict/scattered.h"
-#include "wearwell/study/fingerprint.h"
+#include "wearwell/input/fingerprint.h"
 #include "wearwell/study/plot_study.h"
 
 namespace wearwell {
@@ -141,7 +141,7 @@ std::vector<QuantitySummary> summarize(const QuantityGroup& group, const Fit& fi
   return summaries;
 }
 
-std::vector<QuantitySummary> summarize_quantities(const Study& study, const Fit& fit) {
+std::vector<QuantitySummary> summarize_quantities(const PosteriorStudy& study, const Fit& fit) {
   std::vector<QuantitySummary> summaries;
   for (const QuantityRequest& request : study.quantities) {
     summaries.push_back(summarize(request, fit));
@@ -175,7 +175,7 @@ ProfileSummary summarize(const ProfileInterval& interval, const auto& in_unit) {
           interval.lower.open, interval.upper.open};
 }
 
-void add_profiles(const Study& study, const Posterior& posterior, const Fit& fit,
+void add_profiles(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit,
                   const NaturalMode& mode, ModeSummary& summary) {
   const auto intervals = profile_intervals(posterior, fit, mode, profile_level);
   for (std::size_t i = 0; i < intervals.size(); ++i) {
@@ -198,7 +198,7 @@ void add_profiles(const Study& study, const Posterior& posterior, const Fit& fit
   });
 }
 
-ModeSummary summarize_mode(const Study& study, const Posterior& posterior, const Fit& fit,
+ModeSummary summarize_mode(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit,
                            const NaturalMode& mode, double observations) {
   ModeSummary summary;
   summary.problem = mode.problem;
@@ -231,7 +231,7 @@ bool proper(const Fit& fit) {
                      [](const Tail& tail) { return tail.integrable(); });
 }
 
-std::vector<Check> all_checks(const Study& study, const Posterior& posterior, const Fit& fit,
+std::vector<Check> all_checks(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit,
                               const std::optional<LooSummary>& loo) {
   std::vector<Check> checks = trust_checks(posterior, fit);
   if (study.fit_data && proper(fit)) {
@@ -248,7 +248,7 @@ std::vector<Check> all_checks(const Study& study, const Posterior& posterior, co
 }
 
 // What is kept of the posterior of one stage.
-StageSummary summarize_stage(const Study& study, std::size_t rows,
+StageSummary summarize_stage(const PosteriorStudy& study, std::size_t rows,
                              std::vector<ParameterSummary> parameters, std::vector<Check> checks,
                              const Fit& fit) {
   std::vector<PredictionRequest> requests = study.stage_predictions(rows);
@@ -260,7 +260,7 @@ StageSummary summarize_stage(const Study& study, std::size_t rows,
 }
 
 // `density`, when given, takes the points of the posterior.
-StageSummary run_stage(const Study& study, FitSettings settings, std::size_t rows,
+StageSummary run_stage(const PosteriorStudy& study, FitSettings settings, std::size_t rows,
                        WeightedDraws* density) {
   settings.run.first_stream = rows * max_chains;
   const Posterior posterior(study.parameters, study.likelihood(rows));
@@ -271,7 +271,7 @@ StageSummary run_stage(const Study& study, FitSettings settings, std::size_t row
   return summary;
 }
 
-Draws in_units(const Study& study, Draws draws) {
+Draws in_units(const PosteriorStudy& study, Draws draws) {
   for (Chain& chain : draws) {
     for (std::size_t i = 0; i < study.parameters.size(); ++i) {
       const Unit& unit = study.parameters[i].unit;
@@ -284,7 +284,7 @@ Draws in_units(const Study& study, Draws draws) {
 
 }  // namespace
 
-FitSettings fit_settings(const Study& study, const SamplerChoice& choice) {
+FitSettings fit_settings(const PosteriorStudy& study, const SamplerChoice& choice) {
   const auto chosen = [](const auto& first, const auto& second, auto otherwise) {
     return first ? *first : second ? *second : otherwise;
   };
@@ -313,26 +313,28 @@ const char* method_name(Method method) {
   return "nuts";
 }
 
-void require_posterior(const Study& study) {
+void require_posterior(const PosteriorStudy& study) {
   for (std::size_t rows = study.stages ? 1 : study.data_rows; rows <= study.data_rows; ++rows)
     static_cast<void>(Posterior(study.parameters, study.likelihood(rows)));
 }
 
-StudyResult run_study(const Study& study, const SamplerChoice& choice, int threads, bool with_plots,
-                      Progress* progress) {
+PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& choice,
+                           const Monitor& monitor, bool with_plots) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<tbb::global_control> limit;
-  if (threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  if (monitor.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(monitor.threads));
   }
   FitSettings settings = fit_settings(study, choice);
-  if (progress && settings.method != Method::exact) {
+  Progress progress(monitor, "iterations");
+  settings.run.progress = &progress;
+  if (settings.method != Method::exact) {
     const RunSettings& run = settings.run;
     const long long fits = study.stages && study.data_rows <= most_stages
                                ? static_cast<long long>(study.data_rows)
                                : 1;
-    progress->expect(fits * run.chains * (run.warmup + run.draws));
-    settings.run.progress = progress;
+    progress.expect(fits * run.chains * (run.warmup + run.draws));
   }
   const Posterior posterior(study.parameters, study.likelihood(study.data_rows));
   Fit final = fit(posterior, settings);
@@ -353,7 +355,7 @@ StudyResult run_study(const Study& study, const SamplerChoice& choice, int threa
     final.shortfalls.push_back(std::move(each));
   }
 
-  StudyResult result{WEARWELL_VERSION,
+  PosteriorSummary result{WEARWELL_VERSION,
                      study.title,
                      study.model,
                      study.equation,

@@ -86,7 +86,7 @@ Check limit_check(const LifeSummary& life) {
   return findings.result(passed);
 }
 
-Check sense_check(const StudyResult& result) {
+Check sense_check(const PosteriorSummary& result) {
   Sense sense;
   for (const ParameterSummary& each : result.parameters) {
     const ExactSummary p = each.best();

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "wearwell/infer/check.h"
-#include "wearwell/report/result.h"
+#include "wearwell/study/posterior_summary.h"
 
 namespace wearwell {
 
@@ -28,6 +28,6 @@ Check extrapolation_check(const std::vector<Reach>& reaches);
 Check limit_check(const LifeSummary& life);
 
 /// Results are numbers, and their intervals say something. Name: sense.
-Check sense_check(const StudyResult& result);
+Check sense_check(const PosteriorSummary& result);
 
 }  // namespace wearwell

@@ -1,0 +1,108 @@
+#include "wearwell/cli/program.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <system_error>
+
+#include "wearwell/base/ending.h"
+#include "wearwell/base/error.h"
+#include "wearwell/base/shown.h"
+#include "wearwell/cli/check.h"
+#include "wearwell/cli/compare.h"
+#include "wearwell/cli/fit.h"
+#include "wearwell/cli/new.h"
+#include "wearwell/cli/report.h"
+#include "wearwell/cli/select.h"
+
+namespace wearwell {
+namespace {
+
+constexpr int bad_request = 2, machine_failed = 3;
+
+int complain(const std::string& message, int exit_code) {
+  fmt::print(stderr, "wearwell: {}\n", shown(message));
+  return exit_code;
+}
+
+// A file opened where a standard stream is closed would take what is printed.
+void fill_standard_streams() {
+  for (int fd = 0; fd <= 2; ++fd) {
+    if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDONLY) < 0) _exit(machine_failed);
+  }
+}
+
+// Empty when all that was printed has arrived. `error`: why printing ended early, where it did; what
+// was to be printed then is not in the buffer any more, and flushing it fails no second time.
+std::string trouble_with_output(int error) {
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout) return {};
+  if (error == 0) error = errno;
+  return fmt::format("cannot write to standard output: {}",
+                     error ? std::strerror(error) : "what was printed is not complete");
+}
+
+int run(int argc, char** argv, Models models, int& output_error) {
+  int exit_code = 0;
+  CLI::App app(
+      "Wear and fatigue-life parameters from few noisy measurements, with honest uncertainty.",
+      "wearwell");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", WEARWELL_VERSION);
+  add_fit_command(app, models, exit_code);
+  for (const Model& model : models) {
+    if (model.add_commands) model.add_commands(app, exit_code);
+  }
+  add_select_command(app, exit_code);
+  add_check_command(app, models, exit_code);
+  add_compare_command(app, exit_code);
+  add_new_command(app, models, exit_code);
+  add_report_command(app, exit_code);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return complain(fmt::format("{} (see wearwell --help)", error.what()), bad_request);
+  } catch (const InputError& error) {
+    return complain(error.what(), bad_request);
+  } catch (const MachineError& error) {
+    return complain(error.what(), machine_failed);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(error.what(), machine_failed);
+  } catch (const std::system_error& error) {
+    if (!std::ferror(stdout)) return complain(error.what(), machine_failed);
+    output_error = error.code().value();  // said in main
+    return machine_failed;
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory", machine_failed);
+  } catch (const std::exception& error) {
+    return complain(fmt::format("internal error, please report it: {}", error.what()),
+                    machine_failed);
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, Models models) {
+  fill_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is a full disk, not an end
+  remove_half_written_on_signals();
+  int output_error = 0;
+  const int exit_code = run(argc, argv, models, output_error);
+  const std::string trouble = trouble_with_output(output_error);
+  return trouble.empty() ? exit_code : complain(trouble, machine_failed);
+}
+
+}  // namespace wearwell

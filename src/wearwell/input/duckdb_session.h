@@ -1,0 +1,70 @@
+#pragma once
+
+#include <duckdb.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/input/table.h"
+#include "wearwell/input/table_file.h"
+
+namespace wearwell {
+
+/// A database in memory that can read one file and nothing else: no other file, no network, no
+/// extension, no file of its own; its configuration is locked. The file is its view `data`.
+class DuckdbSession {
+ public:
+  /// Throws InputError: the file cannot be read as a table, or a cell has two readings.
+  explicit DuckdbSession(const TableFile& file);
+  ~DuckdbSession();
+  DuckdbSession(const DuckdbSession&) = delete;
+  DuckdbSession& operator=(const DuckdbSession&) = delete;
+
+  duckdb_connection connection() const { return connection_; }
+  const TableFile& file() const { return file_; }
+
+  /// Throws InputError that says what is wrong with the file, MachineError without memory.
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  void open_view();
+  void refuse_thousands_marks();
+  std::vector<std::string> first_row(const std::string& query) const;
+
+  const TableFile& file_;
+  std::optional<CsvHeading> heading_;  // of a CSV
+  duckdb_database database_ = nullptr;
+  duckdb_connection connection_ = nullptr;
+};
+
+/// Rows of a query.
+class DuckdbResult {
+ public:
+  /// Throws as DuckdbSession::fail does.
+  DuckdbResult(const DuckdbSession& session, const std::string& query);
+  ~DuckdbResult() { duckdb_destroy_result(&result_); }
+  DuckdbResult(const DuckdbResult&) = delete;
+  DuckdbResult& operator=(const DuckdbResult&) = delete;
+
+  idx_t columns() { return duckdb_column_count(&result_); }
+  std::string name(idx_t column) { return duckdb_column_name(&result_, column); }
+  duckdb_type type(idx_t column) { return duckdb_column_type(&result_, column); }
+  duckdb_data_chunk next() { return duckdb_fetch_chunk(result_); }
+
+ private:
+  duckdb_result result_;
+};
+
+bool is_number(duckdb_type type);
+std::string quoted(const std::string& name, char quote);
+/// NaN where there is no value.
+void append_numbers(duckdb_vector vector, idx_t count, std::vector<double>& out);
+/// Empty where there is no value.
+void append_text(duckdb_vector vector, idx_t count, std::vector<std::string>& out);
+
+/// Makes the user's query the table `result`. Throws QueryError: it is not one SELECT, it asks for
+/// what it may not, it fails, or it takes more memory or time than `limits`.
+void run_query(const DuckdbSession& session, const std::string& query, const QueryLimits& limits);
+
+}  // namespace wearwell

@@ -1,0 +1,64 @@
+#include "wearwell/input/option_value.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/unit.h"
+
+namespace wearwell {
+
+double checked_option(const std::string& option, const std::string& text, double value,
+                      Allowed allowed) {
+  const char* reason = !std::isfinite(value) ? "is no finite number in SI units"
+                       : allowed == Allowed::positive && !(value > 0)  ? "must be positive"
+                       : allowed == Allowed::not_negative && value < 0 ? "must not be negative"
+                                                                       : nullptr;
+  if (reason) throw InputError(fmt::format("{}: '{}' {}", option, text, reason));
+  return value;
+}
+
+double option_value(const std::string& option, const std::string& text, std::string_view si,
+                    Allowed allowed) {
+  double value = 0;
+  try {
+    value = read_quantity(text, si).si();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
+  return checked_option(option, text, value, allowed);
+}
+
+CLI::Validator number_between(double least, double most) {
+  const std::string range = fmt::format("[{:g} - {:g}]", least, most);
+  return CLI::Validator(
+      [=](std::string& text) {
+        double value = NAN;
+        const bool read = CLI::detail::lexical_cast(text, value);
+        return read && value >= least && value <= most
+                   ? std::string()
+                   : fmt::format("'{}' must be {} and at most {:g}", text,
+                                 least > 0 ? "positive" : "0 or more", most);
+      },
+      range, "number");
+}
+
+CLI::Validator seed_number() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::uint64_t seed = 0;
+        const char* end = text.data() + text.size();
+        const auto [rest, failure] = std::from_chars(text.data(), end, seed);
+        return failure == std::errc{} && rest == end
+                   ? std::string()
+                   : fmt::format("{} is no whole number from 0 to {}", text,
+                                 std::numeric_limits<std::uint64_t>::max());
+      },
+      "", "seed");
+}
+
+}  // namespace wearwell

@@ -1,0 +1,284 @@
+#include "wearwell/models/bearing/bearing_predictions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/bearing/wear_number.h"
+
+namespace wearwell {
+namespace {
+
+using bearing::Contact;
+using bearing::Duty;
+
+// The depth of one duty as a function of the wear rate; a bearing worn beyond its geometry stays
+// at the last depth that it has.
+std::function<double(double k)> depth_function(const Duty& duty, double k) {
+  const bearing::DepthLaw law = bearing::depth_laws({duty}, k).front();
+  return [law](double rate) { return law.depth(std::min(std::log(rate), law.limit())); };
+}
+
+std::string in_words(const Quantity& quantity) {
+  return fmt::format("{:.6g} {}", quantity.value, quantity.unit.text);
+}
+
+// Reads [predict]: of a bearing as in [conditions], or as said here.
+class Predictions {
+ public:
+  Predictions(const TomlReader& predict, const bearing::WearModel& model, const BearingData& data,
+              double k, PosteriorStudy& study)
+      : predict_(predict), model_(model), data_(data), k_(k), study_(study) {
+    contact_ = contact_in(predict).value_or(data.common.contact.value_or(Contact::stationary));
+    has_contact_ = predict.has("contact") || data.common.contact;
+    radius_ = mine("radius", "m", data.common.radius);
+    clearance_ = mine("clearance", "m", data.common.clearance);
+    speed_ = mine("speed", "rev/s", data.common.speed);
+    force_ = positive_quantity(predict, "force", "N");
+    const auto length = positive_quantity(predict, "length", "m");
+    pressure_ = mine("pressure", "Pa", data.common.pressure);
+    if (length) {
+      if (!force_) predict.fail("length", "needs predict.force: together they are a pressure");
+      if (predict.has("pressure")) {
+        predict.fail("pressure", "is given beside force and length; keep one way to say the load");
+      }
+      const Unit& unit = data.pressure_unit;
+      pressure_ = Quantity{
+          from_si(unit, force_->si() / (2 * need(radius_, "radius", "length").si() * length->si())),
+          unit};
+      force_.reset();  // its length is known
+    }
+  }
+
+  PredictedBearing read() {
+    const auto revolutions = predict_.quantities("revolutions", "rev");
+    const auto times = predict_.quantities("time", "s");
+    for (const Quantity& n : revolutions) {
+      depth("revolutions", n.si(), fmt::format("after {:.6g} revolutions", n.si()));
+    }
+    for (const Quantity& time : times) {
+      depth("time", time.si() * need(speed_, "speed", "time").si(), "after " + in_words(time));
+    }
+    const auto limit = positive_quantity(predict_, "limit", "m");
+    const auto required = required_revolutions();
+    if (required && !limit) {
+      predict_.fail(required_key_, "needs predict.limit: the depth that is allowed until then");
+    }
+    if (limit) reach(*limit, required);
+    if (force_ && !required) {
+      predict_.fail("force",
+                    "needs predict.required_revolutions (or required_time) for the length that it "
+                    "needs, or predict.length for the pressure that it gives");
+    }
+    return drawn(limit);
+  }
+
+ private:
+  std::optional<Quantity> mine(const char* name, const char* si,
+                               const std::optional<Quantity>& common) const {
+    const auto own = positive_quantity(predict_, name, si);
+    return own ? own : common;
+  }
+
+  const Quantity& need(const std::optional<Quantity>& quantity, const char* name,
+                       const char* key) const {
+    if (!quantity) {
+      predict_.fail(key, fmt::format("needs predict.{}: it is not the same for all data", name));
+    }
+    return *quantity;
+  }
+
+  Duty duty(const char* key, double revolutions, double pressure) const {
+    if (!has_contact_) {
+      predict_.fail(key, "needs predict.contact: it is not the same for all data");
+    }
+    return {contact_, need(radius_, "radius", key).si(), need(clearance_, "clearance", key).si(),
+            pressure, revolutions};
+  }
+
+  // With what is not said as in the last inspection.
+  PredictedBearing drawn(const std::optional<Quantity>& limit) const {
+    PredictedBearing bearing{data_.inspections.duty.back(), {}};
+    Duty& duty = bearing.duty;
+    if (has_contact_) duty.contact = contact_;
+    if (radius_) duty.radius = radius_->si();
+    if (clearance_) duty.clearance = clearance_->si();
+    if (pressure_) duty.pressure = pressure_->si();
+    duty.revolutions = std::max(duty.revolutions, most_revolutions_);
+    if (limit) bearing.limit = limit->si();
+    return bearing;
+  }
+
+  // The two ways to ask for a life: a number of revolutions, or a time at a speed.
+  std::optional<double> required_revolutions() {
+    const auto turns = positive_quantity(predict_, "required_revolutions", "rev");
+    const auto time = positive_quantity(predict_, "required_time", "s");
+    if (turns && time) {
+      predict_.fail("required_time", "is given beside required_revolutions; keep one of the two");
+    }
+    if (turns) {
+      required_key_ = "required_revolutions";
+      required_words_ = fmt::format("{:.6g} revolutions", turns->si());
+      return turns->si();
+    }
+    if (!time) return {};
+    required_key_ = "required_time";
+    required_words_ = in_words(*time);
+    time_unit_ = time->unit;
+    return time->si() * need(speed_, "speed", "required_time").si();
+  }
+
+  // A quantity of the bearing in the middle, and of a new one where bearings differ.
+  void add(QuantityRequest request) {
+    request.driver = [](const double* x) { return x[0]; };
+    // Wear that is faster than thought makes the depth larger and the life shorter.
+    request.safe_end = request.increasing ? 0.95 : 0.05;
+    request.of = model_.has_scatter ? "median bearing" : "bearing";
+    study_.quantities.push_back(request);
+    if (!model_.has_scatter) return;
+    request.scatter = [model = model_](const double* x) { return model.scatter(x); };
+    request.of = "new bearing";
+    study_.quantities.push_back(request);
+  }
+
+  void depth(const char* key, double revolutions, const std::string& when) {
+    if (!(revolutions > 0)) predict_.fail(key, "must be positive");
+    most_revolutions_ = std::max(most_revolutions_, revolutions);
+    const Quantity& pressure = need(pressure_, "pressure", key);
+    const Duty at = duty(key, revolutions, pressure.si());
+    study_.predictions.push_back(depth_request(model_, data_, at, k_, {}));
+    double most = 0;  // p_a n of the inspections
+    for (const Duty& seen : data_.inspections.duty) {
+      most = std::max(most, seen.pressure * seen.revolutions);
+    }
+    study_.reaches.push_back(
+        {fmt::format("the depth {} at {}", when, in_words(pressure)),
+         fmt::format("the largest pressure times revolutions of an inspection is {:.4g} {}",
+                     from_si(data_.pressure_unit, most), data_.pressure_unit.text),
+         pressure.si() * revolutions, most});
+    add({"depth",
+         "",
+         fmt::format("{} at {}", when, in_words(pressure)),
+         data_.depth_unit,
+         true,
+         false,
+         depth_function(at, k_),
+         {},
+         {}});
+  }
+
+  void reach(const Quantity& limit, std::optional<double> required) {
+    const Duty at = duty("limit", 0, 0);
+    double wear = 0;
+    try {
+      wear = bearing::wear_number(at.contact, at.clearance / at.radius, limit.si() / at.radius);
+    } catch (const InputError& error) {
+      predict_.fail("limit", error.what());
+    }
+    const std::string to = "to " + in_words(limit);
+    const auto& depths = data_.inspections.depth;
+    const double deepest = *std::max_element(depths.begin(), depths.end());
+    study_.reaches.push_back({"the limit of " + in_words(limit),
+                              fmt::format("the deepest measured is {:.4g} {}",
+                                          from_si(data_.depth_unit, deepest), data_.depth_unit.text),
+                              limit.si(), deepest});
+    if (!pressure_ && !required) {
+      predict_.fail("limit",
+                    "needs predict.pressure for the life until then, or required_revolutions (or "
+                    "required_time) for the pressure that is allowed");
+    }
+    if (pressure_) {
+      const std::string where = fmt::format("{} at {}", to, in_words(*pressure_));
+      const double rate = pressure_->si();
+      add({"life",
+           "",
+           where,
+           Unit{"revolutions", 1, 0},
+           false,
+           true,
+           [=](double k) { return wear / (k * rate); },
+           {},
+           {}});
+      if (speed_) {
+        const double turns = speed_->si();
+        add({"life",
+             "",
+             fmt::format("{}, {}", where, in_words(*speed_)),
+             time_unit_,
+             false,
+             true,
+             [=](double k) { return wear / (k * rate * turns); },
+             {},
+             {}});
+      }
+    }
+    if (!required) return;
+    const double n = *required;
+    add({"pressure",
+         "",
+         fmt::format("{} in {}", to, required_words_),
+         data_.pressure_unit,
+         false,
+         false,
+         [=](double k) { return wear / (k * n); },
+         {},
+         {}});
+    if (!force_) return;
+    const double per_rate = force_->si() * n / (2 * at.radius * wear);
+    add({"length",
+         "",
+         fmt::format("{} in {} under {}", to, required_words_, in_words(*force_)),
+         read_unit("mm", "m"),
+         true,
+         false,
+         [=](double k) { return k * per_rate; },
+         {},
+         {}});
+  }
+
+  const TomlReader& predict_;
+  const bearing::WearModel& model_;
+  const BearingData& data_;
+  double k_;
+  PosteriorStudy& study_;
+  Contact contact_;
+  bool has_contact_ = false;
+  std::optional<Quantity> radius_, clearance_, pressure_, speed_, force_;
+  std::string required_key_, required_words_;
+  Unit time_unit_ = read_unit("h", "s");
+  double most_revolutions_ = 0;
+};
+
+}  // namespace
+
+PredictionRequest depth_request(const bearing::WearModel& model, const BearingData& data,
+                                const Duty& duty, double k, std::optional<double> measured) {
+  const auto depth = depth_function(duty, k);
+  PredictionRequest request{"revolutions",
+                            duty.revolutions,
+                            "depth",
+                            data.depth_unit,
+                            [depth](const double* x) { return depth(x[0]); },
+                            [model](const double* x) { return model.sigma(x); },
+                            model.family,
+                            measured,
+                            {}};
+  if (model.has_scatter) {
+    request.mean_of = "median bearing";
+    request.measured_of = "new bearing";
+    request.item = [model, depth](const double* x, double z) {
+      return depth(x[0] * std::exp(model.scatter(x) * z));
+    };
+  }
+  return request;
+}
+
+PredictedBearing read_bearing_predictions(const TomlReader& predict,
+                                          const bearing::WearModel& model, const BearingData& data,
+                                          double k, PosteriorStudy& study) {
+  return Predictions(predict, model, data, k, study).read();
+}
+
+}  // namespace wearwell

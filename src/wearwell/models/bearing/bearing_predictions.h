@@ -1,0 +1,30 @@
+#pragma once
+
+#include "wearwell/models/bearing/depth_law.h"
+#include "wearwell/models/bearing/wear_fit.h"
+#include "wearwell/models/bearing/bearing_data.h"
+#include "wearwell/study/posterior_study.h"
+#include "wearwell/input/toml_reader.h"
+
+namespace wearwell {
+
+/// The measured depth after the revolutions of `duty`, about which searches start at the wear rate
+/// `k`.
+PredictionRequest depth_request(const bearing::WearModel& model, const BearingData& data,
+                                const bearing::Duty& duty, double k,
+                                std::optional<double> measured);
+
+/// The bearing that [predict] is about, as far as a report draws it.
+struct PredictedBearing {
+  /// Revolutions: the most that were asked for or, if more, last inspected.
+  bearing::Duty duty;
+  std::optional<double> limit;  ///< allowed depth, m
+};
+
+/// Reads [predict]: of a bearing as in [conditions], or as said there. Adds predictions and
+/// quantities to the study. Throws InputError.
+PredictedBearing read_bearing_predictions(const TomlReader& predict,
+                                          const bearing::WearModel& model, const BearingData& data,
+                                          double k, PosteriorStudy& study);
+
+}  // namespace wearwell

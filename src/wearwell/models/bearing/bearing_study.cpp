@@ -1,0 +1,150 @@
+#include "wearwell/models/bearing/bearing_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/bearing/wear_fit.h"
+#include "wearwell/models/bearing/wear_scores.h"
+#include "wearwell/models/bearing/bearing_data.h"
+#include "wearwell/models/bearing/bearing_exhibits.h"
+#include "wearwell/models/bearing/bearing_predictions.h"
+#include "wearwell/input/prior.h"
+
+namespace wearwell {
+namespace {
+
+std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData& data,
+                                       bearing::WearModel& model) {
+  const TomlReader priors = root.required_table("prior");
+  bearing::WearGuess guess{};
+  try {
+    guess = bearing::guess(data.inspections);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", data.source, error.what()));
+  }
+  model.has_scatter = priors.has("k_scatter");
+  if (model.has_scatter && data.bearings < 2) {
+    priors.fail("k_scatter", fmt::format("all rows of {} are of one bearing; the scatter between "
+                                         "bearings needs at least 2",
+                                         data.source));
+  }
+  std::vector<Parameter> parameters;
+  parameters.push_back(read_prior(priors, {"k", "m^3/(N m)", 0, INFINITY, guess.k}));
+  if (model.depth_error) {
+    if (priors.has("sigma")) {
+      priors.fail("sigma", "is given, but likelihood.depth_error says that it is known; keep one");
+    }
+  } else {
+    if (data.inspections.depth.size() < 2) {
+      throw InputError(fmt::format(
+          "{} has 1 inspection; a wear rate and the scatter of depths need at least 2 (or a known "
+          "likelihood.depth_error)",
+          data.source));
+    }
+    double largest = 0;
+    for (const double d : data.inspections.depth) largest = std::max(largest, std::abs(d));
+    // Where bearings differ, not all of the residuals is the measurement's.
+    const double sigma = std::max((model.has_scatter ? 0.5 : 1) * guess.sigma, 1e-3 * largest);
+    parameters.push_back(read_prior(priors, {"sigma", "m", 0, INFINITY, sigma}));
+  }
+  if (model.has_scatter) {
+    parameters.push_back(
+        read_prior(priors, {"k_scatter", "1", 0, INFINITY, std::max(guess.scatter, 0.05)}));
+  }
+  return parameters;
+}
+
+std::string in_words(const bearing::WearModel& model, const BearingData& data) {
+  const std::string sd =
+      model.depth_error
+          ? fmt::format("{:.4g} {} (known)", from_si(data.depth_unit, *model.depth_error),
+                        data.depth_unit.text)
+          : "sigma";
+  const std::string rate =
+      model.has_scatter
+          ? fmt::format(", k of each of {} bearings = k exp(k_scatter z), z ~ N(0, 1)",
+                        data.bearings)
+          : "";
+  return fmt::format(
+      "depth = radius x delta(p_a k n, clearance/radius){}; depth measured with {} scatter of "
+      "standard deviation {}",
+      rate, model.family == ObservationFamily::normal ? "normal" : "lognormal", sd);
+}
+
+// Wear grows within each bearing, or where all k are one, within each geometry.
+FitData fit_data(const bearing::WearModel& model, const BearingData& data) {
+  const bearing::Inspections& inspections = data.inspections;
+  std::vector<double> loading;
+  std::vector<std::size_t> group;
+  for (std::size_t i = 0; i < inspections.duty.size(); ++i) {
+    const bearing::Duty& duty = inspections.duty[i];
+    loading.push_back(duty.pressure * duty.revolutions);
+    std::size_t first = 0;
+    const auto alike = [&](std::size_t j) {
+      const bearing::Duty& other = inspections.duty[j];
+      return (!model.has_scatter || inspections.bearing[j] == inspections.bearing[i]) &&
+             other.contact == duty.contact && other.radius == duty.radius &&
+             other.clearance == duty.clearance;
+    };
+    while (!alike(first)) ++first;
+    group.push_back(first);
+  }
+  const Rise rise{"wear depth grows with pressure times revolutions", loading, inspections.depth,
+                  group, true};
+  return {bearing::wear_scores(model, inspections),
+          {},
+          {{"pressure times revolutions", loading}},
+          rise,
+          "row",
+          !model.has_scatter,
+          !model.has_scatter};
+}
+
+}  // namespace
+
+void read_bearing_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
+  bearing::WearModel model;
+  if (const auto likelihood = root.table("likelihood")) {
+    const auto family = likelihood->choice("family", {"normal", "lognormal"});
+    if (family == "lognormal") model.family = ObservationFamily::lognormal;
+    if (const auto error = positive_quantity(*likelihood, "depth_error", "m")) {
+      model.depth_error = error->si();
+    }
+  }
+  const BearingData data = read_bearing_data(root, source, model.family);
+  study.parameters = read_parameters(root, data, model);
+  study.equation = in_words(model, data);
+  study.data_rows = data.inspections.depth.size();
+  study.quantity = "wear depth";
+  study.observed = data.inspections.depth;
+  study.data_columns = data.columns;
+  if (model.has_scatter) study.observation = "bearing";
+  study.meanings = {"specific wear rate"};
+  if (!model.depth_error) study.meanings.emplace_back("scatter of one measured depth");
+  if (model.has_scatter) study.meanings.emplace_back("scatter of ln k between bearings");
+  study.likelihood = [=, inspections = data.inspections](std::size_t rows) {
+    return bearing::wear_likelihood(model, inspections, rows);
+  };
+  study.fit_data = fit_data(model, data);
+  const double k = study.parameters.front().start;
+  study.stage_predictions = [=](std::size_t rows) {
+    std::vector<PredictionRequest> requests;
+    for (std::size_t i = rows - 1; i < std::min(rows + 1, data.inspections.depth.size()); ++i) {
+      requests.push_back(
+          depth_request(model, data, data.inspections.duty[i], k, data.inspections.depth[i]));
+    }
+    return requests;
+  };
+  // What a report draws is the bearing that is asked about, else the last one inspected.
+  PredictedBearing drawn{data.inspections.duty.back(), {}};
+  if (const auto predict = root.table("predict")) {
+    drawn = read_bearing_predictions(*predict, model, data, k, study);
+  }
+  add_bearing_history(model, data, drawn, k, study);
+  study.exhibits = [=](const Fit& fit) { return bearing_exhibits(data, drawn, fit); };
+}
+
+}  // namespace wearwell

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace wearwell {
+
+/// Adds `wearwell bearing rate|depth|pressure|length|life|chart`. A subcommand runs while the
+/// command line is parsed: it prints its answer on standard output and its warnings on standard
+/// error, or throws InputError.
+void add_bearing_command(CLI::App& app, int& exit_code);
+
+}  // namespace wearwell

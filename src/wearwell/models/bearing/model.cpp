@@ -1,0 +1,29 @@
+#include "wearwell/models/bearing/model.h"
+
+#include "wearwell/models/bearing/bearing_study.h"
+#include "wearwell/models/bearing/commands.h"
+
+namespace wearwell {
+namespace resource {
+
+std::string_view bearing_study();
+std::string_view bearing_data();
+
+}  // namespace resource
+
+namespace bearing {
+
+Model model() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::bearing_study},
+                                            {"inspections.csv", resource::bearing_data}};
+  return {.key = "bearing-wear",
+          .trade = "bearing",
+          .example = example,
+          .read = [](const TomlReader& root, const Source& source) {
+            return read_posterior_study(root, source, read_bearing_study);
+          },
+          .add_commands = add_bearing_command};
+}
+
+}  // namespace bearing
+}  // namespace wearwell

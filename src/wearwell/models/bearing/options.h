@@ -1,0 +1,66 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "wearwell/models/bearing/solve.h"
+#include "wearwell/models/bearing/uncertain.h"
+
+namespace wearwell::bearing {
+
+using Input = std::optional<double> Bearing::*;
+
+/// One option that describes a bearing: --radius, --clearance, ...
+struct InputOption {
+  const char* flag;
+  Input input;
+  const char* si;
+  const char* help;
+};
+inline constexpr std::array<InputOption, 11> input_options = {{
+    {"--radius", &Bearing::radius, "m", "radius r of the journal"},
+    {"--clearance", &Bearing::clearance, "m",
+     "radial clearance: bushing radius less journal radius"},
+    {"--depth", &Bearing::depth, "m", "wear depth d"},
+    {"--scar-width", &Bearing::scar_width, "m", "width b of the scar, instead of --depth"},
+    {"--rate", &Bearing::rate, "m^3/(N m)", "wear rate k: volume per load and sliding distance"},
+    {"--pressure", &Bearing::pressure, "Pa", "apparent pressure p_a = F/(2 r L)"},
+    {"--force", &Bearing::force, "N", "radial force F, with --length instead of --pressure"},
+    {"--length", &Bearing::length, "m", "length L of the bearing"},
+    {"--revolutions", &Bearing::revolutions, "rev", "number of revolutions n"},
+    {"--speed", &Bearing::speed, "rev/s",
+     "speed (rpm, Hz, rad/s), with --time instead of --revolutions"},
+    {"--time", &Bearing::time, "s", "running time"},
+}};
+
+/// A bearing whose inputs may be uncertain.
+struct UncertainBearing {
+  struct Given {
+    const InputOption* option;
+    Uncertain value;
+  };
+  Contact contact;
+  std::vector<Given> given;
+
+  Bearing mean() const;
+  bool is_exact() const;
+};
+
+/// What was written on the command line, before it is read.
+struct BearingOptions {
+  std::string contact;
+  std::array<std::string, input_options.size()> texts;
+
+  /// Adds --contact and the inputs; those in `hidden` are taken, so that they can be refused with a
+  /// reason, but no help shows them. `this` must stay until the command has run.
+  void add_to(CLI::App& command, const std::vector<Input>& hidden = {});
+
+  const std::string& text(Input input) const;
+
+  /// Throws InputError that starts with the flag at fault.
+  UncertainBearing read() const;
+};
+
+}  // namespace wearwell::bearing

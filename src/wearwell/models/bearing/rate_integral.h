@@ -1,0 +1,25 @@
+#pragma once
+
+#include "wearwell/models/bearing/inspected.h"
+
+namespace wearwell::bearing {
+
+/// log of the likelihood of one bearing whose ln k is normal about `log_k`, and its derivatives.
+struct RateIntegral {
+  double value = 0;
+  double by_log_k = 0, by_sigma = 0, by_scatter = 0;
+};
+
+/// The logarithm of
+///
+///   int N(z; 0, 1) L(log_k + scatter z, sigma) dz.
+///
+/// Where the integrand is one bell, as nearly always, by the trapezoidal rule about its top, which
+/// converges faster than any power of the step for bells that are analytic; every second node alone
+/// tells how well. Else (edges, plateaus, several tops) by adaptive Gauss-Kronrod panels. Which of
+/// them, and where to stop, follows from bounds on what lies farther out. At most some thousand
+/// evaluations, whatever the data. -infinity where the integrand is nowhere above exp(-1e9).
+RateIntegral log_rate_integral(const Inspected& bearing, double log_k, double sigma,
+                               double scatter);
+
+}  // namespace wearwell::bearing

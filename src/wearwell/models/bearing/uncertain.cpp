@@ -1,0 +1,135 @@
+#include "wearwell/models/bearing/uncertain.h"
+
+#include <fmt/format.h>
+
+#include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/trim.hpp>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "wearwell/base/error.h"
+
+namespace wearwell {
+namespace {
+
+using Law = Uncertain::Law;
+
+std::string trimmed(std::string_view text) {
+  return boost::algorithm::trim_copy(std::string(text));
+}
+
+bool is_bare_number(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, failure] = std::from_chars(text.data(), end, value);
+  return failure == std::errc{} && rest == end;
+}
+
+/// A difference of two quantities, so an offset (degrees Celsius) does not count.
+double difference(const Quantity& q) {
+  return q.value * q.unit.scale;
+}
+
+/// "0.100 +- 0.005 mm", split at the sign.
+Uncertain read_plus_minus(const std::string& left, const std::string& right, std::string_view si) {
+  Uncertain result;
+  if (boost::algorithm::ends_with(right, "%")) {
+    const Quantity mean = read_quantity(left, si);
+    result.unit = mean.unit;
+    result.mean = mean.si();
+    result.sd = std::abs(difference(mean)) * read_quantity(right, "1").si();
+  } else {
+    const Quantity sd = read_quantity(right, si);
+    // A mean without a unit has that of its standard deviation.
+    const bool bare = is_bare_number(left) && sd.unit.text != "1";
+    const Quantity mean = read_quantity(bare ? left + " " + sd.unit.text : left, si);
+    refuse_two_readings(sd, mean.unit);
+    result.unit = mean.unit;
+    result.mean = mean.si();
+    result.sd = difference(sd);
+  }
+  result.law = Law::normal;
+  return result;
+}
+
+/// "lognormal(0.1 mm, 0.005 mm)"
+Uncertain read_law(const std::string& text, std::string_view si) {
+  const auto open = text.find('('), comma = text.find(','), close = text.rfind(')');
+  const bool whole = open != text.npos && comma != text.npos && close == text.size() - 1 &&
+                     open < comma && comma < close;
+  const std::string name = trimmed(text.substr(0, open));
+  if (!whole || (name != "normal" && name != "lognormal" && name != "uniform")) {
+    throw InputError(
+        fmt::format("'~ {}' is not a law; write normal(MEAN, SD), lognormal(MEAN, SD) or "
+                    "uniform(LOWER, UPPER)",
+                    text));
+  }
+  const Quantity first = read_quantity(text.substr(open + 1, comma - open - 1), si);
+  const Quantity second = read_quantity(text.substr(comma + 1, close - comma - 1), si);
+  refuse_two_readings(first, second.unit);
+  refuse_two_readings(second, first.unit);
+  Uncertain result;
+  result.unit = first.unit;
+  if (name == "uniform") {
+    if (!(first.si() < second.si()))
+      throw InputError(fmt::format("'~ {}': the first bound must be below the second", text));
+    result.law = Law::uniform;
+    result.mean = (first.si() + second.si()) / 2;
+    result.sd = (second.si() - first.si()) / std::sqrt(12);
+    return result;
+  }
+  result.law = name == "normal" ? Law::normal : Law::lognormal;
+  result.mean = first.si();
+  result.sd = difference(second);
+  if (result.law == Law::lognormal && !(result.mean > 0))
+    throw InputError(fmt::format("'~ {}': the mean of a lognormal is above 0", text));
+  return result;
+}
+
+}  // namespace
+
+Uncertain read_uncertain(std::string_view text, std::string_view si) {
+  const std::string written = trimmed(text);
+  Uncertain result;
+  std::size_t sign = 0, sign_size = 0;
+  for (const std::string_view plus_minus : {"+-", "±", "+/-"}) {
+    if (const auto at = written.find(plus_minus); at != written.npos) {
+      sign = at;
+      sign_size = plus_minus.size();
+    }
+  }
+  if (boost::algorithm::starts_with(written, "~")) {
+    result = read_law(trimmed(written.substr(1)), si);
+  } else if (sign_size != 0) {
+    result = read_plus_minus(trimmed(written.substr(0, sign)),
+                             trimmed(written.substr(sign + sign_size)), si);
+  } else {
+    const Quantity quantity = read_quantity(written, si);
+    result.unit = quantity.unit;
+    result.mean = quantity.si();
+  }
+  if (result.sd < 0)
+    throw InputError(fmt::format("'{}' has a negative standard deviation", written));
+  if (result.sd == 0) result.law = Law::exact;
+  result.text = written;
+  return result;
+}
+
+double draw(const Uncertain& q, Rng& rng) {
+  switch (q.law) {
+    case Law::exact:
+      break;
+    case Law::normal:
+      return q.mean + q.sd * rng.normal();
+    case Law::lognormal: {
+      const double variance = std::log1p(q.sd * q.sd / (q.mean * q.mean));  // of the logarithm
+      return q.mean * std::exp(std::sqrt(variance) * rng.normal() - variance / 2);
+    }
+    case Law::uniform:
+      return q.mean + q.sd * std::sqrt(12) * (rng.uniform() - 0.5);
+  }
+  return q.mean;
+}
+
+}  // namespace wearwell

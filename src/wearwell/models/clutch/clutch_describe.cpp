@@ -1,0 +1,85 @@
+#include "wearwell/models/clutch/clutch_describe.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <set>
+
+#include "wearwell/base/printable.h"
+#include "wearwell/models/clutch/clutch_tables.h"
+
+namespace wearwell::clutch {
+namespace {
+
+std::string point_in_words(const OperatingPoint& at) {
+  return fmt::format("{:.6g} rpm, {:.6g} N m, {:.6g} degC, {:.6g} s", at.slip_speed / rpm,
+                     at.torque, at.temperature, at.closing_time);
+}
+
+std::string data_in_words(const ClutchStudy& study) {
+  const Campaign& campaign = study.campaign;
+  int points[3] = {};
+  for (const DesignPoint& point : campaign.design) ++points[static_cast<int>(point.role)];
+  std::set<int> plates;
+  for (const Cycle& cycle : campaign.cycles) plates.insert(cycle.plate);
+  std::string out = study.simulated
+                        ? "\nData, simulated from a known truth: no measurement stands behind it\n"
+                        : "\nData\n";
+  std::vector<std::string> files;
+  for (const auto& file : study.files) files.push_back(file.filename().string());
+  out += fmt::format("  {}\n", fmt::join(files, ", "));
+  out += fmt::format("  {} points of the factorial, {} beyond it, {} held out\n", points[0],
+                     points[1], points[2]);
+  out += fmt::format("  {} cycles of {} plates, {} weighings, {} samples of raw traces\n",
+                     campaign.cycles.size(), plates.size(), campaign.weighings.size(),
+                     study.traces.size());
+  out +=
+      fmt::format("  lining of {:.6g} kg/m^3, worn out at {:.6g} mm^3; balance good to {:.6g} mg\n",
+                  campaign.density, study.worn_out / mm3, campaign.balance_sd * 1e6);
+  return out;
+}
+
+}  // namespace
+
+std::string study_in_words(const ClutchStudy& study) {
+  std::set<int> run_in_plates;
+  std::set<std::string> sequences;
+  for (const Weighing& weighing : study.campaign.weighings) {
+    if (weighing.block == Block::run_in) run_in_plates.insert(weighing.plate);
+    if (weighing.block == Block::sequence) sequences.insert(weighing.sequence);
+  }
+  std::string out = fmt::format(
+      "{}\n  volume of one cycle = g(Ec) w E, with g(Ec) = 1 + w1/w0 exp(-Ec/eps1) + w2/w0 "
+      "exp(-Ec/eps2)\n  w = a cubic in ds = omega0^r t2^q, Td and Mz, or any part of it\n",
+      study.title);
+  out += data_in_words(study);
+  out += "\nUnknowns\n";
+  out += fmt::format(
+      "  w0, w1, w2 [mm^3/MJ], eps1, eps2 [MJ]  run-in of {} plates together, a factor for each\n",
+      run_in_plates.size());
+  const auto& e = study.exponents;
+  out += fmt::format(
+      "  terms of w [mm^3/MJ], r, q               the best of 1048575 submodels by leave-one-out "
+      "at each of {} pairs of r and q in {:g}..{:g}\n",
+      e.size() * e.size(), e.front(), e.back());
+  std::vector<std::string> laws;
+  for (const ScatterKind kind : scatter_kinds) laws.push_back(formula_of(kind));
+  out += fmt::format(
+      "  sigma_w [mm^3/MJ]                        scatter of one cycle, by AIC one of: {}\n",
+      fmt::join(laws, "; "));
+  out += "\nWill be predicted\n";
+  if (!sequences.empty())
+    out += fmt::format("  worn volume [mm^3] along the sequences {}\n", fmt::join(sequences, ", "));
+  std::vector<double> levels;
+  for (const double level : study.levels) levels.push_back(100 * level);
+  for (const auto& [name, at] : study.life_points)
+    out += fmt::format("  cycles to {:g} % worn, {}: {}\n", fmt::join(levels, ", "), name,
+                       point_in_words(at));
+  out += fmt::format(
+      "  with 95 % intervals by the scatter of cycles alone, and by {} simulated repetitions of "
+      "the fit (seed {}) as well\n",
+      study.replicates, study.seed);
+  return printable_lines(out);
+}
+
+}  // namespace wearwell::clutch

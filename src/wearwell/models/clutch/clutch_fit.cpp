@@ -1,0 +1,350 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/clutch/clutch_predict.h"
+#include "wearwell/models/clutch/clutch_study.h"
+#include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/study/units_check.h"
+
+namespace wearwell::clutch {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Points within this of a temperature level belong to it, degrees.
+constexpr double level_width = 10;
+constexpr Index least_points_of_level = 15;
+
+WearPoints chosen(const WearPoints& points, const std::vector<Index>& rows) {
+  WearPoints some;
+  for (const Index row : rows) {
+    some.number.push_back(points.number[static_cast<std::size_t>(row)]);
+    some.at.push_back(points.at[static_cast<std::size_t>(row)]);
+  }
+  some.w = points.w(rows);
+  some.cycles = points.cycles(rows);
+  some.balance_sd = points.balance_sd(rows);
+  return some;
+}
+
+/// The set temperatures of the factorial.
+std::vector<double> temperature_levels(const Campaign& campaign) {
+  std::set<double> levels;
+  for (const DesignPoint& point : campaign.design) {
+    if (point.role == Role::model) levels.insert(point.at.temperature);
+  }
+  return {levels.begin(), levels.end()};
+}
+
+SurrogateResult try_surrogate(const ClutchStudy& study, const WearPoints& points,
+                              Surrogate surrogate, const ExponentSearch* done, int threads,
+                              Progress* progress) {
+  SurrogateResult result;
+  result.surrogate = surrogate;
+  const ExponentSearch search =
+      done ? *done : search_exponents(points, surrogate, study.exponents, threads, false, progress);
+  result.best = search.pairs[search.best];
+  for (const double level : temperature_levels(study.campaign)) {
+    std::vector<Index> rows;
+    for (Index j = 0; j < points.size(); ++j) {
+      if (std::abs(points.at[static_cast<std::size_t>(j)].temperature - level) < level_width)
+        rows.push_back(j);
+    }
+    if (std::ssize(rows) < least_points_of_level) continue;
+    const ExponentSearch at_level =
+        search_exponents(chosen(points, rows), surrogate, study.exponents, threads, true, progress);
+    result.levels.push_back(level);
+    result.r2p.push_back(at_level.pairs[at_level.best].r2p);
+    result.mean_r2p += result.r2p.back();
+  }
+  if (!result.r2p.empty()) result.mean_r2p /= static_cast<double>(result.r2p.size());
+  return result;
+}
+
+std::vector<SequenceResult> predict_sequences(const ClutchStudy& study, const ClutchResult& r) {
+  std::vector<SequenceResult> sequences;
+  CycleSum sum(r.model, true);
+  CycleSum::Rates rates;
+  std::set<int> plates;
+  for (const WornBlock& block : r.blocks.blocks) {
+    if (block.block == Block::sequence) plates.insert(block.plate);
+  }
+  for (const WornBlock& block : r.blocks.blocks) {
+    if (!plates.count(block.plate)) continue;
+    // Everything that ran on the plate counts, whatever it was for.
+    const CycleColumns cycles = columns_of(study.campaign.cycles, block.first, block.last);
+    sum.rates(cycles, rates);
+    sum.add(cycles, rates);
+    if (sequences.empty() || sequences.back().plate != block.plate)
+      sequences.push_back({block.sequence, block.plate, {}});
+    SequenceResult& sequence = sequences.back();
+    if (block.block == Block::sequence) sequence.name = block.sequence;
+    const PlateWear& wear = sum.plates().back();
+    const double measured =
+        (sequence.weighings.empty() ? 0 : sequence.weighings.back().measured) + block.volume;
+    SequenceResult::Weighing weighing{wear.last_number,
+                                      wear.energy,
+                                      measured,
+                                      wear.volume,
+                                      wear.sd(),
+                                      wear.full_sd(r.model.plate_sd),
+                                      {}};
+    for (const Realized& each : study.realized) {
+      if (each.plate == block.plate && each.cycle == wear.last_number)
+        weighing.realized = each.volume;
+    }
+    sequence.weighings.push_back(weighing);
+  }
+  return sequences;
+}
+
+Check run_in_check(const RunInFit& fit) {
+  Findings findings("run-in");
+  if (!fit.converged || fit.agreeing < 2)
+    findings.add(Verdict::fail,
+                 fmt::format("{} of {} starts reach the best fit{}", fit.agreeing, fit.starts,
+                             fit.converged ? "" : ", which did not converge"),
+                 "Weigh more often during run-in, or run it longer.");
+  for (int i = 0; i < 3; ++i) {
+    const double value = fit.parameters[i], error = std::sqrt(fit.covariance(i, i));
+    if (value > 2 * error) continue;
+    if (i == 0)
+      findings.add(Verdict::fail,
+                   fmt::format("the settled rate w0 is {:.3g} +- {:.3g} mm^3/MJ",
+                               value / mm3_per_MJ, error / mm3_per_MJ),
+                   "Plates were not run until their wear settled: run them longer before the "
+                   "run-out.");
+    else
+      findings.add(Verdict::warn,
+                   fmt::format("w{} is {:.3g} +- {:.3g} mm^3/MJ, no more than 0 with certainty", i,
+                               value / mm3_per_MJ, error / mm3_per_MJ),
+                   "One exponential may do, or run-in was weighed too rarely.");
+  }
+  return findings.result(
+      fmt::format("{} of {} starts agree; both modes are more than two "
+                  "standard errors above 0",
+                  fit.agreeing, fit.starts));
+}
+
+// R2p of the search's winner is above that of the baselines, which are among what was searched,
+// whatever the data; points that no fit has seen can say otherwise.
+Check map_check(const std::vector<WearMap>& maps, const WearPoints& held_out) {
+  Findings findings("wear map");
+  const double r2p = maps[0].fit.r2p;
+  if (!(r2p > 0.5))
+    findings.add(Verdict::fail, fmt::format("R2p is {:.3f}", r2p),
+                 "The inputs explain less than half of the wear rates: look for one that is "
+                 "missing, or run longer points.");
+  const std::string searched = fmt::format("R2p {:.3f}, of the best after a search", r2p);
+  constexpr Index least_points = 5;
+  if (held_out.size() < least_points)
+    return findings.result(searched + "; too few points are held out to check it by");
+  const double spread = (held_out.w.array() - held_out.w.mean()).square().sum();
+  std::vector<Eigen::ArrayXd> errors;
+  std::vector<std::string> texts;
+  for (const WearMap& map : maps) {
+    errors.push_back((map.predict(held_out.at) - held_out.w).array().square());
+    texts.push_back(fmt::format("{} {:.3f}", map.name, 1 - errors.back().sum() / spread));
+  }
+  const auto n = static_cast<double>(held_out.size());
+  for (std::size_t i = 1; i < maps.size(); ++i) {
+    const Eigen::ArrayXd gain = errors[i] - errors[0];  // by the search, point by point
+    const double error = std::sqrt((gain - gain.mean()).square().sum() / (n * (n - 1)));
+    const double z = gain.mean() / error;
+    if (z < -1)
+      findings.add(
+          z < -3 ? Verdict::fail : Verdict::warn,
+          fmt::format("the {} model predicts the held-out points better ({:.1f} standard errors)",
+                      maps[i].name, -z),
+          "The search has fitted noise: prefer the simpler model, or run longer points.");
+  }
+  return findings.result(
+      fmt::format("{}; R2 of the {} held-out points: {}", searched, held_out.size(),
+                  fmt::join(texts, ", ")));
+}
+
+Check validation_check(const Validation& validation) {
+  Findings findings("validation");
+  if (validation.points.empty()) {
+    findings.add(Verdict::warn, "no point was held out",
+                 "Plan points of role 'validation' (wearwell clutch design).");
+    return findings.result("");
+  }
+  for (const ValidationPoint& p : validation.points) {
+    if (p.outlier)
+      findings.add(Verdict::warn,
+                   fmt::format("point {} lies {:+.1f} standard deviations from its prediction",
+                               p.number, p.t),
+                   "Look at the traces and weighings of the points named; numbers are shown with "
+                   "and without them.");
+  }
+  if (!(validation.without_outliers.r2 > 0))
+    findings.add(Verdict::fail,
+                 fmt::format("R2 of the held-out points is {:.2f}", validation.without_outliers.r2),
+                 "The map predicts held-out points no better than their mean would.");
+  return findings.result(
+      fmt::format("no outlier among {} held-out points (|t| up to {:.1f} is expected); R2 {:.3f}",
+                  validation.all.points, validation.critical, validation.all.r2));
+}
+
+Check scatter_check(const ScatterFit& fit) {
+  Findings findings("scatter");
+  for (const auto& [name, test] :
+       {std::pair{"Kolmogorov-Smirnov", fit.kolmogorov}, std::pair{"Lilliefors", fit.lilliefors}}) {
+    if (test.p < 0.05)
+      findings.add(test.p < 0.001 ? Verdict::fail : Verdict::warn,
+                   fmt::format("{}: scaled residuals are not normal, p = {:.3g}", name, test.p),
+                   "Look at the normal probability plot; intervals rest on it.");
+  }
+  return findings.result(
+      fmt::format("scaled residuals are normal (Kolmogorov-Smirnov p = {:.3f}, "
+                  "Lilliefors p = {:.3f})",
+                  fit.kolmogorov.p, fit.lilliefors.p));
+}
+
+Check sequence_check(const std::vector<SequenceResult>& sequences) {
+  Findings findings("sequences");
+  std::vector<std::string> good;
+  for (const SequenceResult& s : sequences) {
+    const auto& last = s.weighings.back();
+    const double z = (last.measured - last.predicted) / last.full_sd;
+    const std::string text = fmt::format("{}: predicted {:+.1f} % of what was measured at the end",
+                                         s.name, 100 * s.final_error());
+    good.push_back(text);
+    if (std::abs(z) > 2)
+      findings.add(std::abs(z) > 4 ? Verdict::fail : Verdict::warn,
+                   fmt::format("{}, {:.1f} full standard deviations", text, z),
+                   "The plate, or its conditions, differ from the campaign's.");
+  }
+  return findings.result(sequences.empty() ? "no sequence was run"
+                                           : fmt::format("{}", fmt::join(good, "; ")));
+}
+
+/// What was read of the cycles, to find mistaken units.
+std::vector<DataColumn> columns_of(const Campaign& campaign) {
+  std::vector<DataColumn> columns;
+  for (const Input& input : inputs) {
+    const bool celsius = input.value == &OperatingPoint::temperature;
+    columns.push_back({input.name, input.si, read_unit(celsius ? "degC" : input.si, input.si), {}});
+    for (const Cycle& cycle : campaign.cycles)
+      columns.back().values.push_back(cycle.at.*input.value + (celsius ? celsius_zero : 0));
+  }
+  return columns;
+}
+
+Check data_check(const Campaign& campaign, const ClutchResult& r) {
+  Findings findings("data");
+  std::set<int> run;
+  for (const WornBlock& block : r.blocks.blocks) run.insert(block.point);
+  std::vector<int> missing;
+  for (const DesignPoint& point : campaign.design) {
+    if (!run.count(point.number)) missing.push_back(point.number);
+  }
+  if (!missing.empty())
+    findings.add(Verdict::warn,
+                 fmt::format("points {} of the design were not run", fmt::join(missing, ", ")),
+                 "The map knows less there; run them, or strike them from the design.");
+  for (const std::string& flag : r.blocks.flags)
+    findings.add(Verdict::warn, flag, "Look at the rows named; weigh longer blocks.");
+  for (const Closing& closing : r.closings) {
+    if (!closing.flag.empty())
+      findings.add(Verdict::warn,
+                   fmt::format("trace of plate {}, closing {}: {}", closing.cycle.plate,
+                               closing.cycle.number, closing.flag),
+                   "Look at the trace.");
+  }
+  return findings.result(
+      fmt::format("{} blocks weighed, none gained mass", r.blocks.blocks.size()));
+}
+
+}  // namespace
+
+WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& blocks,
+                       const RunInFit& run_in, bool held_out) {
+  std::map<int, Role> roles;
+  for (const DesignPoint& point : campaign.design) roles[point.number] = point.role;
+  WearPoints points;
+  std::vector<double> w, cycles, balance_sd;
+  for (const WornBlock& block : blocks) {
+    if (block.block != Block::point) continue;
+    const auto role = roles.find(block.point);
+    if (role == roles.end())
+      throw InputError(fmt::format("plate {}: point {} was run but is not in the design",
+                                   block.plate, block.point));
+    if ((role->second == Role::validation) != held_out) continue;
+    double factor = run_in.run_in.mean(block.energy_before, block.energy_before + block.energy);
+    for (const PlateFactor& plate : run_in.plates) {
+      if (plate.plate == block.plate) factor *= plate.factor();
+    }
+    points.number.push_back(block.point);
+    points.at.push_back(block.mean);
+    w.push_back(block.w / factor);
+    cycles.push_back(block.cycles());
+    balance_sd.push_back(block.balance_sd / factor);
+  }
+  const auto vector = [](const std::vector<double>& values) {
+    return VectorXd(Eigen::Map<const VectorXd>(values.data(), std::ssize(values)));
+  };
+  points.w = vector(w);
+  points.cycles = vector(cycles);
+  points.balance_sd = vector(balance_sd);
+  return points;
+}
+
+ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* progress) {
+  const auto start = std::chrono::steady_clock::now();
+  ClutchResult r;
+  r.version = WEARWELL_VERSION;
+  r.closings = find_closings(study.traces);
+  r.blocks = worn_blocks(study.campaign);
+  r.run_in = fit_run_in(r.blocks.blocks);
+  r.points = wear_points(study.campaign, r.blocks.blocks, r.run_in, false);
+  r.held_out = wear_points(study.campaign, r.blocks.blocks, r.run_in, true);
+  constexpr Index least_points = 25;  // more than the full cubic has terms
+  if (r.points.size() < least_points)
+    throw InputError(fmt::format("{} points to model with; at least {} are needed", r.points.size(),
+                                 least_points));
+  r.correlations = correlations(r.points);
+  r.search =
+      search_exponents(r.points, Surrogate::distance, study.exponents, threads, false, progress);
+  for (const Surrogate surrogate : surrogates) {
+    r.surrogates.push_back(try_surrogate(study, r.points, surrogate,
+                                         surrogate == Surrogate::distance ? &r.search : nullptr,
+                                         threads, progress));
+  }
+  const PairBest& best = r.search.pairs[r.search.best];
+  const auto fitted = [&](const char* name, int degree, const std::vector<int>& terms) {
+    return fit_map(name, r.points, Surrogate::distance, best.r, best.q, degree, terms);
+  };
+  r.maps = {fitted("selected", 3, best.terms), fitted("linear", 1, {}), fitted("full cubic", 3, {}),
+            fit_temperature_map(r.points)};
+  const WearMap& map = r.maps.front();
+  r.scatter = fit_scatter(r.points, map);
+  r.model = make_model(study.title, r.points, map, r.run_in, r.scatter, study.worn_out);
+  r.model.replicates =
+      draw_replicates(r.points, map, point_sd(r.model.scatter, r.points, map.fit.fitted), r.run_in,
+                      study.exponents, study.replicates, study.seed, threads, progress);
+  r.validation = validate(map, r.model.covariance, r.model.scatter, r.held_out);
+  r.averaging = averaging_effect(r.model.polynomial(), study.campaign.cycles, r.blocks.blocks);
+  r.sequences = predict_sequences(study, r);
+  for (const auto& [name, at] : study.life_points) {
+    const Cycle cycle{1, 1, at, closing_energy(at)};
+    r.lives.push_back({name, at, predict_life(r.model, {cycle}, study.levels)});
+  }
+  r.checks = {
+      data_check(study.campaign, r),  run_in_check(r.run_in),         map_check(r.maps, r.held_out),
+      scatter_check(r.scatter_fit()), validation_check(r.validation), sequence_check(r.sequences)};
+  if (const auto units = units_check(columns_of(study.campaign))) r.checks.push_back(*units);
+  for (const Check& check : r.checks) r.trusted = r.trusted && check.verdict != Verdict::fail;
+  r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return r;
+}
+
+}  // namespace wearwell::clutch

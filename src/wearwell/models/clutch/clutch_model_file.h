@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "wearwell/models/clutch/cycle_sum.h"
+#include "wearwell/models/clutch/wear_model.h"
+
+namespace wearwell::clutch {
+
+/// model.json (docs/clutch.md): everything in SI, temperatures in degrees Celsius. Writing and
+/// reading loses no bit.
+nlohmann::ordered_json to_json(const WearModel& model);
+/// Throws InputError that names the file and what is missing or wrong in it.
+WearModel read_model(const std::filesystem::path& file);
+
+/// Plates half way, to go on from; `model` is the SHA-1 of the model file.
+std::string state_text(const std::vector<PlateWear>& plates, const std::string& model);
+/// Throws InputError when the file is none, or belongs to another model, or was made with another
+/// number of replicates.
+std::vector<PlateWear> read_state(const std::filesystem::path& file, const std::string& model,
+                                  std::size_t replicates);
+
+}  // namespace wearwell::clutch

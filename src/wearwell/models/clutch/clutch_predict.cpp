@@ -1,0 +1,197 @@
+#include "wearwell/models/clutch/clutch_predict.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <memory>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/input/column_stream.h"
+
+namespace wearwell::clutch {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+constexpr std::size_t batch_rows = 16'384;
+constexpr std::size_t batches_in_flight = 8;
+
+struct Batch {
+  std::size_t first_row = 0;
+  std::vector<std::vector<double>> raw;  ///< by column of the file
+  CycleColumns cycles;
+  CycleSum::Rates rates;
+};
+
+enum Place { plate, number, slip_speed, torque, temperature, closing_time, energy, places };
+constexpr const char* names[places] = {"plate",       "cycle",        "slip_speed", "torque",
+                                       "temperature", "closing_time", "energy"};
+constexpr const char* dimensions[places] = {"1", "cycle", "rad/s", "N m", "K", "s", "J"};
+
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : stream_(file) {
+    std::vector<std::string> headings;
+    for (int c = 0; c < places; ++c) {
+      columns_.push_back(
+          find_labelled(stream_.headings(), names[c], dimensions[c], stream_.source()));
+      headings.push_back(columns_.back().heading);
+    }
+    stream_.select(headings);
+  }
+
+  bool next(Batch& batch) {
+    batch.raw.assign(places, {});
+    bool first = true;
+    while (batch.raw.front().size() < batch_rows && stream_.next(chunk_)) {
+      if (first) batch.first_row = chunk_.first_row;
+      first = false;
+      for (std::size_t c = 0; c < places; ++c) {
+        auto& column = batch.raw[c];
+        column.insert(column.end(), chunk_.columns[c].begin(), chunk_.columns[c].end());
+      }
+    }
+    return !first;
+  }
+
+  /// Into SI, checked.
+  void convert(Batch& batch) const {
+    const Index n = std::ssize(batch.raw.front());
+    const auto si = [&](int c) {
+      const Unit& unit = columns_[static_cast<std::size_t>(c)].unit;
+      const auto& raw = batch.raw[static_cast<std::size_t>(c)];
+      ArrayXd values = unit.offset + unit.scale * Eigen::Map<const ArrayXd>(raw.data(), n);
+      if (c == temperature) {
+        if (!values.allFinite()) refuse(batch, c, values, "must be a finite number");
+        if (!(values >= 0).all()) refuse(batch, c, values, "is below absolute zero");
+        values -= celsius_zero;
+      } else if (!(values > 0).all() || !values.allFinite()) {
+        refuse(batch, c, values, "must be a positive number");
+      }
+      return values;
+    };
+    const auto whole = [&](int c) {
+      auto raw = batch.raw[static_cast<std::size_t>(c)];
+      const double most = c == plate ? 2e9 : 9e15;
+      for (std::size_t i = 0; i < raw.size(); ++i) {
+        raw[i] *= columns_[static_cast<std::size_t>(c)].unit.scale;
+        if (!(raw[i] >= 1 && raw[i] <= most) || raw[i] != std::trunc(raw[i]))
+          throw InputError(
+              fmt::format("{}, row {}, column '{}': {} must be a whole number of at "
+                          "least 1",
+                          stream_.source(), batch.first_row + i + 1,
+                          columns_[static_cast<std::size_t>(c)].heading, raw[i]));
+      }
+      return raw;
+    };
+    batch.cycles.plate = whole(plate);
+    batch.cycles.number = whole(number);
+    batch.cycles.slip_speed = si(slip_speed);
+    batch.cycles.torque = si(torque);
+    batch.cycles.temperature = si(temperature);
+    batch.cycles.closing_time = si(closing_time);
+    batch.cycles.energy = si(energy);
+  }
+
+  const std::string& source() const { return stream_.source(); }
+
+ private:
+  [[noreturn]] void refuse(const Batch& batch, int c, const ArrayXd& values,
+                           const char* allowed) const {
+    Index i = 0;
+    while (std::isfinite(values[i]) && (c == temperature ? values[i] >= 0 : values[i] > 0)) ++i;
+    const double raw = batch.raw[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)];
+    throw InputError(fmt::format("{}, row {}, column '{}': {} {}", stream_.source(),
+                                 batch.first_row + static_cast<std::size_t>(i) + 1,
+                                 columns_[static_cast<std::size_t>(c)].heading,
+                                 std::isnan(raw) ? "no value;" : fmt::format("{}", raw), allowed));
+  }
+
+  ColumnStream stream_;
+  std::vector<LabelledColumn> columns_;
+  ColumnStream::Batch chunk_;
+};
+
+std::string trace_lines(std::size_t every, const Batch& batch, const CycleSum::Trace& trace) {
+  std::string text;
+  const auto end = std::back_inserter(text);
+  for (std::size_t i = 0; i < trace.volume.size(); ++i) {
+    if ((batch.first_row + i + 1) % every != 0) continue;
+    const unsigned bits = batch.rates.outside[i];
+    const std::string flags =
+        trace.skipped[i] ? "skipped"
+                         : names_of_inputs(bits) + (bits & CycleSum::negative ? " negative" : "");
+    fmt::format_to(end, "{},{},{:.9g},{:.9g},{}\n", batch.cycles.plate[i], batch.cycles.number[i],
+                   trace.volume[i] / mm3, trace.sd[i] / mm3, flags);
+  }
+  return text;
+}
+
+}  // namespace
+
+CycleColumns columns_of(const std::vector<Cycle>& cycles, std::size_t first, std::size_t last) {
+  CycleColumns columns;
+  const Index n = static_cast<Index>(last - first);
+  for (ArrayXd* each : {&columns.slip_speed, &columns.torque, &columns.temperature,
+                        &columns.closing_time, &columns.energy})
+    each->resize(n);
+  for (std::size_t i = first; i < last; ++i) {
+    const Index at = static_cast<Index>(i - first);
+    columns.plate.push_back(cycles[i].plate);
+    columns.number.push_back(static_cast<double>(cycles[i].number));
+    columns.slip_speed[at] = cycles[i].at.slip_speed;
+    columns.torque[at] = cycles[i].at.torque;
+    columns.temperature[at] = cycles[i].at.temperature;
+    columns.closing_time[at] = cycles[i].at.closing_time;
+    columns.energy[at] = cycles[i].energy;
+  }
+  return columns;
+}
+
+std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum,
+                       const std::function<void(std::string_view)>& trace, std::size_t every,
+                       int threads) {
+  Reader reader(file);
+  std::size_t rows = 0;
+  if (trace) trace("plate,cycle,volume [mm^3],sd [mm^3],outside\n");
+  using BatchPointer = std::shared_ptr<Batch>;
+  const auto read = [&](tbb::flow_control& control) {
+    auto batch = std::make_shared<Batch>();
+    if (!reader.next(*batch)) {
+      control.stop();
+      return BatchPointer();
+    }
+    return batch;
+  };
+  const auto evaluate = [&](BatchPointer batch) {
+    reader.convert(*batch);
+    sum.rates(batch->cycles, batch->rates);
+    return batch;
+  };
+  const auto add = [&](const BatchPointer& batch) {
+    CycleSum::Trace steps;
+    try {
+      sum.add(batch->cycles, batch->rates, batch->first_row, trace ? &steps : nullptr);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}, {}", reader.source(), error.what()));
+    }
+    if (trace) trace(trace_lines(every, *batch, steps));
+    rows += static_cast<std::size_t>(batch->cycles.size());
+  };
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    tbb::parallel_pipeline(
+        batches_in_flight,
+        tbb::make_filter<void, BatchPointer>(tbb::filter_mode::serial_in_order, read) &
+            tbb::make_filter<BatchPointer, BatchPointer>(tbb::filter_mode::parallel, evaluate) &
+            tbb::make_filter<BatchPointer, void>(tbb::filter_mode::serial_in_order, add));
+  });
+  if (rows == 0) throw InputError(fmt::format("{} has no rows", reader.source()));
+  return rows;
+}
+
+}  // namespace wearwell::clutch

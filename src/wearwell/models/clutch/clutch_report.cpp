@@ -1,0 +1,306 @@
+#include "wearwell/models/clutch/clutch_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "wearwell/base/printable.h"
+#include "wearwell/base/sha1.h"
+#include "wearwell/models/clutch/clutch_figures.h"
+#include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/study/trust_blocks.h"
+
+namespace wearwell::clutch {
+namespace {
+
+using present::Cell;
+using present::digits;
+using present::Figures;
+using present::fixed;
+using present::given;
+using present::Prose;
+using present::Section;
+using present::Table;
+
+constexpr double MJ = 1e6;
+constexpr const char* rate_unit = "mm^3/MJ";
+
+double count(std::size_t n) {
+  return static_cast<double>(n);
+}
+
+Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
+  Section section{"verdict", "Verdict"};
+  if (study.simulated) {
+    section.add(present::Callout{"warn", "Simulated.",
+                                 "This campaign was simulated from a known truth; no measurement "
+                                 "stands behind it."});
+  }
+  const WearMap& map = r.maps.front();
+  std::string sentence =
+      fmt::format("The wear rate follows {} terms of slip, temperature and torque with R2p {:.3f}",
+                  map.terms.size(), map.fit.r2p);
+  for (const SequenceResult& s : r.sequences)
+    sentence += fmt::format("; the {} sequence ends {:+.1f} % from what was weighed", s.name,
+                            100 * s.final_error());
+  section.add(Prose{sentence + ".", true});
+  section.add(trust_callout(r.checks));
+  std::vector<html::Tile> tiles;
+  for (const NamedLife& each : r.lives) {
+    const LifeAtLevel& at = each.life.levels.back();
+    tiles.push_back({fmt::format("Life, {}", each.name), fmt::format("{:.0f}", at.repetitions),
+                     "cycles",
+                     fmt::format("to {:g} % worn; volume known to ± {:.1f}\u00a0%", 100 * at.level,
+                                 100 * at.full_relative)});
+  }
+  tiles.push_back(
+      {"R2p", fmt::format("{:.3f}", map.fit.r2p), "",
+       fmt::format("linear {:.3f}, full cubic {:.3f}", r.maps[1].fit.r2p, r.maps[2].fit.r2p)});
+  tiles.push_back({"Plate to plate", fmt::format("{:.1f}", 100 * r.run_in.plate_sd), "%",
+                   "standard deviation of a plate's factor"});
+  section.add(present::Tiles{std::move(tiles)});
+  return section;
+}
+
+Table life_table(const ClutchResult& r) {
+  Table table{"life",
+              "Life",
+              {{"Operating point"},
+               {"Worn", "%", given},
+               {"Cycles", "1", fixed(0)},
+               {"Without run-in", "1", fixed(0)},
+               {"95 % by scatter, ±", "mm^3", digits(3)},
+               {"of the volume, ±", "%", fixed(1)},
+               {"95 % by all, ±", "mm^3", digits(3)},
+               {"of the volume by all, ±", "%", fixed(1)}}};
+  for (const NamedLife& each : r.lives) {
+    for (const LifeAtLevel& at : each.life.levels)
+      table.rows.push_back({each.name, 100 * at.level, at.repetitions, at.without_run_in,
+                            2 * at.sd / mm3, 100 * at.relative, 2 * at.full_sd / mm3,
+                            100 * at.full_relative});
+  }
+  return table;
+}
+
+Table sequence_table(const ClutchResult& r) {
+  Table table{"sequences",
+              "Worn volume along the sequences",
+              {{"Sequence"},
+               {"Plate", "1", given},
+               {"Cycle", "1", given},
+               {"Energy", "MJ"},
+               {"Measured", "mm^3"},
+               {"Predicted", "mm^3"},
+               {"Sd by scatter", "mm^3", digits(3)},
+               {"Sd by all", "mm^3", digits(3)}}};
+  for (const SequenceResult& s : r.sequences) {
+    for (const auto& w : s.weighings)
+      table.rows.push_back({s.name, static_cast<double>(s.plate), static_cast<double>(w.cycle),
+                            w.energy / MJ, w.measured / mm3, w.predicted / mm3, w.sd / mm3,
+                            w.full_sd / mm3});
+  }
+  return table;
+}
+
+Section prediction_section(const ClutchResult& r) {
+  Section section{"predictions", "Predictions"};
+  std::vector<html::Figure> figures;
+  for (const SequenceResult& s : r.sequences) figures.push_back(sequence_figure(s));
+  if (!r.lives.empty()) figures.push_back(width_figure(r));
+  section.add(Figures{std::move(figures)});
+  if (!r.lives.empty()) section.add(life_table(r));
+  section.add(Prose{
+      fmt::format("Averaging the inputs over a point instead of summing its cycles changes the "
+                  "predicted volume of the whole campaign by {:.3f}\u00a0%.",
+                  100 * r.averaging.total)});
+  if (!r.sequences.empty())
+    section.add(present::Details{"Every weighing of a sequence", {{sequence_table(r)}}});
+  return section;
+}
+
+Table correlation_table(const ClutchResult& r) {
+  Table table{"correlations",
+              "Correlation of the wear rate with each input",
+              {{"Input"}, {"r", "1", fixed(3)}}};
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    table.rows.push_back({inputs[i].symbol, r.correlations[i]});
+  return table;
+}
+
+Table map_table(const ClutchResult& r) {
+  Table table{"models",
+              "Models",
+              {{"Model"},
+               {"R2", "1", fixed(3)},
+               {"R2p", "1", fixed(3)},
+               {"RMSE, relative", "1", fixed(3)},
+               {"RMSEp, relative", "1", fixed(3)},
+               {"Terms", "1", given}}};
+  const double unit = r.maps.front().fit.rmse;
+  for (const WearMap& map : r.maps)
+    table.rows.push_back({map.name, map.fit.r2, map.fit.r2p, map.fit.rmse / unit,
+                          map.fit.rmsep / unit, count(map.terms.size())});
+  return table;
+}
+
+Table term_table(const WearModel& model) {
+  Table table{"terms",
+              "Selected terms, each scaled to [0, 1]",
+              {{"Term"}, {"Coefficient", rate_unit}, {"Standard error", rate_unit, digits(3)}}};
+  for (std::size_t j = 0; j < model.terms.size(); ++j) {
+    const auto at = static_cast<Eigen::Index>(j);
+    table.rows.push_back({model.terms[j].name, model.terms[j].coefficient / mm3_per_MJ,
+                          std::sqrt(model.covariance(at, at)) / mm3_per_MJ});
+  }
+  return table;
+}
+
+Table surrogate_table(const ClutchResult& r) {
+  Table table{"surrogates",
+              "Surrogate inputs, best R2p",
+              {{"Surrogate"},
+               {"r", "1", fixed(1)},
+               {"q", "1", fixed(1)},
+               {"R2p", "1", fixed(3)},
+               {"Mean over temperature levels", "1", fixed(3)}}};
+  for (const SurrogateResult& s : r.surrogates)
+    table.rows.push_back({name_of(s.surrogate), s.best.r, s.best.q, s.best.r2p,
+                          s.r2p.empty() ? Cell() : Cell(s.mean_r2p)});
+  return table;
+}
+
+Table validation_table(const Validation& validation) {
+  Table table{"held-out-points",
+              "Held-out points",
+              {{"Point", "1", given},
+               {"Measured", rate_unit, digits(3)},
+               {"Predicted", rate_unit, digits(3)},
+               {"Studentized residual", "1", fixed(2)},
+               {"Verdict"}}};
+  for (const ValidationPoint& p : validation.points)
+    table.rows.push_back({static_cast<double>(p.number), p.measured / mm3_per_MJ,
+                          p.predicted / mm3_per_MJ, p.t, p.outlier ? "outlier" : ""});
+  return table;
+}
+
+Table measure_table(const Validation& validation) {
+  Table table{"validation",
+              "Held-out points together",
+              {{"Which"},
+               {"Points", "1", given},
+               {"R2", "1", fixed(3)},
+               {"RMSE", rate_unit, digits(3)}}};
+  const auto add = [&](const char* name, const Validation::Metrics& m) {
+    table.rows.push_back({name, static_cast<double>(m.points), m.r2, m.rmse / mm3_per_MJ});
+  };
+  add("All", validation.all);
+  if (validation.without_outliers.points < validation.all.points)
+    add("Without outliers", validation.without_outliers);
+  return table;
+}
+
+Section map_section(const ClutchStudy& study, const ClutchResult& r) {
+  Section section{"map", "Wear rate"};
+  std::vector<html::Figure> figures = {parity_figure(r), exponent_figure(r.search)};
+  for (html::Figure& each : map_figures(study, r)) figures.push_back(std::move(each));
+  section.add(Figures{std::move(figures)});
+  section.add(correlation_table(r));
+  section.add(map_table(r));
+  section.add(term_table(r.model));
+  section.add(surrogate_table(r));
+  if (r.validation.points.empty()) return section;
+  section.add(measure_table(r.validation));
+  section.add(validation_table(r.validation));
+  return section;
+}
+
+Section run_in_section(const ClutchResult& r) {
+  Section section{"run-in-section", "Run-in"};
+  section.add(Figures{{run_in_figure(r)}});
+  static constexpr const char* names[] = {"w0", "w1", "w2", "eps1", "eps2"};
+  Table constants{"run-in",
+                  "Constants of run-in",
+                  {{"Constant"}, {"Unit"}, {"Fitted"}, {"Standard error", "1", digits(3)}}};
+  for (int i = 0; i < RunInFit::size; ++i) {
+    const double unit = i < 3 ? mm3_per_MJ : MJ;
+    constants.rows.push_back({names[i], i < 3 ? rate_unit : "MJ", r.run_in.parameters[i] / unit,
+                              std::sqrt(r.run_in.covariance(i, i)) / unit});
+  }
+  Table plates{"plates",
+               "Plates",
+               {{"Plate", "1", given},
+                {"Factor fitted", "1", fixed(3)},
+                {"Relative error", "%", fixed(1)},
+                {"Factor used", "1", fixed(3)}}};
+  for (const PlateFactor& p : r.run_in.plates)
+    plates.rows.push_back({static_cast<double>(p.plate), std::exp(p.log_factor),
+                           100 * p.standard_error, p.factor()});
+  section.add(std::move(constants));
+  section.add(std::move(plates));
+  return section;
+}
+
+Section scatter_section(const ClutchResult& r) {
+  Section section{"scatter-section", "Scatter"};
+  section.add(Figures{{normal_figure(r), scatter_figure(r)}});
+  Table table{"scatter",
+              "Candidates for the scatter of one cycle",
+              {{"sigma_w"},
+               {"−log L", "1", fixed(2)},
+               {"AIC", "1", fixed(2)},
+               {"Kolmogorov-Smirnov p", "1", fixed(3)},
+               {"Lilliefors p", "1", fixed(3)}}};
+  for (const ScatterFit& fit : r.scatter.candidates)
+    table.rows.push_back({formula_of(fit.law.kind), fit.negative_log_likelihood, fit.aic,
+                          fit.kolmogorov.p, fit.lilliefors.p});
+  section.add(std::move(table));
+  return section;
+}
+
+Table closing_table(const std::vector<Closing>& closings) {
+  Table table{"closings",
+              "Closings found in the raw traces",
+              {{"Plate", "1", given},
+               {"Closing", "1", given},
+               {"ω₀", "rpm"},
+               {"t₂", "s", digits(3)},
+               {"M", "N m", digits(3)},
+               {"T", "°C"},
+               {"E", "kJ"},
+               {"Flag"}}};
+  for (const Closing& c : closings)
+    table.rows.push_back({static_cast<double>(c.cycle.plate), static_cast<double>(c.cycle.number),
+                          c.cycle.at.slip_speed / rpm, c.cycle.at.closing_time, c.cycle.at.torque,
+                          c.cycle.at.temperature, c.cycle.energy / 1e3, c.flag});
+  return table;
+}
+
+Section method_section(const ClutchStudy& study, const ClutchResult& r) {
+  Section section{"method", "Method", {}, "Method and reproducibility"};
+  present::Facts facts{
+      {{"Program", "wearwell " + r.version},
+       {"Model", "clutch-wear"},
+       {"Search", fmt::format("{} exact searches of {:.0f} submodels each", r.search.pairs.size(),
+                              r.search.submodels)},
+       {"Time of the search", fmt::format("{:.1f} s", r.search.seconds)},
+       {"Time taken", fmt::format("{:.1f} s", r.seconds)},
+       {valid_utf8(study.file.filename().string()), "SHA-1 " + sha1_of(study.file_text)}}};
+  for (std::size_t i = 0; i < study.files.size(); ++i)
+    facts.facts.emplace_back(study.files[i].filename().string(), "SHA-1 " + study.sha1s.at(i));
+  section.add(std::move(facts));
+  if (!r.closings.empty()) section.add(closing_table(r.closings));
+  section.add(present::Details{"Study file", {{present::Verbatim{study.file_text}}}});
+  return section;
+}
+
+}  // namespace
+
+std::vector<Section> report_sections(const ClutchStudy& study, const ClutchResult& r) {
+  Section checks{"checks", "Checks"};
+  checks.add(checks_table(r.checks));
+  return {verdict_section(study, r), prediction_section(r), map_section(study, r),
+          run_in_section(r),         scatter_section(r),    checks,
+          method_section(study, r)};
+}
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,133 @@
+#include "wearwell/models/clutch/clutch_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/models/clutch/clutch_truth.h"
+#include "wearwell/input/source.h"
+#include "wearwell/input/fingerprint.h"
+#include "wearwell/input/toml_reader.h"
+
+namespace wearwell::clutch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int traced_closings = 3;  // of a simulated campaign
+
+void read_simulation(const TomlReader& table, ClutchStudy& study) {
+  study.simulated = true;
+  const fs::path folder = study.file.parent_path();
+  study.files = {required_file(table, "design", folder), required_file(table, "truth", folder)};
+  const std::vector<ReadFile> read(study.files.begin(), study.files.end());
+  const auto seed = table.integer("seed", 0, std::numeric_limits<long long>::max()).value_or(1);
+  study.truth = read_truth(study.files[1]);
+  Simulation simulation =
+      simulate(read_design(study.files[0]), *study.truth, static_cast<std::uint64_t>(seed));
+  study.traces =
+      simulate_traces(simulation.campaign, traced_closings, static_cast<std::uint64_t>(seed));
+  study.campaign = std::move(simulation.campaign);
+  study.realized = std::move(simulation.realized);
+  study.plate_factors = std::move(simulation.plate_factors);
+  study.worn_out = study.truth->worn_out;
+  for (const ReadFile& file : read) study.sha1s.push_back(file.sha1());
+}
+
+void read_data(const TomlReader& root, const TomlReader& table, ClutchStudy& study) {
+  const fs::path folder = study.file.parent_path();
+  study.files = {required_file(table, "design", folder), required_file(table, "cycles", folder),
+                 required_file(table, "weighings", folder)};
+  const bool traces = table.has("traces");
+  if (traces) study.files.push_back(required_file(table, "traces", folder));
+  const std::vector<ReadFile> read(study.files.begin(), study.files.end());
+  study.campaign.design = read_design(study.files[0]);
+  study.campaign.cycles = read_cycles(study.files[1]);
+  study.campaign.weighings = read_weighings(study.files[2]);
+  study.campaign.cycles_source = study.files[1].string();
+  study.campaign.weighings_source = study.files[2].string();
+  if (traces) study.traces = read_traces(study.files.back());
+  for (const ReadFile& file : read) study.sha1s.push_back(file.sha1());
+  const Lining lining = read_lining(root);
+  study.campaign.density = lining.density;
+  study.campaign.balance_sd = lining.balance_sd;
+  study.worn_out = lining.worn_out;
+}
+
+/// lowest, lowest + step, ... highest.
+std::vector<double> read_exponents(const TomlReader& table) {
+  const auto number = [&](const char* key, double otherwise) {
+    const auto given = table.quantity(key, "1");
+    if (given && !(given->si() > 0)) table.fail(key, "must be positive");
+    return given ? given->si() : otherwise;
+  };
+  const double low = number("lowest", 0.1), high = number("highest", 3.0),
+               step = number("step", 0.1);
+  const double steps = (high - low) / step;
+  if (!(steps >= 0 && steps <= 200))
+    table.fail("step", "must divide the exponents into 0 to 200 steps");
+  std::vector<double> exponents;
+  for (int i = 0; i <= static_cast<int>(steps + 1e-9); ++i)
+    exponents.push_back(std::round((low + i * step) * 1e9) / 1e9);
+  return exponents;
+}
+
+void read_life(const TomlReader& root, ClutchStudy& study) {
+  study.levels = {0.1, 0.25, 0.5, 0.75, 1};
+  const auto life = root.table("life");
+  if (!life) return;
+  if (life->has("levels")) {
+    study.levels.clear();
+    for (const Quantity& level : life->quantities("levels", "1")) {
+      if (!(level.si() > 0)) life->fail("levels", "must be positive");
+      study.levels.push_back(level.si());
+    }
+  }
+  if (const auto points = life->table("points")) {
+    for (const std::string& name : points->keys())
+      study.life_points.emplace_back(name, read_operating_point(points->required_table(name)));
+  }
+}
+
+}  // namespace
+
+ClutchStudy read_clutch_study(const fs::path& file) {
+  const TextFile text = read_text_file(file);
+  const TomlReader root = TomlReader::parse(text);
+  ClutchStudy study = read_clutch_study(root, text);
+  root.finish();
+  return study;
+}
+
+ClutchStudy read_clutch_study(const TomlReader& root, const TextFile& text) {
+  const fs::path& file = text.path;
+  ClutchStudy study;
+  study.file = file;
+  study.file_text = text.text;
+  study.title = root.text("title").value_or(valid_utf8(file.stem().string()));
+  root.required_text("model");
+  const auto simulation = root.table("simulation");
+  const auto data = root.table("data");
+  if (simulation.has_value() == data.has_value())
+    root.fail("data", "is missing: [data] with the files of a rig, or [simulation], not both");
+  if (simulation) {
+    read_simulation(*simulation, study);
+  } else {
+    read_data(root, *data, study);
+  }
+  study.exponents = paper_exponents();
+  if (const auto search = root.table("search")) study.exponents = read_exponents(*search);
+  if (const auto uncertainty = root.table("uncertainty")) {
+    study.replicates = static_cast<int>(uncertainty->integer("replicates", 0, 10'000).value_or(50));
+    study.seed = static_cast<std::uint64_t>(
+        uncertainty->integer("seed", 0, std::numeric_limits<long long>::max()).value_or(1));
+  }
+  read_life(root, study);
+  return study;
+}
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/base/progress.h"
+#include "wearwell/models/clutch/closing.h"
+#include "wearwell/models/clutch/cycle_sum.h"
+#include "wearwell/models/clutch/life.h"
+#include "wearwell/models/clutch/tribometer.h"
+#include "wearwell/models/clutch/wear_model.h"
+#include "wearwell/infer/check.h"
+#include "wearwell/input/text_file.h"
+#include "wearwell/input/toml_reader.h"
+
+namespace wearwell::clutch {
+
+/// A study file of `model = "clutch-wear"`, read and checked.
+struct ClutchStudy {
+  std::filesystem::path file;
+  std::string file_text;  ///< what it held when it was read
+  std::string title;
+  /// Where the campaign comes from: a rig's files or a simulation.
+  std::vector<std::filesystem::path> files;  ///< that were read
+  std::vector<std::string> sha1s;            ///< of each, when it was read
+  bool simulated = false;
+  std::optional<Truth> truth;  ///< of a simulated campaign
+  Campaign campaign;
+  std::vector<Realized> realized;  ///< likewise
+  std::vector<double> plate_factors;
+  std::vector<Sample> traces;  ///< may be empty
+  double worn_out = 0;         ///< m^3
+  std::vector<double> exponents;
+  int replicates = 50;
+  std::uint64_t seed = 1;
+  std::vector<double> levels;  ///< shares of worn_out
+  std::vector<std::pair<std::string, OperatingPoint>> life_points;
+};
+
+/// Throws InputError.
+ClutchStudy read_clutch_study(const TomlReader& root, const TextFile& file);
+ClutchStudy read_clutch_study(const std::filesystem::path& file);
+
+/// A sequence of changing conditions, predicted and weighed.
+struct SequenceResult {
+  std::string name;
+  int plate = 0;
+  struct Weighing {
+    long long cycle = 0;
+    double energy = 0;             ///< J
+    double measured = 0;           ///< m^3
+    double predicted = 0, sd = 0;  ///< m^3; by the scatter of cycles
+    double full_sd = 0;
+    std::optional<double> realized;
+  };
+  std::vector<Weighing> weighings;
+
+  double final_error() const { return weighings.back().predicted / weighings.back().measured - 1; }
+};
+
+/// Best R2p with a surrogate: of all points, and the mean over the temperature levels (Table A1).
+struct SurrogateResult {
+  Surrogate surrogate = Surrogate::distance;
+  PairBest best;
+  std::vector<double> levels;  ///< temperature, degrees Celsius
+  std::vector<double> r2p;     ///< at each level
+  double mean_r2p = 0;
+};
+
+struct NamedLife {
+  std::string name;
+  OperatingPoint at;
+  Life life;
+};
+
+struct ClutchResult {
+  std::string version;
+  std::vector<Closing> closings;
+  WornBlocks blocks;
+  RunInFit run_in;
+  WearPoints points, held_out;
+  std::array<double, 4> correlations{};
+  ExponentSearch search;
+  std::vector<SurrogateResult> surrogates;
+  std::vector<WearMap> maps;  ///< selected, linear, full cubic, temperature
+  ScatterSearch scatter;
+  Validation validation;
+  WearModel model;
+  AveragingEffect averaging;
+  std::vector<SequenceResult> sequences;
+  std::vector<NamedLife> lives;
+  std::vector<Check> checks;
+  bool trusted = true;
+  double seconds = 0;
+
+  const ScatterFit& scatter_fit() const { return scatter.candidates[scatter.best]; }
+};
+
+/// Weighed blocks of design points, of the given use, compensated for run-in and plate.
+WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& blocks,
+                       const RunInFit& run_in, bool held_out);
+
+/// Features, run-in, map, scatter, validation, prediction and life in one go. `threads`: 0 for all;
+/// the result does not depend on it. `progress`, where there is one, counts exact searches.
+ClutchResult run_clutch_study(const ClutchStudy& study, int threads = 0,
+                              Progress* progress = nullptr);
+
+}  // namespace wearwell::clutch

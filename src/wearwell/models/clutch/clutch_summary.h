@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "wearwell/models/clutch/clutch_study.h"
+
+namespace wearwell::clutch {
+
+/// What summary.json holds after the header (docs/clutch.md). Wear rates in mm^3/MJ, volumes in mm^3,
+/// energies in MJ.
+nlohmann::ordered_json summary_body(const ClutchStudy& study, const ClutchResult& result);
+/// One row a weighing of a sequence.
+std::string sequences_csv(const ClutchResult& result);
+/// What the terminal shows.
+std::string summary_text(const ClutchStudy& study, const ClutchResult& result);
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "wearwell/models/clutch/wear_model.h"
+
+namespace wearwell::clutch {
+
+/// When a wear level is reached under a duty that repeats.
+struct LifeAtLevel {
+  double level = 0;           ///< share of the worn-out volume
+  double repetitions = 0;     ///< with the run-in of a new plate
+  double without_run_in = 0;  ///< the paper's n_x = level V_total/V_mu1
+  double sd = 0;              ///< of the volume then, by the scatter of cycles, m^3
+  double full_sd = 0;         ///< and by all that is uncertain, m^3
+  double relative = 0;        ///< 2 sd/volume: half width of the 95 % interval
+  double full_relative = 0;
+};
+
+struct Life {
+  double energy = 0;     ///< of one repetition, J
+  double volume = 0;     ///< of one repetition on a plate that is run in, m^3
+  double sd = 0;         ///< of it, m^3
+  unsigned outside = 0;  ///< inputs that leave the range of validity at some cycle
+  std::vector<LifeAtLevel> levels;
+};
+
+/// Life under `duty`, cycles that repeat: one for an operating point (Haramina et al. 2025, section
+/// 3.6, Figs. 19 and 20). Throws InputError for an empty duty, a level that is not positive, or a
+/// duty that does not wear.
+Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
+                  const std::vector<double>& levels);
+
+}  // namespace wearwell::clutch

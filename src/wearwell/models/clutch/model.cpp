@@ -1,0 +1,56 @@
+#include "wearwell/models/clutch/model.h"
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/clutch/clutch_describe.h"
+#include "wearwell/models/clutch/clutch_result.h"
+#include "wearwell/models/clutch/commands.h"
+
+namespace wearwell {
+namespace resource {
+
+std::string_view clutch_study();
+std::string_view clutch_design();
+std::string_view clutch_truth();
+
+}  // namespace resource
+
+namespace clutch {
+namespace {
+
+/// A chain of least squares, exact searches and likelihoods: it has no posterior.
+class CampaignStudy : public Study {
+ public:
+  explicit CampaignStudy(ClutchStudy study) : study_(std::move(study)) {}
+
+  std::string in_words() const override { return study_in_words(study_); }
+
+  Result run(const RunOptions& options, const Monitor& monitor) const override {
+    if (options.sampler.any())
+      throw InputError(
+          "--method, --chains, --draws, --warmup and --seed are for studies that sample a "
+          "posterior; a clutch study has its seeds in the study file");
+    Progress progress(monitor, "exact searches");
+    return result_of(study_, run_clutch_study(study_, monitor.threads, &progress), options.report);
+  }
+
+ private:
+  ClutchStudy study_;
+};
+
+}  // namespace
+
+Model model() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::clutch_study},
+                                            {"design.csv", resource::clutch_design},
+                                            {"truth.toml", resource::clutch_truth}};
+  return {.key = "clutch-wear",
+          .trade = "clutch",
+          .example = example,
+          .read = [](const TomlReader& root, const Source& source) -> std::unique_ptr<const Study> {
+            return std::make_unique<CampaignStudy>(read_clutch_study(root, source.study));
+          },
+          .add_commands = add_clutch_command};
+}
+
+}  // namespace clutch
+}  // namespace wearwell

@@ -1,0 +1,165 @@
+#include "wearwell/models/clutch/clutch_predict.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/lock_file.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/base/staged_file.h"
+#include "wearwell/models/clutch/command_parts.h"
+#include "wearwell/present/text_table.h"
+#include "wearwell/models/clutch/clutch_model_file.h"
+#include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/input/fingerprint.h"
+
+namespace wearwell::clutch {
+namespace {
+
+struct PredictOptions {
+  std::filesystem::path model, cycles, state, trace;
+  int every = 1, threads = 0;
+  bool scatter_only = false, skip = false, json = false;
+};
+
+std::string outside_text(const PlateWear& p) {
+  std::string text;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (p.outside[i] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", inputs[i].name, p.outside[i]);
+  }
+  if (p.clamped > 0) text += fmt::format("{}negative {}", text.empty() ? "" : ", ", p.clamped);
+  if (p.skipped > 0) text += fmt::format("{}skipped {}", text.empty() ? "" : ", ", p.skipped);
+  return text.empty() ? "-" : text;
+}
+
+void print_table(const WearModel& model, const CycleSum& sum, bool full) {
+  std::vector<std::vector<std::string>> rows = {
+      {"plate", "cycles", "energy [MJ]", "volume [mm^3]", "95 % scatter"}};
+  if (full) rows.front().push_back("95 % full");
+  rows.front().insert(rows.front().end(), {"worn [%]", "cycles outside the range"});
+  for (const PlateWear& p : sum.plates()) {
+    const auto half = [&](double sd) {
+      return fmt::format("+- {:.4g} ({:.1f} %)", 2 * sd / mm3, 200 * sd / p.volume);
+    };
+    rows.push_back({fmt::format("{}", p.plate), fmt::format("{}", p.cycles),
+                    fmt::format("{:.5g}", p.energy * 1e-6), fmt::format("{:.5g}", p.volume / mm3),
+                    half(p.sd())});
+    if (full) rows.back().push_back(half(p.full_sd(model.plate_sd)));
+    rows.back().push_back(fmt::format("{:.1f}", 100 * p.volume / model.worn_out));
+    rows.back().push_back(outside_text(p));
+  }
+  fmt::print("{}", text_table(rows, true));
+}
+
+void print_json(const WearModel& model, const CycleSum& sum, bool full) {
+  nlohmann::ordered_json plates = nlohmann::ordered_json::array();
+  for (const PlateWear& p : sum.plates()) {
+    nlohmann::ordered_json each = {
+        {"plate", p.plate},   {"cycles", p.cycles},       {"last_cycle", p.last_number},
+        {"energy", p.energy}, {"volume", p.volume / mm3}, {"sd_scatter", p.sd() / mm3}};
+    if (full) each["sd_full"] = p.full_sd(model.plate_sd) / mm3;
+    each["worn"] = p.volume / model.worn_out;
+    nlohmann::ordered_json outside;
+    for (std::size_t i = 0; i < inputs.size(); ++i) outside[inputs[i].name] = p.outside[i];
+    each["outside"] = outside;
+    each["outside_any"] = p.outside_any;
+    each["clamped"] = p.clamped;
+    each["skipped"] = p.skipped;
+    plates.push_back(std::move(each));
+  }
+  const nlohmann::ordered_json json = {{"units", {{"energy", "J"}, {"volume", "mm^3"}}},
+                                       {"plates", std::move(plates)}};
+  fmt::print("{}\n", json.dump(2));
+}
+
+/// Only what can be read again may take the place of a state.
+std::string checked_state(const CycleSum& sum, const std::string& fingerprint) {
+  for (const PlateWear& p : sum.plates()) {
+    if (!std::isfinite(p.volume) || !std::isfinite(p.variance) || !std::isfinite(p.energy) ||
+        !p.replicates.isFinite().all())
+      throw InputError(
+          fmt::format("plate {} has no finite wear; its state is not written", p.plate));
+  }
+  return state_text(sum.plates(), fingerprint);
+}
+
+void run(const PredictOptions& options) {
+  refuse_overwriting({{"the model", options.model}, {"the cycles", options.cycles}},
+                     {{"--state", options.state}, {"--trace", options.trace}});
+  const ReadFile read(options.model);
+  const WearModel model = read_model(options.model);
+  const std::string fingerprint = read.sha1();
+  const bool full = !options.scatter_only, kept = !options.state.empty();
+  if (kept && fingerprint.empty())
+    throw InputError(
+        fmt::format("--state needs a model in a file, and {} is none", options.model.string()));
+  std::optional<LockFile> lock;
+  if (kept)
+    lock.emplace(options.state, [&] {
+      fmt::print(stderr, "waiting for another wearwell that goes on from {}\n",
+                 options.state.string());
+    });
+  CycleSum sum(model, full, options.skip ? NotFinite::skip : NotFinite::refuse);
+  if (kept && std::filesystem::exists(options.state))
+    sum.restore(read_state(options.state, fingerprint, full ? model.replicates.size() : 0));
+  std::optional<StagedFile> state, trace;
+  if (kept) state.emplace(options.state);  // refused before the work, not after
+  if (!options.trace.empty()) trace.emplace(options.trace);
+  std::function<void(std::string_view)> write_trace;
+  if (trace) write_trace = [&](std::string_view lines) { trace->write(lines); };
+  sum_cycles(options.cycles, sum, write_trace, static_cast<std::size_t>(options.every),
+             options.threads);
+  if (state) state->write(checked_state(sum, fingerprint));
+  if (trace) trace->commit();
+  if (state) state->commit();
+  lock.reset();
+  if (options.json) {
+    print_json(model, sum, full);
+  } else {
+    print_table(model, sum, full);
+  }
+}
+
+}  // namespace
+
+void add_predict_command(CLI::App& clutch) {
+  CLI::App* command = clutch.add_subcommand(
+      "predict", "Worn volume, cycle by cycle, with its 95 % interval; files may exceed memory");
+  const auto options = std::make_shared<PredictOptions>();
+  command->add_option("MODEL", options->model, "model.json of wearwell fit")->required();
+  command
+      ->add_option("CYCLES", options->cycles,
+                   "plate, cycle, slip_speed, torque, temperature, closing_time, energy (CSV, "
+                   "Parquet)")
+      ->required();
+  command->add_option("--state", options->state,
+                      "go on from this file if it is there, and leave the state in it");
+  command->add_option("--trace", options->trace,
+                      "write volume and interval after each cycle (CSV)");
+  command->add_option("--every", options->every, "of the trace, every so many cycles only")
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->capture_default_str();
+  command->add_flag("--skip-not-finite", options->skip,
+                    "leave out and count cycles at which the model gives no finite number, "
+                    "instead of refusing the file");
+  command->add_flag("--scatter-only", options->scatter_only,
+                    "only the paper's interval, by the scatter of cycles; much faster");
+  command
+      ->add_option("--threads", options->threads,
+                   "threads (default: all); results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->footer(
+      "Example:\n  wearwell clutch predict study-results/model.json fleet.parquet --state "
+      "fleet.json");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace wearwell::clutch

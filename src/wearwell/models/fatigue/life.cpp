@@ -1,0 +1,226 @@
+#include "wearwell/models/fatigue/life.h"
+
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+namespace wearwell::fatigue {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double most_decades = 300;
+
+double normal_cdf(double z) {
+  return 0.5 * std::erfc(-z * M_SQRT1_2);
+}
+
+double normal_density(double z) {
+  return 0.3989422804014327 * std::exp(-0.5 * z * z);
+}
+
+// On the scale on which lives scatter; a life without end stays infinite.
+double center(const SnLaw& law, double log10_life) {
+  if (std::isnan(log10_life) || log10_life == infinity) return log10_life;
+  const double decades = std::clamp(log10_life, -most_decades, most_decades);
+  return law.logarithmic() ? decades : std::pow(10, decades);
+}
+
+MixedLife life_of(const SnLaw& law, const double* x, double log10_reversed) {
+  MixedLife life(law.family);
+  add_life(life, 1, law, x, log10_reversed);
+  return life;
+}
+
+}  // namespace
+
+StandardLaw MixedLife::standard() const {
+  return family_ == LifeFamily::weibull ? StandardLaw::smallest_extreme_value : StandardLaw::normal;
+}
+
+void MixedLife::add(double weight, double center, double sigma) {
+  if (weight <= 0 || center == infinity) return;
+  if (std::isnan(center) || !(sigma > 0)) {
+    undefined_ += weight;
+    return;
+  }
+  weight_.push_back(weight);
+  center_.push_back(center);
+  inverse_sigma_.push_back(1 / sigma);
+  ended_ += weight;
+}
+
+void MixedLife::merge() {
+  // Of cells, in sigma: within one, a twelfth of its square is lost of the variance.
+  constexpr double width = 0.005;
+  std::unordered_map<std::uint64_t, std::size_t> cells;
+  std::vector<double> weight, center, sigma;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    const double row = std::floor(-std::log(inverse_sigma_[i]) / width);
+    const double column = std::floor(center_[i] / (width * std::exp(width * row)));
+    if (!(std::abs(row) < 1e9 && std::abs(column) < 1e9)) return;
+    const auto key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(int(row))) << 32 |
+                     static_cast<std::uint32_t>(int(column));
+    const auto [at, fresh] = cells.emplace(key, weight.size());
+    if (fresh) {
+      weight.push_back(0);
+      center.push_back(0);
+      sigma.push_back(0);
+    }
+    weight[at->second] += weight_[i];
+    center[at->second] += weight_[i] * center_[i];
+    sigma[at->second] += weight_[i] / inverse_sigma_[i];
+  }
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    center[i] /= weight[i];
+    sigma[i] = weight[i] / sigma[i];
+  }
+  weight_ = std::move(weight);
+  center_ = std::move(center);
+  inverse_sigma_ = std::move(sigma);
+}
+
+MixedLife::Sums MixedLife::sums(double at) const {
+  Sums sums;
+  const bool normal = standard() == StandardLaw::normal;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    const double z = (at - center_[i]) * inverse_sigma_[i];
+    if (normal) {
+      sums.cdf += weight_[i] * normal_cdf(z);
+      sums.density += weight_[i] * inverse_sigma_[i] * normal_density(z);
+    } else {
+      const double hazard = std::exp(z);
+      sums.cdf += weight_[i] * -std::expm1(-hazard);
+      sums.density += weight_[i] * inverse_sigma_[i] * hazard * std::exp(-hazard);
+    }
+  }
+  return sums;
+}
+
+double MixedLife::cdf(double life) const {
+  if (family_ == LifeFamily::normal) return sums(life).cdf;
+  return life > 0 ? sums(std::log10(life)).cdf : 0;
+}
+
+double MixedLife::quantile(double p) const {
+  constexpr double negligible = 1e-8;
+  if (undefined_ > negligible) return std::nan("");
+  if (p >= ended_) return infinity;
+  // Newton's method from the quantile of the heaviest law, between bounds that close in: laws
+  // without weight may lie anywhere.
+  const auto heaviest = static_cast<std::size_t>(
+      std::max_element(weight_.begin(), weight_.end()) - weight_.begin());
+  double step = 1 / inverse_sigma_[heaviest];
+  double at = center_[heaviest] + wearwell::quantile(standard(), p / ended_) * step;
+  double low = -infinity, high = infinity;
+  for (int i = 0; i < 2000; ++i) {
+    if (!std::isfinite(at)) return std::nan("");
+    const Sums here = sums(at);
+    (here.cdf < p ? low : high) = at;
+    double next = at - (here.cdf - p) / here.density;
+    if (std::isinf(low) || std::isinf(high)) {
+      // Where no law is near, Newton's step is none: outward, ever faster.
+      const double outward = here.cdf < p ? step : -step;
+      if (!(std::abs(next - at) <= 4 * step)) next = at + outward;
+      step *= 2;
+    } else if (!(next > low && next < high)) {
+      next = 0.5 * low + 0.5 * high;
+    }
+    const double moved = std::abs(next - at);
+    at = next;
+    if (moved <= 1e-11 * (1 + std::abs(at))) {
+      return family_ == LifeFamily::normal ? at : std::pow(10, at);
+    }
+  }
+  return std::nan("");
+}
+
+double MixedLife::density(double log10_life) const {
+  if (family_ != LifeFamily::normal) return sums(log10_life).density;
+  const double life = std::pow(10, log10_life);
+  return sums(life).density * life * std::log(10.0);
+}
+
+double life_center(const SnLaw& law, const double* x, double log10_reversed) {
+  return center(law, law.log10_life(x, log10_reversed));
+}
+
+void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x,
+              double log10_reversed, LimitStrata strata) {
+  const double sigma = x[law.sigma_index()];
+  if (!law.limit || std::isinf(log10_reversed)) {
+    return lives.add(weight, life_center(law, x, log10_reversed), sigma);
+  }
+  // Slices of equal width reach into the tails, where the weak items are.
+  constexpr double golden = 0.6180339887498949;  // its multiples are the most even modulo 1
+  constexpr double negligible = 1e-9;
+  double whole = 0;
+  const double shift = std::modf((static_cast<double>(strata.index) + 0.5) * golden, &whole);
+  const double first = wearwell::quantile(*law.limit, negligible);
+  const double last = wearwell::quantile(*law.limit, 1 - negligible);
+  const double width = (last - first) / static_cast<double>(strata.count);
+  double below = 0;
+  for (std::size_t i = 0; i <= strata.count; ++i) {
+    // The first and the last slice hold what is beyond.
+    const double until = first + (static_cast<double>(i) + shift) * width;
+    const double through = i == strata.count ? 1 : wearwell::cdf(*law.limit, until);
+    lives.add(weight * (through - below),
+              center(law, law.log10_life_of_item(x, log10_reversed, until - 0.5 * width)), sigma);
+    below = through;
+  }
+}
+
+double life_quantile(const SnLaw& law, const double* x, const Stress& stress, double p) {
+  const double log10_reversed = law.log10_reversed(x, stress);
+  if (law.limit) return std::log10(life_of(law, x, log10_reversed).quantile(p));
+  return life_center(law, x, log10_reversed) +
+         x[law.sigma_index()] * wearwell::quantile(law.standard(), p);
+}
+
+double cycles(const SnLaw& law, double at) {
+  return law.logarithmic() ? std::pow(10, at) : at;
+}
+
+double survival(const SnLaw& law, const double* x, const Stress& stress, double life) {
+  return 1 - life_of(law, x, law.log10_reversed(x, stress)).cdf(life);
+}
+
+double log10_reversed_allowed(const SnLaw& law, const double* x, double life, double reliability) {
+  const double scatter = x[law.sigma_index()] * wearwell::quantile(law.standard(), 1 - reliability);
+  // Normal lives may scatter so far that this share outlasts it even about a mean of 0.
+  if (!law.logarithmic() && scatter >= life) return infinity;
+  const double log10_life =
+      law.logarithmic() ? std::log10(life) - scatter : std::log10(life - scatter);
+  const double unlimited = x[0] + x[1] * log10_life;
+  if (!law.limit) return unlimited;
+  // The limit adds to what is borne: no less than without one, no more than with the limit of
+  // nearly the toughest item on top.
+  const auto excess = [&](double log10_reversed) {
+    return life_of(law, x, log10_reversed).cdf(life) - (1 - reliability);
+  };
+  const int i = law.limit_index();
+  double low = unlimited, high = std::max(low, x[i] + 8 * x[i + 1]) + std::log10(2.0);
+  // Logarithms of stresses: beyond some hundred decades there is none.
+  while (excess(low) > 0) {
+    if ((low -= 1) < -most_decades) return -infinity;
+  }
+  while (excess(high) < 0) {
+    if ((high += 1) > most_decades) return infinity;
+  }
+  std::uintmax_t iterations = 100;
+  const auto [left, right] = boost::math::tools::toms748_solve(
+      excess, low, high, [](double l, double r) { return r - l <= 1e-9; }, iterations);
+  return 0.5 * (left + right);
+}
+
+double alternating_allowed(const SnLaw& law, const double* x, const StressLine& line,
+                           double log10_reversed) {
+  if (log10_reversed == infinity) return infinity;
+  const double strength =
+      law.has_strength() ? std::pow(10, x[law.strength_index()]) : law.strength.value_or(1);
+  const double gamma = law.has_gamma() ? x[law.gamma_index()] : law.gamma.value_or(1);
+  return alternating_stress(law.correction, std::pow(10, log10_reversed), line, strength, gamma);
+}
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/models/fatigue/life_test.h"
+#include "wearwell/models/fatigue/spring.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/source.h"
+#include "wearwell/study/units_check.h"
+
+namespace wearwell {
+
+/// Life tests as a study file names them, with what is needed to speak of them in its terms.
+struct SnData {
+  fatigue::LifeTests tests;         ///< one a row
+  std::vector<std::string> labels;  ///< one a row: the type of specimen; empty where there is none
+  Unit stress_unit;
+  Unit life_unit;      ///< "cycles", "1e5 cycles"
+  std::string source;  ///< the file, for messages
+  std::string mean_stress_column;
+  std::optional<fatigue::HelicalSpring> spring;  ///< where the study gives displacements
+  std::vector<DataColumn> columns;               ///< as they were read
+};
+
+/// Reads [data] and what [conditions] holds for all rows. Stress stands there in one of four ways:
+/// alternating_stress with mean_stress (0 where it does not matter), max_stress with min_stress,
+/// alternating_stress with stress_ratio, or displacement_mean with displacement_amplitude of a
+/// spring in [conditions]. Throws InputError naming file, row and column.
+SnData read_sn_data(const TomlReader& root, const Source& source,
+                    fatigue::MeanStress correction);
+
+/// The unit of lives as people read it: "1e5 cycles" of "1e5".
+Unit life_unit(Unit unit);
+
+/// A life in [predict] or elsewhere: positive; a plain number counts cycles.
+std::vector<Quantity> read_lives(const TomlReader& table, const std::string& key);
+
+/// Where the mean stress is: mean_stress or stress_ratio.
+fatigue::StressLine read_line(const TomlReader& table);
+
+/// One stress, in the keys that columns have: alternating_stress with mean_stress or stress_ratio,
+/// max_stress with min_stress, or displacement_amplitude with displacement_mean.
+fatigue::Stress read_stress(const TomlReader& table, fatigue::MeanStress correction,
+                            const std::optional<fatigue::HelicalSpring>& spring);
+
+}  // namespace wearwell

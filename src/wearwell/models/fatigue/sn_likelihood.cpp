@@ -1,0 +1,198 @@
+#include "wearwell/models/fatigue/sn_likelihood.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/models/fatigue/random_limit.h"
+#include "wearwell/math/dual.h"
+#include "wearwell/prob/normal.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+constexpr int max_parameters = 7;
+
+class SnLikelihood final : public LogDensity {
+ public:
+  SnLikelihood(const SnLaw& law, LifeTests tests) : law_(law), tests_(std::move(tests)) {
+    const bool logarithmic = law_.logarithmic();
+    for (const LifeTest& test : tests_) {
+      Row row{std::log10(test.stress.alternating), test.life, test.until, 0};
+      if (logarithmic) {
+        row.at = std::log10(test.life);
+        row.until = std::log10(test.until);
+        // From the density of log10 life to that of life.
+        row.log_measure = -std::log(test.life * std::log(10.0));
+      }
+      rows_.push_back(row);
+    }
+    for (std::size_t i = 0; i < tests_.size(); ++i) {
+      const auto alike = [&](const Term& term) { return same(tests_[term.row], tests_[i]); };
+      // An integral over the limit is worth the search; without one the sum keeps its order.
+      const auto found =
+          law_.limit ? std::find_if(terms_.begin(), terms_.end(), alike) : terms_.end();
+      if (found != terms_.end()) {
+        found->count += tests_[i].count;
+      } else {
+        terms_.push_back({i, tests_[i].count});
+      }
+    }
+  }
+
+  int dimension() const override { return law_.dimension(); }
+
+  double value(std::span<const double> x) const override { return formula(x.data()); }
+
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    return wearwell::value_and_gradient<max_parameters>(
+        [this](const auto* p) { return formula(p); }, x, gradient);
+  }
+
+  std::vector<double> pointwise(std::span<const double> x) const override {
+    const Shared<double> shared(law_, x.data());
+    std::vector<double> terms;
+    for (std::size_t i = 0; i < rows_.size(); ++i) terms.push_back(term(shared, i));
+    return terms;
+  }
+
+  std::vector<int> pointwise_counts() const override {
+    std::vector<int> counts;
+    for (const LifeTest& test : tests_) counts.push_back(test.count);
+    return counts;
+  }
+
+ private:
+  struct Row {
+    double log10_alternating;
+    double at, until;  // on the scale on which lives scatter
+    double log_measure;
+  };
+
+  // What tests that ended alike under one stress add: runouts above all.
+  struct Term {
+    std::size_t row;
+    int count;
+  };
+
+  static bool same(const LifeTest& a, const LifeTest& b) {
+    return a.stress.alternating == b.stress.alternating && a.stress.mean == b.stress.mean &&
+           a.outcome == b.outcome && a.life == b.life && a.until == b.until;
+  }
+
+  // What all rows have in common.
+  template <class T>
+  struct Shared {
+    const T* x;
+    T strength, gamma, inverse_b, inverse_sigma, log_sigma;
+
+    Shared(const SnLaw& law, const T* parameters) : x(parameters) {
+      using std::exp;
+      using std::log;
+      strength = law.has_strength() ? T(exp(x[law.strength_index()] * std::log(10.0)))
+                                    : T(law.strength.value_or(1));
+      gamma = law.has_gamma() ? x[law.gamma_index()] : T(law.gamma.value_or(1));
+      inverse_b = 1.0 / x[1];
+      inverse_sigma = 1.0 / x[law.sigma_index()];
+      log_sigma = log(x[law.sigma_index()]);
+    }
+  };
+
+  template <class T>
+  T formula(const T* x) const {
+    const Shared<T> shared(law_, x);
+    T sum(0);
+    for (const auto& [row, count] : terms_) {
+      if (count == 1) {
+        sum += term(shared, row);
+      } else {
+        sum += static_cast<double>(count) * term(shared, row);
+      }
+    }
+    return sum;
+  }
+
+  // The log-likelihood of one test of the row.
+  template <class T>
+  T term(const Shared<T>& shared, std::size_t i) const {
+    const LifeTest& test = tests_[i];
+    const Row& row = rows_[i];
+    const T log10_reversed = row.log10_alternating + log10_factor(law_.correction, test.stress,
+                                                                  shared.strength, shared.gamma);
+    if (!std::isfinite(scalar(log10_reversed))) {
+      return T(-std::numeric_limits<double>::infinity());
+    }
+    if (law_.limit) {
+      const T* x = shared.x;
+      const T* limit = x + law_.limit_index();
+      const LimitedLife<T> life{
+          law_.standard(), *law_.limit, log10_reversed, x[0], x[1], shared.x[law_.sigma_index()],
+          limit[0],        limit[1]};
+      const T value = log_probability(life, test.outcome, row.at, row.until);
+      return test.outcome == Outcome::failure ? T(value + row.log_measure) : value;
+    }
+    T location = (log10_reversed - shared.x[0]) * shared.inverse_b;
+    if (!law_.logarithmic()) {
+      using std::exp;
+      constexpr double most = 300;  // decades; a longer life is no number
+      location = scalar(location) < most ? T(exp(location * std::log(10.0))) : T(1e300);
+    }
+    const StandardLaw standard = law_.standard();
+    if (test.outcome == Outcome::failure && standard == StandardLaw::normal) {
+      return normal_log_density(row.at, location, shared.inverse_sigma, shared.log_sigma) +
+             row.log_measure;
+    }
+    const T z = (row.at - location) * shared.inverse_sigma;
+    switch (test.outcome) {
+      case Outcome::failure:
+        return log_density(standard, z) - shared.log_sigma + row.log_measure;
+      case Outcome::runout:
+        return log_survival(standard, z);
+      case Outcome::left:
+        return log_cdf(standard, z);
+      case Outcome::interval:
+        break;
+    }
+    const T until = (row.until - location) * shared.inverse_sigma;
+    return log_between(standard, z, until);
+  }
+
+  SnLaw law_;
+  LifeTests tests_;
+  std::vector<Row> rows_;
+  std::vector<Term> terms_;
+};
+
+}  // namespace
+
+std::shared_ptr<const LogDensity> sn_likelihood(const SnLaw& law, const LifeTests& tests,
+                                                std::size_t rows) {
+  return std::make_shared<SnLikelihood>(
+      law, LifeTests(tests.begin(), tests.begin() + static_cast<std::ptrdiff_t>(rows)));
+}
+
+SnGuess guess(const SnLaw& law, const LifeTests& tests, double strength) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, syy = 0;
+  for (const LifeTest& test : tests) {
+    const double x = std::log10(test.stress.alternating) +
+                     log10_factor(law.correction, test.stress, strength, 0.5);
+    const double y = std::log10(test.life), w = test.count;
+    n += w;
+    sx += w * x;
+    sy += w * y;
+    sxx += w * x * x;
+    sxy += w * x * y;
+    syy += w * y * y;
+  }
+  const double mx = sx / n, my = sy / n, vx = sxx / n - mx * mx, vy = syy / n - my * my;
+  const double slope = vx > 0 ? (sxy / n - mx * my) / vx : 0;
+  SnGuess result;
+  // A slope that is no S-N curve's says only that the tests are few.
+  if (slope < -2 && slope > -50) result.b = 1 / slope;
+  result.log10_a = mx - result.b * my;
+  const double rest = vy - 2 * (sxy / n - mx * my) / result.b + vx / (result.b * result.b);
+  result.sigma = std::clamp(std::sqrt(std::max(rest, 0.0)), 0.05, 2.0);
+  if (!law.logarithmic()) result.sigma *= std::log(10.0) * std::pow(10, my);
+  return result;
+}
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+
+#include "wearwell/bayes/log_density.h"
+#include "wearwell/models/fatigue/life_test.h"
+#include "wearwell/models/fatigue/sn_law.h"
+
+namespace wearwell::fatigue {
+
+/// The likelihood of an S-N law's parameters for the first `rows` tests: failures by their density
+/// per cycle, the rest by the probability of what was seen. -infinity where a mean stress reaches
+/// the strength. Its pointwise terms are those of one test of each row.
+std::shared_ptr<const LogDensity> sn_likelihood(const SnLaw& law, const LifeTests& tests,
+                                                std::size_t rows);
+
+/// Where searches start: least squares of log10 life on log10 stress through all tests as if they
+/// had failed, with the strength at `strength` [Pa] and gamma at 1/2.
+struct SnGuess {
+  double log10_a = 0;  ///< a in Pa
+  double b = -0.1;
+  double sigma = 0;  ///< of log10 life; in cycles for the normal family
+};
+SnGuess guess(const SnLaw& law, const LifeTests& tests, double strength);
+
+}  // namespace wearwell::fatigue

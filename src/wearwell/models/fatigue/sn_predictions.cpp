@@ -1,0 +1,556 @@
+#include "wearwell/models/fatigue/sn_predictions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+
+namespace wearwell {
+namespace {
+
+using fatigue::LifeTest;
+using fatigue::MeanStress;
+using fatigue::MixedLife;
+using fatigue::Outcome;
+using fatigue::SnLaw;
+using fatigue::Stress;
+using fatigue::StressLine;
+
+// Of a posterior's points each brings so many slices of the population of fatigue limits.
+constexpr std::size_t slices_of_next = 25;
+
+const Unit& percent() {
+  static const Unit unit{"%", 0.01, 0};
+  return unit;
+}
+
+std::string in_words(const Quantity& quantity) {
+  return fmt::format("{:.6g} {}", quantity.value, quantity.unit.text);
+}
+
+// Whose lives are predicted: of all tests, or of some evenly where nearly each has a stress of its own.
+std::vector<std::size_t> covered_tests(std::size_t tests, std::size_t stresses) {
+  constexpr std::size_t most_stresses = 500;
+  const std::size_t count = stresses > most_stresses ? most_stresses : tests;
+  std::vector<std::size_t> covered;
+  for (std::size_t i = 0; i < count; ++i) {
+    covered.push_back(count == tests ? i : i * (tests - 1) / (count - 1));
+  }
+  return covered;
+}
+
+bool same(const Stress& a, const Stress& b) {
+  return a.alternating == b.alternating && a.mean == b.mean;
+}
+
+std::vector<StressPoint> points_of_types(const TomlReader& predict, const SnLaw& law,
+                                         const SnData& data) {
+  const std::vector<std::string> wanted = predict.texts("types");
+  const std::vector<StressPoint> tested = tested_points(law, data);
+  if (wanted == std::vector<std::string>{"all"}) return tested;
+  std::vector<StressPoint> points;
+  for (const std::string& type : wanted) {
+    const std::size_t before = points.size();
+    const std::string name = "type " + type;
+    for (const StressPoint& point : tested) {
+      if (point.name == name || point.name.starts_with(name + " at ")) points.push_back(point);
+    }
+    if (points.size() == before) {
+      std::vector<std::string> known = {"all"};
+      for (const std::string& label : data.labels) {
+        if (!label.empty() && std::find(known.begin(), known.end(), label) == known.end()) {
+          known.push_back(label);
+        }
+      }
+      predict.fail("types", fmt::format("'{}' is no type of the data; possible are {} (nearest: "
+                                        "'{}')",
+                                        type, fmt::join(known, ", "), nearest_name(type, known)));
+    }
+  }
+  return points;
+}
+
+using Reduction = std::function<void(const double* x, double* y)>;
+
+// A posterior in terms of `count` numbers that follow from its parameters.
+WeightedDraws reduced(const WeightedDraws& draws, Eigen::Index count, const Reduction& reduction) {
+  const auto reduce = [&](const Points& points) {
+    Points values(points.rows(), count);
+    for (Eigen::Index i = 0; i < points.rows(); ++i) {
+      reduction(points.row(i).data(), values.row(i).data());
+    }
+    return values;
+  };
+  WeightedDraws result{reduce(draws.values), draws.weights, {}, {}, draws.cells};
+  for (const Points& ends : draws.lower) result.lower.push_back(reduce(ends));
+  for (const Points& ends : draws.upper) result.upper.push_back(reduce(ends));
+  return result;
+}
+
+// Lives under one stress, over a posterior.
+class LivesAt {
+ public:
+  LivesAt(const SnLaw& law, const WeightedDraws& draws, const Stress& stress)
+      : law_(law), stress_(stress), next_(next_life(law, draws, stress)) {
+    next_.merge();
+    if (law.limit) {
+      draws_ = draws;
+      return;
+    }
+    // All that matters here of a point is the centre of its lives and their scatter.
+    draws_ = reduced(draws, 2, [&](const double* x, double* y) {
+      y[0] = life_center(law, x, law.log10_reversed(x, stress));
+      y[1] = x[law.sigma_index()];
+    });
+  }
+
+  const MixedLife& next() const { return next_; }
+
+  // On the scale on which lives scatter.
+  Distribution quantile(double share) const {
+    if (law_.limit) {
+      return {draws_, [&](const double* x) { return life_quantile(law_, x, stress_, share); }};
+    }
+    const double z = wearwell::quantile(law_.standard(), share);
+    return {draws_, [z](const double* x) { return x[0] + z * x[1]; }};
+  }
+
+  Distribution survival(double life) const {
+    if (law_.limit) {
+      return {draws_, [&](const double* x) { return fatigue::survival(law_, x, stress_, life); }};
+    }
+    const double at = law_.logarithmic() ? std::log10(life) : life;
+    const StandardLaw standard = law_.standard();
+    return {draws_, [=](const double* x) { return 1 - cdf(standard, (at - x[0]) / x[1]); }};
+  }
+
+ private:
+  const SnLaw& law_;
+  Stress stress_;
+  MixedLife next_;
+  WeightedDraws draws_;
+};
+
+// The life of the next one; then of all, B-lives and survival.
+std::vector<QuantityQuantiles> at_point(const SnLaw& law, const WeightedDraws& draws,
+                                        const Stress& stress, const SnPredictions& predictions) {
+  const LivesAt lives(law, draws, stress);
+  const MixedLife& next = lives.next();
+  std::vector<QuantityQuantiles> all = {{next.quantile(0.05), next.quantile(0.5),
+                                         next.quantile(0.95), next.quantile(0.01),
+                                         next.quantile(0.1), next.quantile(0.5)}};
+  for (const double percent_failed : predictions.percents) {
+    const Distribution at = lives.quantile(percent_failed / 100);
+    const auto quantile = [&](double p) { return cycles(law, at.quantile(p)); };
+    all.push_back({quantile(0.05), quantile(0.5), quantile(0.95), 0, 0, 0,
+                   next.quantile(percent_failed / 100), quantile(1 - predictions.credible_level)});
+  }
+  for (const Quantity& to : predictions.survival_to) {
+    const Distribution share = lives.survival(to.si());
+    all.push_back({share.quantile(0.05), share.quantile(0.5), share.quantile(0.95), 0, 0, 0,
+                   1 - next.cdf(to.si()), share.quantile(1 - predictions.credible_level)});
+  }
+  return all;
+}
+
+Distribution allowed_distribution(const SnLaw& law, const WeightedDraws& draws,
+                                  const AllowedStress& allowed) {
+  const WeightedDraws stresses = reduced(draws, 1, [&](const double* x, double* y) {
+    y[0] =
+        alternating_allowed(law, x, allowed.line,
+                            log10_reversed_allowed(law, x, allowed.life.si(), allowed.reliability));
+  });
+  return {stresses, [](const double* x) { return x[0]; }};
+}
+
+QuantityQuantiles allowed_quantiles(const SnLaw& law, const WeightedDraws& draws,
+                                    const AllowedStress& allowed, double credible_level) {
+  const Distribution stress = allowed_distribution(law, draws, allowed);
+  QuantityQuantiles q{stress.quantile(0.05), stress.quantile(0.5), stress.quantile(0.95), 0, 0, 0};
+  q.predictive = next_allowed(law, draws, allowed.line, allowed.life.si(), allowed.reliability);
+  q.bound = stress.quantile(1 - credible_level);
+  return q;
+}
+
+std::string in_words(const SnLaw& law, const SnData& data, const StressLine& line) {
+  if (line.ratio) return fmt::format(", stress ratio {:.6g}", *line.ratio);
+  if (law.correction == MeanStress::none) return "";
+  return fmt::format(" about {:.6g} {}", from_si(data.stress_unit, line.mean),
+                     data.stress_unit.text);
+}
+
+struct Span {
+  double low = INFINITY, high = -INFINITY;
+
+  void take(double x) {
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  bool holds(double x) const {
+    const double slack = 1e-9 * std::max(std::abs(low), std::abs(high));
+    return low - slack <= x && x <= high + slack;
+  }
+  std::string in(const Unit& unit) const {
+    return fmt::format("{:.6g} to {:.6g} {}", from_si(unit, low), from_si(unit, high), unit.text);
+  }
+};
+
+// What the tests span.
+struct Tested {
+  Span alternating, mean, life;
+  long count = 0;
+
+  explicit Tested(const SnData& data) {
+    for (const LifeTest& test : data.tests) {
+      alternating.take(test.stress.alternating);
+      mean.take(test.stress.mean);
+      life.take(test.life);
+      if (test.outcome == Outcome::interval) life.take(test.until);
+      count += test.count;
+    }
+  }
+};
+
+Check extrapolation(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
+                    const Fit& fit) {
+  const Tested tested(data);
+  Findings findings("extrapolation");
+  const std::string advice =
+      "Nothing was seen there: the answer is the law's, drawn beyond the tests. Test there, or "
+      "stay inside.";
+  for (const StressPoint& point : predictions.points) {
+    if (!tested.alternating.holds(point.stress.alternating)) {
+      findings.add(Verdict::warn,
+                   fmt::format("the alternating stress of {}, {:.6g} {}, lies outside those tested "
+                               "({})",
+                               point.name, from_si(data.stress_unit, point.stress.alternating),
+                               data.stress_unit.text, tested.alternating.in(data.stress_unit)),
+                   advice);
+    }
+    if (law.correction != MeanStress::none && !tested.mean.holds(point.stress.mean)) {
+      findings.add(Verdict::warn,
+                   fmt::format("the mean stress of {}, {:.6g} {}, lies outside those tested ({})",
+                               point.name, from_si(data.stress_unit, point.stress.mean),
+                               data.stress_unit.text, tested.mean.in(data.stress_unit)),
+                   advice);
+    }
+  }
+  for (const AllowedStress& allowed : predictions.allowed) {
+    const double stress = allowed_distribution(law, fit.pooled, allowed).quantile(0.5);
+    const std::string where =
+        fmt::format("{} at {:.6g} %", in_words(allowed.life), 100 * allowed.reliability);
+    if (!tested.alternating.holds(stress)) {
+      findings.add(Verdict::warn,
+                   fmt::format("the allowed alternating stress for {}, in the median {:.4g} {}, "
+                               "lies outside those tested ({})",
+                               where, from_si(data.stress_unit, stress), data.stress_unit.text,
+                               tested.alternating.in(data.stress_unit)),
+                   advice);
+    }
+    const double mean = allowed.line.at(stress).mean;
+    if (law.correction != MeanStress::none && !tested.mean.holds(mean)) {
+      findings.add(Verdict::warn,
+                   fmt::format("the mean stress of the allowed stress for {}, {:.4g} {}, lies "
+                               "outside those tested ({})",
+                               where, from_si(data.stress_unit, mean), data.stress_unit.text,
+                               tested.mean.in(data.stress_unit)),
+                   advice);
+    }
+    if (allowed.life.si() > tested.life.high) {
+      findings.add(Verdict::warn,
+                   fmt::format("no test lasted {} (they lasted {})", in_words(allowed.life),
+                               tested.life.in(data.life_unit)),
+                   advice);
+    }
+  }
+  return findings.result("every stress and life that is asked about lies among those tested");
+}
+
+// The lowest of n tests lies as likely as not below the life by which a share 1 - 2^(-1/n) has
+// failed; farther down there is only the shape of the law of scatter. The same rule, at a chosen
+// confidence, gives the numbers of tests of ISO 12107.
+Check few_tests(const SnData& data, const SnPredictions& predictions) {
+  const auto n = static_cast<double>(Tested(data).count);
+  const double lowest = 100 * -std::expm1(-std::log(2.0) / n);
+  const std::string supported =
+      fmt::format("the lowest of {:.0f} tests shows about B{:.2g}", n, lowest);
+  std::vector<double> asked = predictions.percents;
+  for (const AllowedStress& allowed : predictions.allowed) {
+    asked.push_back(100 * (1 - allowed.reliability));
+  }
+  std::sort(asked.begin(), asked.end());
+  asked.erase(std::unique(asked.begin(), asked.end(),
+                          [](double a, double b) { return std::abs(a - b) < 1e-9 * b; }),
+              asked.end());
+  std::vector<std::string> below;
+  for (const double percent : asked) {
+    if (percent >= lowest) continue;
+    below.push_back(fmt::format("B{:.4g} ({:.0f} tests show it)", percent,
+                                std::ceil(std::log(0.5) / std::log1p(-percent / 100) - 1e-9)));
+  }
+  Findings findings("percentile-support");
+  if (!below.empty()) {
+    findings.add(Verdict::warn,
+                 fmt::format("{}; asked for is {}", supported, fmt::join(below, ", ")),
+                 "What lies below the lowest test is the law of scatter, not data. Design with the "
+                 "lower bound, not with the posterior predictive, and try another family.");
+  }
+  return findings.result(fmt::format("{}, and nothing below it is asked for", supported));
+}
+
+}  // namespace
+
+std::string in_words(const SnLaw& law, const SnData& data, const Stress& stress) {
+  const auto value = [&](double si) { return from_si(data.stress_unit, si); };
+  if (law.correction == MeanStress::none) {
+    return fmt::format("{:.5g} {}", value(stress.alternating), data.stress_unit.text);
+  }
+  return fmt::format("{:.5g} about {:.5g} {}", value(stress.alternating), value(stress.mean),
+                     data.stress_unit.text);
+}
+
+std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {
+  std::vector<StressPoint> points;
+  std::map<std::string, int> stresses;
+  for (std::size_t i = 0; i < data.tests.size(); ++i) {
+    const Stress& stress = data.tests[i].stress;
+    const std::string name =
+        data.labels[i].empty() ? in_words(law, data, stress) : "type " + data.labels[i];
+    const bool known = std::any_of(points.begin(), points.end(), [&](const StressPoint& point) {
+      return point.name == name && same(point.stress, stress);
+    });
+    if (known) continue;
+    points.push_back({name, stress});
+    ++stresses[name];
+  }
+  // A type that was tested under several stresses is one of each.
+  for (StressPoint& point : points) {
+    if (stresses[point.name] > 1) {
+      point.name += " at " + in_words(law, data, point.stress);
+    }
+  }
+  return points;
+}
+
+MixedLife next_life(const SnLaw& law, const WeightedDraws& draws, const Stress& stress) {
+  MixedLife life(law.family);
+  for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
+    const double* x = draws.values.row(i).data();
+    add_life(life, draws.weights[i], law, x, law.log10_reversed(x, stress),
+             {slices_of_next, static_cast<std::size_t>(i)});
+  }
+  return life;
+}
+
+double next_allowed(const SnLaw& law, const WeightedDraws& draws, const StressLine& line,
+                    double life, double reliability) {
+  const auto excess = [&](double log10_alternating) {
+    const Stress stress = line.at(std::pow(10, log10_alternating));
+    return next_life(law, draws, stress).cdf(life) - (1 - reliability);
+  };
+  // Under so little or so much no specimen is tested.
+  constexpr double least = 0, most = 13;
+  double low = 8, high = 8;
+  while (excess(low) > 0) {
+    high = low;
+    if ((low -= 0.25) < least) return 0;
+  }
+  while (excess(high) < 0) {
+    low = high;
+    if ((high += 0.25) > most) return INFINITY;
+  }
+  std::uintmax_t iterations = 100;
+  const auto [left, right] = boost::math::tools::toms748_solve(
+      excess, low, high, [](double l, double r) { return r - l <= 1e-8; }, iterations);
+  return std::pow(10, 0.5 * (left + right));
+}
+
+SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, const SnData& data) {
+  SnPredictions result;
+  if (predict.has("types")) result.points = points_of_types(predict, law, data);
+  if (const auto stresses = predict.table("stress")) {
+    for (const std::string& name : stresses->keys()) {
+      const Stress stress =
+          read_stress(stresses->required_table(name), law.correction, data.spring);
+      result.points.push_back({name, stress});
+    }
+  }
+  for (const Quantity& each : predict.quantities("b_lives", "1")) {
+    // "10 %" is a share in SI; 10 alone is a percentage, as in B10.
+    const double value = each.unit.text == "1" ? each.value : 100 * each.si();
+    if (!(value > 0 && value < 100)) {
+      predict.fail("b_lives", "are percentages between 0 and 100, like [1, 10]");
+    }
+    result.percents.push_back(value);
+  }
+  const auto share = [&](const char* key, const Quantity& quantity) {
+    if (!(quantity.si() > 0 && quantity.si() < 1)) {
+      predict.fail(key, "must lie between 0 and 1 (or 0 % and 100 %)");
+    }
+    return quantity.si();
+  };
+  if (const auto level = predict.quantity("credible_level", "1")) {
+    result.credible_level = share("credible_level", *level);
+  }
+  result.survival_to = read_lives(predict, "survival_to");
+  if (result.points.empty()) {
+    for (const char* key : {"b_lives", "survival_to"}) {
+      if (predict.has(key)) {
+        predict.fail(key, "needs stresses: predict.types = \"all\", or [predict.stress]");
+      }
+    }
+  } else if (result.percents.empty()) {
+    result.percents = {1, 10};
+  }
+
+  const std::vector<Quantity> required = read_lives(predict, "required_life");
+  const std::vector<Quantity> reliabilities = predict.quantities("reliability", "1");
+  if (required.empty() != reliabilities.empty()) {
+    predict.fail(required.empty() ? "reliability" : "required_life",
+                 "needs the other: required_life and reliability ask together for the alternating "
+                 "stress that is allowed");
+  }
+  if (required.empty()) return result;
+  StressLine line;
+  if (law.correction != MeanStress::none) line = read_line(predict);
+  for (const Quantity& life : required) {
+    for (const Quantity& reliability : reliabilities) {
+      result.allowed.push_back({life, share("reliability", reliability), line});
+    }
+  }
+  return result;
+}
+
+namespace {
+
+// The life by which a share has failed, on the scale on which lives scatter: it fixes log10_a. Of a
+// random limit it would be an integral.
+ProfiledQuantity life_by_likelihood(const SnLaw& law, const Stress& stress, double share) {
+  const double z = quantile(law.standard(), share);
+  return {0,
+          [=](const double* x) {
+            return life_center(law, x, law.log10_reversed(x, stress)) + z * x[law.sigma_index()];
+          },
+          [=](const double* x, double life) {
+            const double center = life - z * x[law.sigma_index()];
+            const double log10_life = law.logarithmic() ? center : std::log10(center);
+            return law.log10_reversed(x, stress) - x[1] * log10_life;
+          }};
+}
+
+}  // namespace
+
+void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
+                       PosteriorStudy& study) {
+  const double level = predictions.credible_level;
+  const auto request = [&](const std::string& name, const std::string& of, const std::string& at,
+                           const Unit& unit) {
+    QuantityRequest result{name, of, at, unit, true, false, {}, {}, {}};
+    result.credible_level = level;
+    result.safe_end = 0.05;  // the shorter life, the smaller share and stress
+    return result;
+  };
+  for (const StressPoint& point : predictions.points) {
+    const std::string words = in_words(law, data, point.stress);
+    const std::string of = point.name == words ? "specimen" : point.name;
+    const std::string at = of.ends_with(words) ? "" : "at " + words;
+    QuantityGroup group;
+    // As a bearing that is not yet seen is a new one.
+    group.requests.push_back(request("life", "new " + of, at, data.life_unit));
+    group.requests.back().is_life = true;
+    group.requests.back().credible_level.reset();
+    for (const double percent_failed : predictions.percents) {
+      group.requests.push_back(
+          request(fmt::format("B{:.6g} life", percent_failed), of, at, data.life_unit));
+      if (law.limit) continue;
+      study.profiled.push_back({group.requests.back().name, of, at, data.life_unit,
+                                life_by_likelihood(law, point.stress, percent_failed / 100),
+                                [=](double life) { return cycles(law, life); }});
+    }
+    for (const Quantity& to : predictions.survival_to) {
+      group.requests.push_back(request("survival to " + in_words(to), of, at, percent()));
+    }
+    group.from_draws = [=, stress = point.stress](const WeightedDraws& draws) {
+      return at_point(law, draws, stress, predictions);
+    };
+    study.quantity_groups.push_back(std::move(group));
+  }
+  for (const AllowedStress& allowed : predictions.allowed) {
+    QuantityRequest stress =
+        request("allowed alternating stress", "specimen",
+                fmt::format("for {:.6g} % to outlast {}{}", 100 * allowed.reliability,
+                            in_words(allowed.life), in_words(law, data, allowed.line)),
+                data.stress_unit);
+    study.quantity_groups.push_back({{stress}, [=](const WeightedDraws& draws) {
+                                       return std::vector<QuantityQuantiles>{
+                                           allowed_quantiles(law, draws, allowed, level)};
+                                     }});
+  }
+}
+
+CoverageTable sn_coverage(const SnLaw& law, const SnData& data, const WeightedDraws& draws) {
+  static constexpr const char* outcomes[] = {"failure", "runout", "left", "interval"};
+  // Tests of one stress have one prediction.
+  using Key = std::pair<double, double>;
+  const auto key = [&](std::size_t test) {
+    return Key{data.tests[test].stress.alternating, data.tests[test].stress.mean};
+  };
+  std::set<Key> stresses;
+  for (std::size_t i = 0; i < data.tests.size(); ++i) stresses.insert(key(i));
+  const std::vector<std::size_t> tests = covered_tests(data.tests.size(), stresses.size());
+
+  struct Predicted {
+    std::optional<MixedLife> life;
+    double q05 = 0, q95 = 0, b10 = 0;
+  };
+  std::map<Key, Predicted> predicted;
+  for (const std::size_t i : tests) predicted[key(i)];
+  std::vector<std::pair<const Key, Predicted>*> each;
+  for (auto& entry : predicted) each.push_back(&entry);
+  const auto in_unit = [&](double value) { return from_si(data.life_unit, value); };
+  tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
+    auto& [stress, p] = *each[i];
+    p.life = next_life(law, draws, {stress.first, stress.second});
+    p.life->merge();
+    p.q05 = in_unit(p.life->quantile(0.05));
+    p.q95 = in_unit(p.life->quantile(0.95));
+    p.b10 = in_unit(p.life->quantile(0.1));
+  });
+
+  CoverageTable table{data.life_unit.text, {}, data.tests.size()};
+  for (const std::size_t i : tests) {
+    const LifeTest& test = data.tests[i];
+    const Predicted& p = predicted.at(key(i));
+    table.rows.push_back({i + 1,
+                          data.labels[i],
+                          outcomes[static_cast<int>(test.outcome)],
+                          in_unit(test.life),
+                          {},
+                          p.life->cdf(test.life),
+                          p.q05,
+                          p.q95,
+                          p.b10});
+    if (test.outcome == Outcome::interval) table.rows.back().until = in_unit(test.until);
+  }
+  return table;
+}
+
+std::vector<Check> sn_checks(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
+                             const Fit& fit) {
+  if (predictions.points.empty() && predictions.allowed.empty()) return {};
+  std::vector<Check> checks = {extrapolation(law, data, predictions, fit)};
+  if (!predictions.percents.empty() || !predictions.allowed.empty()) {
+    checks.push_back(few_tests(data, predictions));
+  }
+  return checks;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/models/fatigue/life.h"
+#include "wearwell/models/fatigue/sn_law.h"
+#include "wearwell/models/fatigue/sn_data.h"
+#include "wearwell/study/posterior_study.h"
+
+namespace wearwell {
+
+/// A stress that is asked about.
+struct StressPoint {
+  std::string name;  ///< "type A"
+  fatigue::Stress stress;
+};
+
+/// The alternating stress under which a share of items outlasts a life.
+struct AllowedStress {
+  Quantity life;
+  double reliability = 0;
+  fatigue::StressLine line;
+};
+
+/// What [predict] of an S-N study asks for.
+struct SnPredictions {
+  std::vector<StressPoint> points;
+  std::vector<double> percents;  ///< of the B-lives
+  double credible_level = 0.9;   ///< of lower bounds
+  std::vector<Quantity> survival_to;
+  std::vector<AllowedStress> allowed;
+};
+
+/// The stresses that were tested, by the type of specimen where there are types; one that was
+/// tested under several stresses stands there with each.
+std::vector<StressPoint> tested_points(const fatigue::SnLaw& law, const SnData& data);
+
+/// Reads [predict]. Throws InputError.
+SnPredictions read_sn_predictions(const TomlReader& predict, const fatigue::SnLaw& law,
+                                  const SnData& data);
+
+/// Lives, B-lives, survival and allowed stresses, as quantities of the study.
+void add_sn_quantities(const fatigue::SnLaw& law, const SnData& data,
+                       const SnPredictions& predictions, PosteriorStudy& study);
+
+/// The life of the next item under a stress. No draws of it: its law is a mixture over the
+/// posterior.
+fatigue::MixedLife next_life(const fatigue::SnLaw& law, const WeightedDraws& draws,
+                             const fatigue::Stress& stress);
+
+/// The alternating stress [Pa] along a line under which the next item outlasts `life` with
+/// probability `reliability`.
+double next_allowed(const fatigue::SnLaw& law, const WeightedDraws& draws,
+                    const fatigue::StressLine& line, double life, double reliability);
+
+/// Where each test lies in the life that is predicted of its stress.
+CoverageTable sn_coverage(const fatigue::SnLaw& law, const SnData& data,
+                          const WeightedDraws& draws);
+
+/// Whether stresses and lives that are asked about were tested, and whether the tests are as many
+/// as their percentiles need.
+std::vector<Check> sn_checks(const fatigue::SnLaw& law, const SnData& data,
+                             const SnPredictions& predictions, const Fit& fit);
+
+/// "271.1 MPa about 1005.5 MPa": alternating and mean stress.
+std::string in_words(const fatigue::SnLaw& law, const SnData& data, const fatigue::Stress& stress);
+
+}  // namespace wearwell

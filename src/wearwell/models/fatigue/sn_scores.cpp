@@ -1,0 +1,58 @@
+#include "wearwell/models/fatigue/sn_scores.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wearwell/models/fatigue/random_limit.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Of one life [cycles] under a fully reversed stress.
+double score(const SnLaw& law, const double* x, double log10_reversed, double life) {
+  const double at = law.logarithmic() ? std::log10(life) : life;
+  if (law.limit) {
+    const double* limit = x + law.limit_index();
+    const LimitedLife<double> item{law.standard(), *law.limit,        log10_reversed, x[0], x[1],
+                                   x[law.sigma_index()], limit[0], limit[1]};
+    return normal_score(log_probability(item, Outcome::left, at, at),
+                        log_probability(item, Outcome::runout, at, at));
+  }
+  constexpr double most = 300;  // decades; a longer life is no number
+  double center = std::min(law.log10_life(x, log10_reversed), most);
+  if (!law.logarithmic()) center = std::pow(10, center);
+  const double z = (at - center) / x[law.sigma_index()];
+  if (law.standard() == StandardLaw::normal) return z;
+  return normal_score(log_cdf(law.standard(), z), log_survival(law.standard(), z));
+}
+
+}  // namespace
+
+Scores sn_scores(const SnLaw& law, const LifeTests& tests) {
+  return [law, tests](const double* x) {
+    std::vector<NormalScore> scores;
+    for (const LifeTest& test : tests) {
+      const double log10_reversed = law.log10_reversed(x, test.stress);
+      const double at = score(law, x, log10_reversed, test.life);
+      switch (test.outcome) {
+        case Outcome::failure:
+          scores.push_back({at, at});
+          break;
+        case Outcome::runout:
+          scores.push_back({at, infinity});
+          break;
+        case Outcome::left:
+          scores.push_back({-infinity, at});
+          break;
+        case Outcome::interval:
+          scores.push_back({at, score(law, x, log10_reversed, test.until)});
+      }
+    }
+    return scores;
+  };
+}
+
+}  // namespace wearwell::fatigue

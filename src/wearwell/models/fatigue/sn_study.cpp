@@ -1,0 +1,293 @@
+#include "wearwell/models/fatigue/sn_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
+#include "wearwell/models/fatigue/sn_scores.h"
+#include "wearwell/input/prior.h"
+#include "wearwell/models/fatigue/sn_data.h"
+#include "wearwell/models/fatigue/sn_exhibits.h"
+#include "wearwell/models/fatigue/sn_predictions.h"
+
+namespace wearwell {
+namespace {
+
+using fatigue::LifeFamily;
+using fatigue::LifeTest;
+using fatigue::MeanStress;
+using fatigue::SnLaw;
+
+SnLaw read_law(const TomlReader& root) {
+  SnLaw law;
+  const auto table = root.table("law");
+  const auto correction =
+      table ? table->choice("mean_stress", fatigue::mean_stress_names()) : std::nullopt;
+  if (!correction) {
+    root.fail("law",
+              "needs mean_stress: how does a mean stress shorten life? [law] mean_stress = "
+              "\"goodman\", \"gerber\", \"soderberg\", \"morrow\", \"swt\", \"walker\" or "
+              "\"none\"");
+  }
+  law.correction = *fatigue::mean_stress_named(*correction);
+  const auto limit = table->choice("fatigue_limit", {"none", "random"});
+  const std::vector<std::string> families = {"normal", "smallest-extreme-value"};
+  const auto limit_family = table->choice("limit_family", families);
+  if (limit == "random") {
+    law.limit =
+        limit_family == families[1] ? StandardLaw::smallest_extreme_value : StandardLaw::normal;
+  } else if (limit_family) {
+    table->fail("limit_family", "needs fatigue_limit = \"random\"");
+  }
+  if (const auto likelihood = root.table("likelihood")) {
+    const auto family = likelihood->choice("family", {"log10-normal", "weibull", "normal"});
+    if (family == "weibull") law.family = LifeFamily::weibull;
+    if (family == "normal") law.family = LifeFamily::normal;
+    if (law.limit && law.family == LifeFamily::normal) {
+      likelihood->fail("family", "normal on life has no random fatigue limit; use log10-normal");
+    }
+  }
+  const auto conditions = root.table("conditions");
+  const std::string strength = strength_name(law.correction);
+  if (conditions && !strength.empty()) {
+    if (const auto known = conditions->quantity(strength, "Pa")) {
+      if (!(known->si() > 0)) conditions->fail(strength, "must be positive");
+      law.strength = known->si();
+    }
+  }
+  if (conditions && law.correction == MeanStress::walker) {
+    if (const auto known = conditions->quantity("gamma", "1")) law.gamma = known->si();
+  }
+  return law;
+}
+
+// "log10_Sut": how the logarithm of the strength is called.
+std::string log_strength_name(MeanStress correction) {
+  const std::string name = strength_name(correction);
+  return name == "S_ut" ? "log10_Sut" : name == "S_y" ? "log10_Sy" : "log10_" + name;
+}
+
+// Refuses tests whose mean stress no allowed strength bears.
+void refuse_beyond(const SnData& data, double strength, const std::string& name) {
+  for (std::size_t i = 0; i < data.tests.size(); ++i) {
+    const double mean = data.tests[i].stress.mean;
+    if (mean < strength) continue;
+    const std::string column = data.mean_stress_column.empty()
+                                   ? ""
+                                   : fmt::format(", column '{}'", data.mean_stress_column);
+    throw InputError(fmt::format(
+        "{}, row {}{}: the mean stress {:.6g} {} is not below {}, which is at most {:.6g} {}",
+        data.source, i + 1, column, from_si(data.stress_unit, mean), data.stress_unit.text, name,
+        from_si(data.stress_unit, strength), data.stress_unit.text));
+  }
+}
+
+std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
+                                       const SnData& data) {
+  const TomlReader priors = root.required_table("prior");
+  double largest_mean = 0;
+  for (const LifeTest& test : data.tests) largest_mean = std::max(largest_mean, test.stress.mean);
+  const std::string strength = strength_name(law.correction);
+  double material = std::max(3 * largest_mean, 1e6);
+  std::optional<Parameter> log_strength;
+  if (law.strength) {
+    refuse_beyond(data, *law.strength, strength);
+    if (priors.has(log_strength_name(law.correction))) {
+      priors.fail(
+          log_strength_name(law.correction),
+          fmt::format("is given, but conditions.{} says that it is known; keep one", strength));
+    }
+    material = *law.strength;
+  } else if (law.has_strength()) {
+    log_strength = read_prior(priors, {log_strength_name(law.correction), "log10(Pa)", -INFINITY,
+                                       INFINITY, std::log10(material)});
+    refuse_beyond(data, std::pow(10, log_strength->prior.upper), strength);
+    const double least = largest_mean > 0 ? std::log10(largest_mean) : -INFINITY;
+    if (log_strength->start < least + 0.01) {
+      const double upper = std::min(log_strength->prior.upper, least + 1);
+      log_strength->start = 0.5 * (least + upper);
+    }
+    material = std::pow(10, log_strength->start);
+  }
+  const fatigue::SnGuess guess = fatigue::guess(law, data.tests, material);
+
+  std::vector<Parameter> parameters;
+  parameters.push_back(
+      read_prior(priors, {"log10_a", "log10(Pa)", -INFINITY, INFINITY, guess.log10_a}));
+  parameters.push_back(read_prior(priors, {"b", "1", -INFINITY, 0, guess.b}));
+  if (log_strength) parameters.push_back(*log_strength);
+  if (law.has_gamma()) parameters.push_back(read_prior(priors, {"gamma", "1", 0, 1, 0.5}));
+  const char* sigma_si = law.logarithmic() ? "1" : "cycle";
+  parameters.push_back(read_prior(priors, {"sigma", sigma_si, 0, INFINITY, guess.sigma}));
+  if (law.limit) {
+    double lowest = INFINITY;
+    for (const LifeTest& test : data.tests) {
+      lowest = std::min(lowest, std::log10(test.stress.alternating) +
+                                    log10_factor(law.correction, test.stress, material, 0.5));
+    }
+    parameters.push_back(
+        read_prior(priors, {"log10_limit", "log10(Pa)", -INFINITY, INFINITY, lowest - 0.05}));
+    parameters.push_back(read_prior(priors, {"sigma_limit", "1", 0, INFINITY, 0.05}));
+  }
+  if (!law.logarithmic()) {
+    Parameter& sigma = parameters[static_cast<std::size_t>(law.sigma_index())];
+    sigma.unit = life_unit(sigma.unit);
+  }
+  return parameters;
+}
+
+std::vector<std::string> meanings(const SnLaw& law) {
+  std::vector<std::string> words = {"logarithm of the stress at one cycle", "Basquin's exponent"};
+  if (law.has_strength()) {
+    words.emplace_back(law.correction == MeanStress::soderberg ? "logarithm of the yield strength"
+                       : law.correction == MeanStress::morrow
+                           ? "logarithm of the true fracture strength"
+                           : "logarithm of the ultimate strength");
+  }
+  if (law.has_gamma()) words.emplace_back("Walker's exponent");
+  words.emplace_back(law.logarithmic() ? "scatter of log10 life" : "scatter of life");
+  if (law.limit) {
+    words.emplace_back("logarithm of the median fatigue limit");
+    words.emplace_back("scatter of the logarithm of the fatigue limit");
+  }
+  if (law.limit == StandardLaw::smallest_extreme_value) {
+    words[words.size() - 2] = "logarithm of the fatigue limit that 63.2 % stay below";
+  }
+  return words;
+}
+
+std::string in_words(const SnLaw& law) {
+  const std::string strength = strength_name(law.correction);
+  std::string reversed;
+  switch (law.correction) {
+    case MeanStress::none:
+      reversed = "S_a";
+      break;
+    case MeanStress::gerber:
+      reversed = "S_a/(1 - (S_m/S_ut)^2)";
+      break;
+    case MeanStress::goodman:
+    case MeanStress::soderberg:
+    case MeanStress::morrow:
+      reversed = fmt::format("S_a/(1 - S_m/{})", strength);
+      break;
+    case MeanStress::swt:
+      reversed = "((S_m + S_a) S_a)^0.5";
+      break;
+    case MeanStress::walker:
+      reversed = "(S_m + S_a)^(1 - gamma) S_a^gamma";
+      break;
+  }
+  std::string words =
+      fmt::format("S_f = {}, {} = a N^b", reversed, law.limit ? "S_f - limit" : "S_f");
+  if (law.strength) words += fmt::format(", {} = {:.6g} MPa", strength, *law.strength * 1e-6);
+  if (law.gamma) words += fmt::format(", gamma = {:.4g}", *law.gamma);
+  words += law.family == LifeFamily::log10_normal
+               ? "; log10 N scatters normally with standard deviation sigma"
+           : law.family == LifeFamily::weibull
+               ? "; N is Weibull of shape 1/(sigma ln 10), 63.2 % below the curve"
+               : "; N scatters normally with standard deviation sigma";
+  if (law.limit) {
+    words += fmt::format(
+        "; log10 of the limit is {} with location log10_limit and scale "
+        "sigma_limit, and no end of life below it",
+        *law.limit == StandardLaw::normal ? "normal" : "smallest extreme value");
+  }
+  return words;
+}
+
+// "9 tests: 8 failures, 1 runout", and what stresses and lives they span.
+std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
+  static constexpr const char* outcomes[] = {"failure", "runout", "left-censored", "interval"};
+  long long counts[4] = {}, all = 0;
+  std::vector<double> alternating, mean, life;
+  for (const LifeTest& test : data.tests) {
+    counts[static_cast<int>(test.outcome)] += test.count;
+    all += test.count;
+    alternating.push_back(from_si(data.stress_unit, test.stress.alternating));
+    mean.push_back(from_si(data.stress_unit, test.stress.mean));
+    life.push_back(from_si(data.life_unit, test.life));
+  }
+  std::string tests = fmt::format("{} test{}:", all, all == 1 ? "" : "s");
+  const char* separator = " ";
+  for (int i = 0; i < 4; ++i) {
+    if (counts[i] == 0) continue;
+    tests += fmt::format("{}{} {}{}", separator, counts[i], outcomes[i],
+                         counts[i] > 1 && i < 2 ? "s" : "");
+    separator = ", ";
+  }
+  const auto span = [](const std::vector<double>& values, const std::string& unit) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    return fmt::format("{:.5g} to {:.5g} {}", *least, *most, unit);
+  };
+  std::string stresses = "alternating stress " + span(alternating, data.stress_unit.text);
+  if (law.correction != MeanStress::none) {
+    stresses += ", mean stress " + span(mean, data.stress_unit.text);
+  }
+  return {tests, stresses, "life " + span(life, data.life_unit.text)};
+}
+
+// By what residuals may follow: the stress that the law takes for the cause, at the values where
+// searches start, and the mean stress.
+FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Parameter>& parameters) {
+  std::vector<double> start;
+  for (const Parameter& parameter : parameters) start.push_back(parameter.start);
+  FitData result{fatigue::sn_scores(law, data.tests), {}, {{"stress", {}}}, Rise{}, "row", true,
+                 !law.limit};
+  std::vector<double> mean;
+  Rise& rise = *result.rise;
+  rise.law = "life grows as stress falls";
+  for (const LifeTest& test : data.tests) {
+    const double stress = law.log10_reversed(start.data(), test.stress);
+    result.counts.push_back(test.count);
+    result.drivers[0].value.push_back(stress);
+    mean.push_back(test.stress.mean);
+    if (test.outcome != fatigue::Outcome::failure) continue;
+    rise.driver.push_back(-stress);
+    rise.value.push_back(std::log10(test.life));
+  }
+  if (law.correction != MeanStress::none) result.drivers.push_back({"mean stress", mean});
+  return result;
+}
+
+}  // namespace
+
+void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
+  const SnLaw law = read_law(root);
+  const SnData data = read_sn_data(root, source, law.correction);
+  if (study.stages) {
+    root.required_table("update").fail(
+        "stages",
+        "is not for model \"sn\": tests have no order; fit the first tests as a study of "
+        "their own (data.sql = \"select ... limit 6\")");
+  }
+  study.parameters = read_parameters(root, law, data);
+  study.equation = in_words(law);
+  study.data_rows = data.tests.size();
+  study.quantity = "life";
+  for (const LifeTest& test : data.tests) {
+    const double seen[] = {static_cast<double>(test.outcome), test.life, test.until,
+                           static_cast<double>(test.count)};
+    study.observed.insert(study.observed.end(), std::begin(seen), std::end(seen));
+  }
+  study.meanings = meanings(law);
+  study.likelihood = [=, tests = data.tests](std::size_t rows) {
+    return fatigue::sn_likelihood(law, tests, rows);
+  };
+  study.fit_data = fit_data(law, data, study.parameters);
+  study.data_notes = notes(law, data);
+  study.data_columns = data.columns;
+  SnPredictions predictions;
+  if (const auto predict = root.table("predict")) {
+    predictions = read_sn_predictions(*predict, law, data);
+  }
+  add_sn_quantities(law, data, predictions, study);
+  study.coverage = [=](const WeightedDraws& draws) { return sn_coverage(law, data, draws); };
+  study.exhibits = [=](const Fit& fit) { return sn_exhibits(law, data, predictions, fit); };
+  study.checks = [=](const Fit& fit) { return sn_checks(law, data, predictions, fit); };
+}
+
+}  // namespace wearwell

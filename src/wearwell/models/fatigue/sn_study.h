@@ -1,0 +1,12 @@
+#pragma once
+
+#include "wearwell/study/posterior_study.h"
+#include "wearwell/input/source.h"
+#include "wearwell/input/toml_reader.h"
+
+namespace wearwell {
+
+/// Reads `model = "sn"` (docs/fatigue.md) into `study`, whose general parts are read already.
+void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
+
+}  // namespace wearwell

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "wearwell/study/posterior_study.h"
+#include "wearwell/input/source.h"
+#include "wearwell/input/toml_reader.h"
+
+namespace wearwell {
+
+/// Reads `model = "archard-joint"` (docs/joint.md) into `study`, whose general parts are read
+/// already.
+void read_joint_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
+
+}  // namespace wearwell

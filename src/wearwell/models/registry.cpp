@@ -1,0 +1,20 @@
+#include "wearwell/models/registry.h"
+
+#include "wearwell/models/bearing/model.h"
+#include "wearwell/models/clutch/model.h"
+#include "wearwell/models/fatigue/model.h"
+#include "wearwell/models/joint/model.h"
+
+namespace wearwell {
+
+Models all_models() {
+  static const Model models[] = {
+      joint::model(),
+      bearing::model(),
+      clutch::model(),
+      fatigue::model(),
+  };
+  return models;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,261 @@
+#include "wearwell/present/html.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "wearwell/base/printable.h"
+
+namespace wearwell::html {
+namespace {
+
+constexpr const char* narrow_space = "\u202f";
+
+std::string superscript(const std::string& digits) {
+  static constexpr const char* raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out;
+  for (const char c : digits) {
+    if (c == '-') out += "⁻";
+    if (c >= '0' && c <= '9') out += raised[c - '0'];
+  }
+  return out;
+}
+
+std::string power_of_ten(int exponent) {
+  return "\u00a0×\u00a010" + superscript(std::to_string(exponent));
+}
+
+// Where the number is written with a power of ten, that power.
+int exponent_of(double x) {
+  if (x == 0 || !std::isfinite(x)) return 0;
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(x))));
+  return exponent < -2 || exponent > 6 ? exponent : 0;
+}
+
+// In two steps: the power itself is zero or infinite at the ends of what a double holds.
+double mantissa(double x, int exponent) {
+  return x / std::pow(10.0, exponent / 2) / std::pow(10.0, exponent - exponent / 2);
+}
+
+// Thousands apart, and a true minus.
+std::string spaced(std::string text) {
+  std::string sign;
+  if (text.front() == '-') {
+    text.erase(0, 1);
+    sign = "−";
+  }
+  const std::size_t point = std::min(text.find('.'), text.size());
+  for (std::size_t at = point; at > 3;) text.insert(at -= 3, narrow_space);
+  return sign + text;
+}
+
+std::string plain(double x, int digits) {
+  const int whole = x == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(x)))) + 1;
+  if (whole < digits) return spaced(fmt::format("{:.{}f}", x, digits - whole));
+  const double step = std::pow(10.0, whole - digits);
+  return spaced(fmt::format("{:.0f}", std::round(x / step) * step));
+}
+
+// JSON inside a script element: no character can end the element, and no old reader takes a line
+// for ended inside of a text.
+std::string script_safe(const std::string& json) {
+  std::string out;
+  out.reserve(json.size());
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (c == '<' || c == '>' || c == '&') {
+      out += fmt::format("\\u00{:02x}", c);
+    } else if (json.compare(i, 3, "\u2028") == 0 || json.compare(i, 3, "\u2029") == 0) {
+      out += json.compare(i, 3, "\u2028") == 0 ? "\\u2028" : "\\u2029";
+      i += 2;
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+// The unit in brackets at the end of a name is printed softer.
+std::string named(const std::string& text) {
+  const std::size_t bracket = text.rfind(" [");
+  if (bracket == text.npos || text.back() != ']') return escape(text);
+  return fmt::format("{} <span class=\"unit\">{}</span>", escape(text.substr(0, bracket)),
+                     escape(text.substr(bracket + 1)));
+}
+
+// The lines of a cell after its first are what to do about it.
+std::string cell(const std::string& text) {
+  const std::size_t line = text.find('\n');
+  if (line == text.npos) return named(text);
+  return fmt::format("{}<br><em>{}</em>", named(text.substr(0, line)),
+                     escape(text.substr(line + 1)));
+}
+
+}  // namespace
+
+std::string escape(const std::string& text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : printable(text, "\n\r\t")) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string capital(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::string number(double x, int digits) {
+  if (!std::isfinite(x)) return "–";
+  const int exponent = exponent_of(x);
+  if (exponent == 0) return plain(x, digits);
+  return plain(mantissa(x, exponent), digits) + power_of_ten(exponent);
+}
+
+std::string given(double x) {
+  const int exponent = exponent_of(x);
+  if (!std::isfinite(x)) return number(x);
+  if (exponent == 0) return spaced(fmt::format("{:.9g}", x));
+  return fmt::format("{:.9g}", mantissa(x, exponent)) + power_of_ten(exponent);
+}
+
+std::string raised(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '^') {
+      out += text[i];
+      continue;
+    }
+    const std::size_t end = std::min(text.find_first_not_of("-0123456789", i + 1), text.size());
+    if (end == i + 1) {  // N^b stays as it is
+      out += '^';
+      continue;
+    }
+    out += superscript(text.substr(i + 1, end - i - 1));
+    i = end - 1;
+  }
+  return out;
+}
+
+std::string unit(const std::string& text) {
+  if (text == "1") return {};
+  // Multiples, "1e5 cycles".
+  const std::size_t digits = text.find_first_not_of("0123456789", 2);
+  if (text.starts_with("1e") && digits != text.npos && digits > 2) {
+    return unit(fmt::format("\u00d7 10^{}{}", text.substr(2, digits - 2), text.substr(digits)));
+  }
+  std::string out;
+  for (const char c : raised(text)) out += c == ' ' ? std::string("\u00a0") : std::string(1, c);
+  return out;
+}
+
+std::string quantity(double x, const std::string& unit_text, int digits) {
+  const std::string u = unit(unit_text);
+  return u.empty() ? number(x, digits) : number(x, digits) + "\u00a0" + u;
+}
+
+std::string range(double low, double high, int digits) {
+  const int exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
+  if (exponent == 0 || !std::isfinite(low) || !std::isfinite(high)) {
+    return number(low, digits) + " to " + number(high, digits);
+  }
+  const int lost =
+      low == 0 ? 0 : exponent - static_cast<int>(std::floor(std::log10(std::abs(low))));
+  return plain(mantissa(low, exponent), std::max(1, digits - std::max(0, lost))) + " to " +
+         plain(mantissa(high, exponent), digits) + power_of_ten(exponent);
+}
+
+std::string tiles(const std::vector<Tile>& tiles) {
+  std::string out = "<dl class=\"tiles\">\n";
+  for (const Tile& tile : tiles) {
+    out += fmt::format(
+        "<div><dt>{}</dt><dd class=\"value\">{} <span>{}</span></dd><dd "
+        "class=\"note\">{}</dd></div>\n",
+        escape(tile.name), escape(tile.value), escape(tile.unit), escape(tile.note));
+  }
+  return out + "</dl>\n";
+}
+
+std::string callout(const std::string& kind, const std::string& word, const std::string& text) {
+  return fmt::format("<p class=\"callout {}\"><strong>{}</strong> {}</p>\n", escape(kind),
+                     escape(word), escape(text));
+}
+
+std::string table(const Table& table) {
+  // A wide table scrolls by itself, with the keyboard too.
+  std::string out = fmt::format(
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\">\n"
+      "<table{1}><caption>{0}</caption>\n<thead><tr>",
+      escape(table.caption), table.words ? " class=\"words\"" : "");
+  for (const std::string& heading : table.heading) {
+    out += fmt::format("<th scope=\"col\">{}</th>", named(heading));
+  }
+  out += "</tr></thead>\n<tbody>\n";
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    out += "<tr>";
+    for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
+      const std::string text = cell(table.rows[r][c]);
+      if (c == 0) {
+        out += fmt::format("<th scope=\"row\">{}</th>", text);
+      } else if (c == 1 && r < table.badges.size()) {
+        out += fmt::format("<td><span class=\"badge {}\">{}</span></td>", escape(table.badges[r]),
+                           text);
+      } else {
+        out += fmt::format("<td>{}</td>", text);
+      }
+    }
+    out += "</tr>\n";
+  }
+  return out + "</tbody></table></div>\n";
+}
+
+std::string figure(const Figure& figure) {
+  return fmt::format(
+      "<figure id=\"{0}\"><figcaption><h3>{1}</h3><p>{2}</p></figcaption>\n"
+      "<div class=\"plot\"></div>\n"
+      "<script type=\"application/json\">{3}</script></figure>\n",
+      escape(figure.id), escape(figure.title), escape(figure.caption),
+      script_safe(
+          figure.specification.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+}
+
+std::string figures(const std::vector<Figure>& figures) {
+  std::string out = "<div class=\"figures\">\n";
+  for (const Figure& each : figures) out += figure(each);
+  return out + "</div>\n";
+}
+
+std::string details(const std::string& summary, const std::string& html) {
+  return fmt::format("<details><summary>{}</summary>\n{}</details>\n", escape(summary), html);
+}
+
+std::string section(const std::string& id, const std::string& title, const std::string& html) {
+  return fmt::format(
+      "<section id=\"{0}\" aria-labelledby=\"{0}-title\"><h2 "
+      "id=\"{0}-title\">{1}</h2>\n{2}</section>\n",
+      escape(id), escape(title), html);
+}
+
+}  // namespace wearwell::html

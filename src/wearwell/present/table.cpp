@@ -1,0 +1,162 @@
+#include "wearwell/present/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "wearwell/base/printable.h"
+#include "wearwell/present/html.h"
+#include "wearwell/present/text_table.h"
+
+namespace wearwell::present {
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+int digits_of_life(double x, int digits) {
+  const int whole = x >= 1 && std::isfinite(x) ? static_cast<int>(std::log10(x)) + 1 : digits;
+  return std::min(digits, whole);
+}
+
+// A cell that begins like a formula is one to a spreadsheet.
+bool looks_like_formula(const std::string& text) {
+  return !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+}
+
+std::string quoted(const std::string& text) {
+  const std::string safe = looks_like_formula(text) ? "'" + text : text;
+  if (safe.find_first_of(",\"\n\r") == safe.npos) return safe;
+  std::string out = "\"";
+  for (const char c : safe) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string full(double x) {
+  return std::isnan(x) ? "" : fmt::format("{}", x);
+}
+
+std::string file_cell(const Cell& cell, bool is_range) {
+  const std::string second = is_range ? "," : "";
+  return std::visit(
+      Overloaded{[&](std::monostate) { return second; },
+                 [&](const std::string& text) { return quoted(text) + second; },
+                 [&](double x) { return full(x) + second; },
+                 [&](const Range& range) { return full(range.low) + ',' + full(range.high); },
+                 [&](const Badge& badge) { return quoted(badge.kind) + second; }},
+      cell);
+}
+
+// A terminal takes no raised digits for granted.
+std::string plain(double x, const Format& format) {
+  switch (format.kind) {
+    case Format::Kind::given:
+      return fmt::format("{:.9g}", x);
+    case Format::Kind::fixed:
+      return fmt::format("{:.{}f}", x, format.digits);
+    case Format::Kind::life:
+      return std::isinf(x) && x > 0 ? "never" : fmt::format("{:.{}g}", x, digits_of_life(x, format.digits));
+    case Format::Kind::significant:
+      break;
+  }
+  return fmt::format("{:.{}g}", x, format.digits);
+}
+
+std::string plain(const Cell& cell, const Format& format) {
+  return std::visit(
+      Overloaded{[](std::monostate) { return std::string("-"); },
+                 [](const std::string& text) { return text; },
+                 [&](double x) { return std::isnan(x) ? "-" : plain(x, format); },
+                 [&](const Range& range) {
+                   return plain(range.low, format) + " .. " + plain(range.high, format);
+                 },
+                 [](const Badge& badge) { return badge.kind; }},
+      cell);
+}
+
+}  // namespace
+
+std::string heading(const Column& column) {
+  return column.unit == "1" ? column.name : fmt::format("{} [{}]", column.name, column.unit);
+}
+
+std::string in_words(double x, const Format& format) {
+  switch (format.kind) {
+    case Format::Kind::given:
+      return html::given(x);
+    case Format::Kind::fixed:
+      return std::isfinite(x) ? fmt::format("{:.{}f}", x, format.digits) : "–";
+    case Format::Kind::life:
+      return std::isinf(x) && x > 0 ? "never" : html::number(x, digits_of_life(x, format.digits));
+    case Format::Kind::significant:
+      break;
+  }
+  return html::number(x, format.digits);
+}
+
+std::string in_words(const Cell& cell, const Column& column) {
+  const Format& format = column.format;
+  return std::visit(
+      Overloaded{[](std::monostate) { return std::string("–"); },
+                 [](const std::string& text) { return text; },
+                 [&](double x) { return in_words(x, format); },
+                 [&](const Range& range) {
+                   const bool finite = std::isfinite(range.low) && std::isfinite(range.high);
+                   return format.kind == Format::Kind::significant && finite
+                              ? html::range(range.low, range.high, format.digits)
+                              : in_words(range.low, format) + " to " + in_words(range.high, format);
+                 },
+                 [](const Badge& badge) { return badge.word; }},
+      cell);
+}
+
+std::string csv(const Table& table) {
+  std::string out;
+  const char* separator = "";
+  for (const Column& column : table.columns) {
+    out += separator;
+    if (column.is_range) {
+      Column low = column, high = column;
+      low.name += ", from";
+      high.name += ", to";
+      out += quoted(heading(low)) + ',' + quoted(heading(high));
+    } else {
+      out += quoted(heading(column));
+    }
+    separator = ",";
+  }
+  out += "\r\n";
+  for (const auto& row : table.rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      if (c > 0) out += ',';
+      out += file_cell(row[c], table.columns[c].is_range);
+    }
+    out += "\r\n";
+  }
+  return out;
+}
+
+std::string text(const Table& table) {
+  std::vector<std::vector<std::string>> rows(1);
+  for (const Column& column : table.columns) rows.front().push_back(heading(column));
+  for (const auto& row : table.rows) {
+    if (rows.size() > most_rows_shown) break;
+    rows.emplace_back();
+    for (std::size_t c = 0; c < row.size(); ++c)
+      rows.back().push_back(plain(row[c], table.columns[c].format));
+  }
+  std::string out = fmt::format("{}\n{}", printable(table.caption), text_table(rows, table.words));
+  if (table.rows.size() > most_rows_shown)
+    out += fmt::format("  the first {} of {}; all are in tables/{}.csv\n", most_rows_shown,
+                       table.rows.size(), table.id);
+  return out;
+}
+
+}  // namespace wearwell::present

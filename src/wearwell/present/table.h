@@ -1,0 +1,73 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace wearwell::present {
+
+/// How the numbers of a column are shown to people; files hold all their digits.
+struct Format {
+  enum class Kind {
+    significant,  ///< so many significant digits: "7.759 × 10⁻⁴"
+    given,        ///< as it was given, not estimated: all its digits
+    fixed,        ///< so many decimals
+    life,         ///< no fraction of a cycle; "never" where it is infinite
+  };
+  Kind kind = Kind::significant;
+  int digits = 4;
+};
+inline constexpr Format given{Format::Kind::given, 0};
+constexpr Format digits(int count) { return {Format::Kind::significant, count}; }
+constexpr Format fixed(int decimals) { return {Format::Kind::fixed, decimals}; }
+constexpr Format life(int count = 4) { return {Format::Kind::life, count}; }
+
+/// Two numbers with one meaning: an interval. In a file they are two columns.
+struct Range {
+  double low = 0, high = 0;
+};
+
+/// "pass", "warn" or "fail", and the word for it.
+struct Badge {
+  std::string kind, word;
+};
+
+/// Nothing, text, a number, an interval, a badge.
+using Cell = std::variant<std::monostate, std::string, double, Range, Badge>;
+
+struct Column {
+  std::string name;
+  std::string unit = "1";  ///< of its numbers: "mm^3"
+  Format format = {};
+  bool is_range = false;  ///< its numbers are intervals
+};
+
+/// The heading of a column: "life [h]"; the name alone where the unit is 1.
+std::string heading(const Column& column);
+
+/// A table as a report, a file and a terminal show it. Rows are as long as `columns`.
+struct Table {
+  std::string id;       ///< of its file, unique in a result: "predictions"
+  std::string caption;  ///< one line
+  std::vector<Column> columns;
+  std::vector<std::vector<Cell>> rows = {};
+  bool words = false;  ///< cells are sentences, not numbers
+};
+
+/// A report and a terminal show so many rows of a table; its file has all.
+inline constexpr std::size_t most_rows_shown = 1000;
+
+/// A number as a column shows it: "21 600"; "–" for what is not finite.
+std::string in_words(double x, const Format& format);
+std::string in_words(const Cell& cell, const Column& column);
+
+/// RFC 4180, with the units in the heading: `life [h]`. Numbers in the shortest form that reads back
+/// to the same; an interval is two columns, `, from` and `, to`; nothing is an empty cell. Text that a
+/// spreadsheet would take for a formula begins with an apostrophe.
+std::string csv(const Table& table);
+
+/// For a terminal, aligned.
+std::string text(const Table& table);
+
+}  // namespace wearwell::present

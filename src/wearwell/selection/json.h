@@ -1,0 +1,15 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "wearwell/selection/result.h"
+
+namespace wearwell {
+
+/// summary.json of a selection (keys: docs/select.md). A number that is not finite becomes null.
+nlohmann::ordered_json to_json(const SelectionResult& result);
+
+/// The models that were found, best first, one a row.
+std::string models_csv(const SelectionResult& result);
+
+}  // namespace wearwell

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "wearwell/study/comparison.h"
+#include "wearwell/present/page.h"
+#include "wearwell/present/plot.h"
+#include "wearwell/present/section.h"
+
+namespace wearwell {
+namespace {
+
+using present::Cell;
+using present::digits;
+using present::fixed;
+using present::Prose;
+using present::Section;
+using present::Table;
+using Numbers = std::vector<double>;
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit == "1" ? name : fmt::format("{} [{}]", name, html::unit(unit));
+}
+
+Section verdict_section(const Comparison& comparison) {
+  Section section{"comparison", "Comparison"};
+  if (!comparison.comparable) {
+    section.add(present::Callout{"warn", "Not ranked.", comparison.obstacle});
+  } else {
+    Table table{"comparison",
+                "Prediction of each observation from all others, best first",
+                {{"Study"},
+                 {"elpd", "1", fixed(2)},
+                 {"Se", "1", fixed(2)},
+                 {"Behind the best", "1", fixed(2)},
+                 {"Se of that", "1", fixed(2)},
+                 {"p_loo", "1", fixed(1)},
+                 {"Largest Pareto k", "1", fixed(2)},
+                 {"AIC", "1", fixed(2)},
+                 {"BIC", "1", fixed(2)},
+                 {"Parameters", "1", fixed(0)}}};
+    for (const auto& [name, result, behind] : comparison.studies) {
+      const Loo& loo = result.loo->loo;
+      const bool mode = result.mode && result.mode->problem.empty();
+      table.rows.push_back({name, loo.elpd(), loo.se(), behind->value, behind->se, loo.p_loo(),
+                            loo.khat_max(), mode ? Cell(result.mode->aic) : Cell(),
+                            mode ? Cell(result.mode->bic) : Cell(),
+                            static_cast<double>(result.parameters.size())});
+    }
+    section.add(std::move(table));
+    section.add(Prose{
+        "elpd is the expected log predictive density, summed over the observations (natural "
+        "logarithm, data in SI units); larger is better. Smaller AIC and BIC are better."});
+  }
+  for (const std::string& caution : comparison.cautions) section.add(Prose{caution});
+  return section;
+}
+
+struct Overlaid {
+  std::string name, unit;
+  struct Of {
+    std::string study;
+    const ParameterSummary* summary;
+    Numbers draws;  // those that are finite, ascending
+  };
+  std::vector<Of> of;
+};
+
+std::vector<Overlaid> overlaid(const Comparison& comparison) {
+  std::vector<Overlaid> all;
+  for (const auto& [name, result, behind] : comparison.studies) {
+    for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+      const ParameterSummary& p = result.parameters[i];
+      auto found = std::find_if(all.begin(), all.end(), [&](const Overlaid& each) {
+        return each.name == p.name && each.unit == p.unit;
+      });
+      if (found == all.end()) {
+        all.push_back({p.name, p.unit, {}});
+        found = all.end() - 1;
+      }
+      Numbers draws;
+      for (const Chain& chain : result.draws) {
+        const auto column = chain.values.col(static_cast<Eigen::Index>(i));
+        std::copy_if(column.begin(), column.end(), std::back_inserter(draws),
+                     [](double x) { return std::isfinite(x); });
+      }
+      std::sort(draws.begin(), draws.end());
+      found->of.push_back({name, &p, std::move(draws)});
+    }
+  }
+  return all;
+}
+
+// Fig. 6 of Heo et al. (2011): the histograms of one parameter in several studies.
+html::Figure histograms(const Overlaid& parameter) {
+  constexpr std::size_t bins = 40;
+  static constexpr const char* colours[] = {plot::colour::chains[0], plot::colour::chains[1],
+                                            plot::colour::chains[2], plot::colour::chains[3],
+                                            plot::colour::limit,     plot::colour::prior};
+  double low = INFINITY, high = -INFINITY;
+  for (const auto& each : parameter.of) {
+    const std::size_t cut = each.draws.size() / 400;
+    low = std::min(low, each.draws[cut]);
+    high = std::max(high, each.draws[each.draws.size() - 1 - cut]);
+  }
+  if (!(high > low)) high = low + std::max(1e-12, 1e-6 * std::abs(low));
+  const double width = (high - low) / bins;
+  Numbers edges;
+  for (std::size_t i = 0; i <= bins; ++i) {
+    edges.push_back(std::lerp(low, high, static_cast<double>(i) / bins));
+  }
+  std::vector<plot::Json> marks;
+  for (std::size_t s = 0; s < parameter.of.size(); ++s) {
+    const Numbers& draws = parameter.of[s].draws;
+    Numbers density(bins, 0.0);
+    for (const double x : draws) {
+      if (x < low || x > high) continue;
+      const auto bin = std::min(bins - 1, static_cast<std::size_t>((x - low) / width));
+      density[bin] += 1 / (static_cast<double>(draws.size()) * width);
+    }
+    density.push_back(density.back());
+    marks.push_back(plot::steps({{"x", edges}, {"y", density}},
+                                {colours[s % std::size(colours)], parameter.of[s].study, 0.95, 2,
+                                 s >= std::size(colours)}));
+  }
+  return {"overlay-" + parameter.name, parameter.name,
+          "The posterior's draws of each study; the areas are one.",
+          plot::plot(fmt::format("Histograms of {} in each study", parameter.name),
+                     {with_unit(parameter.name, parameter.unit)},
+                     {"Density", false, 0.0, {}, {}, false}, marks)};
+}
+
+Section parameter_section(const std::vector<Overlaid>& parameters) {
+  Table table{"parameters",
+              "Parameters of each study",
+              {{"Parameter"}, {"Unit"}, {"Study"}, {"Mean"}, {"Sd", "1", digits(3)}, {"5 %"},
+               {"50 %"}, {"95 %"}}};
+  std::vector<html::Figure> figures;
+  for (const Overlaid& parameter : parameters) {
+    for (const auto& each : parameter.of) {
+      const ExactSummary b = each.summary->best();
+      table.rows.push_back(
+          {parameter.name, parameter.unit, each.study, b.mean, b.sd, b.q05, b.q50, b.q95});
+    }
+    const bool drawn = std::none_of(parameter.of.begin(), parameter.of.end(),
+                                    [](const Overlaid::Of& each) { return each.draws.empty(); });
+    if (drawn) figures.push_back(histograms(parameter));
+  }
+  Section section{"parameters", "Parameters"};
+  section.add(present::Figures{std::move(figures)});
+  section.add(std::move(table));
+  return section;
+}
+
+Section study_section(const Comparison& comparison) {
+  Table table{"studies",
+              "Studies",
+              {{"Study"}, {"Title"}, {"Model"}, {"Data"}, {"Rows", "1", present::given},
+               {"Trusted"}},
+              {},
+              true};
+  for (const auto& [name, result, behind] : comparison.studies) {
+    const Header& header = result.header;
+    table.rows.push_back({name, header.title, header.equation, header.data.names(),
+                          static_cast<double>(header.data.rows), header.trusted ? "yes" : "no"});
+  }
+  Section section{"studies", "Studies"};
+  section.add(std::move(table));
+  return section;
+}
+
+}  // namespace
+
+std::string comparison_page(const Comparison& comparison) {
+  std::string names;
+  for (const auto& each : comparison.studies) names += (names.empty() ? "" : ", ") + each.name;
+  return html_page({comparison.studies.front().result.header.version,
+                    "Comparison of studies",
+                    names,
+                    {verdict_section(comparison), parameter_section(overlaid(comparison)),
+                     study_section(comparison)}});
+}
+
+}  // namespace wearwell

@@ -1,0 +1,63 @@
+#include "wearwell/study/csv.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace wearwell {
+namespace {
+
+void add_predictions(std::string& out, std::size_t rows,
+                     const std::vector<PredictionSummary>& predictions) {
+  for (const PredictionSummary& p : predictions) {
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{}\n", rows, p.at,
+                   p.quantity, p.unit, p.drawn.mean, p.drawn.ci05, p.drawn.ci95, p.drawn.pi05,
+                   p.drawn.pi95, p.measured ? fmt::format("{}", *p.measured) : "");
+  }
+}
+
+}  // namespace
+
+std::string draws_csv(const PosteriorSummary& result, std::size_t index) {
+  const Chain& chain = result.posterior_draws[index];
+  const bool nuts = !chain.nuts.empty();
+  std::string out = fmt::format(
+      "# model = {}\n# wearwell_version = {}\n# method = {}\n# num_samples = {}\n# num_warmup = "
+      "{}\n"
+      "# save_warmup = 0\n# thin = 1\n# id = {}\n# seed = {}\n",
+      result.model, result.version, result.method, result.draws, result.warmup, index + 1,
+      result.seed);
+  for (const ParameterSummary& parameter : result.parameters) {
+    out += fmt::format("# unit of {} = {}\n", parameter.name, parameter.unit);
+  }
+  out +=
+      nuts ? "lp__,accept_stat__,stepsize__,treedepth__,n_leapfrog__,divergent__,energy__" : "lp__";
+  for (const ParameterSummary& parameter : result.parameters) out += "," + parameter.name;
+  out += '\n';
+  if (nuts) out += fmt::format("# Adaptation terminated\n# Step size = {:.6g}\n", chain.step_size);
+  for (const std::string& note : chain.notes) out += fmt::format("# {}\n", note);
+  auto end = std::back_inserter(out);
+  for (Eigen::Index i = 0; i < chain.values.rows(); ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    fmt::format_to(end, "{}", chain.log_density[row]);
+    if (nuts) {
+      const NutsStep& step = chain.nuts[row];
+      fmt::format_to(end, ",{},{},{},{},{},{}", step.accept_stat, chain.step_size, step.treedepth,
+                     step.n_leapfrog, static_cast<int>(step.divergent), step.energy);
+    }
+    for (const double value : chain.values.row(i)) fmt::format_to(end, ",{}", value);
+    out += '\n';
+  }
+  return out;
+}
+
+std::string predictions_csv(const PosteriorSummary& result) {
+  const std::string at = result.predictions.empty() ? "cycles" : result.predictions.front().at_name;
+  std::string out = fmt::format("rows,{},quantity,unit,mean,ci05,ci95,pi05,pi95,measured\n", at);
+  for (const StageSummary& stage : result.stages)
+    add_predictions(out, stage.rows, stage.predictions);
+  if (result.stages.empty()) add_predictions(out, result.data_rows, result.predictions);
+  return out;
+}
+
+}  // namespace wearwell

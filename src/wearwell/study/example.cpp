@@ -1,0 +1,26 @@
+#include "wearwell/study/example.h"
+
+#include <fmt/format.h>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/staged_folder.h"
+
+namespace wearwell {
+namespace fs = std::filesystem;
+
+fs::path write_example(const Model& model, const fs::path& folder) {
+  heal_folder(behind_links(folder));
+  std::error_code error;
+  if (fs::exists(folder, error) &&
+      !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
+    throw InputError(
+        fmt::format("{} is not empty; a new study needs a folder of its own", folder.string()));
+  StagedFolder staged(folder);
+  // The study last: without its data it says nothing.
+  for (std::size_t i = model.example.size(); i-- > 0;)
+    staged.write(model.example[i].name, model.example[i].content());
+  staged.commit({});
+  return folder / model.example.front().name;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "wearwell/input/source.h"
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/study/study.h"
+
+namespace wearwell {
+
+/// A file that `wearwell new` writes.
+struct ExampleFile {
+  const char* name;
+  std::string_view (*content)();
+};
+
+/// A trade's only door: what the commands know of it.
+struct Model {
+  std::string_view key;                  ///< in study files: model = "archard-joint"
+  std::string_view trade;                ///< for `wearwell new`: "joint"
+  std::span<const ExampleFile> example;  ///< the study first, then its data
+  /// Reads the study's own part of the file; the caller refuses keys that were never asked for.
+  /// Throws InputError.
+  std::unique_ptr<const Study> (*read)(const TomlReader& root, const Source& source);
+  /// Adds commands of its own; may be null.
+  void (*add_commands)(CLI::App& app, int& exit_code);
+};
+
+/// A list of models; programs hand in those that they know (models/registry.h).
+using Models = std::span<const Model>;
+
+/// Reads a study file and its data; paths in it are relative to the file. Throws InputError with
+/// file:line:column and key, or with file, row and column of the data.
+std::unique_ptr<const Study> read_study(const Source& source, Models models);
+
+}  // namespace wearwell

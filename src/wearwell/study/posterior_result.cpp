@@ -1,0 +1,37 @@
+#include "wearwell/study/posterior_result.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "wearwell/study/csv.h"
+#include "wearwell/study/json.h"
+#include "wearwell/study/long_tables.h"
+#include "wearwell/study/posterior_report.h"
+#include "wearwell/study/terminal.h"
+
+namespace wearwell {
+
+Result posterior_result(PosteriorSummary summary) {
+  const auto shared = std::make_shared<const PosteriorSummary>(std::move(summary));
+  const PosteriorSummary& s = *shared;
+  Result result;
+  result.header = {.version = s.version,
+                   .title = s.title,
+                   .model = s.model,
+                   .equation = s.equation,
+                   .data = {{s.data_file}, s.data_rows, s.data_fingerprint},
+                   .seed = s.seed,
+                   .trusted = s.trusted,
+                   .checks = s.checks};
+  result.body = posterior_json(s);
+  for (std::size_t c = 0; c < s.posterior_draws.size(); ++c)
+    result.files.emplace_back(fmt::format("draws_{}.csv", c + 1), draws_csv(s, c));
+  result.files.emplace_back("predictions.csv", predictions_csv(s));
+  for (auto& table : long_tables(s)) result.files.push_back(std::move(table));
+  if (s.plots) result.sections = report_sections(s);
+  result.text = [shared](const TerminalStyle& style) { return terminal_summary(*shared, style); };
+  return result;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/bayes/log_density.h"
+#include "wearwell/bayes/observation.h"
+#include "wearwell/bayes/parameter.h"
+#include "wearwell/infer/fit.h"
+#include "wearwell/infer/fit_check.h"
+#include "wearwell/infer/profile.h"
+#include "wearwell/predict/prediction.h"
+#include "wearwell/study/posterior_summary.h"
+#include "wearwell/input/source.h"
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/study/sense.h"
+#include "wearwell/study/study.h"
+#include "wearwell/study/units_check.h"
+
+namespace wearwell {
+
+/// What is to be predicted of one measurement, past or to come.
+struct PredictionRequest {
+  std::string at_name;  ///< "cycles"
+  double at = 0;
+  std::string quantity;  ///< "volume"
+  Unit unit;
+  Function mean;  ///< of the parameters, SI
+  Function sd;
+  ObservationFamily family = ObservationFamily::normal;
+  std::optional<double> measured;  ///< SI
+  ItemFunction item =
+      {};  ///< the mean of one item where items differ; the prediction interval is its
+  /// Whose the mean and the prediction interval are, where these differ: "median bearing".
+  std::string mean_of = {}, measured_of = {};
+};
+
+/// When a limit is reached.
+struct LifeRequest {
+  Unit unit;              ///< of the life
+  std::string unit_name;  ///< "cycles"
+  Quantity limit;
+  double now = 0;   ///< the last inspection
+  double risk = 0;  ///< tolerated at the next inspection
+  Function life;
+};
+
+/// A quantity that follows from one positive unknown, its driver, by a monotone function: a depth,
+/// a pressure or a life from a wear rate.
+struct QuantityRequest {
+  std::string name;  ///< "life"
+  std::string of;  ///< "median bearing"; "new bearing" when the driver is that of one not yet seen
+  std::string at;  ///< under which conditions, in words
+  Unit unit;
+  bool increasing = true;
+  bool is_life = false;                        ///< then B1, B10 and B50 are told as well
+  std::function<double(double driver)> value;  ///< SI
+  Function driver;
+  Function scatter;  ///< standard deviation of ln driver between items, for one not yet seen; else
+                     ///< empty
+  std::optional<double> credible_level = {};  ///< of `QuantityQuantiles::bound`
+  /// The quantile that a careful engineer designs with: 0.05 of a life, 0.95 of a needed length.
+  std::optional<double> safe_end = {};
+};
+
+/// Quantities that have no single driver: all of them at once from the points of a posterior, SI.
+struct QuantityGroup {
+  std::vector<QuantityRequest> requests;  ///< without driver
+  std::function<std::vector<QuantityQuantiles>(const WeightedDraws& draws)> from_draws;
+};
+
+/// A quantity of which the maximum likelihood value and the profile interval are told.
+struct ProfileRequest {
+  std::string name, of, at;
+  Unit unit;
+  ProfiledQuantity quantity;
+  std::function<double(double)> si;  ///< from the scale on which it is profiled; monotone, rising
+};
+
+inline constexpr int max_chains = 1000;  ///< each stage of a study owns that many random streams
+inline constexpr std::size_t most_stages = 300;  ///< more data sets are not updated one by one
+inline constexpr int min_draws = 10;             ///< fewer have no diagnostics
+inline constexpr int max_iterations = 10'000'000;
+
+/// A study of a posterior as the engine sees it: whatever the trade, parameters with priors, a
+/// likelihood of the first data sets, and what to predict.
+struct PosteriorStudy : Study {
+  std::string in_words() const override;
+  Result run(const RunOptions& options, const Monitor& monitor) const override;
+
+  std::string title, model, equation;
+  TextFile file;               ///< the study file, as it was read
+  std::string data_file;       ///< as the study file names it
+  std::string data_sha1;       ///< of the file when it was read
+  std::size_t data_rows = 0;   ///< data sets; the posterior can be updated after each
+  /// What was observed, row by row in SI: what the likelihood is a density of.
+  std::vector<double> observed;
+  std::vector<DataColumn> data_columns;  ///< what was read, to find mistaken units
+  std::string observation = "row";       ///< what the likelihood's factors are of: "row", "bearing"
+  std::vector<Parameter> parameters;
+  std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
+  std::optional<FitData> fit_data;  ///< by which the fit is checked
+  std::vector<Reach> reaches;       ///< how far what is asked for goes beyond the data
+  bool stages = false;  ///< the posterior after 1, 2, ... data sets as well
+  std::vector<PredictionRequest> predictions;
+  /// What to predict at the stage after `rows` data sets, beside `predictions`: that inspection and
+  /// the next.
+  std::function<std::vector<PredictionRequest>(std::size_t rows)> stage_predictions;
+  std::vector<QuantityRequest> quantities;
+  std::vector<QuantityGroup> quantity_groups;
+  std::vector<ProfileRequest> profiled;
+  std::optional<LifeRequest> life;
+  std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
+  std::vector<double> history_at;  ///< where each data set lies along it; where it was if empty
+  std::string history_note;        ///< what to know of that curve
+  std::optional<PointwiseTable> pointwise;
+  std::string quantity;                 ///< what is measured, in words: "worn volume"
+  std::vector<std::string> data_notes;  ///< what else to know of the data, in sentences
+  std::vector<std::string> meanings;    ///< of the parameters: "wear coefficient"
+  /// What the trade checks beside the engine's checks, and shows in each section of the report;
+  /// both may be empty.
+  std::function<std::vector<Check>(const Fit&)> checks;
+  std::function<CoverageTable(const WeightedDraws&)> coverage;  ///< of single tests; may be empty
+  std::function<std::map<std::string, std::vector<html::Figure>>(const Fit&)> exhibits;
+  SamplerChoice sampler;  ///< as the study file says
+  NutsSettings nuts;
+  MetropolisSettings metropolis;
+};
+
+/// What a trade reads of a study file and its data, beyond what all studies of a posterior have.
+using ReadTrade = void (*)(const TomlReader& root, const Source& source, PosteriorStudy& study);
+
+/// Title, data, stages and sampler, and with `read_trade` the rest. Throws InputError.
+std::unique_ptr<const Study> read_posterior_study(const TomlReader& root, const Source& source,
+                                                  ReadTrade read_trade);
+
+}  // namespace wearwell

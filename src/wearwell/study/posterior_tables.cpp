@@ -1,0 +1,304 @@
+#include "wearwell/study/posterior_tables.h"
+
+#include <fmt/format.h>
+
+#include "wearwell/present/html.h"
+#include "wearwell/study/trust_blocks.h"
+
+namespace wearwell {
+namespace {
+
+using present::Cell;
+using present::Column;
+using present::digits;
+using present::fixed;
+using present::Format;
+using present::given;
+using present::Range;
+using present::Table;
+
+Column interval_column(const std::string& name, const std::string& unit, Format format = {}) {
+  return {name, unit, format, true};
+}
+
+double count(std::size_t n) {
+  return static_cast<double>(n);
+}
+
+Table prediction_rows(const char* id, const std::string& caption, const PredictionSummary& first) {
+  const bool items = !first.mean_of.empty();
+  return {id,
+          caption,
+          {{"Data sets", "1", given},
+           {first.at_name, "1", given},
+           {first.quantity, first.unit},
+           interval_column("90 % of the " + (items ? first.mean_of : "mean"), first.unit),
+           interval_column(items ? "90 % of measurements of a " + first.measured_of
+                                 : "90 % of measurements",
+                           first.unit),
+           {"Measured", first.unit}}};
+}
+
+void add_row(Table& table, std::size_t data_sets, const PredictionSummary& p) {
+  const Prediction& b = p.best();
+  table.rows.push_back({count(data_sets), p.at, b.mean, Range{b.ci05, b.ci95},
+                        Range{b.pi05, b.pi95}, p.measured ? Cell(*p.measured) : Cell()});
+}
+
+std::vector<Cell> profile_cells(const std::optional<ProfileSummary>& profile) {
+  if (!profile) return {Cell(), Cell()};
+  const auto end = [](double value, const std::string& open) -> Cell {
+    return open.empty() ? Cell(value) : Cell("open: " + open);
+  };
+  return {end(profile->lower, profile->lower_open), end(profile->upper, profile->upper_open)};
+}
+
+}  // namespace
+
+Format life_format(const std::string& unit, int digits) {
+  return unit.starts_with("1e") ? present::digits(digits) : present::life(digits);
+}
+
+Table prediction_table(const PosteriorSummary& result) {
+  Table table = prediction_rows("predictions", "Predictions from all data sets",
+                                result.predictions.front());
+  for (const PredictionSummary& p : result.predictions) add_row(table, result.data_rows, p);
+  return table;
+}
+
+Table stage_prediction_table(const PosteriorSummary& result) {
+  Table table;
+  for (const StageSummary& stage : result.stages) {
+    for (const PredictionSummary& p : stage.predictions) {
+      if (table.rows.empty())
+        table = prediction_rows("predictions-by-data-set", "Predictions, data set by data set", p);
+      add_row(table, stage.rows, p);
+    }
+  }
+  return table;
+}
+
+Table life_table(const LifeSummary& summary) {
+  const Life& life = summary.best();
+  const Format format = life_format(summary.unit);
+  return {"life",
+          fmt::format("Life until {} {}", html::given(summary.limit),
+                      html::unit(summary.limit_unit)),
+          {{"B1", summary.unit, format},
+           {"B10", summary.unit, format},
+           {"B50", summary.unit, format},
+           interval_column("90 % interval", summary.unit),
+           {"After", summary.unit, given},
+           {"Passed already", "%", digits(2)},
+           {"If not, inspect within", summary.unit, format},
+           {"At a risk of", "%", given}},
+          {{life.b1, life.b10, life.b50, Range{life.q05, life.q95}, summary.now, 100 * life.passed,
+            life.inspect_within, 100 * summary.risk}}};
+}
+
+Table quantity_table(const std::vector<QuantitySummary>& quantities) {
+  Table table{"quantities",
+              "What follows from the parameters",
+              {{"Quantity"}, {"Unit"}, {"Of"}, {"Where"}, {"5 %"}, {"50 %"}, {"95 %"},
+               {"Safe end", "%", given}, {"B1"}, {"B10"}}};
+  for (const QuantitySummary& each : quantities) {
+    const QuantityQuantiles& q = each.best();
+    if (q.predictive) continue;
+    const auto value = [&](double x) -> Cell {
+      return std::isinf(x) && each.is_life ? Cell("never") : Cell(x);
+    };
+    table.rows.push_back({each.name, each.unit, each.of, each.at, value(q.q05), value(q.q50),
+                          value(q.q95), each.safe_end ? Cell(100 * *each.safe_end) : Cell(),
+                          each.is_life ? value(q.b1) : Cell(),
+                          each.is_life ? value(q.b10) : Cell()});
+  }
+  return table;
+}
+
+Table bound_table(const std::vector<QuantitySummary>& quantities) {
+  Table table{"bounds", "For the next one, and at least", {}};
+  for (const QuantitySummary& each : quantities) {
+    const QuantityQuantiles& q = each.best();
+    if (!q.predictive) continue;
+    if (table.columns.empty()) {
+      table.columns = {{"Quantity"},
+                       {"Unit"},
+                       {"Of"},
+                       {"Where"},
+                       {"Posterior predictive"},
+                       {fmt::format("{} % lower bound", html::given(100 * *each.credible_level))},
+                       {"5 %"},
+                       {"50 %"},
+                       {"95 %"}};
+    }
+    table.rows.push_back({each.name, each.unit, each.of, each.at, *q.predictive, *q.bound, q.q05,
+                          q.q50, q.q95});
+  }
+  return table;
+}
+
+Table parameter_table(const std::vector<ParameterSummary>& parameters) {
+  Table table{"parameters",
+              "Parameters after all data sets",
+              {{"Parameter"}, {"Unit"}, {"Mean"}, {"Sd"}, {"5 %"}, {"50 %"}, {"95 %"},
+               {"Mean of draws"}, {"MCSE", "1", digits(2)}, {"Sd of draws"}}};
+  for (const ParameterSummary& p : parameters) {
+    const ExactSummary b = p.best();
+    table.rows.push_back(
+        {p.name, p.unit, b.mean, b.sd, b.q05, b.q50, b.q95, p.mean, p.mcse, p.sd});
+  }
+  return table;
+}
+
+Table prior_table(const PosteriorSummary& result, const Plots& plots) {
+  Table table{"priors",
+              "What was believed before",
+              {{"Parameter"}, {"Meaning"}, {"Prior"}},
+              {},
+              true};
+  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+    table.rows.push_back({result.parameters[i].name, plots.parameters[i].meaning,
+                          plots.parameters[i].prior_in_words});
+  }
+  return table;
+}
+
+Table mode_table(const ModeSummary& mode) {
+  Table table{mode.maximum_likelihood ? "maximum-likelihood" : "mode",
+              mode.maximum_likelihood
+                  ? "Maximum likelihood: where the density is highest under these flat priors"
+                  : "Mode: where the posterior density is highest",
+              {{"Parameter"}, {"Unit"}, {"Mode"}, {"Standard error", "1", digits(3)}}};
+  const auto profile = mode.profile();
+  if (profile) {
+    table.columns.push_back({fmt::format("{:.4g} % profile interval from", 100 * profile->level)});
+    table.columns.push_back({"to"});
+  }
+  const auto add = [&](std::vector<Cell> row, const std::optional<ProfileSummary>& p) {
+    if (profile) {
+      for (Cell& cell : profile_cells(p)) row.push_back(std::move(cell));
+    }
+    table.rows.push_back(std::move(row));
+  };
+  for (const ModeParameter& p : mode.parameters) {
+    add({p.name, p.unit, p.value, p.at == "inside" ? Cell(p.standard_error) : Cell("on its " + p.at)},
+        p.profile);
+  }
+  for (const ModeQuantity& q : mode.quantities) {
+    add({fmt::format("{} of {}{}{}", q.name, q.of, q.at.empty() ? "" : " ", q.at), q.unit, q.value,
+         Cell()},
+        q.profile);
+  }
+  return table;
+}
+
+Table stage_table(const PosteriorSummary& result) {
+  Table table{"parameters-by-data-set",
+              "Parameters, data set by data set",
+              {{"Data sets", "1", given}}};
+  for (const ParameterSummary& p : result.parameters) {
+    table.columns.push_back({p.name, p.unit});
+    table.columns.push_back({"sd of " + p.name, p.unit});
+    table.columns.push_back(interval_column("90 % of " + p.name, p.unit));
+  }
+  table.columns.push_back({"Trusted"});
+  for (const StageSummary& stage : result.stages) {
+    table.rows.push_back({count(stage.rows)});
+    std::vector<Cell>& row = table.rows.back();
+    for (const ParameterSummary& p : stage.parameters) {
+      const ExactSummary b = p.best();
+      row.insert(row.end(), {b.mean, b.sd, Range{b.q05, b.q95}});
+    }
+    row.emplace_back(stage.trusted ? "yes" : "no: " + names_of(stage.checks, Verdict::fail));
+  }
+  return table;
+}
+
+Table fit_table(const Plots& plots) {
+  const History& r = plots.replicated;
+  Table table{"fit",
+              "Data, and what the fit says of them",
+              {{plots.at_name, "1", given},
+               {"Measured", plots.unit},
+               {"Fitted mean", plots.unit, digits(3)},
+               interval_column("90 % of the mean", plots.unit, digits(3)),
+               interval_column("90 % of measurements", plots.unit, digits(3))}};
+  for (std::size_t i = 0; i < r.at.size(); ++i) {
+    table.rows.push_back({r.at[i], plots.measured[i], r.mean[i], Range{r.ci05[i], r.ci95[i]},
+                          Range{r.pi05[i], r.pi95[i]}});
+  }
+  return table;
+}
+
+Table coverage_table(const CoverageTable& coverage) {
+  const std::string& unit = coverage.unit;
+  Table table{"coverage",
+              "Every test, and the life that the fit predicts of it",
+              {{"Row", "1", given},
+               {"Type"},
+               {"Outcome"},
+               {"Life", unit},
+               {"Until", unit},
+               {"Share below", "%", digits(3)},
+               interval_column("90 % predictive interval", unit),
+               {"B10", unit},
+               {"Where it lies"}}};
+  for (const CoverageRow& row : coverage.rows) {
+    const char* place = !row.failed()     ? ""
+                        : row.below_b10() ? row.inside() ? "below B10" : "below B10, outside"
+                        : row.inside()    ? "inside"
+                                          : "outside";
+    table.rows.push_back({count(row.row), row.label, row.outcome, row.life,
+                          row.until ? Cell(*row.until) : Cell(), 100 * row.probability,
+                          Range{row.q05, row.q95}, row.b10, place});
+  }
+  return table;
+}
+
+Table pointwise_table(const PointwiseTable& p) {
+  Table table{"pointwise",
+              "Wear coefficient of each measurement for itself",
+              {{"cycles", "1", given},
+               {"F", p.force_unit},
+               {"s", p.slip_unit},
+               {"V", p.volume_unit},
+               {"k = V/(F s)", p.k_unit}}};
+  for (const PointwiseRow& row : p.rows)
+    table.rows.push_back({row.cycles, row.force, row.slip, row.volume, row.k});
+  return table;
+}
+
+Table loo_table(const LooSummary& summary) {
+  const Loo& loo = summary.loo;
+  Table table{"loo",
+              fmt::format("How well each {} is predicted from all others", summary.observation),
+              {{html::capital(summary.observation), "1", given},
+               {"Alike", "1", given},
+               {"Log density", "1", fixed(3)},
+               {"Log density with itself", "1", fixed(3)},
+               {"Pareto k", "1", fixed(2)},
+               {"Remark"}}};
+  for (std::size_t i = 0; i < loo.terms.size(); ++i) {
+    const LooTerm& term = loo.terms[i];
+    table.rows.push_back({count(i + 1), static_cast<double>(term.count), term.elpd, term.lpd,
+                          term.khat,
+                          term.refitted        ? "fitted anew"
+                          : loo.doubtful(term) ? "Pareto k too large"
+                                               : ""});
+  }
+  return table;
+}
+
+Table draws_table(const std::vector<ParameterSummary>& parameters) {
+  Table table{"draws",
+              "Draws of each parameter",
+              {{"Parameter"},
+               {"R-hat", "1", fixed(4)},
+               {"Effective draws, centre", "1", fixed(0)},
+               {"Effective draws, tails", "1", fixed(0)}}};
+  for (const ParameterSummary& p : parameters)
+    table.rows.push_back({p.name, p.rhat, p.ess_bulk, p.ess_tail});
+  return table;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,44 @@
+#include "wearwell/study/result.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "wearwell/base/printable.h"
+#include "wearwell/present/page.h"
+#include "wearwell/study/header_json.h"
+#include "wearwell/study/trust_blocks.h"
+
+namespace wearwell {
+
+std::string Header::Data::names() const {
+  return fmt::format("{}", fmt::join(files, ", "));
+}
+
+nlohmann::ordered_json summary_json(const Result& result) {
+  nlohmann::ordered_json json = to_json(result.header);
+  json.update(result.body, true);
+  return json;
+}
+
+std::string terminal_text(const Result& result, const TerminalStyle& style) {
+  if (result.text) return result.text(style);
+  const Header& header = result.header;
+  std::string out = fmt::format("{}\n  {}\n  {}: {} data sets\n", printable(header.title),
+                                printable(header.equation),
+                                printable(header.data.names()),
+                                header.data.rows);
+  for (const present::Table* table : present::tables(result.sections)) {
+    if (table->id != "checks") out += "\n" + present::text(*table);
+  }
+  out += "\n" + present::text(checks_table(header.checks));
+  return out + (header.trusted ? "\nTrusted.\n" : "\nNot trusted: a check failed.\n");
+}
+
+std::string report_html(const Header& header, const std::vector<present::Section>& sections) {
+  return html_page({header.version, header.title,
+                    fmt::format("{}, {} data sets of {}", header.model, header.data.rows,
+                                header.data.names()),
+                    sections});
+}
+
+}  // namespace wearwell

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "wearwell/infer/check.h"
+#include "wearwell/present/section.h"
+#include "wearwell/present/terminal_style.h"
+
+namespace wearwell {
+
+/// Grows when a name of summary.json changes its meaning or goes.
+inline constexpr int summary_schema = 1;
+
+/// What every summary.json begins with, whatever the model.
+struct Header {
+  std::string version = {};  ///< of wearwell
+  int schema = summary_schema;
+  std::string title = {}, model = {}, equation = {};
+  struct Data {
+    std::vector<std::string> files = {};  ///< as the study names them
+    std::size_t rows = 0;                 ///< data sets
+    std::string fingerprint = {};  ///< of what was observed: equal for the same data
+
+    std::string names() const;  ///< "a.csv, b.csv"
+  } data = {};
+  std::uint64_t seed = 0;
+  bool trusted = true;  ///< no check failed
+  std::vector<Check> checks = {};
+};
+
+/// What a study found: summary.json, the report, its tables and the terminal are views of it.
+struct Result {
+  Header header;
+  nlohmann::ordered_json body = {};  ///< of summary.json, after the header
+  std::vector<present::Section> sections = {};  ///< of the report; none where none was asked for
+  /// Other files of the result folder: name and content.
+  std::vector<std::pair<std::string, std::string>> files = {};
+  /// For a terminal; ends with a newline. Where it is empty, the tables of the sections are shown.
+  std::function<std::string(const TerminalStyle&)> text = {};
+};
+
+/// summary.json.
+nlohmann::ordered_json summary_json(const Result& result);
+
+/// The result for people, ending with a newline.
+std::string terminal_text(const Result& result, const TerminalStyle& style);
+
+/// report.html.
+std::string report_html(const Header& header, const std::vector<present::Section>& sections);
+
+}  // namespace wearwell

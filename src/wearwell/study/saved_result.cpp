@@ -1,0 +1,196 @@
+#include "wearwell/study/saved_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "wearwell/base/error.h"
+#include "wearwell/input/csv_reader.h"
+#include "wearwell/input/json_reader.h"
+#include "wearwell/present/section_json.h"
+#include "wearwell/study/header_json.h"
+#include "wearwell/study/long_tables.h"
+
+namespace wearwell {
+namespace {
+
+// What was not finite is null: a moment that does not exist, or a limit that is never reached.
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr int most = std::numeric_limits<int>::max();
+constexpr int most_chains = 1000;
+
+double number(const JsonReader& json, const char* key, double null = unknown) {
+  return json.at(key).number_or(null);
+}
+
+std::string text(const JsonReader& json, const char* key) {
+  return json.at(key).text();
+}
+
+int count(const JsonReader& json, const char* key) {
+  return static_cast<int>(json.at(key).integer(0, most));
+}
+
+ParameterSummary read_parameter(const std::string& name, const JsonReader& json) {
+  ParameterSummary p{name,
+                     text(json, "unit"),
+                     number(json, "mean"),
+                     number(json, "sd"),
+                     number(json, "mcse"),
+                     number(json, "q05"),
+                     number(json, "q50"),
+                     number(json, "q95"),
+                     number(json, "ess_bulk"),
+                     number(json, "ess_tail"),
+                     number(json, "rhat"),
+                     {}};
+  if (const auto exact = json.find("exact")) {
+    p.exact = {number(*exact, "mean"), number(*exact, "sd"), number(*exact, "q05"),
+               number(*exact, "q50"), number(*exact, "q95")};
+  }
+  return p;
+}
+
+std::vector<ParameterSummary> read_parameters(const JsonReader& json) {
+  std::vector<ParameterSummary> parameters;
+  for (const auto& [name, each] : json.members()) parameters.push_back(read_parameter(name, each));
+  if (parameters.empty()) json.fail("is empty: a study has at least one parameter");
+  return parameters;
+}
+
+ProfileSummary read_profile(const JsonReader& json) {
+  const auto why = [&](const char* key) {
+    const auto word = json.find(key);
+    return word ? word->text() : std::string();
+  };
+  return {number(json, "level"), number(json, "lower"), number(json, "upper"), why("lower_open"),
+          why("upper_open")};
+}
+
+ModeSummary read_mode(const JsonReader& json) {
+  ModeSummary mode;
+  if (const auto problem = json.find("problem")) {
+    mode.problem = problem->text();
+    if (mode.problem.empty()) problem->fail("is empty");
+    return mode;
+  }
+  for (const auto& [name, each] : json.at("parameters").members()) {
+    mode.parameters.push_back({name, text(each, "unit"), number(each, "value"),
+                               number(each, "standard_error"),
+                               each.at("at").one_of({"inside", "lower bound", "upper bound"})});
+    if (const auto profile = each.find("profile"))
+      mode.parameters.back().profile = read_profile(*profile);
+  }
+  if (const auto quantities = json.find("quantities")) {
+    for (const JsonReader& each : quantities->items()) {
+      mode.quantities.push_back({text(each, "name"), text(each, "of"), text(each, "at"),
+                                 text(each, "unit"), number(each, "value"),
+                                 read_profile(each.at("profile"))});
+    }
+  }
+  mode.log_likelihood = number(json, "log_likelihood");
+  mode.log_posterior = number(json, "log_posterior");
+  mode.maximum_likelihood = json.at("maximum_likelihood").flag();
+  mode.aic = number(json, "aic");
+  mode.bic = number(json, "bic");
+  mode.observations = static_cast<double>(json.at("observations").integer(0));
+  mode.starts = count(json, "starts");
+  mode.reached = count(json, "reached");
+  return mode;
+}
+
+LooSummary read_loo(const JsonReader& json, const std::filesystem::path& folder) {
+  LooSummary summary{text(json, "observation"), {}};
+  summary.loo.threshold = number(json, "khat_threshold");
+  if (json.find("error")) summary.loo.error = number(json, "error");
+  if (const auto exact = json.find("by_quadrature")) summary.loo.by_quadrature = exact->flag();
+  if (json.find("table")) {
+    summary.loo.terms = read_loo_table(folder);
+  } else {
+    for (const JsonReader& each : json.at("pointwise").items()) {
+      LooTerm term{number(each, "elpd"), number(each, "lpd"), number(each, "khat", never)};
+      if (const auto alike = each.find("count")) {
+        term.count = static_cast<int>(alike->integer(1, most));
+      }
+      term.refitted = each.find("refitted").has_value();
+      if (const auto tail = each.find("tail")) term.tail = tail->number();
+      summary.loo.terms.push_back(term);
+    }
+  }
+  if (summary.loo.terms.empty()) json.fail("is of no observation");
+  return summary;
+}
+
+// The parameters stand in the last columns, in their order.
+std::size_t first_parameter(const CsvReader& csv, const std::filesystem::path& file,
+                            const std::vector<ParameterSummary>& parameters) {
+  const std::vector<std::string>& names = csv.heading();
+  const bool fit = names.size() > parameters.size() &&
+                   std::equal(parameters.rbegin(), parameters.rend(), names.rbegin(),
+                              [](const auto& p, const auto& name) { return p.name == name; });
+  if (!fit) {
+    throw InputError(fmt::format("{}: its last columns are not the {} parameters of summary.json",
+                                 file.string(), parameters.size()));
+  }
+  return names.size() - parameters.size();
+}
+
+// One chain: a line of names, lines of numbers, comments anywhere.
+Chain read_chain(const std::filesystem::path& file,
+                 const std::vector<ParameterSummary>& parameters) {
+  CsvReader csv(file, "draw", "numbers");
+  const std::vector<std::string>& names = csv.heading();
+  const std::size_t first = first_parameter(csv, file, parameters);
+  const auto found = std::find(names.begin(), names.end(), "divergent__");
+  const auto divergent = static_cast<std::size_t>(found - names.begin());
+  Chain chain;
+  std::vector<double> values;
+  while (csv.next()) {
+    for (std::size_t c = first; c < names.size(); ++c) values.push_back(csv.number(c));
+    if (found == names.end()) continue;
+    NutsStep step{};
+    step.divergent = csv.flag(divergent);
+    chain.nuts.push_back(step);
+  }
+  if (values.empty()) throw InputError(fmt::format("{} holds no draws", file.string()));
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto columns = static_cast<Eigen::Index>(parameters.size());
+  chain.values = Eigen::Map<const RowMajor>(values.data(), std::ssize(values) / columns, columns);
+  return chain;
+}
+
+}  // namespace
+
+SavedResult read_saved_result(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "summary.json";
+  const auto summary = read_json(file);
+  const JsonReader json(summary, file);
+  SavedResult result{read_header(json)};
+  if (const auto parameters = json.find("parameters"))
+    result.parameters = read_parameters(*parameters);
+  if (const auto mode = json.find("mode")) result.mode = read_mode(*mode);
+  if (const auto loo = json.find("loo")) result.loo = read_loo(*loo, folder);
+  if (const auto sampler = json.find("sampler")) {
+    const long long chains = sampler->at("chains").integer(1, most_chains);
+    for (long long c = 1; c <= chains; ++c)
+      result.draws.push_back(read_chain(folder / fmt::format("draws_{}.csv", c), result.parameters));
+  }
+  return result;
+}
+
+SavedReport read_saved_report(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "summary.json", report = folder / "report.json";
+  const auto summary = read_json(file);
+  SavedReport saved{read_header(JsonReader(summary, file)), {}};
+  if (!std::filesystem::exists(report)) {
+    throw InputError(fmt::format(
+        "{} is missing: the study was fitted with --no-report; fit it again", report.string()));
+  }
+  const auto sections = read_json(report);
+  saved.sections = present::sections_from_json(JsonReader(sections, report));
+  return saved;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "wearwell/bayes/draws.h"
+#include "wearwell/present/section.h"
+#include "wearwell/study/posterior_summary.h"
+#include "wearwell/study/result.h"
+
+namespace wearwell {
+
+/// What a result folder tells of a fit, to be compared with others.
+struct SavedResult {
+  Header header = {};
+  std::vector<ParameterSummary> parameters = {};
+  std::optional<ModeSummary> mode = {};
+  std::optional<LooSummary> loo = {};
+  Draws draws = {};  ///< in the parameters' units; none where the fit drew none
+};
+
+/// Reads summary.json, loo.csv where that names it, and draws_1.csv, draws_2.csv, ...: the parameters
+/// and which draws were divergent. Throws InputError naming the file and key that is missing or is
+/// not what wearwell writes.
+SavedResult read_saved_result(const std::filesystem::path& folder);
+
+/// What a report is made of, as report.json keeps it.
+struct SavedReport {
+  Header header;
+  std::vector<present::Section> sections;
+};
+SavedReport read_saved_report(const std::filesystem::path& folder);
+
+}  // namespace wearwell

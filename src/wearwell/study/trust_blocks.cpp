@@ -1,0 +1,56 @@
+#include "wearwell/study/trust_blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wearwell {
+
+const char* verdict_kind(Verdict verdict) {
+  static constexpr const char* kinds[] = {"pass", "warn", "fail"};
+  return kinds[static_cast<int>(verdict)];
+}
+
+std::string names_of(const std::vector<Check>& checks, Verdict verdict) {
+  std::string names;
+  for (const Check& check : checks) {
+    if (check.verdict == verdict) names += (names.empty() ? "" : ", ") + check.name;
+  }
+  return names;
+}
+
+present::Callout trust_callout(const std::vector<Check>& checks) {
+  Verdict worst = Verdict::pass;
+  for (const Check& check : checks) worst = std::max(worst, check.verdict);
+  if (worst == Verdict::pass)
+    return {"pass", "Trusted.", fmt::format("All {} checks passed.", checks.size())};
+  const std::string names = names_of(checks, worst);
+  if (worst == Verdict::warn) {
+    return {"warn", "Trusted, with a warning.",
+            fmt::format("No check failed; look at {}.", names)};
+  }
+  std::string advice;
+  for (const Check& check : checks) {
+    if (check.verdict == Verdict::fail && !check.advice.empty()) advice += " " + check.advice;
+  }
+  return {"fail", "Not trusted.",
+          fmt::format("Do not use these numbers as they stand: {} failed.{}", names, advice)};
+}
+
+present::Table checks_table(const std::vector<Check>& checks) {
+  static constexpr const char* words[] = {"Passed", "Warning", "Failed"};
+  present::Table table{"checks",
+                       "Checks",
+                       {{"Check"}, {"Verdict"}, {"What was found"}, {"What to do"}},
+                       {},
+                       true};
+  for (const Check& check : checks) {
+    table.rows.push_back(
+        {check.name,
+         present::Badge{verdict_kind(check.verdict), words[static_cast<int>(check.verdict)]},
+         check.detail, check.advice});
+  }
+  return table;
+}
+
+}  // namespace wearwell

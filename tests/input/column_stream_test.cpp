@@ -1,0 +1,79 @@
+#include "wearwell/input/column_stream.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
+#include "wearwell/input/table.h"
+
+namespace wearwell {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ColumnStreamTest : public ScratchTest {
+ protected:
+  /// Everything that comes, column by column.
+  static std::vector<std::vector<double>> read(const std::filesystem::path& file,
+                                               const std::vector<std::string>& columns) {
+    ColumnStream stream(file);
+    stream.select(columns);
+    std::vector<std::vector<double>> all(columns.size());
+    ColumnStream::Batch batch;
+    while (stream.next(batch)) {
+      EXPECT_EQ(batch.first_row, all[0].size());
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        EXPECT_EQ(batch.columns[c].size(), batch.rows);
+        all[c].insert(all[c].end(), batch.columns[c].begin(), batch.columns[c].end());
+      }
+    }
+    return all;
+  }
+};
+
+TEST_F(ColumnStreamTest, ReadsAllRowsInOrder) {
+  std::string content = "i,v,note\n";
+  constexpr int rows = 100'000;
+  for (int i = 0; i < rows; ++i) content += fmt::format("{},{},x\n", i, i * 0.5);
+  const auto all = read(write("a.csv", content), {"v", "i"});
+  ASSERT_EQ(all[0].size(), static_cast<std::size_t>(rows));
+  for (std::size_t i = 0; i < rows; ++i) {
+    ASSERT_EQ(all[1][i], static_cast<double>(i));
+    ASSERT_EQ(all[0][i], 0.5 * static_cast<double>(i));
+  }
+}
+
+TEST_F(ColumnStreamTest, ReadsParquetAndHeadings) {
+  const std::filesystem::path file = PROJECT_SOURCE_DIR "/tests/table/two_columns.parquet";
+  EXPECT_THAT(ColumnStream(file).headings(), ElementsAre("x", "y"));
+  EXPECT_THAT(read(file, {"y"})[0], ElementsAre(2.5, 4.5));
+}
+
+TEST_F(ColumnStreamTest, MissingValuesAreNaN) {
+  const auto v = read(write("a.csv", "i,v\n1,2\n2,\n3,4\n"), {"v"})[0];
+  ASSERT_EQ(v.size(), 3u);
+  EXPECT_EQ(v[0], 2);
+  EXPECT_TRUE(std::isnan(v[1]));
+}
+
+TEST_F(ColumnStreamTest, RefusesByName) {
+  const auto refused = [&](const std::filesystem::path& file, const char* column) {
+    return message_of<InputError>([&] { read(file, {column}); });
+  };
+  EXPECT_THAT(refused(folder() / "none.csv", "v"), HasSubstr("no such file"));
+  EXPECT_THAT(refused(write("e.csv", ""), "v"), HasSubstr("is empty"));
+  EXPECT_THAT(refused(write("h.csv", "v\n"), "v"), HasSubstr("h.csv has no rows"));
+  EXPECT_THAT(refused(write("t.csv", "v\none\ntwo\n"), "v"),
+              HasSubstr("column 'v' does not hold numbers"));
+  // Far down, after the type of the column was guessed.
+  std::string content = "v\n";
+  for (int i = 0; i < 60'000; ++i) content += "1.5\n";
+  EXPECT_THAT(refused(write("late.csv", content + "oops\n2\n"), "v"), HasSubstr("60002"));
+}
+
+}  // namespace
+}  // namespace wearwell

@@ -1,0 +1,70 @@
+#include "wearwell/models/bearing/depth_law.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+
+#include "support/between.h"
+#include "wearwell/models/bearing/wear_number.h"
+
+namespace wearwell::bearing {
+namespace {
+
+constexpr Contact contacts[] = {Contact::stationary, Contact::journal, Contact::bushing};
+
+// At 1 MPa and 1e5 revolutions; k moves the wear number.
+Duty duty(Contact contact, double sigma) {
+  return {contact, 0.01, sigma * 0.01, 1e6, 1e5};
+}
+
+RC_GTEST_PROP(DepthLaw, IsTheInverseGeometry, ()) {
+  const Contact contact = contacts[*rc::gen::inRange(0, 3)];
+  const double sigma = *between(1e-5, 0.1), k = *between(1e-17, 5e-13);
+  const double off = *between(0.01, 100);  // inside the table, near its ends, and outside
+  const DepthLaw law = depth_laws({duty(contact, sigma)}, k).front();
+  for (const double rate : {k, k * off, k * off * 1e-3}) {
+    const double w = rate * 1e11;
+    if (std::log(rate) > law.limit()) continue;
+    const double expected = 0.01 * depth_for(contact, sigma, w);
+    RC_ASSERT(std::abs(law.depth(std::log(rate)) / expected - 1) < (w < 0.1 ? 1e-9 : 1e-6));
+  }
+}
+
+// By a central difference of the exact inverse.
+RC_GTEST_PROP(DepthLaw, SlopeIsTheDerivative, ()) {
+  const Contact contact = contacts[*rc::gen::inRange(0, 3)];
+  const double sigma = *between(1e-5, 0.1), k = *between(1e-16, 1e-12);
+  const DepthLaw law = depth_laws({duty(contact, sigma)}, k).front();
+  const double log_k = std::log(k), h = 1e-4;
+  const double expected = 0.01 *
+                          (depth_for(contact, sigma, k * 1e11 * std::exp(h)) -
+                           depth_for(contact, sigma, k * 1e11 * std::exp(-h))) /
+                          (2 * h);
+  const Dual<2> depth = law.depth(Dual<2>(log_k, 1));
+  RC_ASSERT(depth.v[0] == 0);
+  RC_ASSERT(std::abs(depth.v[1] / expected - 1) < 1e-6);
+  RC_ASSERT(depth.a == law.depth(log_k));
+}
+
+TEST(DepthLaw, EndsWhereTheGeometryDoes) {
+  const DepthLaw stationary = depth_laws({duty(Contact::stationary, 0.001)}, 1e-13).front();
+  EXPECT_NEAR(std::exp(stationary.limit()) * 1e11, 0.25, 1e-4);
+  EXPECT_LT(stationary.depth(stationary.limit()), 2 * 0.01);
+  const DepthLaw journal = depth_laws({duty(Contact::journal, 0.001)}, 1e-13).front();
+  EXPECT_NEAR(std::exp(journal.limit()) * 1e11, 0.75, 1e-4);
+  EXPECT_EQ(stationary.depth(-1000), 0) << "a wear number below any double";
+}
+
+TEST(DepthLaw, SharesACurveBetweenDutiesOfOneGeometry) {
+  Duty a = duty(Contact::stationary, 0.001), b = a, c = duty(Contact::journal, 0.001);
+  b.revolutions = 3e5;
+  const auto laws = depth_laws({a, b, c}, 1e-15);
+  EXPECT_EQ(laws[0].curve, laws[1].curve);
+  EXPECT_NE(laws[0].curve, laws[2].curve);
+  EXPECT_NEAR(laws[1].depth(std::log(1e-15)), 0.01 * depth_for(Contact::stationary, 0.001, 3e-4),
+              1e-12);
+}
+
+}  // namespace
+}  // namespace wearwell::bearing

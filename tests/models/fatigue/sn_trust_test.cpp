@@ -1,0 +1,107 @@
+// What the checks say of S-N studies whose priors leave the posterior open.
+#include <gmock/gmock.h>
+
+#include "support/posterior_study.h"
+#include "support/scratch.h"
+#include "wearwell/study/run_study.h"
+
+namespace wearwell {
+namespace {
+
+using testing::HasSubstr;
+
+// All nine tests of Heo et al. (2011).
+constexpr const char* data = R"(type,mean,alternating,life
+A,1005.5,271.1,0.700
+B,1049.0,279.8,1.153
+C,1025.8,285.9,0.855
+D,1048.7,276.8,0.820
+E,1070.4,265.4,1.020
+F,1116.5,242.0,0.849
+G,1150.7,259.7,1.279
+G,1150.7,259.7,1.153
+G,1150.7,259.7,1.172
+)";
+
+class SnTrust : public ScratchTest {
+ protected:
+  PosteriorSummary run(const std::string& family, const std::string& prior) {
+    write("lives.csv", data);
+    const auto study = write("study.toml", R"(
+model = "sn"
+[data]
+file = "lives.csv"
+[data.columns]
+label              = "type"
+mean_stress        = { column = "mean", unit = "MPa" }
+alternating_stress = { column = "alternating", unit = "MPa" }
+life               = { column = "life", unit = "1e5" }
+[law]
+mean_stress = "goodman"
+[likelihood]
+family = ")" + family + "\"\n[prior]\n" + prior);
+    return run_study(read_posterior_study(study), {}, {.threads = 2});
+  }
+};
+
+Check check(const PosteriorSummary& result, const std::string& name) {
+  for (const Check& each : result.checks) {
+    if (each.name == name) return each;
+  }
+  ADD_FAILURE() << "no check " << name;
+  return {};
+}
+
+// The paper's likelihood as printed: normal on the life itself. As a falls the predicted life goes
+// to zero and the likelihood stops falling, at any sigma that is allowed.
+TEST_F(SnTrust, NormalScatterOfLifeAsPrintedIsImproperUnderFlatPriors) {
+  const PosteriorSummary bounded_sigma = run("normal", R"toml(
+log10_a   = { law = "flat", unit = "log10(MPa)" }
+b         = { law = "uniform", lower = -0.1, upper = -0.06 }
+log10_Sut = { law = "uniform", lower = "3.1 log10(MPa)", upper = "5.2 log10(MPa)" }
+sigma     = { law = "uniform", lower = "0.01e5", upper = "6e5" }
+)toml");
+  const Check improper = check(bounded_sigma, "proper-posterior");
+  EXPECT_EQ(improper.verdict, Verdict::fail);
+  EXPECT_THAT(improper.detail, HasSubstr("the posterior is improper: log10_a towards minus "
+                                         "infinity"));
+  EXPECT_THAT(improper.detail, HasSubstr("which has no finite integral; every number depends on "
+                                         "where it was cut"));
+  EXPECT_THAT(improper.advice, HasSubstr("Bound log10_a or give it a proper prior"));
+  EXPECT_FALSE(bounded_sigma.trusted);
+  EXPECT_FALSE(bounded_sigma.loo);
+
+  const PosteriorSummary all_flat = run("normal", R"toml(
+log10_a   = { law = "flat", unit = "log10(MPa)" }
+b         = { law = "flat" }
+log10_Sut = { law = "flat", lower = "3.1 log10(MPa)", unit = "log10(MPa)" }
+sigma     = { law = "flat" }
+)toml");
+  EXPECT_EQ(check(all_flat, "proper-posterior").verdict, Verdict::fail);
+  EXPECT_THAT(check(all_flat, "proper-posterior").detail, HasSubstr("improper"));
+  EXPECT_FALSE(all_flat.trusted);
+}
+
+// Doubling the bound of S_ut is examined, not given up: the wider posterior starts far from its
+// mode, where a search along the gradient fails.
+TEST_F(SnTrust, TheCutOfEveryBoundIsExamined) {
+  const PosteriorSummary result = run("log10-normal", R"toml(
+log10_a   = { law = "uniform", lower = "2 log10(MPa)", upper = "4 log10(MPa)" }
+b         = { law = "uniform", lower = -0.1, upper = -0.06 }
+log10_Sut = { law = "uniform", lower = "3.1 log10(MPa)", upper = "5.2 log10(MPa)" }
+sigma     = { law = "uniform", lower = 0.01, upper = 0.6 }
+)toml");
+  const Check cut = check(result, "prior-cut");
+  EXPECT_EQ(cut.verdict, Verdict::warn);
+  EXPECT_THAT(cut.detail, HasSubstr("with the bounds of log10_Sut at twice the distance from its mean, the mean "
+                                    "of log10_Sut goes from 4.145"));
+  EXPECT_THAT(cut.detail, testing::Not(HasSubstr("cannot be integrated")));
+  ASSERT_TRUE(result.mode);
+  EXPECT_EQ(result.mode->parameters[1].at, "lower bound");
+  EXPECT_EQ(result.mode->parameters[1].value, -0.1);
+  EXPECT_TRUE(result.mode->maximum_likelihood);
+  EXPECT_EQ(result.mode->observations, 9);
+}
+
+}  // namespace
+}  // namespace wearwell

@@ -1,0 +1,65 @@
+#include "wearwell/present/plot.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+namespace wearwell::plot {
+namespace {
+
+using testing::ElementsAre;
+
+TEST(Plot, HoldsItsOwnData) {
+  const Json spec = plot("Wear", {"Cycles"}, {"Volume"},
+                         {line({{"x", {1, 2}}, {"y", {0.123456789, NAN}}}, {"#123456"})});
+  const Json& layer = spec["layer"][0];
+  EXPECT_EQ(layer["data"]["values"], "x,y\n1,0.123457\n2,");
+  EXPECT_EQ(layer["data"]["format"]["type"], "csv");
+  EXPECT_EQ(layer["encoding"]["x"]["title"], "Cycles");
+  EXPECT_EQ(layer["encoding"]["y"]["title"], "Volume");
+  EXPECT_EQ(layer["mark"]["stroke"], "#123456");
+  EXPECT_EQ(spec["description"], "Wear");
+  EXPECT_EQ(Json::parse(spec.dump()), spec);
+}
+
+// A comma in a name would make two columns of it; a point or brackets, a part of something.
+TEST(Plot, AnyNameIsOneColumn) {
+  const Json spec = plot("", {"x"}, {"y"},
+                         {line({{"x", {1}}, {"y", {2}}, {"N.m, \"[2]\u2028", {3}}}, {"#123456"})});
+  const Json& layer = spec["layer"][0];
+  EXPECT_EQ(layer["data"]["values"], "x,y,N m    2  u2028\n1,2,3");
+  EXPECT_EQ(layer["encoding"]["tooltip"][0]["field"], "N m    2  u2028");
+}
+
+TEST(Plot, OneLegendForAllMarks) {
+  const Json spec = plot("", {"x"}, {"y"},
+                         {area({{"x", {1}}, {"y", {2}}, {"y2", {1}}}, {"#aaaaaa", "band"}),
+                          line({{"x", {1}}, {"y", {2}}}, {"#bbbbbb"}),
+                          points({{"x", {1}}, {"y", {2}}}, {"#cccccc", "measured"}),
+                          points({{"x", {3}}, {"y", {2}}}, {"#cccccc", "measured"})});
+  for (const int i : {0, 2, 3}) {
+    const Json& scale = spec["layer"][i]["encoding"]["color"]["scale"];
+    EXPECT_THAT(scale["domain"], ElementsAre("band", "measured"));
+    EXPECT_THAT(scale["range"], ElementsAre("#aaaaaa", "#cccccc"));
+  }
+  EXPECT_FALSE(spec["layer"][1]["encoding"].contains("color"));
+}
+
+TEST(Plot, NamesStandAtOneTwoThree) {
+  const Json spec = plot("", {"Data sets", false, {}, {}, {"first", "\"second\""}}, {"y"},
+                         {bars({{"x", {1, 2}}, {"y", {0, 0}}, {"y2", {1, 1}}}, {"#aaaaaa"})});
+  const Json& x = spec["layer"][0]["encoding"]["x"];
+  EXPECT_THAT(x["axis"]["values"], ElementsAre(1, 2));
+  EXPECT_EQ(x["axis"]["labelExpr"], R"(["first","\"second\""][datum.value - 1])");
+  EXPECT_THAT(x["scale"]["domain"], ElementsAre(0.5, 2.5));
+}
+
+TEST(Plot, LinesAcrossHaveOneCoordinate) {
+  const Json spec = plot("", {"x"}, {"y"}, {upright(5, {"#aaaaaa"}), level(7, {"#aaaaaa"})});
+  EXPECT_FALSE(spec["layer"][0]["encoding"].contains("y"));
+  EXPECT_FALSE(spec["layer"][1]["encoding"].contains("x"));
+  EXPECT_EQ(spec["layer"][1]["data"]["values"], "y\n7");
+}
+
+}  // namespace
+}  // namespace wearwell::plot

@@ -1,0 +1,133 @@
+#include "wearwell/study/comparison.h"
+
+#include <gmock/gmock.h>
+
+#include "study/sample.h"
+#include "support/run_command.h"
+#include "support/scratch.h"
+
+namespace wearwell {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+SavedResult sample(std::vector<LooTerm> terms, const std::string& fingerprint = "da39a3ee") {
+  PosteriorSummary result = sample_result();
+  result.trusted = true;
+  result.data_fingerprint = fingerprint;
+  result.loo->loo.terms = std::move(terms);
+  return saved(result);
+}
+
+std::vector<std::string> names(const Comparison& comparison) {
+  std::vector<std::string> all;
+  for (const auto& each : comparison.studies) all.push_back(each.name);
+  return all;
+}
+
+// Differences 1 and 3 of the worse: sum 4, and sqrt(2) times their standard deviation sqrt(2).
+TEST(Comparison, RanksByElpd) {
+  const Comparison comparison = compare({{"worse", sample({{-3, 0, 0.1}, {-5, 0, 0.1}})},
+                                         {"better", sample({{-2, 0, 0.1}, {-2, 0, 0.1}})}});
+  EXPECT_TRUE(comparison.comparable);
+  EXPECT_THAT(names(comparison), ElementsAre("better", "worse"));
+  EXPECT_EQ(comparison.studies[0].behind->value, 0);
+  EXPECT_DOUBLE_EQ(comparison.studies[1].behind->value, 4);
+  EXPECT_DOUBLE_EQ(comparison.studies[1].behind->se, 2);
+  const auto json = to_json(comparison);
+  EXPECT_EQ(json["studies"][1]["behind"]["elpd"].get<double>(), 4);
+  EXPECT_EQ(json["studies"][1]["mode"]["bic"].get<double>(), 44.25);
+  EXPECT_EQ(json["studies"][0]["parameters"]["k"]["mean"].get<double>(), 7.51e-4);
+  const std::string text = comparison_text(comparison);
+  EXPECT_THAT(text, HasSubstr("better"));
+  EXPECT_THAT(text, HasSubstr("0.000751 +- 1.1e-05"));
+  EXPECT_THAT(text, HasSubstr("AIC and BIC of worse are at the mode"));
+  EXPECT_THAT(text, HasSubstr("From 2 observations"));
+}
+
+// Differences within twice the errors of both are not known: those studies stay as given.
+TEST(Comparison, NeverRanksWithinTheError) {
+  const auto with = [](double elpd, double error) {
+    SavedResult result = sample({{elpd, 0, 0.1}, {elpd, 0, 0.1}});
+    result.loo->loo.error = error;
+    return result;
+  };
+  const Comparison near = compare(
+      {{"worst", with(-9, 0.1)}, {"first", with(-2.05, 0.1)}, {"second", with(-2, 0.1)}});
+  EXPECT_THAT(names(near), ElementsAre("first", "second", "worst"));
+  EXPECT_THAT(comparison_text(near), HasSubstr("The order of first, second is not known"));
+  EXPECT_NEAR(near.studies[0].behind->value, 0.1, 1e-12);
+  EXPECT_EQ(near.studies[1].behind->value, 0);
+  const Comparison far =
+      compare({{"first", with(-2.05, 0.01)}, {"second", with(-2, 0.01)}});
+  EXPECT_THAT(names(far), ElementsAre("second", "first"));
+  EXPECT_THAT(comparison_text(far), Not(HasSubstr("is not known")));
+}
+
+TEST(Comparison, NeverRanksDifferentData) {
+  const Comparison comparison =
+      compare({{"one", sample({{-3, 0, 0.1}})}, {"other", sample({{-2, 0, 0.1}}, "b6589fc6")}});
+  EXPECT_FALSE(comparison.comparable);
+  EXPECT_THAT(names(comparison), ElementsAre("one", "other"));
+  EXPECT_THAT(comparison.obstacle, HasSubstr("one and other are of different data"));
+  EXPECT_THAT(comparison_text(comparison), Not(HasSubstr("elpd  ")));
+  EXPECT_FALSE(to_json(comparison)["studies"][1].contains("behind"));
+  const std::string page = comparison_page(comparison);
+  EXPECT_THAT(page, HasSubstr("Not ranked."));
+  EXPECT_THAT(page, HasSubstr("Histograms of k in each study"));
+}
+
+TEST(Comparison, NeverRanksDifferentObservationsOfTheSameData) {
+  SavedResult bearings = sample({{-3, 0, 0.1}});
+  bearings.loo->observation = "bearing";
+  EXPECT_THAT(compare({{"a", sample({{-3, 0, 0.1}, {-1, 0, 0.1}})}, {"b", bearings}}).obstacle,
+              HasSubstr("a leaves out one row at a time, b one bearing"));
+  SavedResult improper = sample({});
+  improper.loo.reset();
+  EXPECT_THAT(compare({{"a", sample({{-3, 0, 0.1}})}, {"b", improper}}).obstacle,
+              HasSubstr("b has no leave-one-out prediction"));
+}
+
+TEST(Comparison, NamesDoubtAndDistrust) {
+  SavedResult bad = sample({{-3, 0, 0.9}});
+  bad.header.trusted = false;
+  const Comparison comparison = compare({{"good", sample({{-2, 0, 0.1}})}, {"bad", bad}});
+  const std::string text = comparison_text(comparison);
+  EXPECT_THAT(text, HasSubstr("bad is not trusted"));
+  EXPECT_THAT(text, HasSubstr("elpd of bad is in doubt: Pareto k above 0.70 for 1 of 1"));
+}
+
+TEST(Comparison, NamesAreTextAndNotMarkup) {
+  const std::string evil = "</script><img src=x onerror=alert(1)>";
+  const std::string page =
+      comparison_page(compare({{evil, sample({{-3, 0, 0.1}})}, {"b", sample({{-2, 0, 0.1}})}}));
+  EXPECT_THAT(page, Not(HasSubstr("<img src=x")));
+  EXPECT_THAT(page, HasSubstr("&lt;img src=x"));
+}
+
+class CompareCommand : public ScratchTest {};
+
+TEST_F(CompareCommand, OfTheJointStudies) {
+  const std::string examples = PROJECT_SOURCE_DIR "/examples/joint/";
+  const std::string one = (folder() / "normal").string(), two = (folder() / "tribometer").string(),
+                    page = (folder() / "page.html").string();
+  ASSERT_EQ(
+      run_wearwell("fit " + examples + "normal_flat.toml --quiet --no-report -o " + one).exit_code,
+      0);
+  run_wearwell("fit " + examples + "normal_tribometer.toml --quiet --no-report -o " + two);
+  const CommandResult run = run_wearwell("compare --json -o " + page + " " + two + " " + one);
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["comparable"], true) << run.out;
+  EXPECT_EQ(json["studies"].size(), 2u);
+  EXPECT_TRUE(std::filesystem::exists(page));
+  // The prior that contradicts the data fails a check, so the comparison is no clean one.
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_EQ(run_wearwell("compare " + one).exit_code, 2);
+  EXPECT_EQ(run_wearwell("compare " + one + " " + folder().string()).exit_code, 2);
+  EXPECT_EQ(run_wearwell("compare -o page.txt " + one + " " + two).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace wearwell
