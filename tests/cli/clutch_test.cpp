@@ -460,7 +460,13 @@ TEST_F(Clutch, FitRefusesStudiesByKey) {
               HasSubstr("none.csv"));
   EXPECT_THAT(in_shared("fit study.toml --seed 2 -o out").err,
               HasSubstr("a clutch study has its seeds in the study file"));
-  EXPECT_THAT(in_shared("report result").err, HasSubstr("fit it again"));
+}
+
+TEST_F(Clutch, ReportAndCompareTakeItAsAnyOther) {
+  EXPECT_EQ(in_shared("report result").exit_code, 0);
+  const CommandResult compare = in_shared("compare result result");
+  EXPECT_EQ(compare.exit_code, 0) << compare.err;
+  EXPECT_THAT(compare.out, AllOf(HasSubstr("w0 [mm^3/MJ]"), HasSubstr("elpd")));
 }
 
 TEST_F(Clutch, CheckAndNew) {

@@ -48,7 +48,7 @@ TEST_F(ColumnStreamTest, ReadsAllRowsInOrder) {
 }
 
 TEST_F(ColumnStreamTest, ReadsParquetAndHeadings) {
-  const std::filesystem::path file = PROJECT_SOURCE_DIR "/tests/table/two_columns.parquet";
+  const std::filesystem::path file = PROJECT_SOURCE_DIR "/tests/input/two_columns.parquet";
   EXPECT_THAT(ColumnStream(file).headings(), ElementsAre("x", "y"));
   EXPECT_THAT(read(file, {"y"})[0], ElementsAre(2.5, 4.5));
 }

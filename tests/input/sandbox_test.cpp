@@ -127,7 +127,7 @@ TEST_F(SandboxTest, ReadsExactlyTheNamedFile) {
   ASSERT_EQ(table.columns.size(), 2u);
   EXPECT_THAT(table.columns[0].numbers, ElementsAre(1));
 
-  fs::copy(PROJECT_SOURCE_DIR "/tests/table/two_columns.parquet",
+  fs::copy(PROJECT_SOURCE_DIR "/tests/input/two_columns.parquet",
            folder() / "x=3" / "a[0]*.parquet");
   ColumnStream stream(folder() / "x=3" / "a[0]*.parquet");
   EXPECT_THAT(stream.headings(), ElementsAre("x", "y"));

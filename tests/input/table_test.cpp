@@ -42,7 +42,7 @@ TEST_F(TableTest, ReadsTsvJsonAndParquetAlike) {
   const auto csv = write("a.csv", "x,y\n1,2.5\n3,4.5\n");
   const auto tsv = write("a.tsv", "x\ty\n1\t2.5\n3\t4.5\n");
   const auto json = write("a.json", R"([{"x": 1, "y": 2.5}, {"x": 3, "y": 4.5}])");
-  const std::filesystem::path parquet = PROJECT_SOURCE_DIR "/tests/table/two_columns.parquet";
+  const std::filesystem::path parquet = PROJECT_SOURCE_DIR "/tests/input/two_columns.parquet";
   for (const auto& file : {csv, tsv, json, parquet}) {
     const Table table = read_table(file);
     EXPECT_THAT(si_numbers(table, "x", Unit{}), ElementsAre(1, 3)) << file;

@@ -58,7 +58,7 @@ TEST(SectionJson, IsReadOrRefused) {
       ADD_FAILURE() << what << ": " << error.what();
     }
   });
-  EXPECT_GT(used, 50);
+  EXPECT_GT(used, 10);
   EXPECT_GT(refused, 50);
 }
 

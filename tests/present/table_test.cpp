@@ -30,7 +30,7 @@ TEST(Table, IsWrittenWithAllDigitsAndUnits) {
 
 TEST(Table, IsShownAsPeopleReadIt) {
   const Table table = sample();
-  EXPECT_EQ(in_words(table.rows[0][1], table.columns[1]), "21 583");
+  EXPECT_EQ(in_words(table.rows[0][1], table.columns[1]), "21 580");
   EXPECT_EQ(in_words(table.rows[1][1], table.columns[1]), "never");
   EXPECT_EQ(in_words(table.rows[0][2], table.columns[2]), "18 000 to 26 000");
   EXPECT_EQ(in_words(table.rows[1][2], table.columns[2]), "–");

@@ -37,6 +37,7 @@ PosteriorSummary result_of(Verdict verdict) {
   Chain chain;
   chain.values.resize(3, 1);
   chain.values << 7.4e-4, 7.5e-4, 7.6e-4;
+  chain.log_density = {-1, 0, -1};
   result.posterior_draws = {chain};
   Plots plots;
   plots.quantity = "worn volume";

@@ -133,7 +133,7 @@ TEST_F(Mutated, SummaryIsReadOrRefused) {
     expect_sane("json", what);
   });
   EXPECT_GT(used_, 300);
-  EXPECT_GT(refused_, 600);
+  EXPECT_GT(refused_, 500);
 }
 
 TEST_F(Mutated, ReportIsReadOrRefused) {

@@ -168,11 +168,12 @@ SavedResult read_saved_result(const std::filesystem::path& folder) {
   const auto summary = read_json(file);
   const JsonReader json(summary, file);
   SavedResult result{read_header(json)};
-  if (const auto parameters = json.find("parameters"))
-    result.parameters = read_parameters(*parameters);
+  const auto sampler = json.find("sampler");  // then there are draws, and of parameters
+  if (sampler || json.find("parameters"))
+    result.parameters = read_parameters(json.at("parameters"));
   if (const auto mode = json.find("mode")) result.mode = read_mode(*mode);
   if (const auto loo = json.find("loo")) result.loo = read_loo(*loo, folder);
-  if (const auto sampler = json.find("sampler")) {
+  if (sampler) {
     const long long chains = sampler->at("chains").integer(1, most_chains);
     for (long long c = 1; c <= chains; ++c)
       result.draws.push_back(read_chain(folder / fmt::format("draws_{}.csv", c), result.parameters));
