@@ -2,11 +2,26 @@
 
 #include <cmath>
 
+#include "wearwell/base/error.h"
 #include "wearwell/infer/box_integrator.h"
 #include "wearwell/infer/lattice.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
+
+namespace {
+
+constexpr int most_tries = 10'000;  // of a draw
+
+bool within(const Posterior& posterior, const Eigen::VectorXd& x) {
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Law& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
+    if (!(prior.lower < x[i] && x[i] < prior.upper)) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings) {
@@ -37,11 +52,17 @@ Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact,
     chain.values.resize(draws, posterior.dimension());
     for (int i = 0; i < draws; ++i) {
       Eigen::VectorXd x;
-      do {
+      double log_density = -INFINITY;
+      // Near an edge of the support a cell may reach beyond it.
+      for (int tried = 0; tried < most_tries && !std::isfinite(log_density); ++tried) {
         x = sample(rng);
-      } while (!std::isfinite(posterior.natural_value(view(x))));
+        if (within(posterior, x)) log_density = posterior.value(view(posterior.to_real(view(x))));
+      }
+      if (!std::isfinite(log_density)) {
+        throw MachineError("independent draws: the cells of the quadrature lie outside the support");
+      }
       chain.values.row(i) = x;
-      chain.log_density.push_back(posterior.value(view(posterior.to_real(view(x)))));
+      chain.log_density.push_back(log_density);
     }
     all.push_back(std::move(chain));
   }
