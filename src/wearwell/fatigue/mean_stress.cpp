@@ -50,7 +50,7 @@ double walker_at_mean(double reversed, double mean, double gamma) {
   constexpr int most_halvings = 2200;  // from the largest double to the smallest
   for (int i = 0; i < most_halvings && excess(low) > 0 && low > 0; ++i) low *= 0.5;
   const double other_end = mean > 0 ? 0 : -mean;
-  if (low == 0) return other_end;
+  if (low == 0 || low == high) return other_end + low;  // at an end, but for rounding
   if (!(excess(low) <= 0 && excess(high) >= 0)) return std::nan("");  // something is no number
   std::uintmax_t iterations = 200;
   const auto [left, right] = boost::math::tools::toms748_solve(
