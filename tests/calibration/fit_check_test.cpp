@@ -98,7 +98,7 @@ Replication joint_study(Rng& rng, int index, std::size_t n, double bend) {
 
 TEST(FitCheckCalibration, Joint) {
   for (const std::size_t n : {3u, 5u, 20u}) {
-    simulate(fmt::format("joint, {} inspections", n), 2000, 2,
+    simulate(fmt::format("joint, {} inspections", n), 600, 2,
              [n](Rng& rng, int i) { return joint_study(rng, i, n, 0); });
   }
 }
@@ -153,11 +153,11 @@ Replication bearing_study(Rng& rng, int index, std::size_t bearings, bool scatte
 }
 
 TEST(FitCheckCalibration, Bearing) {
-  simulate("bearing, gauge known, 3 inspections", 1000, 1,
+  simulate("bearing, gauge known, 3 inspections", 600, 1,
            [](Rng& rng, int i) { return bearing_study(rng, i, 1, false, true); });
-  simulate("bearing, scatter fitted, 12 inspections", 1000, 2,
+  simulate("bearing, scatter fitted, 12 inspections", 300, 2,
            [](Rng& rng, int i) { return bearing_study(rng, i, 4, false, false); });
-  simulate("five bearings that differ, gauge known", 400, 2,
+  simulate("five bearings that differ, gauge known", 100, 2,
            [](Rng& rng, int i) { return bearing_study(rng, i, 5, true, true); });
 }
 
@@ -200,10 +200,10 @@ Replication sn_study(Rng& rng, int index, const fatigue::SnLaw& law, int repetit
 TEST(FitCheckCalibration, SnWithRunOuts) {
   fatigue::SnLaw law;
   law.correction = fatigue::MeanStress::none;
-  simulate("S-N, 4 levels of 2 tests, log-normal", 1000, 3,
+  simulate("S-N, 4 levels of 2 tests, log-normal", 200, 3,
            [&](Rng& rng, int i) { return sn_study(rng, i, law, 2, INFINITY); });
   law.family = fatigue::LifeFamily::weibull;
-  simulate("S-N, 4 levels of 4 tests, Weibull, stopped at 1e6", 600, 3,
+  simulate("S-N, 4 levels of 4 tests, Weibull, stopped at 1e6", 100, 3,
            [&](Rng& rng, int i) { return sn_study(rng, i, law, 4, 1e6); });
 }
 

@@ -39,7 +39,9 @@ struct ExactPosterior {
 /// (lattice.h), fewer, or where that does not converge, by adaptive boxes. Works on the whitened real
 /// line, along the ridge where the posterior opens like a funnel or bends (ridge_map.h): boxes are
 /// halved along the axis that resolves worst until the estimated error of mass and second moments is
-/// below the tolerance, and the region grows where mass or second moments still lie at its edge. The
+/// below the tolerance, and the region grows where mass or second moments still lie at its edge. Boxes
+/// that share a face have to agree on the density there, and each that counts is inspected between its
+/// nodes: what is found raises the error. The
 /// outcome is held against what the walk along the ridge met: a higher density than that of any node,
 /// or another integral by Laplace's approximation by far, is a failure.
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,

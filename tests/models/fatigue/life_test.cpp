@@ -101,6 +101,20 @@ TEST(Life, AllowedStressLastsAsLongAsItShould) {
   }
 }
 
+// Draws of a posterior without end reach far; the search for a stress ends there too.
+TEST(Life, AllowedStressOfParametersWithoutEnd) {
+  SnLaw law;
+  law.correction = MeanStress::none;
+  law.limit = StandardLaw::normal;
+  for (const double a : {1e18, 400., -400., -1e18}) {
+    const double x[] = {a, -0.1, 0.3, 8.4, 0.05};
+    EXPECT_EQ(log10_reversed_allowed(law, x, 1e6, 0.9), std::copysign(INFINITY, a)) << a;
+  }
+  const double without_limit[] = {9.3, -0.1, 0.3, 1e18, 0.05}, nothing[] = {NAN, -0.1, 0.3, 8.4, 0.05};
+  EXPECT_EQ(log10_reversed_allowed(law, without_limit, 1e6, 0.9), INFINITY);
+  EXPECT_TRUE(std::isnan(log10_reversed_allowed(law, nothing, 1e6, 0.9)));
+}
+
 // A mixture by hand: half of the lives about 1e4, half about 1e6, or without end.
 TEST(MixedLife, ByHand) {
   MixedLife life(LifeFamily::log10_normal);

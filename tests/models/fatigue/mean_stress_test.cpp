@@ -60,5 +60,24 @@ TEST(MeanStress, Names) {
   EXPECT_FALSE(mean_stress_named("Goodman").has_value());
 }
 
+// Walker's law solved for the alternating stress gives it back, however little of a cycle is in tension
+// and however little the mean stress counts.
+TEST(MeanStress, WalkerIsUndone) {
+  for (const double gamma : {1e-6, 0.01, 0.5, 0.99, 1 - 1e-6}) {
+    for (const double mean : {-1e9, -1e6, -1., 1., 1e6, 1e9}) {
+      for (const double tension : {1e3, 1e6, 1e9}) {  // largest stress, of a compressive mean
+        const double alternating = mean > 0 ? tension : tension - mean;
+        const double log10_reversed =
+            std::log10(alternating) +
+            log10_factor(MeanStress::walker, Stress{alternating, mean}, 1.0, gamma);
+        const double back = alternating_stress(MeanStress::walker, std::pow(10, log10_reversed),
+                                               StressLine{mean, {}}, 1, gamma);
+        // What is left of the largest stress beside a large mean is lost in rounding where it hardly counts.
+        EXPECT_NEAR(back, alternating, 1e-7 * alternating) << gamma << ' ' << mean << ' ' << tension;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace wearwell::fatigue

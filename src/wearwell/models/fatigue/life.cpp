@@ -194,6 +194,9 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
       law.logarithmic() ? std::log10(life) - scatter : std::log10(life - scatter);
   const double unlimited = x[0] + x[1] * log10_life;
   if (!law.limit) return unlimited;
+  // Logarithms of stresses: beyond some hundred decades there is none.
+  if (std::isnan(unlimited)) return unlimited;
+  if (std::abs(unlimited) > most_decades) return std::copysign(infinity, unlimited);
   // The limit adds to what is borne: no less than without one, no more than with the limit of
   // nearly the toughest item on top.
   const auto excess = [&](double log10_reversed) {
@@ -201,13 +204,14 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
   };
   const int i = law.limit_index();
   double low = unlimited, high = std::max(low, x[i] + 8 * x[i + 1]) + std::log10(2.0);
-  // Logarithms of stresses: beyond some hundred decades there is none.
+  if (!(high <= most_decades)) high = most_decades;
   while (excess(low) > 0) {
     if ((low -= 1) < -most_decades) return -infinity;
   }
   while (excess(high) < 0) {
     if ((high += 1) > most_decades) return infinity;
   }
+  if (!(excess(low) <= 0 && excess(high) >= 0)) return std::nan("");  // it is no number there
   std::uintmax_t iterations = 100;
   const auto [left, right] = boost::math::tools::toms748_solve(
       excess, low, high, [](double l, double r) { return r - l <= 1e-9; }, iterations);

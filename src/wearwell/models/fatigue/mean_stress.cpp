@@ -41,18 +41,21 @@ namespace {
 double walker_at_mean(double reversed, double mean, double gamma) {
   if (gamma == 1) return reversed;
   if (gamma == 0) return std::max(0.0, reversed - mean);
-  const auto excess = [&](double a) {
-    return (1 - gamma) * std::log(mean + a) + gamma * std::log(a) - std::log(reversed);
+  // Solved for the smaller of a and mean + a, which both grow with a: it lies between 0 and `reversed`.
+  const double between = std::abs(mean), power = mean > 0 ? gamma : 1 - gamma;
+  const auto excess = [&](double t) {
+    return power * std::log(t) + (1 - power) * std::log(t + between) - std::log(reversed);
   };
-  // With a tensile mean a lies below `reversed`, where both factors grow; with a compressive one
-  // above.
-  double low = mean > 0 ? reversed : std::max(reversed, -mean * (1 + 1e-12));
-  double high = mean > 0 ? reversed : reversed - mean;
-  while (excess(low) > 0 && low > 0) low *= 0.5;
+  double low = reversed, high = reversed;
+  constexpr int most_halvings = 2200;  // from the largest double to the smallest
+  for (int i = 0; i < most_halvings && excess(low) > 0 && low > 0; ++i) low *= 0.5;
+  const double other_end = mean > 0 ? 0 : -mean;
+  if (low == 0 || low == high) return other_end + low;  // at an end, but for rounding
+  if (!(excess(low) <= 0 && excess(high) >= 0)) return std::nan("");  // something is no number
   std::uintmax_t iterations = 200;
   const auto [left, right] = boost::math::tools::toms748_solve(
       excess, low, high, boost::math::tools::eps_tolerance<double>(45), iterations);
-  return 0.5 * (left + right);
+  return other_end + 0.5 * (left + right);
 }
 
 }  // namespace
