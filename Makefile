@@ -1,5 +1,5 @@
 # make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
-.PHONY: run test build calibrate sanitize bench format clean
+.PHONY: run test build calibrate sanitize fuzz bench format clean
 
 run: setup
 	@cmake --preset release >/dev/null
@@ -13,12 +13,18 @@ test: build
 calibrate: build
 	@ctest --preset calibration
 
-# Debian's oneTBB is not instrumented: to the thread sanitizer, all that is handed over through it looks
-# like a race. So that sanitizer looks at what runs on threads of our own.
+# All tests but those in a browser and under strace; threads where there are any. Debian's oneTBB and DuckDB are not
+# instrumented: tests/sanitizers/thread.txt.
 sanitize: setup-tests
 	@cmake --preset asan-ubsan >/dev/null && cmake --build --preset asan-ubsan && ctest --preset asan-ubsan
-	@cmake --preset tsan >/dev/null && cmake --build --preset tsan --target test_base test_regress
-	@build/tsan/bin/test_base && build/tsan/bin/test_regress
+	@cmake --preset tsan >/dev/null && cmake --build --preset tsan && ctest --preset tsan
+
+# Coverage-guided; an hour over all targets, or as many seconds as are asked for (make fuzz SECONDS=600).
+SECONDS = 3600
+fuzz: setup-fuzz
+	@cmake --preset fuzz >/dev/null
+	@cmake --build --preset fuzz
+	@tests/fuzz/run $(SECONDS)
 
 bench: build
 	@bench/run
@@ -27,12 +33,15 @@ build: setup-tests
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release
 
-.PHONY: setup setup-tests
+.PHONY: setup setup-tests setup-fuzz
 setup:
 	@setup/install
 
 setup-tests:
 	@setup/install --tests
+
+setup-fuzz:
+	@setup/install --fuzz
 
 format:
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -58,6 +58,9 @@ function(wearwell_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
+  if(CMAKE_CXX_FLAGS MATCHES "-fsanitize=")
+    math(EXPR ARG_TIMEOUT "20 * ${ARG_TIMEOUT}")
+  endif()
   gtest_discover_tests(test_${name}
     TEST_PREFIX "${name}: "
     DISCOVERY_MODE PRE_TEST

@@ -1,7 +1,9 @@
 #include "wearwell/input/column_stream.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
+#include <sched.h>
 
 #include <cmath>
 
@@ -73,6 +75,41 @@ TEST_F(ColumnStreamTest, RefusesByName) {
   std::string content = "v\n";
   for (int i = 0; i < 60'000; ++i) content += "1.5\n";
   EXPECT_THAT(refused(write("late.csv", content + "oops\n2\n"), "v"), HasSubstr("60002"));
+}
+
+/// All threads of this process on the processors of the set; on one, they wait for each other.
+void run_on(const cpu_set_t& processors) {
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task"))
+    sched_setaffinity(std::stoi(thread.path().filename()), sizeof processors, &processors);
+}
+
+// DuckDB's threads work ahead of the rows that were asked for, and whoever throws before the last row
+// leaves them at it.
+TEST_F(ColumnStreamTest, IsLeftWhileItsThreadsWork) {
+  cpu_set_t all, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+  CPU_ZERO(&one);
+  for (std::size_t i = 0; CPU_COUNT(&one) == 0; ++i) {
+    if (CPU_ISSET(i, &all)) CPU_SET(i, &one);
+  }
+  std::vector<std::string> names;
+  for (int c = 0; c < 20; ++c) names.push_back(fmt::format("c{}", c));
+  std::string content = fmt::format("{}\n", fmt::join(names, ","));
+  const std::string row = fmt::format("{}\n", fmt::join(std::vector(names.size(), 7), ","));
+  for (int i = 0; i < 20'000; ++i) content += row;
+  const auto file = write("a.csv", content);
+  for (int i = 0; i < 40; ++i) {
+    const auto leave = [&] {
+      ColumnStream stream(file);
+      run_on(one);
+      stream.select(names);
+      ColumnStream::Batch batch;
+      for (int batches = 1 + i % 4; batches > 0; --batches) ASSERT_TRUE(stream.next(batch));
+      throw InputError("enough");
+    };
+    EXPECT_EQ(message_of<InputError>(leave), "enough");
+    run_on(all);
+  }
 }
 
 }  // namespace

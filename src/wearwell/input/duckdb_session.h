@@ -28,6 +28,7 @@ class DuckdbSession {
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
+  void close();
   void open_view();
   void refuse_thousands_marks();
   std::vector<std::string> first_row(const std::string& query) const;
