@@ -67,6 +67,14 @@ ExponentSearch search_exponents(const WearPoints& points, Surrogate surrogate,
                                 const std::vector<double>& exponents, int threads = 0,
                                 bool drop_temperature = false, Progress* progress = nullptr);
 
+/// The best of those pairs alone, the same as search_exponents finds: a pair is left as soon as it
+/// is certain that it holds nothing better than another. `start`: terms of a model that may be
+/// good, or none; they change the time only.
+PairBest best_exponents(const WearPoints& points, Surrogate surrogate,
+                        const std::vector<double>& exponents, const std::vector<int>& start,
+                        int threads = 0, bool drop_temperature = false,
+                        Progress* progress = nullptr);
+
 /// A fitted polynomial of wear rates.
 struct WearMap {
   std::string name;  ///< "selected", "linear", "full cubic", "temperature"

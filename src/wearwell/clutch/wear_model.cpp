@@ -200,9 +200,8 @@ std::vector<Replicate> draw_replicates(const WearPoints& points, const WearMap& 
     WearPoints simulated = points;
     for (Index j = 0; j < simulated.size(); ++j)
       simulated.w[j] = map.fit.fitted[j] + sd[j] * rng.normal();
-    const ExponentSearch search =
-        search_exponents(simulated, map.surrogate, tried, 1, false, progress);
-    const PairBest& best = search.pairs[search.best];
+    const PairBest best =
+        best_exponents(simulated, map.surrogate, tried, map.terms, 1, false, progress);
     replicates[b] = {
         unscaled(fit_map("replicate", simulated, map.surrogate, best.r, best.q, 3, best.terms)),
         draw_run_in(run_in, rng)};

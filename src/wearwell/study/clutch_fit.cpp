@@ -48,9 +48,8 @@ SurrogateResult try_surrogate(const ClutchStudy& study, const WearPoints& points
                               Progress* progress) {
   SurrogateResult result;
   result.surrogate = surrogate;
-  const ExponentSearch search =
-      done ? *done : search_exponents(points, surrogate, study.exponents, threads, false, progress);
-  result.best = search.pairs[search.best];
+  result.best = done ? done->pairs[done->best]
+                     : best_exponents(points, surrogate, study.exponents, {}, threads, false, progress);
   for (const double level : temperature_levels(study.campaign)) {
     std::vector<Index> rows;
     for (Index j = 0; j < points.size(); ++j) {
@@ -58,10 +57,10 @@ SurrogateResult try_surrogate(const ClutchStudy& study, const WearPoints& points
         rows.push_back(j);
     }
     if (std::ssize(rows) < least_points_of_level) continue;
-    const ExponentSearch at_level =
-        search_exponents(chosen(points, rows), surrogate, study.exponents, threads, true, progress);
     result.levels.push_back(level);
-    result.r2p.push_back(at_level.pairs[at_level.best].r2p);
+    result.r2p.push_back(best_exponents(chosen(points, rows), surrogate, study.exponents, {},
+                                        threads, true, progress)
+                             .r2p);
     result.mean_r2p += result.r2p.back();
   }
   if (!result.r2p.empty()) result.mean_r2p /= static_cast<double>(result.r2p.size());
