@@ -18,8 +18,17 @@ struct WearPoints {
   Eigen::VectorXd w;           ///< m^3/J
   Eigen::VectorXd cycles;      ///< n_j
   Eigen::VectorXd balance_sd;  ///< of w, m^3/J
+  /// Of points that were compensated, or empty: what w was divided by, for run-in and plate; the
+  /// plate, and the energy that it had taken up before and after, J.
+  Eigen::VectorXd factor;
+  std::vector<int> plate;
+  std::vector<double> from, to;
 
   Eigen::Index size() const { return w.size(); }
+  /// The cycles that would scatter as much without compensation: cycles factor^2.
+  Eigen::VectorXd effective_cycles() const {
+    return factor.size() == 0 ? cycles : cycles.cwiseProduct(factor.cwiseAbs2());
+  }
 };
 
 /// What stands for two or three of the inputs (Haramina et al. 2025, section 3.3 and Table A1).

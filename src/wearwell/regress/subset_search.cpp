@@ -102,12 +102,13 @@ SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorX
   double open = infinity;  // the least score of what was not searched
   if (exhaustive) {
     const SearchProblem rows =
-        problem.leave_one_out ? problem : SearchProblem(columns, response, weights, Criterion::loo, true);
+        problem.leave_one_out ? problem
+                              : SearchProblem(columns, response, weights, Criterion::loo, true);
     result.cloud = exhaustive_search(rows, pool, root, settings.cloud, control, threads);
     result.nodes = result.cloud.models;
     if (!result.cloud.complete) open = root.bound;
   } else {
-    Frontier frontier(root, threads, control);
+    Frontier frontier(root, threads, control, settings.most_nodes);
     branch_and_bound(problem, pool, frontier, root, threads);
     result.nodes = frontier.nodes();
     open = frontier.bound() * (1 - bound_slack);

@@ -37,7 +37,9 @@ struct SearchSettings {
   bool prove_sizes = false;  ///< the best of every size is to be proven, however bad: takes longer
   int threads = 0;           ///< 0: as many as the machine has cores, which is the most
   double seconds = std::numeric_limits<double>::infinity();  ///< time limit
-  const std::atomic<bool>* stop = nullptr;                   ///< may be set while searching
+  /// Branches after which to stop, some hundred more or less; the same every time on one thread.
+  double most_nodes = std::numeric_limits<double>::infinity();
+  const std::atomic<bool>* stop = nullptr;              ///< may be set while searching
   std::function<void(const SearchProgress&)> progress;  ///< called from any thread; may be empty
 };
 

@@ -42,6 +42,10 @@ std::string verdict_section(const SelectionResult& result) {
                    {"R2p", number(fit.r2p), "", "each row predicted without itself"},
                    {"RMSE", number(fit.rmse), "",
                     fmt::format("RMSEp, each row without itself: {}", number(fit.rmsep))}});
+  if (search.submodels > 1)
+    out += fmt::format("<p>Honest for data to come: {}.</p>\n",
+                       escape(nested_sentence(result.selection.nested)));
+  if (lacks_constant(result)) out += fmt::format("<p>{}</p>\n", escape(constant_sentence));
   return out;
 }
 

@@ -212,11 +212,11 @@ Figure normal_figure(const ClutchResult& r) {
 /// Fig. 16: size of residuals and the fitted scatter.
 Figure scatter_figure(const ClutchResult& r) {
   const Eigen::VectorXd& mean = r.maps.front().fit.fitted;
+  const Eigen::VectorXd cycles = r.points.effective_cycles();
   Numbers x, size, sigma;
   for (Eigen::Index j = 0; j < mean.size(); ++j) {
     x.push_back(mean[j] / mm3_per_MJ);
-    size.push_back(std::abs(r.maps.front().fit.residuals[j]) * std::sqrt(r.points.cycles[j]) /
-                   mm3_per_MJ);
+    size.push_back(std::abs(r.maps.front().fit.residuals[j]) * std::sqrt(cycles[j]) / mm3_per_MJ);
     sigma.push_back(r.scatter_fit().law.formula(mean[j], r.points.at[static_cast<std::size_t>(j)]) /
                     mm3_per_MJ);
   }
@@ -456,6 +456,9 @@ std::string method_section(const ClutchStudy& study, const ClutchResult& r) {
   fact("Model", "clutch-wear");
   fact("Search", fmt::format("{} exact searches of {:.0f} submodels each", r.search.pairs.size(),
                              r.search.submodels));
+  fact(
+      "Points left out of the whole search",
+      fmt::format("R2 {:.3f} +- {:.3f}, {} parts", r.nested.r2, r.nested.r2_error, r.nested.folds));
   fact("Time of the search", fmt::format("{:.1f} s", r.search.seconds));
   fact("Time taken", fmt::format("{:.1f} s", r.seconds));
   fact(valid_utf8(study.file.filename().string()), "SHA-1 " + sha1_of(study.file_text));

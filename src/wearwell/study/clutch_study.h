@@ -14,6 +14,7 @@
 #include "wearwell/clutch/tribometer.h"
 #include "wearwell/clutch/wear_model.h"
 #include "wearwell/infer/check.h"
+#include "wearwell/regress/nested.h"
 #include "wearwell/study/text_file.h"
 
 namespace wearwell::clutch {
@@ -89,6 +90,7 @@ struct ClutchResult {
   ExponentSearch search;
   std::vector<SurrogateResult> surrogates;
   std::vector<WearMap> maps;  ///< selected, linear, full cubic, temperature
+  Nested nested;              ///< of the whole search
   ScatterSearch scatter;
   Validation validation;
   WearModel model;
