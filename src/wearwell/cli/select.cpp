@@ -174,7 +174,7 @@ void add_select_command(CLI::App& app, int& exit_code) {
       ->add_option("--nested", options->settings.nested,
                    "Parts of the rows that are left out of the whole search in turn, to know how "
                    "well rows are predicted that it has not seen; 0: none (default: 10, up to "
-                   "20,000 rows)")
+                   "2000 rows)")
       ->check(nested_parts())
       ->type_name("K");
   select->add_option("--seed", options->settings.seed, "Seed of folds and parts (default 1)")

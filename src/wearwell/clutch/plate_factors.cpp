@@ -7,10 +7,9 @@
 namespace wearwell::clutch {
 namespace {
 
-/// Expectation of the scatter of factors, and what the mean of the plates errs, for a plate beyond
-/// them. The factors' sum is 0, which takes one of them off what is known of their scatter (as
-/// restricted maximum likelihood does). The expected standard deviation, not the root of the
-/// expected variance, which the flat prior's long tail governs: docs/clutch.md has its calibration.
+/// Root of the expected square of a further plate's factor: the scatter of factors, with what is not
+/// known of it, and what the mean of the plates errs. The factors' sum is 0, which takes one of them
+/// off what is known of their scatter (as restricted maximum likelihood does).
 double new_plate_sd(const RunInFit& fit, const std::function<double(int)>& sd_at, int steps) {
   const auto plates = static_cast<double>(fit.plates.size());
   const double kept = 1 - 1 / plates;
@@ -24,13 +23,13 @@ double new_plate_sd(const RunInFit& fit, const std::function<double(int)>& sd_at
     log_density.push_back(kept * sum);
   }
   const double most = *std::max_element(log_density.begin(), log_density.end());
-  double mass = 0, mean = 0;
+  double mass = 0, square = 0;
   for (int i = 0; i < steps; ++i) {
     const double weight = std::exp(log_density[static_cast<std::size_t>(i)] - most);
     mass += weight;
-    mean += weight * sd_at(i);
+    square += weight * sd_at(i) * sd_at(i);
   }
-  return mean / mass * std::sqrt(1 + 1 / plates);
+  return std::sqrt(square / mass * (1 + 1 / plates));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// Rows of branches that one search may look at: seconds, where the data are hard.
-constexpr double most_rows_of_nodes = 1e7;
+constexpr double most_rows_of_nodes = 4e6;
 /// From so many rows on a branch costs no more (moment_search.h).
 constexpr double most_rows = 2000;
 

@@ -17,7 +17,7 @@ struct SelectionSettings {
   /// Parts of the nested cross-validation; 0: none; less: 10, where the rows are no more than
   /// `most_nested_rows` (with more, a search is hardly optimistic, and ten take long).
   int nested = -1;
-  static constexpr int usual_nested = 10, most_nested_rows = 20'000;
+  static constexpr int usual_nested = 10, most_nested_rows = 2000;
   std::uint64_t seed = 1;  ///< of the folds and of nested parts
 };
 
