@@ -9,10 +9,10 @@
 #include "infer/test_posteriors.h"
 #include "support/formula.h"
 #include "wearwell/base/rng.h"
-#include "wearwell/fatigue/sn_likelihood.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/infer/exact.h"
 #include "wearwell/infer/mode.h"
-#include "wearwell/joint/archard.h"
+#include "wearwell/models/joint/archard.h"
 #include "wearwell/math/quadrature.h"
 
 namespace wearwell {

@@ -452,6 +452,36 @@ TEST(SubsetSearch, ExactFitsAreTiesWonByFewestTerms) {
   }
 }
 
+// With a limit at or above the best PRESS the answer is the same, below it there is none, whatever
+// the search begins with.
+TEST(SubsetSearch, ModelsBeyondALimitAreOfNoInterest) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Problem problem = random_problem(seed, 9);
+    SearchSettings settings;
+    settings.forced = problem.forced;
+    settings.keep = 1;
+    settings.threads = 1;
+    const SearchResult all =
+        search_subsets(problem.columns, problem.response, problem.weights, settings);
+    const SubsetModel& best = all.models.front();
+    settings.start = {static_cast<int>(seed) % static_cast<int>(problem.columns.cols())};
+    for (const double factor : {1 + 1e-9, 1.01, 3.0}) {
+      settings.press_at_most = factor * best.press;
+      const SearchResult same =
+          search_subsets(problem.columns, problem.response, problem.weights, settings);
+      ASSERT_TRUE(same.certified);
+      ASSERT_EQ(same.models.size(), 1u) << seed;
+      EXPECT_EQ(same.models.front().terms, best.terms) << seed;
+      EXPECT_EQ(same.models.front().press, best.press) << seed;
+    }
+    settings.press_at_most = 0.99 * best.press;
+    const SearchResult none =
+        search_subsets(problem.columns, problem.response, problem.weights, settings);
+    EXPECT_TRUE(none.certified);
+    EXPECT_TRUE(none.models.empty()) << seed;
+  }
+}
+
 TEST(SubsetSearch, NamesWhatIsWrong) {
   const auto problem = cubic_problem(7, 2, 20);
   const auto message = [&](const Problem& wrong, const SearchSettings& settings) -> std::string {
@@ -518,8 +548,7 @@ TEST(SubsetSearch, OfManyRowsFindsTheBestOfAll) {
     std::sort(all.begin(), all.end());
     SearchSettings settings;
     settings.keep = 12;
-    const auto found =
-        search_subsets(problem.columns, problem.response, problem.weights, settings);
+    const auto found = search_subsets(problem.columns, problem.response, problem.weights, settings);
     ASSERT_TRUE(found.certified);
     ASSERT_EQ(found.models.size(), 12u);
     for (std::size_t m = 0; m < 12; ++m) {
@@ -540,8 +569,7 @@ TEST(RowMoments, WeighResidualsByLeverages) {
   ASSERT_FALSE(search.moments.empty());
   const std::vector<int> terms = {0, 1, 6};
   const auto fit = fit_least_squares(problem.columns(Eigen::all, terms), problem.response);
-  const double expected =
-      (fit.residuals.array().square() * (1 + 2 * fit.leverages.array())).sum();
+  const double expected = (fit.residuals.array().square() * (1 + 2 * fit.leverages.array())).sum();
   const auto dimension = search.moments.dimension();
   Eigen::MatrixXd weight = Eigen::MatrixXd::Identity(dimension, dimension);
   Eigen::VectorXd residuals = search.response.head(dimension);

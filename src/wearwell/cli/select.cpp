@@ -110,6 +110,15 @@ int run_select(const SelectOptions& options) {
   return result.selection.search.certified ? 0 : 1;
 }
 
+CLI::Validator nested_parts() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const bool fits = CLI::Range(2, 1'000'000)(text).empty() || text == "0";
+        return fits ? std::string() : "'" + text + "' is neither 0 nor 2 to 1000000";
+      },
+      "0 or 2 to 1000000");
+}
+
 }  // namespace
 
 void add_select_command(CLI::App& app, int& exit_code) {
@@ -161,7 +170,14 @@ void add_select_command(CLI::App& app, int& exit_code) {
                    "k-fold cross-validation of the models found; a heuristic beside the criterion")
       ->check(CLI::Range(2, 1'000'000))
       ->type_name("K");
-  select->add_option("--seed", options->settings.seed, "Seed of the folds (default 1)")
+  select
+      ->add_option("--nested", options->settings.nested,
+                   "Parts of the rows that are left out of the whole search in turn, to know how "
+                   "well rows are predicted that it has not seen; 0: none (default: 10, up to "
+                   "2000 rows)")
+      ->check(nested_parts())
+      ->type_name("K");
+  select->add_option("--seed", options->settings.seed, "Seed of folds and parts (default 1)")
       ->check(seed_number());
   select->add_option("--time", search.seconds, "Stop after so many seconds, proven or not")
       ->check(number_between(0, 1e9))

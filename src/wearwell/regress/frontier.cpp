@@ -14,8 +14,8 @@ bool later(const Branch& a, const Branch& b) {
 
 }  // namespace
 
-Frontier::Frontier(const Branch& root, int threads, SearchControl& control)
-    : heap_{root}, working_(threads, infinity), control_(control) {}
+Frontier::Frontier(const Branch& root, int threads, SearchControl& control, double most_nodes)
+    : heap_{root}, working_(threads, infinity), most_nodes_(most_nodes), control_(control) {}
 
 bool Frontier::take(int worker, Branch& branch) {
   std::unique_lock lock(mutex_);
@@ -44,6 +44,7 @@ void Frontier::done(int worker, double nodes) {
     const std::lock_guard lock(mutex_);
     working_[worker] = infinity;
     all = nodes_ += nodes;
+    if (all >= most_nodes_) control_.stop();
     changed_.notify_all();
   }
   least = bound();

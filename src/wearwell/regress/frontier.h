@@ -20,7 +20,8 @@ struct Branch {
 /// thread takes one, searches part of it and gives back what it did not get to.
 class Frontier {
  public:
-  Frontier(const Branch& root, int threads, SearchControl& control);
+  /// The search stops when `most_nodes` have been looked at.
+  Frontier(const Branch& root, int threads, SearchControl& control, double most_nodes);
 
   /// The next branch for thread `worker`, waiting while others may still give some back. False
   /// when the search is over: nothing left, or stopped.
@@ -43,6 +44,7 @@ class Frontier {
   std::vector<Branch> heap_;     ///< smallest bound first
   std::vector<double> working_;  ///< bound of the branch each thread works on; infinity if none
   double nodes_ = 0;
+  const double most_nodes_;
   SearchControl& control_;
 };
 

@@ -29,6 +29,17 @@ std::vector<Index> shuffled(Index rows, Rng& rng) {
 
 }  // namespace
 
+std::vector<std::vector<Index>> random_folds(Index rows, int folds, std::uint64_t seed,
+                                             std::uint64_t number) {
+  Rng rng(seed, number);
+  const auto order = shuffled(rows, rng);
+  std::vector<std::vector<Index>> parts;
+  for (int fold = 0; fold < folds; ++fold)
+    parts.emplace_back(order.begin() + fold * rows / folds,
+                       order.begin() + (fold + 1) * rows / folds);
+  return parts;
+}
+
 double k_fold_press(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
                     const Eigen::VectorXd& weights, int folds, int repeats, std::uint64_t seed) {
   const Index n = columns.rows(), k = columns.cols();
@@ -46,11 +57,7 @@ double k_fold_press(const Eigen::MatrixXd& columns, const Eigen::VectorXd& respo
 
   double sum = 0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    Rng rng(seed, static_cast<std::uint64_t>(repeat));
-    const auto order = shuffled(n, rng);
-    for (int fold = 0; fold < folds; ++fold) {
-      const auto first = order.begin() + fold * n / folds;
-      const std::vector<Index> out(first, order.begin() + (fold + 1) * n / folds);
+    for (const auto& out : random_folds(n, folds, seed, static_cast<std::uint64_t>(repeat))) {
       // Predicted without them, rows B miss by (I - Q_B Q_B')^-1 e_B (as leave-one-out for one).
       const Eigen::MatrixXd part = q(out, Eigen::all);
       const auto size = static_cast<Index>(out.size());

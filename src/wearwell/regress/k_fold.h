@@ -2,8 +2,14 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <vector>
 
 namespace wearwell {
+
+/// The rows 0 ... rows - 1 in `folds` random parts of equal size, give or take one. Partition
+/// `number` owns that random stream of the seed.
+std::vector<std::vector<Eigen::Index>> random_folds(Eigen::Index rows, int folds,
+                                                    std::uint64_t seed, std::uint64_t number);
 
 /// k-fold cross-validation of one least-squares model: the sum of w_i (y_i - prediction by the fit
 /// to the other folds)^2, averaged over `repeats` random partitions of the rows into `folds` parts

@@ -32,7 +32,7 @@ void ModelPool::insert(TermSet set, int size) {
   const auto error = exact_error(problem_, set);
   if (!error) return;
   const ScoredModel model{set, size, *error, problem_.score.of(*error, size)};
-  if (model.score == infinity) return;
+  if (model.score == infinity || model.score > settings_.at_most) return;
   const std::lock_guard lock(mutex_);
   if (auto& best = by_size_[size]; !sizes_frozen_ && (!best || better(model, *best))) best = model;
   const auto place = std::lower_bound(models_.begin(), models_.end(), model, better);
@@ -51,17 +51,18 @@ void ModelPool::insert(TermSet set, int size) {
 }
 
 double ModelPool::threshold() const {
-  if (models_.size() < settings_.keep) return infinity;
+  if (models_.size() < settings_.keep) return settings_.at_most;
   const double last = models_.back().score;
   if (settings_.near == 0 || models_.size() >= settings_.most) return last;
-  return std::max(last, problem_.score.worse_by(models_.front().score, settings_.near));
+  return std::min(settings_.at_most,
+                  std::max(last, problem_.score.worse_by(models_.front().score, settings_.near)));
 }
 
 void ModelPool::update_limits() {
   const double all = threshold();
   // Larger models than the last of all exact fits can only be exact, too, and lose the tie.
   const bool exact =
-      settings_.near == 0 && all < infinity && models_.back().error <= problem_.least_error;
+      settings_.near == 0 && models_.size() >= settings_.keep && models_.back().error <= problem_.least_error;
   const int largest = exact ? models_.back().size : problem_.terms;
   for (int size = 0; size <= problem_.terms; ++size) {
     double cut = -infinity, worth = -infinity;

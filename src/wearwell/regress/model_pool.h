@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -31,6 +32,8 @@ class ModelPool {
     double near = 0;            ///< and all within this distance of the best (Score::worse_by),
     std::size_t most = 10'000;  ///< but never more than this
     bool every_size = false;    ///< the best of each size is wanted, however bad
+    /// Models of a larger score are not kept.
+    double at_most = std::numeric_limits<double>::infinity();
   };
 
   ModelPool(const SearchProblem& problem, const Settings& settings);

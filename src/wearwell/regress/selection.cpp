@@ -35,6 +35,26 @@ std::vector<double> stack(const std::vector<SubsetModel>& models, std::size_t co
   return stacked;
 }
 
+Nested nest(const Design& design, const Eigen::VectorXd& response, const Eigen::VectorXd& weights,
+            const SelectionSettings& settings, const SearchResult& search) {
+  Nested none;
+  int folds = settings.nested;
+  if (search.submodels <= 1) {
+    none.problem = "there is nothing to search";
+  } else if (folds == 0) {
+    none.problem = "it was not asked for";
+  } else if (folds < 0 && response.size() > SelectionSettings::most_nested_rows) {
+    none.problem = "rows are many: a search is hardly optimistic";
+  } else if (!search.certified) {
+    none.problem = "the search was stopped";
+  }
+  if (!none.problem.empty()) return none;
+  if (folds < 0) folds = SelectionSettings::usual_nested;
+  SearchSettings left = settings.search;
+  left.seconds -= search.seconds;
+  return nested_search(design.columns, response, weights, left, folds, settings.seed);
+}
+
 }  // namespace
 
 Selection select_terms(const Design& design, const Eigen::VectorXd& response,
@@ -61,6 +81,7 @@ Selection select_terms(const Design& design, const Eigen::VectorXd& response,
                                                   response, weights, settings.folds,
                                                   settings.fold_repeats, settings.seed));
   }
+  selection.nested = nest(design, response, weights, settings, selection.search);
   return selection;
 }
 

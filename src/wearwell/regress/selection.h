@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "wearwell/regress/nested.h"
 #include "wearwell/regress/subset_search.h"
 #include "wearwell/regress/terms.h"
 
@@ -13,7 +14,11 @@ struct SelectionSettings {
   SearchSettings search;
   int folds = 0;  ///< k-fold cross-validation of the models found; 0: none
   int fold_repeats = 20;
-  std::uint64_t seed = 1;  ///< of the folds
+  /// Parts of the nested cross-validation; 0: none; less: 10, where the rows are no more than
+  /// `most_nested_rows` (with more, a search is hardly optimistic, and ten take long).
+  int nested = -1;
+  static constexpr int usual_nested = 10, most_nested_rows = 2000;
+  std::uint64_t seed = 1;  ///< of the folds and of nested parts
 };
 
 /// How sure the choice of one term is.
@@ -32,6 +37,7 @@ struct Selection {
   static constexpr std::size_t most_stacked = 200;
   std::vector<double> weights;
   std::vector<TermSupport> support;  ///< by term of the design
+  Nested nested;                     ///< of the whole search
   std::vector<double> k_fold_press;  ///< by model, the first `most_stacked`; empty without folds
 };
 

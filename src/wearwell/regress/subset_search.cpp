@@ -17,11 +17,11 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_free_for_points = 25, most_free_for_bins = 30;
 
-TermSet read_forced(const std::vector<int>& forced, int terms) {
+TermSet read_terms(const char* what, const std::vector<int>& chosen, int terms) {
   TermSet set = 0;
-  for (const int term : forced) {
+  for (const int term : chosen) {
     if (term < 0 || term >= terms)
-      throw InputError(fmt::format("forced term {} is none of the {} terms", term, terms));
+      throw InputError(fmt::format("{} term {} is none of the {} terms", what, term, terms));
     set |= bit(term);
   }
   return set;
@@ -69,7 +69,7 @@ SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorX
                             const Eigen::VectorXd& weights, const SearchSettings& settings) {
   const bool exhaustive = settings.cloud != CloudKind::none;
   const SearchProblem problem(columns, response, weights, settings.criterion, exhaustive);
-  const TermSet forced = read_forced(settings.forced, problem.terms);
+  const TermSet forced = read_terms("forced", settings.forced, problem.terms);
   const TermSet free = every_term(problem.terms) & ~forced;
   const int free_count = static_cast<int>(terms_of(free).size());
   check(settings, free_count);
@@ -78,7 +78,8 @@ SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorX
 
   ModelPool pool(problem, {static_cast<std::size_t>(settings.keep), settings.near,
                            static_cast<std::size_t>(std::max(settings.near_most, settings.keep)),
-                           settings.prove_sizes || exhaustive});
+                           settings.prove_sizes || exhaustive,
+                           problem.leave_one_out ? settings.press_at_most : infinity});
   const Branch root{forced, free, least_score(problem, forced)};
   SearchControl::Report report;
   if (settings.progress) {
@@ -91,24 +92,31 @@ SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorX
   SearchControl control({settings.seconds, settings.stop}, report);
 
   SearchResult result;
-  seed_models(problem, pool, forced);
+  if (settings.start.empty()) {
+    seed_models(problem, pool, forced);
+  } else {
+    const TermSet start = read_terms("start", settings.start, problem.terms) | forced;
+    pool.offer(start, static_cast<int>(terms_of(start).size()), 0);
+  }
   pool.end_seeding();
   double open = infinity;  // the least score of what was not searched
   if (exhaustive) {
     const SearchProblem rows =
-        problem.leave_one_out ? problem : SearchProblem(columns, response, weights, Criterion::loo, true);
+        problem.leave_one_out ? problem
+                              : SearchProblem(columns, response, weights, Criterion::loo, true);
     result.cloud = exhaustive_search(rows, pool, root, settings.cloud, control, threads);
     result.nodes = result.cloud.models;
     if (!result.cloud.complete) open = root.bound;
   } else {
-    Frontier frontier(root, threads, control);
+    Frontier frontier(root, threads, control, settings.most_nodes);
     branch_and_bound(problem, pool, frontier, root, threads);
     result.nodes = frontier.nodes();
     open = frontier.bound() * (1 - bound_slack);
   }
 
   const auto best = pool.best();
-  if (best.empty() && open == infinity)
+  const bool limited = problem.leave_one_out && settings.press_at_most < infinity;
+  if (best.empty() && open == infinity && !limited)
     throw InputError("no model of these terms can be fitted to these rows");
   result.certified = open == infinity;
   result.lower_bound =

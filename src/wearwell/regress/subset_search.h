@@ -30,10 +30,16 @@ struct SearchSettings {
   int near_most = 10'000;   ///< but never more than this
   std::vector<int> forced;  ///< terms that every model holds
   CloudKind cloud = CloudKind::none;  ///< wanted: every model is looked at; at most 25 free terms
+  /// For loo: models of a larger PRESS are of no interest. Where none has less the result holds none.
+  double press_at_most = std::numeric_limits<double>::infinity();
+  /// A model to begin with, in place of a search for good ones. Changes no answer, only the time.
+  std::vector<int> start;
   bool prove_sizes = false;  ///< the best of every size is to be proven, however bad: takes longer
   int threads = 0;           ///< 0: as many as the machine has cores, which is the most
   double seconds = std::numeric_limits<double>::infinity();  ///< time limit
-  const std::atomic<bool>* stop = nullptr;                   ///< may be set while searching
+  /// Branches after which to stop, some hundred more or less; the same every time on one thread.
+  double most_nodes = std::numeric_limits<double>::infinity();
+  const std::atomic<bool>* stop = nullptr;              ///< may be set while searching
   std::function<void(const SearchProgress&)> progress;  ///< called from any thread; may be empty
 };
 

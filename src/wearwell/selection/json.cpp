@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "wearwell/report/selection_text.h"
+
 namespace wearwell {
 namespace {
 
@@ -31,6 +33,7 @@ Json best_model(const SelectionResult& result) {
   json["adjusted_r2"] = number(fit.adjusted_r2);
   json["rmse"] = number(fit.rmse);
   json["rmsep"] = number(fit.rmsep);
+  json["has_constant"] = !lacks_constant(result);
   json["sigma"] = number(fit.sigma);
   json["aic"] = number(fit.aic);
   json["aicc"] = number(fit.aicc);
@@ -66,6 +69,16 @@ nlohmann::ordered_json to_json(const SelectionResult& result) {
   for (const Term& term : result.design.terms) json["candidates"].push_back(term.name);
   json["forced"] = result.names(result.settings.search.forced);
   json["best"] = search.models.empty() ? Json() : best_model(result);
+  const Nested& nested = selection.nested;
+  if (nested.problem.empty()) {
+    json["nested"] = {{"folds", nested.folds},
+                      {"r2", number(nested.r2)},
+                      {"r2_error", number(nested.r2_error)},
+                      {"rmse", number(nested.rmse)},
+                      {"unproven", nested.unproven}};
+  } else {
+    json["nested"] = {{"problem", nested.problem}};
+  }
   json["models"] = Json::array();
   for (std::size_t m = 0; m < search.models.size(); ++m) {
     Json model = to_json(result, search.models[m]);

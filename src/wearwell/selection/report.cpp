@@ -54,6 +54,11 @@ Section verdict_section(const SelectionResult& result) {
        {"R2p", number(fit.r2p), "", "each row predicted without itself"},
        {"RMSE", number(fit.rmse), "",
         fmt::format("RMSEp, each row without itself: {}", number(fit.rmsep))}}});
+  if (search.submodels > 1) {
+    section.add(Prose{
+        fmt::format("Honest for data to come: {}.", nested_sentence(result.selection.nested))});
+  }
+  if (lacks_constant(result)) section.add(Prose{constant_sentence});
   return section;
 }
 

@@ -97,6 +97,28 @@ std::string best_by(Criterion criterion) {
 
 }  // namespace
 
+std::string nested_sentence(const Nested& nested) {
+  if (!nested.problem.empty())
+    return fmt::format(
+        "R2p is of the best after a search: rows it has not seen are predicted less well (how well "
+        "is not known: {})",
+        nested.problem);
+  std::string text = fmt::format(
+      "rows left out of the whole search ({} parts): R2 {} +- {}, RMSE {}", nested.folds,
+      number(nested.r2), fmt::format("{:.1g}", nested.r2_error), number(nested.rmse));
+  if (nested.unproven > 0)
+    text += fmt::format("; {} of the searches were cut short, the best they had found is taken",
+                        nested.unproven);
+  return text;
+}
+
+bool lacks_constant(const SelectionResult& result) {
+  const auto& terms = result.selection.search.models.front().terms;
+  return std::none_of(terms.begin(), terms.end(), [&](int term) {
+    return result.design.terms[static_cast<std::size_t>(term)].factors.empty();
+  });
+}
+
 std::string gap_sentence(const SelectionResult& result) {
   const SearchResult& search = result.selection.search;
   const std::string title = criterion_title(result.settings.search.criterion);
@@ -133,8 +155,8 @@ std::string selection_text(const SelectionResult& result) {
       result.weights_column.empty() ? "" : fmt::format(", weighted by {}", result.weights_column));
   text += fmt::format("  R2 {}   R2p {}   RMSE {}   RMSEp {}\n", number(fit.r2), number(fit.r2p),
                       number(fit.rmse), number(fit.rmsep));
-  if (search.submodels > 1)
-    text += "  (R2p is of the best after a search: fresh data are predicted less well)\n";
+  if (search.submodels > 1) text += "  " + nested_sentence(selection.nested) + "\n";
+  if (lacks_constant(result)) text += "  " + std::string(constant_sentence) + "\n";
   text += "\nCoefficients\n" + coefficient_table(result);
   text += "\nModels, best first\n" + model_table(result);
   if (result.settings.search.near > 0)

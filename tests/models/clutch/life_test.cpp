@@ -7,6 +7,7 @@
 #include "models/clutch/sample_campaign.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/models/clutch/cycle_sum.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -34,22 +35,48 @@ TEST(Life, ClosedFormWithoutRunIn) {
   EXPECT_EQ(life.outside, 0u);
 }
 
-// The same number of cycles as summing one by one until the level is reached; g is taken at the
-// beginning of each cycle there, which is worth less than one cycle of the fast mode.
-TEST(Life, AgreesWithTheSumOfCycles) {
-  const RunIn run_in{0.4, 4, 78e6, 6e6};
-  const WearModel model = constant_model(20 * mm3_per_MJ, 100 * mm3_per_MJ, run_in);
-  const Life life = predict_life(model, duty, {0.05, 0.5, 1});
-  double volume = 0, energy = 0;
-  int n = 0;
-  for (const LifeAtLevel& at : life.levels) {
-    while (volume < at.level * 10e-6) {
-      volume += run_in.g(energy) * 20 * mm3_per_MJ * 10e3;
-      energy += 10e3;
-      ++n;
+// A level that the recursion reaches with the last cycle of a repetition is reached then: by one
+// operating point, and by a duty whose cycles differ in energy and wear. Replicates likewise.
+TEST(Life, AgreesWithTheRecursion) {
+  WearModel model = constant_model(20 * mm3_per_MJ, 100 * mm3_per_MJ, {0.4, 4, 78e6, 6e6});
+  model.terms.push_back({"Mz", 0, 0, 1, 0, 1, 0.2 * mm3_per_MJ});
+  model.replicates = {{{1, 1, {{0, 0, 0, 22 * mm3_per_MJ}}}, {0.5, 3, 60e6, 4e6}}};
+  OperatingPoint harder = middle;
+  harder.torque = 70;
+  const std::vector<std::vector<Cycle>> duties = {
+      duty, {{1, 1, middle, 90e3}, {1, 2, harder, 400e3}, {1, 3, middle, 20e3}}};
+  for (const std::vector<Cycle>& each : duties) {
+    const int size = static_cast<int>(each.size());
+    CycleColumns columns;
+    const int repetitions = 3000;
+    const Eigen::Index n = size * repetitions;
+    for (Eigen::ArrayXd* column : {&columns.slip_speed, &columns.torque, &columns.temperature,
+                                   &columns.closing_time, &columns.energy})
+      column->resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Cycle& cycle = each[static_cast<std::size_t>(i % size)];
+      columns.plate.push_back(1);
+      columns.number.push_back(static_cast<double>(i + 1));
+      columns.slip_speed[i] = cycle.at.slip_speed;
+      columns.torque[i] = cycle.at.torque;
+      columns.temperature[i] = cycle.at.temperature;
+      columns.closing_time[i] = cycle.at.closing_time;
+      columns.energy[i] = cycle.energy;
     }
-    EXPECT_NEAR(at.repetitions, n, 4);
-    EXPECT_LT(at.repetitions, at.without_run_in);
+    CycleSum sum(model, true);
+    CycleSum::Rates rates;
+    CycleSum::Trace trace;
+    sum.rates(columns, rates);
+    sum.add(columns, rates, 0, &trace);
+    for (const int whole : {1, 2, 17, 400, repetitions}) {
+      const double volume = trace.volume[static_cast<std::size_t>(whole * size - 1)];
+      const Life life = predict_life(model, each, {volume / model.worn_out});
+      EXPECT_NEAR(life.levels[0].repetitions / whole, 1, 1e-11) << whole << " of " << size;
+    }
+    const PlateWear& worn = sum.plates().front();
+    const Life life = predict_life(model, each, {worn.volume / model.worn_out});
+    EXPECT_NEAR(life.levels[0].full_sd / worn.full_sd(model.plate_sd), 1, 1e-10);
+    EXPECT_NEAR(life.levels[0].sd / worn.sd(), 1, 1e-10);
   }
 }
 

@@ -98,6 +98,28 @@ TEST(ExponentSearch, AgreesWithBruteForceAtEveryPair) {
   }
 }
 
+// A pair that is left early must not be the best: whatever the start and the number of threads, the
+// best of all pairs is found to the bit.
+TEST(BestExponents, IsTheBestOfAllPairs) {
+  for (std::uint64_t seed = 10; seed < 16; ++seed) {
+    const WearPoints points = random_points(30 + static_cast<int>(seed), seed);
+    const std::vector<double> exponents = {0.3, 0.7, 1.2, 2.4};
+    for (const Surrogate surrogate : surrogates) {
+      const ExponentSearch all = search_exponents(points, surrogate, exponents, 1);
+      const PairBest& best = all.pairs[all.best];
+      for (const std::vector<int>& start : {std::vector<int>{}, {0}, {1, 3, 5}}) {
+        for (const int threads : {1, 2}) {
+          const PairBest found = best_exponents(points, surrogate, exponents, start, threads);
+          EXPECT_EQ(found.r, best.r) << seed;
+          EXPECT_EQ(found.q, best.q) << seed;
+          EXPECT_EQ(found.press, best.press) << seed;
+          EXPECT_EQ(found.terms, best.terms) << seed;
+        }
+      }
+    }
+  }
+}
+
 TEST(ExponentSearch, DoesNotDependOnThreads) {
   const WearPoints points = random_points(50, 3);
   const ExponentSearch one = search_exponents(points, Surrogate::distance, {0.3, 0.9, 1.7}, 1),

@@ -27,6 +27,14 @@ TEST(WorkPerCycle, ByHand) {
   EXPECT_DOUBLE_EQ(work_per_cycle(force, {1, 2, 3}, WorkRule::trapezoid), 145);
 }
 
+// A profile that repeats its first row at the end is the same cycle when its first increment is 0.
+TEST(WorkPerCycle, AProfileThatRepeatsItsFirstRow) {
+  const std::vector<double> once{10, 20, 40}, again{10, 20, 40, 10};
+  for (const WorkRule rule : {WorkRule::rectangle, WorkRule::trapezoid})
+    EXPECT_DOUBLE_EQ(work_per_cycle(once, {1, 2, 3}, rule),
+                     work_per_cycle(again, {0, 2, 3, 1}, rule));
+}
+
 // F = 3 + sin(t), s' = 0.01 (1 - sin(t)) over a cycle: the integral is 2 pi 0.01 (3 - 1/2). Both
 // rules are exact for what is sampled at the end of each increment, up to the increments
 // themselves.

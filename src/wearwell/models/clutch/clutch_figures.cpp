@@ -209,11 +209,11 @@ Figure normal_figure(const ClutchResult& r) {
 /// Fig. 16: size of residuals and the fitted scatter.
 Figure scatter_figure(const ClutchResult& r) {
   const Eigen::VectorXd& mean = r.maps.front().fit.fitted;
+  const Eigen::VectorXd cycles = r.points.effective_cycles();
   Numbers x, size, sigma;
   for (Eigen::Index j = 0; j < mean.size(); ++j) {
     x.push_back(mean[j] / mm3_per_MJ);
-    size.push_back(std::abs(r.maps.front().fit.residuals[j]) * std::sqrt(r.points.cycles[j]) /
-                   mm3_per_MJ);
+    size.push_back(std::abs(r.maps.front().fit.residuals[j]) * std::sqrt(cycles[j]) / mm3_per_MJ);
     sigma.push_back(r.scatter_fit().law.formula(mean[j], r.points.at[static_cast<std::size_t>(j)]) /
                     mm3_per_MJ);
   }

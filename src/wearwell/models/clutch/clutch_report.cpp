@@ -282,6 +282,9 @@ Section method_section(const ClutchStudy& study, const ClutchResult& r) {
        {"Model", "clutch-wear"},
        {"Search", fmt::format("{} exact searches of {:.0f} submodels each", r.search.pairs.size(),
                               r.search.submodels)},
+       {"Points left out of the whole search",
+        fmt::format("R2 {:.3f} +- {:.3f}, {} parts", r.nested.r2, r.nested.r2_error,
+                    r.nested.folds)},
        {"Time of the search", fmt::format("{:.1f} s", r.search.seconds)},
        {"Time taken", fmt::format("{:.1f} s", r.seconds)},
        {valid_utf8(study.file.filename().string()), "SHA-1 " + sha1_of(study.file_text)}}};

@@ -16,6 +16,7 @@
 #include "wearwell/infer/check.h"
 #include "wearwell/input/text_file.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/regress/nested.h"
 
 namespace wearwell::clutch {
 
@@ -87,6 +88,7 @@ struct ClutchResult {
   ExponentSearch search;
   std::vector<SurrogateResult> surrogates;
   std::vector<WearMap> maps;  ///< selected, linear, full cubic, temperature
+  Nested nested;              ///< of the whole search
   ScatterSearch scatter;
   Validation validation;
   WearModel model;

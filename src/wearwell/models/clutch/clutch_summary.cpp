@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -146,6 +147,10 @@ Json summary_body(const ClutchStudy& study, const ClutchResult& r) {
     json["correlations"][inputs[i].name] = r.correlations[i];
   for (const WearMap& map : r.maps) json["maps"].push_back(to_json(map));
   const PairBest& best = r.search.pairs[r.search.best];
+  json["nested"] = {{"r2", r.nested.r2},
+                    {"r2_error", r.nested.r2_error},
+                    {"rmse", r.nested.rmse / mm3_per_MJ},
+                    {"folds", r.nested.folds}};
   json["search"] = {{"pairs", r.search.pairs.size()},
                     {"submodels_of_each", r.search.submodels},
                     {"r", best.r},
@@ -214,6 +219,11 @@ std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
   section("Wear rate (mm^3/MJ)", rows);
   out += "selected terms:";
   for (const std::string& name : term_names(r.maps.front())) out += " " + name;
+  const std::vector<std::string> selected = term_names(r.maps.front());
+  if (std::find(selected.begin(), selected.end(), "1") == selected.end())
+    out += "\n(without the constant 1: the choice depends on where the inputs have their zero)";
+  out += fmt::format("\nR2 of points left out of the whole search: {:.3f} +- {:.3f} ({} parts)",
+                     r.nested.r2, r.nested.r2_error, r.nested.folds);
   out += fmt::format(
       "\nthe best by leave-one-out of {:.0f} submodels at each of {} pairs of exponents\n",
       r.search.submodels, r.search.pairs.size());

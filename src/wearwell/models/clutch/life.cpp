@@ -9,15 +9,47 @@
 namespace wearwell::clutch {
 namespace {
 
-/// Energy until the run-in has added up to `settled` energy's worth of settled wear.
-double energy_for(const RunIn& run_in, double settled) {
-  double low = 0, high = settled;  // g >= 1
-  for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
-    const double middle = 0.5 * (low + high);
-    (run_in.integral(middle) < settled ? low : high) = middle;
+/// A duty repeated on a new plate. After whole repetitions the volume is that of CycleSum: the sum
+/// over repetitions of exp(-Ec/eps) is a geometric series. Between them it is interpolated.
+class Repeated {
+ public:
+  Repeated(const WearPolynomial& w, const RunIn& run_in, const std::vector<Cycle>& duty)
+      : run_in_(run_in) {
+    for (const Cycle& cycle : duty) {
+      const double volume = std::max(0.0, w(cycle.at)) * cycle.energy;
+      settled_ += volume;
+      slow_ += volume * std::exp(-energy_ / run_in.slow_energy);
+      fast_ += volume * std::exp(-energy_ / run_in.fast_energy);
+      energy_ += cycle.energy;
+    }
   }
-  return 0.5 * (low + high);
-}
+
+  double volume(double repetitions) const {
+    return settled_ * repetitions +
+           run_in_.slow * slow_ * series(repetitions, run_in_.slow_energy) +
+           run_in_.fast * fast_ * series(repetitions, run_in_.fast_energy);
+  }
+
+  /// Repetitions until the volume is `target`.
+  double until(double target) const {
+    double low = 0, high = target / settled_;  // g >= 1
+    for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
+      const double middle = 0.5 * (low + high);
+      (volume(middle) < target ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+  }
+
+ private:
+  /// 1 + p + p^2 + ... of so many summands, p = exp(-energy_/scale).
+  double series(double summands, double scale) const {
+    return std::expm1(-summands * energy_ / scale) / std::expm1(-energy_ / scale);
+  }
+
+  RunIn run_in_;
+  double settled_ = 0, energy_ = 0;
+  double slow_ = 0, fast_ = 0;  ///< volume by cycle, times exp(-energy before it/eps)
+};
 
 }  // namespace
 
@@ -41,12 +73,10 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
         "the wear of this duty is no finite number; is the model far outside its range?");
   if (!(life.volume > 0)) throw InputError("the model predicts no wear under this duty");
 
-  std::vector<double> replicate_volumes;
-  for (const Replicate& replicate : model.replicates) {
-    double volume = 0;
-    for (const Cycle& cycle : duty) volume += std::max(0.0, replicate.w(cycle.at)) * cycle.energy;
-    replicate_volumes.push_back(volume);
-  }
+  const Repeated repeated(w, model.run_in, duty);
+  std::vector<Repeated> replicates;
+  for (const Replicate& replicate : model.replicates)
+    replicates.emplace_back(replicate.w, replicate.run_in, duty);
   for (const double level : levels) {
     if (!(level > 0 && std::isfinite(level)))
       throw InputError(fmt::format("wear level {} must be positive and finite", level));
@@ -54,16 +84,13 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
     at.level = level;
     const double target = level * model.worn_out;
     at.without_run_in = target / life.volume;
-    const double energy = energy_for(model.run_in, at.without_run_in * life.energy);
-    at.repetitions = energy / life.energy;
+    at.repetitions = repeated.until(target);
     at.sd = life.sd * std::sqrt(at.repetitions);
     double squares = 0;
-    for (std::size_t b = 0; b < replicate_volumes.size(); ++b) {
-      const double volume =
-          replicate_volumes[b] / life.energy * model.replicates[b].run_in.integral(energy);
-      squares += (volume - target) * (volume - target);
+    for (const Repeated& replicate : replicates) {
+      const double off = replicate.volume(at.repetitions) - target;
+      squares += off * off / static_cast<double>(replicates.size());
     }
-    if (!replicate_volumes.empty()) squares /= static_cast<double>(replicate_volumes.size());
     const double plate = model.plate_sd * target;
     at.full_sd = std::sqrt(at.sd * at.sd + squares + plate * plate);
     if (!std::isfinite(at.repetitions) || !std::isfinite(at.full_sd))

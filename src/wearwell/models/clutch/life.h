@@ -26,7 +26,8 @@ struct Life {
 };
 
 /// Life under `duty`, cycles that repeat: one for an operating point (Haramina et al. 2025, section
-/// 3.6, Figs. 19 and 20). Throws InputError for an empty duty, a level that is not positive, or a
+/// 3.6, Figs. 19 and 20). The sum over the cycles is that of CycleSum, run-in taken at the start of
+/// each; repetitions that are not whole are interpolated. Throws InputError for an empty duty, a level that is not positive, or a
 /// duty that does not wear.
 Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
                   const std::vector<double>& levels);

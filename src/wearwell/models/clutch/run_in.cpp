@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/rng.h"
+#include "wearwell/models/clutch/plate_factors.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -126,6 +128,7 @@ class Problem {
   }
 
   const Observation& at(Index i) const { return observations_[static_cast<std::size_t>(i)]; }
+  Observation& at(Index i) { return observations_[static_cast<std::size_t>(i)]; }
   Index plates() const { return plates_; }
 
  private:
@@ -172,62 +175,27 @@ Search descend(const Problem& problem, const VectorXd& start) {
   return search;
 }
 
-/// What the factors say of their own scatter: fit.plate_sd, and each plate's expectation. The prior
-/// of plate_sd is flat (Gelman 2006), and it is integrated out on a grid: with a dozen plates the
-/// most likely plate_sd is often 0 where a few per cent are as credible.
-void shrink_factors(RunInFit& fit) {
-  for (PlateFactor& p : fit.plates) p.shrunk_sd = p.standard_error;
-  if (fit.plates.size() < 3) return;  // the posterior of plate_sd would be improper
-  double largest = 0;
-  for (const PlateFactor& p : fit.plates)
-    largest = std::max({largest, std::abs(p.log_factor), p.standard_error});
-  constexpr int steps = 400;
-  std::vector<double> log_density;
-  const auto sd_at = [&](int i) { return 5 * largest * (i + 0.5) / steps; };
-  for (int i = 0; i < steps; ++i) {
-    double sum = 0;
-    for (const PlateFactor& p : fit.plates) {
-      const double variance = sd_at(i) * sd_at(i) + p.standard_error * p.standard_error;
-      sum -= 0.5 * (std::log(variance) + p.log_factor * p.log_factor / variance);
-    }
-    log_density.push_back(sum);
+/// Blocks of run-in and run-out; plates are numbered by first appearance.
+std::vector<Observation> observe(const std::vector<WornBlock>& blocks,
+                                 std::map<int, Index>& number) {
+  std::vector<Observation> observations;
+  for (const WornBlock& b : blocks) {
+    if (b.block != Block::run_in && b.block != Block::run_out) continue;
+    const Index plate = number.try_emplace(b.plate, std::ssize(number)).first->second;
+    observations.push_back(
+        {plate, b.energy_before, b.energy_before + b.energy, b.w, b.cycles(), b.balance_sd});
   }
-  const double most = *std::max_element(log_density.begin(), log_density.end());
-  double mass = 0, variance_between = 0;
-  std::vector<double> mean(fit.plates.size(), 0), square(fit.plates.size(), 0);
-  for (int i = 0; i < steps; ++i) {
-    const double weight = std::exp(log_density[static_cast<std::size_t>(i)] - most);
-    const double variance = sd_at(i) * sd_at(i);
-    mass += weight;
-    variance_between += weight * variance;
-    for (std::size_t j = 0; j < fit.plates.size(); ++j) {
-      const double error = fit.plates[j].standard_error * fit.plates[j].standard_error;
-      const double kept = variance / (variance + error);
-      const double expected = kept * fit.plates[j].log_factor;
-      mean[j] += weight * expected;
-      square[j] += weight * (kept * error + expected * expected);
-    }
-  }
-  fit.plate_sd = std::sqrt(variance_between / mass);
-  for (std::size_t j = 0; j < fit.plates.size(); ++j) {
-    fit.plates[j].shrunk = mean[j] / mass;
-    fit.plates[j].shrunk_sd =
-        std::sqrt(square[j] / mass - fit.plates[j].shrunk * fit.plates[j].shrunk);
-  }
+  return observations;
 }
 
 }  // namespace
 
 RunInFit fit_run_in(const std::vector<WornBlock>& blocks) {
   std::map<int, Index> number;
-  std::vector<Observation> observations;
+  std::vector<Observation> observations = observe(blocks, number);
   double most_energy = 0;
   for (const WornBlock& b : blocks) {
-    if (b.block != Block::run_in && b.block != Block::run_out) continue;
-    const Index plate = number.try_emplace(b.plate, std::ssize(number)).first->second;
-    observations.push_back(
-        {plate, b.energy_before, b.energy_before + b.energy, b.w, b.cycles(), b.balance_sd});
-    if (b.block == Block::run_in) most_energy = std::max(most_energy, observations.back().to);
+    if (b.block == Block::run_in) most_energy = std::max(most_energy, b.energy_before + b.energy);
   }
   const Index plates = std::ssize(number);
   if (plates == 0 || std::ssize(observations) <= 5 + plates - 1 || !(most_energy > 0))
@@ -308,6 +276,40 @@ RunInFit fit_run_in(const std::vector<WornBlock>& blocks) {
   }
   shrink_factors(fit);
   return fit;
+}
+
+std::vector<RunIn> repeat_run_in(const std::vector<WornBlock>& blocks, const RunInFit& fit,
+                                 int count, std::uint64_t seed) {
+  std::map<int, Index> number;
+  std::vector<Observation> observations = observe(blocks, number);
+  Problem problem(std::move(observations), std::ssize(number));
+  problem.set_cycle_sd(fit.cycle_sd);
+  VectorXd x(problem.unknowns());
+  const RunIn& centre = fit.run_in;
+  x[0] = std::log(centre.fast_energy);
+  x[1] = std::log(centre.slow_energy / centre.fast_energy - 1);
+  for (const PlateFactor& plate : fit.plates) {
+    const Index p = number.at(plate.plate);
+    if (p + 1 < problem.plates()) x[2 + p] = plate.log_factor;  // the last follows from the others
+  }
+  std::vector<RunIn> run_ins;
+  for (int b = 0; b < count; ++b) {
+    Rng rng(seed, static_cast<std::uint64_t>(b));
+    for (Index i = 0; i < problem.rows(); ++i) {
+      Observation& o = problem.at(i);
+      const double w = fit.parameters[0] * centre.mean(o.from, o.to);
+      const double sd = std::hypot(fit.cycle_sd / std::sqrt(o.cycles), o.balance_sd);
+      o.w = w * std::exp(problem.log_factor(x, o.plate)) + sd * rng.normal();
+    }
+    const Problem::State state = descend(problem, x).state;
+    // A settled rate of next to nothing beside the modes is no scale to divide by.
+    const double w0 = std::max(state.linear[0], 1e-6 * state.linear.sum());
+    run_ins.push_back(w0 > 0 && std::isfinite(state.sum)
+                          ? RunIn{state.linear[1] / w0, state.linear[2] / w0,
+                                  Problem::slow(state.x), Problem::fast(state.x)}
+                          : centre);
+  }
+  return run_ins;
 }
 
 }  // namespace wearwell::clutch

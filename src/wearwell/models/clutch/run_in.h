@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstdint>
 #include <vector>
 
 #include "wearwell/models/clutch/wear_law.h"
@@ -31,7 +32,8 @@ struct RunInFit {
   Eigen::Matrix4d run_in_covariance;
   double cycle_sd = 0;  ///< scatter of one cycle's wear rate, m^3/J
   std::vector<PlateFactor> plates;
-  double plate_sd = 0;  ///< root mean square of the standard deviation of log factors
+  /// Standard deviation of a new plate's log factor about the mean of these plates'.
+  double plate_sd = 0;
   std::size_t blocks = 0;
   int starts = 0;    ///< tried
   int agreeing = 0;  ///< that reached the best sum of squares
@@ -49,5 +51,10 @@ struct RunInFit {
 /// prior (fewer than three plates: no shrinking, and plate_sd is 0).
 /// Throws InputError when there are fewer blocks than unknowns.
 RunInFit fit_run_in(const std::vector<WornBlock>& blocks);
+
+/// Parametric bootstrap: `count` fits to blocks simulated from `fit`, which was made of `blocks`.
+/// Repetition b owns random stream b of the seed.
+std::vector<RunIn> repeat_run_in(const std::vector<WornBlock>& blocks, const RunInFit& fit,
+                                 int count, std::uint64_t seed);
 
 }  // namespace wearwell::clutch

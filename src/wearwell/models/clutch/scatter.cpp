@@ -26,8 +26,11 @@ VectorXd corrected_residuals(const WearMap& map) {
 class Candidate {
  public:
   Candidate(ScatterKind kind, const WearPoints& points, const WearMap& map)
-      : kind_(kind), points_(points), residuals_(corrected_residuals(map)) {
-    unit_ = std::sqrt((residuals_.array().square() * points.cycles.array()).mean());
+      : kind_(kind),
+        points_(points),
+        cycles_(points.effective_cycles()),
+        residuals_(corrected_residuals(map)) {
+    unit_ = std::sqrt((residuals_.array().square() * cycles_.array()).mean());
     const Index n = points.size();
     features_.resize(n, size_of(kind));
     features_.col(0).setOnes();
@@ -63,10 +66,10 @@ class Candidate {
     if (!(sigma.minCoeff() > least_share) || !sigma.allFinite()) return INFINITY;
     const Eigen::ArrayXd residual = residuals_.array() / unit_;
     const Eigen::ArrayXd balance = points_.balance_sd.array() / unit_;
-    const Eigen::ArrayXd variance = sigma.square() / points_.cycles.array() + balance.square();
+    const Eigen::ArrayXd variance = sigma.square() / cycles_.array() + balance.square();
     const Eigen::ArrayXd square = residual.square() / variance;
     if (!gradient.empty()) {
-      Eigen::ArrayXd by_linear = (1 - square) / variance * sigma / points_.cycles.array();
+      Eigen::ArrayXd by_linear = (1 - square) / variance * sigma / cycles_.array();
       if (exponential) by_linear *= sigma;
       Eigen::Map<VectorXd>(gradient.data(), size()) = features_.transpose() * by_linear.matrix();
     }
@@ -87,8 +90,8 @@ class Candidate {
 
   /// From a regression of |e| sqrt(n), whose mean is sigma_w sqrt(2/pi).
   VectorXd regressed() const {
-    const Eigen::ArrayXd sizes = residuals_.array().abs() * points_.cycles.array().sqrt() *
-                                 std::sqrt(std::numbers::pi / 2) / unit_;
+    const Eigen::ArrayXd sizes =
+        residuals_.array().abs() * cycles_.array().sqrt() * std::sqrt(std::numbers::pi / 2) / unit_;
     if (kind_ == ScatterKind::exponential)
       return features_.colPivHouseholderQr().solve(sizes.max(0.05).log().matrix().eval());
     return features_.colPivHouseholderQr().solve(sizes.matrix().eval());
@@ -107,6 +110,7 @@ class Candidate {
  private:
   ScatterKind kind_;
   const WearPoints& points_;
+  VectorXd cycles_;  ///< effective
   VectorXd residuals_;
   double unit_ = 1;
   Eigen::MatrixXd features_;
@@ -154,9 +158,10 @@ ScatterFit fit_candidate(ScatterKind kind, const WearPoints& points, const WearM
 
 VectorXd point_sd(const ScatterLaw& law, const WearPoints& points, const VectorXd& mean) {
   VectorXd sd(points.size());
+  const VectorXd cycles = points.effective_cycles();
   for (Index j = 0; j < sd.size(); ++j) {
     const double sigma = law.formula(mean[j], points.at[static_cast<std::size_t>(j)]);
-    sd[j] = std::hypot(sigma / std::sqrt(points.cycles[j]), points.balance_sd[j]);
+    sd[j] = std::hypot(sigma / std::sqrt(cycles[j]), points.balance_sd[j]);
   }
   return sd;
 }

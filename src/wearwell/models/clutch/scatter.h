@@ -26,14 +26,15 @@ struct ScatterSearch {
   std::vector<double> floors;
 };
 
-/// Standard deviations of the wear rates of points: sqrt(sigma_w^2/n_j + balance_sd^2).
+/// Standard deviations of the wear rates of points: sqrt(sigma_w^2/(n_j factor_j^2) + balance_sd^2).
+/// The scatter of a cycle does not grow with run-in and plate, so that compensation divides it too.
 Eigen::VectorXd point_sd(const ScatterLaw& law, const WearPoints& points,
                          const Eigen::VectorXd& mean);
 
 /// Fits each candidate to the residuals of `map` at the points it was fitted to, by maximum
 /// likelihood from several starts, with sigma_w positive at every point:
 ///
-///   e_j / sqrt(1 - h_j) ~ N(0, sigma_w^2/n_j + balance_sd_j^2).
+///   e_j / sqrt(1 - h_j) ~ N(0, sigma_w^2/(n_j factor_j^2) + balance_sd_j^2).
 ///
 /// The leverages h_j give back what fitting the map took off the residuals; the paper's formula has
 /// e_j alone.

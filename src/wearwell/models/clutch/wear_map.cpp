@@ -1,13 +1,15 @@
 #include "wearwell/models/clutch/wear_map.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <numeric>
+#include <thread>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/workers.h"
+#include "wearwell/regress/search_problem.h"
 #include "wearwell/regress/subset_search.h"
 
 namespace wearwell::clutch {
@@ -53,6 +55,71 @@ WearMap fit_terms(WearMap map, const WearPoints& points, const Eigen::MatrixXd& 
 
 const char* const temperature_map = "temperature";
 
+int threads_of(int wanted) {
+  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// By r, then by q; nothing is known of them yet.
+std::vector<PairBest> pairs_of(const std::vector<double>& exponents) {
+  std::vector<PairBest> pairs;
+  for (const double r : exponents) {
+    for (const double q : exponents) pairs.push_back({r, q, INFINITY, 0, 0, {}});
+  }
+  return pairs;
+}
+
+/// The search at one pair of exponents.
+class PairSearch {
+ public:
+  PairSearch(const WearPoints& points, Surrogate surrogate, bool drop_temperature)
+      : points_(points), surrogate_(surrogate), drop_temperature_(drop_temperature) {
+    std::vector<std::string> names = input_names(surrogate);
+    if (drop_temperature) names.erase(names.begin() + 1);
+    terms_ = cubic_terms(names);
+  }
+
+  double submodels() const { return std::ldexp(1.0, static_cast<int>(terms_.size())) - 1; }
+
+  /// Fills in the best submodel; none where its PRESS would exceed `at_most`.
+  void solve(PairBest& pair, const std::vector<int>& start, double at_most = INFINITY) const {
+    SearchSettings settings;
+    settings.keep = 1;
+    settings.threads = 1;
+    settings.start = start;
+    settings.press_at_most = at_most;
+    const SearchResult result = search_subsets(columns(pair), points_.w, {}, settings);
+    if (result.models.empty()) return;
+    const SubsetModel& best = result.models.front();
+    pair.press = best.press;
+    pair.r2 = best.r2;
+    pair.r2p = best.r2p;
+    pair.terms = best.terms;
+  }
+
+  /// PRESS of one model; infinite where it cannot be fitted.
+  double press(const PairBest& pair, const std::vector<int>& terms) const {
+    const Eigen::MatrixXd chosen = columns(pair)(Eigen::all, terms);
+    const SearchProblem problem(chosen, points_.w, {}, Criterion::loo);
+    return exact_error(problem, every_term(problem.terms)).value_or(INFINITY);
+  }
+
+ private:
+  Eigen::MatrixXd columns(const PairBest& pair) const {
+    Eigen::MatrixXd values = input_values(surrogate_, pair.r, pair.q, points_.at);
+    if (drop_temperature_) {
+      const std::vector<int> kept =
+          values.cols() == 3 ? std::vector<int>{0, 2} : std::vector<int>{0};
+      values = values(Eigen::all, kept).eval();
+    }
+    return make_design(terms_, values).columns;
+  }
+
+  const WearPoints& points_;
+  Surrogate surrogate_;
+  bool drop_temperature_;
+  std::vector<Term> terms_;
+};
+
 }  // namespace
 
 const char* name_of(Surrogate surrogate) {
@@ -95,41 +162,63 @@ ExponentSearch search_exponents(const WearPoints& points, Surrogate surrogate,
                                 const std::vector<double>& exponents, int threads,
                                 bool drop_temperature, Progress* progress) {
   const auto start = std::chrono::steady_clock::now();
-  std::vector<std::string> names = input_names(surrogate);
-  if (drop_temperature) names.erase(names.begin() + 1);
-  const std::vector<Term> terms = cubic_terms(names);
-  ExponentSearch search{
-      surrogate, exponents, {}, 0, std::ldexp(1.0, static_cast<int>(terms.size())) - 1, 0};
-  for (const double r : exponents) {
-    for (const double q : exponents) search.pairs.push_back({r, q, 0, 0, 0, {}});
-  }
-  const auto solve = [&](std::size_t i) {
-    PairBest& pair = search.pairs[i];
-    Eigen::MatrixXd values = input_values(surrogate, pair.r, pair.q, points.at);
-    if (drop_temperature) {
-      const std::vector<int> kept =
-          values.cols() == 3 ? std::vector<int>{0, 2} : std::vector<int>{0};
-      values = values(Eigen::all, kept).eval();
+  const PairSearch one(points, surrogate, drop_temperature);
+  ExponentSearch search{surrogate, exponents, pairs_of(exponents), 0, one.submodels(), 0};
+  // Along a row of the exponents the best model changes little: the one before is a good start.
+  const auto solve_row = [&](int row) {
+    const std::size_t size = exponents.size(), first = static_cast<std::size_t>(row) * size;
+    std::vector<int> before;
+    for (std::size_t i = first; i < first + size; ++i) {
+      one.solve(search.pairs[i], before);
+      before = search.pairs[i].terms;
+      if (progress) progress->advance(1);
     }
-    SearchSettings settings;
-    settings.keep = 1;
-    settings.threads = 1;
-    const SearchResult result =
-        search_subsets(make_design(terms, values).columns, points.w, {}, settings);
-    const SubsetModel& best = result.models.front();
-    pair.press = best.press;
-    pair.r2 = best.r2;
-    pair.r2p = best.r2p;
-    pair.terms = best.terms;
-    if (progress) progress->advance(1);
   };
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, search.pairs.size(), solve); });
+  run_tasks(static_cast<int>(exponents.size()), threads_of(threads), solve_row);
   for (std::size_t i = 1; i < search.pairs.size(); ++i) {
     if (search.pairs[i].press < search.pairs[search.best].press) search.best = i;
   }
   search.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return search;
+}
+
+PairBest best_exponents(const WearPoints& points, Surrogate surrogate,
+                        const std::vector<double>& exponents, const std::vector<int>& start,
+                        int threads, bool drop_temperature, Progress* progress) {
+  const PairSearch one(points, surrogate, drop_temperature);
+  std::vector<PairBest> pairs = pairs_of(exponents);
+  std::vector<int> terms = start;
+  if (terms.empty()) {
+    PairBest& middle = pairs[pairs.size() / 2 + exponents.size() / 2];
+    one.solve(middle, {});
+    terms = middle.terms;
+  }
+  // The promising pairs first, so that the others are left early.
+  std::vector<double> promise(pairs.size());
+  std::vector<std::size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (const std::size_t i : order) promise[i] = one.press(pairs[i], terms);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return promise[a] < promise[b]; });
+  std::mutex mutex;
+  double least = promise[order.front()];
+  const auto solve = [&](int k) {
+    PairBest& pair = pairs[order[static_cast<std::size_t>(k)]];
+    double most;
+    {
+      const std::lock_guard lock(mutex);
+      most = least;
+    }
+    // A little more than the best, so that rounding leaves no equal behind.
+    one.solve(pair, terms, most * (1 + 1e-9));
+    if (progress) progress->advance(1);
+    const std::lock_guard lock(mutex);
+    least = std::min(least, pair.press);
+  };
+  run_tasks(static_cast<int>(pairs.size()), threads_of(threads), solve);
+  return *std::min_element(pairs.begin(), pairs.end(), [](const PairBest& a, const PairBest& b) {
+    return a.press < b.press;
+  });
 }
 
 Eigen::MatrixXd WearMap::rows(const std::vector<OperatingPoint>& at) const {

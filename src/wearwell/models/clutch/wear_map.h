@@ -18,8 +18,17 @@ struct WearPoints {
   Eigen::VectorXd w;           ///< m^3/J
   Eigen::VectorXd cycles;      ///< n_j
   Eigen::VectorXd balance_sd;  ///< of w, m^3/J
+  /// Of points that were compensated, or empty: what w was divided by, for run-in and plate; the
+  /// plate, and the energy that it had taken up before and after, J.
+  Eigen::VectorXd factor;
+  std::vector<int> plate;
+  std::vector<double> from, to;
 
   Eigen::Index size() const { return w.size(); }
+  /// The cycles that would scatter as much without compensation: cycles factor^2.
+  Eigen::VectorXd effective_cycles() const {
+    return factor.size() == 0 ? cycles : cycles.cwiseProduct(factor.cwiseAbs2());
+  }
 };
 
 /// What stands for two or three of the inputs (Haramina et al. 2025, section 3.3 and Table A1).
@@ -66,6 +75,14 @@ std::vector<double> paper_exponents();
 ExponentSearch search_exponents(const WearPoints& points, Surrogate surrogate,
                                 const std::vector<double>& exponents, int threads = 0,
                                 bool drop_temperature = false, Progress* progress = nullptr);
+
+/// The best of those pairs alone, the same as search_exponents finds: a pair is left as soon as it
+/// is certain that it holds nothing better than another. `start`: terms of a model that may be
+/// good, or none; they change the time only.
+PairBest best_exponents(const WearPoints& points, Surrogate surrogate,
+                        const std::vector<double>& exponents, const std::vector<int>& start,
+                        int threads = 0, bool drop_temperature = false,
+                        Progress* progress = nullptr);
 
 /// A fitted polynomial of wear rates.
 struct WearMap {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <map>
 
-#include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
 
 namespace wearwell::clutch {
@@ -46,23 +46,29 @@ std::vector<double> spread_out(const std::vector<double>& exponents, double own)
   return chosen;
 }
 
-/// A run-in from the uncertainty of the fit: sizes normal and not negative, energies lognormal.
-RunIn draw_run_in(const RunInFit& fit, Rng& rng) {
-  Eigen::Vector4d mean(fit.run_in.slow, fit.run_in.fast, 0, 0);
-  Eigen::Vector4d to_log(1, 1, 1 / fit.run_in.slow_energy, 1 / fit.run_in.fast_energy);
-  const Eigen::Matrix4d covariance =
-      to_log.asDiagonal() * fit.run_in_covariance * to_log.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(covariance);
-  Eigen::Vector4d z;
-  for (double& each : z) each = rng.normal();
-  const Eigen::Vector4d x =
-      mean + solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().cwiseProduct(z);
-  // Beyond a factor of 3 the energies are no longer known by their covariance.
-  const auto energy = [](double centre, double log_ratio) {
-    return centre * std::exp(std::clamp(log_ratio, -std::log(3.0), std::log(3.0)));
-  };
-  return {std::max(0.0, x[0]), std::max(0.0, x[1]), energy(fit.run_in.slow_energy, x[2]),
-          energy(fit.run_in.fast_energy, x[3])};
+/// The exponents of a repeated search: the map's own, and some.
+std::vector<double> tried_exponents(const std::vector<double>& exponents, const WearMap& map) {
+  std::vector<double> tried = spread_out(exponents, map.r);
+  const std::vector<double> others = spread_out(exponents, map.q);
+  tried.insert(tried.end(), others.begin(), others.end());
+  std::sort(tried.begin(), tried.end());
+  tried.erase(std::unique(tried.begin(), tried.end()), tried.end());
+  return tried;
+}
+
+/// The best map of other measurements at the same points.
+WearMap search_again(const WearPoints& points, const WearMap& map, const std::vector<double>& tried,
+                     Progress* progress) {
+  const PairBest best = best_exponents(points, map.surrogate, tried, map.terms, 1, false, progress);
+  return fit_map("replicate", points, map.surrogate, best.r, best.q, 3, best.terms);
+}
+
+/// The plates' factors by which the measurements are off, relative, by plate.
+std::map<int, double> factor_errors(const RunInFit& run_in, Rng& rng) {
+  std::map<int, double> errors;
+  for (const PlateFactor& plate : run_in.plates)
+    errors[plate.plate] = std::exp(plate.shrunk_sd * rng.normal());
+  return errors;
 }
 
 Validation::Metrics metrics(const std::vector<ValidationPoint>& points, bool with_outliers) {
@@ -187,25 +193,28 @@ WearModel make_model(const std::string& title, const WearPoints& points, const W
 
 std::vector<Replicate> draw_replicates(const WearPoints& points, const WearMap& map,
                                        const VectorXd& sd, const RunInFit& run_in,
-                                       const std::vector<double>& exponents, int count,
-                                       std::uint64_t seed, int threads, Progress* progress) {
-  std::vector<double> tried = spread_out(exponents, map.r);
-  const std::vector<double> others = spread_out(exponents, map.q);
-  tried.insert(tried.end(), others.begin(), others.end());
-  std::sort(tried.begin(), tried.end());
-  tried.erase(std::unique(tried.begin(), tried.end()), tried.end());
-  std::vector<Replicate> replicates(static_cast<std::size_t>(count));
+                                       const std::vector<RunIn>& run_ins,
+                                       const std::vector<double>& exponents, std::uint64_t seed,
+                                       int threads, Progress* progress) {
+  const std::vector<double> tried = tried_exponents(exponents, map);
+  std::vector<Replicate> replicates(run_ins.size());
   const auto solve = [&](std::size_t b) {
     Rng rng(seed, b);
     WearPoints simulated = points;
-    for (Index j = 0; j < simulated.size(); ++j)
-      simulated.w[j] = map.fit.fitted[j] + sd[j] * rng.normal();
-    const ExponentSearch search =
-        search_exponents(simulated, map.surrogate, tried, 1, false, progress);
-    const PairBest& best = search.pairs[search.best];
-    replicates[b] = {
-        unscaled(fit_map("replicate", simulated, map.surrogate, best.r, best.q, 3, best.terms)),
-        draw_run_in(run_in, rng)};
+    for (Index j = 0; j < simulated.size(); ++j) simulated.w[j] = sd[j] * rng.normal();
+    std::map<int, double> factors = factor_errors(run_in, rng);
+    for (Index j = 0; j < simulated.size(); ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      if (points.plate.empty()) {
+        simulated.w[j] += map.fit.fitted[j];
+        continue;
+      }
+      const double factor = factors.try_emplace(points.plate[at], 1.0).first->second;
+      const double compensation = run_in.run_in.mean(points.from[at], points.to[at]) /
+                                  run_ins[b].mean(points.from[at], points.to[at]);
+      simulated.w[j] = compensation * (factor * map.fit.fitted[j] + simulated.w[j]);
+    }
+    replicates[b] = {unscaled(search_again(simulated, map, tried, progress)), run_ins[b]};
   };
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, replicates.size(), solve); });

@@ -81,15 +81,18 @@ WearPolynomial unscaled(const WearMap& map);
 WearModel make_model(const std::string& title, const WearPoints& points, const WearMap& map,
                      const RunInFit& run_in, const ScatterSearch& scatter, double worn_out);
 
-/// Parametric bootstrap: measurements are simulated from the map and the scatter of its points, and
-/// to each set the best submodel is searched exactly anew at every pair of a subset of `exponents`
-/// (six of each, and the map's own), so that the choice of exponents and terms varies as it does
-/// with new data. Replicate b owns random stream b. Does not depend on the number of threads.
+/// Parametric bootstrap of the whole fit, one for each of `run_ins` (repeat_run_in): measurements
+/// are simulated from the map, the scatter of its points and what is not known of the plates'
+/// factors, and compensated with that run-in, as those on the rig were with the fitted one; its
+/// errors are then in the map as well, where they undo much of themselves. To each set the best
+/// submodel is searched exactly anew at every pair of a subset of `exponents` (six of each, and the
+/// map's own), so that the choice of exponents and terms varies as it does with new data. Replicate
+/// b owns random stream b. Does not depend on the number of threads.
 std::vector<Replicate> draw_replicates(const WearPoints& points, const WearMap& map,
                                        const Eigen::VectorXd& sd, const RunInFit& run_in,
-                                       const std::vector<double>& exponents, int count,
-                                       std::uint64_t seed, int threads = 0,
-                                       Progress* progress = nullptr);
+                                       const std::vector<RunIn>& run_ins,
+                                       const std::vector<double>& exponents, std::uint64_t seed,
+                                       int threads = 0, Progress* progress = nullptr);
 
 /// One held-out point.
 struct ValidationPoint {

@@ -8,7 +8,7 @@ namespace wearwell::joint {
 enum class WorkRule {
   rectangle,  ///< sum of F_i ds_i, as An et al. (2011, eq. 3)
   trapezoid,  ///< sum of (F_{i-1} + F_i)/2 ds_i; the first force follows the last, a cycle being
-              ///< closed
+              ///< closed. A profile whose last row repeats its first has a first increment of 0
 };
 
 /// Friction work of one cycle [J] from the force [N] and the slip increment [m] that ends at each
