@@ -304,6 +304,10 @@ StudyResult read_summary(const JsonReader& json, const std::filesystem::path& fo
   if (const auto coverage = json.find("coverage")) {
     result.coverage = read_coverage(*coverage, folder);
   }
+  if (const auto quadrature = json.find("quadrature")) {
+    result.quadrature = {quadrature->at("tolerance").number_or(unknown),
+                         quadrature->at("reached").number_or(unknown), static_cast<std::size_t>(count(*quadrature, "nodes"))};
+  }
   if (const auto evidence = json.find("log_evidence")) {
     result.log_evidence = evidence->number_or(unknown);
   }
