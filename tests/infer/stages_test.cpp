@@ -45,12 +45,13 @@ struct Verdicts {
 Verdicts judge(const Posterior& posterior) {
   Verdicts verdicts{fit(posterior, exact_settings()), {}};
   const NaturalMode mode = natural_mode(posterior, verdicts.fit);
-  Loo loo = leave_one_out(posterior, verdicts.fit);
+  const Loo loo = leave_one_out(posterior, verdicts.fit);
   for (Shortfall& each :
-       later_shortfalls(posterior, verdicts.fit, mode, loo.terms.empty() ? nullptr : &loo)) {
+       later_shortfalls(posterior, verdicts.fit, mode)) {
     verdicts.fit.shortfalls.push_back(std::move(each));
   }
   verdicts.checks = trust_checks(posterior, verdicts.fit);
+  if (!loo.terms.empty()) verdicts.checks.push_back(loo_check(loo, "row", posterior.dimension()));
   return verdicts;
 }
 

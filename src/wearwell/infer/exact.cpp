@@ -59,7 +59,8 @@ Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact,
         if (within(posterior, x)) log_density = posterior.value(view(posterior.to_real(view(x))));
       }
       if (!std::isfinite(log_density)) {
-        throw MachineError("independent draws: the cells of the quadrature lie outside the support");
+        throw MachineError(
+            "independent draws: the cells of the quadrature lie outside the support");
       }
       chain.values.row(i) = x;
       chain.log_density.push_back(log_density);

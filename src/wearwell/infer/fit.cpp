@@ -6,6 +6,7 @@
 
 #include "wearwell/infer/digits.h"
 #include "wearwell/infer/mode.h"
+#include "wearwell/infer/surface.h"
 
 namespace wearwell {
 namespace {
@@ -118,8 +119,42 @@ Chains chains_of(const Draws& draws, Eigen::Index parameter) {
   return chains;
 }
 
-Fit fit(const Posterior& posterior, const FitSettings& settings) {
-  Shape shape = examine(posterior);
+namespace {
+
+// Of the draws, as the check of convergence asks for it (sampler_checks.cpp).
+bool mixed(const Fit& fit) {
+  constexpr double largest_rhat = 1.01;
+  const double least = 100.0 * static_cast<double>(fit.draws.size());
+  return std::all_of(fit.diagnostics.begin(), fit.diagnostics.end(), [&](const Diagnostics& d) {
+    return d.rhat <= largest_rhat && std::min(d.ess_bulk, d.ess_tail) >= least;
+  });
+}
+
+// Where no quadrature vouches for them and nobody said how many there are to be, draws that do not
+// suffice are drawn anew, twice as long, and once more.
+void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& fit) {
+  constexpr int most_doublings = 2;
+  FitSettings longer = settings;
+  for (int doubling = 0;; ++doubling) {
+    fit.run = longer.run;
+    fit.draws = draw(posterior, fit, longer);
+    fit.pooled = pool(fit.draws);
+    fit.diagnostics.clear();
+    for (int i = 0; i < posterior.dimension(); ++i) {
+      fit.diagnostics.push_back(diagnose(chains_of(fit.draws, i)));
+    }
+    const bool may = settings.extend && !fit.exact && doubling < most_doublings;
+    if (!may || mixed(fit)) return;
+    longer.run.warmup *= 2;
+    longer.run.draws *= 2;
+    longer.run.progress = nullptr;
+  }
+}
+
+}  // namespace
+
+Fit fit(const Posterior& whole, const FitSettings& settings) {
+  Shape shape = examine(whole);
   Fit fit{settings.method,
           whitening_at(shape.mode),
           shape.tails,
@@ -130,6 +165,13 @@ Fit fit(const Posterior& posterior, const FitSettings& settings) {
           {},
           settings.nuts.max_treedepth};
 
+  if (shape.mode.found) {
+    if (auto quick = quick_posterior(whole, fit.whitening)) {
+      fit.quick = quick->posterior;
+      fit.quick_error = quick->error;
+    }
+  }
+  const Posterior& posterior = fit.quick ? *fit.quick : whole;
   const auto all = [&](auto property) {
     return std::all_of(fit.tails.begin(), fit.tails.end(), property);
   };
@@ -143,6 +185,7 @@ Fit fit(const Posterior& posterior, const FitSettings& settings) {
     ExactSettings exact = settings.exact;
     exact.second_moments = all([](const Tail& t) { return t.has_moment(2); });
     integral = integrate(posterior, fit.whitening, exact);
+    integral.error = std::max(integral.error, fit.quick_error);
     if (integral.failure.empty()) {
       fit.exact = std::move(integral);
       integral = {};
@@ -151,14 +194,10 @@ Fit fit(const Posterior& posterior, const FitSettings& settings) {
     }
   }
   if (fit.method == Method::exact && !fit.exact) fit.method = Method::nuts;
-  fit.draws = draw(posterior, fit, settings);
-  fit.pooled = pool(fit.draws);
-  for (int i = 0; i < posterior.dimension(); ++i) {
-    fit.diagnostics.push_back(diagnose(chains_of(fit.draws, i)));
-  }
-  fit.shortfalls = shortfalls(posterior, shape, settings, fit, integral);
+  draw_enough(posterior, settings, fit);
+  fit.shortfalls = shortfalls(whole, shape, settings, fit, integral);
   for (Shortfall& each :
-       digits(posterior, fit.whitening, fit.exact ? fit.exact->nodes : fit.pooled)) {
+       digits(whole, fit.whitening, fit.exact ? fit.exact->nodes : fit.pooled)) {
     fit.shortfalls.push_back(std::move(each));
   }
   return fit;

@@ -24,6 +24,8 @@ struct FitSettings {
   NutsSettings nuts;
   MetropolisSettings metropolis;
   ExactSettings exact;
+  /// Where no quadrature vouches for draws that have not mixed: twice as many with twice the warm-up, up to twice.
+  bool extend = false;
 };
 
 /// A posterior as one method drew it, and beside it the exact one where quadrature can reach.
@@ -38,6 +40,11 @@ struct Fit {
   std::vector<Diagnostics> diagnostics;  ///< of the draws, one a parameter
   int max_treedepth = 0;                 ///< that NUTS was allowed
   std::vector<Shortfall> shortfalls = {};  ///< what any stage did not reach
+  RunSettings run = {};                    ///< of the draws: longer than asked for where settings say `extend`
+  /// The same posterior by polynomials, where observations are many (surface.h); what is done with nodes and
+  /// draws may ask this one.
+  std::shared_ptr<const Posterior> quick = {};
+  double quick_error = 0;
 };
 
 /// The draws of one parameter, as diagnostics take them: views, valid while the draws live.

@@ -22,6 +22,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Numbers held at once: draws are thinned beyond.
 constexpr double most_numbers = 5e7;
 
+// Of nodes and observations: beyond, draws serve instead of nodes, and fewer of them.
+constexpr double most_at_nodes = 2e7, most_at_draws = 4e6, fewest_draws = 400;
+constexpr std::size_t many_terms = 1000;
+
 // With more doubtful observations than this the model is in doubt, not the weights.
 constexpr std::ptrdiff_t most_refits = 20;
 
@@ -306,8 +310,11 @@ std::optional<Refitted> fitted_without(const Posterior& posterior, const Whiteni
 // Log densities of the terms at draws: a column a term.
 Eigen::MatrixXd log_densities(const LogDensity& likelihood, const WeightedDraws& draws,
                               std::size_t terms) {
-  const auto thin = static_cast<Eigen::Index>(std::ceil(static_cast<double>(draws.values.rows()) *
-                                                        static_cast<double>(terms) / most_numbers));
+  // Each of many observations moves the posterior so little that some hundred draws tell how it is predicted.
+  const double rows = static_cast<double>(draws.values.rows()), all = rows * static_cast<double>(terms);
+  const double wanted = terms < many_terms ? most_numbers
+                                           : std::max(most_at_draws, fewest_draws * static_cast<double>(terms));
+  const auto thin = static_cast<Eigen::Index>(std::ceil(all / wanted));
   const Eigen::Index used = (draws.values.rows() + thin - 1) / thin;
   Eigen::MatrixXd log_density(used, static_cast<Eigen::Index>(terms));
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, used, 64), [&](const auto& part) {
@@ -389,6 +396,11 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
   if (!fit.exact) return psis_loo(likelihood, fit.pooled, efficiency_of(fit), scores);
   Loo loo = psis_loo(likelihood, fit.pooled);
   if (loo.terms.empty()) return loo;
+  const double numbers = static_cast<double>(fit.exact->nodes.values.rows()) *
+                         static_cast<double>(loo.terms.size());
+  if (loo.terms.size() >= many_terms && numbers > most_at_nodes) {
+    return scores ? psis_loo(likelihood, fit.pooled, 1, scores) : loo;
+  }
   const std::vector<LeftOut> sums = left_out(likelihood, fit.exact->nodes, loo.terms.size(), scores);
   loo.by_quadrature = true;
   loo.error = 0;

@@ -16,8 +16,6 @@ const char* stage_name(Stage stage) {
       return "digits";
     case Stage::natural_mode:
       return "mode in the parameters' own units";
-    case Stage::leave_one_out:
-      return "leave-one-out";
   }
   return "";
 }

@@ -11,9 +11,6 @@
 namespace wearwell {
 namespace {
 
-// An outlier or two may cost more than one parameter each; no more.
-constexpr double most_effective = 3;
-
 // Of the log density at the mode over that of the highest node.
 constexpr double most_above = 3;
 
@@ -48,7 +45,7 @@ std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit) {
 }
 
 std::vector<Shortfall> later_shortfalls(const Posterior& posterior, const Fit& fit,
-                                        const NaturalMode& mode, const Loo* loo) {
+                                        const NaturalMode& mode) {
   std::vector<Shortfall> found;
   if (mode.problem.empty() && fit.exact) {
     const double there = posterior.value(view(posterior.to_real(view(mode.position))));
@@ -64,18 +61,6 @@ std::vector<Shortfall> later_shortfalls(const Posterior& posterior, const Fit& f
     found.push_back({Stage::natural_mode, Verdict::fail, mode.problem,
                      "Do not compare with published maximum likelihood fits; give priors that hold "
                      "every parameter."});
-  }
-  if (loo) {
-    const double effective = loo->p_loo();
-    const double most = most_effective * posterior.dimension();
-    if (!(effective <= most)) {
-      found.push_back(
-          {Stage::leave_one_out, Verdict::fail,
-           fmt::format("the effective number of parameters is {:.3g}, of {} parameters", effective,
-                       posterior.dimension()),
-           "Some observation is beyond what the model expects, or the posterior was not integrated "
-           "as it is: look at each observation's density."});
-    }
   }
   return found;
 }

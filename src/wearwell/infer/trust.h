@@ -18,9 +18,9 @@ namespace wearwell {
 /// another law, is knowledge: the same dependence is a warning.
 std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit);
 
-/// What the stages after the fit fell short of, to be added to its own. `loo` may be null.
+/// What the stages after the fit fell short of, to be added to its own.
 std::vector<Shortfall> later_shortfalls(const Posterior& posterior, const Fit& fit,
-                                        const NaturalMode& mode, const Loo* loo);
+                                        const NaturalMode& mode);
 
 /// No check fails.
 bool trusted(const std::vector<Check>& checks);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "wearwell/report/selection_text.h"
+#include "wearwell/selection/text.h"
 
 namespace wearwell {
 namespace {

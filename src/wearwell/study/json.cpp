@@ -219,6 +219,11 @@ Json posterior_json(const PosteriorSummary& result) {
   if (result.life) json["life"] = to_json(*result.life);
   if (result.pointwise) json["pointwise"] = to_json(*result.pointwise);
   if (result.coverage) json["coverage"] = to_json(*result.coverage);
+  if (result.quadrature) {
+    json["quadrature"] = {{"tolerance", result.quadrature->tolerance},
+                          {"reached", result.quadrature->reached},
+                          {"nodes", result.quadrature->nodes}};
+  }
   if (result.log_evidence) json["log_evidence"] = *result.log_evidence;
   return json;
 }

@@ -184,6 +184,13 @@ struct PointwiseTable {
   std::vector<PointwiseRow> rows;
 };
 
+/// Of the numbers that are called exact.
+struct QuadratureSummary {
+  double tolerance = 0;  ///< that was asked for: of mass and second moments, relative
+  double reached = 0;    ///< estimated
+  std::size_t nodes = 0;
+};
+
 struct PosteriorSummary {
   std::string version;
   std::string title, model, equation, data_file;
@@ -209,6 +216,7 @@ struct PosteriorSummary {
   std::string data_fingerprint{};  ///< of what was observed: equal for the same data
   std::optional<ModeSummary> mode{};
   std::optional<LooSummary> loo{};  ///< of a proper posterior
+  std::optional<QuadratureSummary> quadrature{};
 };
 
 }  // namespace wearwell

@@ -297,6 +297,7 @@ FitSettings fit_settings(const PosteriorStudy& study, const SamplerChoice& choic
   run.chains = chosen(choice.chains, study.sampler.chains, 4);
   run.warmup = chosen(choice.warmup, study.sampler.warmup, metropolis ? 4000 : 1000);
   run.draws = chosen(choice.draws, study.sampler.draws, metropolis ? 6000 : 1000);
+  settings.extend = !choice.warmup && !study.sampler.warmup && !choice.draws && !study.sampler.draws;
   run.seed = chosen(choice.seed, study.sampler.seed, std::uint64_t{1});
   return settings;
 }
@@ -336,8 +337,10 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
                                : 1;
     progress.expect(fits * run.chains * (run.warmup + run.draws));
   }
-  const Posterior posterior(study.parameters, study.likelihood(study.data_rows));
-  Fit final = fit(posterior, settings);
+  const Posterior whole(study.parameters, study.likelihood(study.data_rows));
+  Fit final = fit(whole, settings);
+  const std::shared_ptr<const Posterior> quick = final.quick;
+  const Posterior& posterior = quick ? *quick : whole;
   std::optional<Plots> plots;
   if (with_plots) plots = plot_study(study, posterior, final);
 
@@ -351,7 +354,7 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   const ModeSummary mode = summarize_mode(
       study, posterior, final, natural,
       loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
-  for (Shortfall& each : later_shortfalls(posterior, final, natural, loo ? &loo->loo : nullptr)) {
+  for (Shortfall& each : later_shortfalls(whole, final, natural)) {
     final.shortfalls.push_back(std::move(each));
   }
 
@@ -363,8 +366,8 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
                      study.data_rows,
                      method_name(final.method),
                      settings.run.chains,
-                     final.method == Method::exact ? 0 : settings.run.warmup,
-                     settings.run.draws,
+                     final.method == Method::exact ? 0 : final.run.warmup,
+                     final.run.draws,
                      settings.run.seed,
                      summarize_parameters(posterior, final),
                      {},
@@ -377,6 +380,10 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
                      all_checks(study, posterior, final, loo),
                      true,
                      in_units(study, std::move(final.draws))};
+  if (final.exact) {
+    result.quadrature = {settings.exact.tolerance, final.exact->error,
+                         static_cast<std::size_t>(final.exact->nodes.values.rows())};
+  }
   result.data_fingerprint = fingerprint(study.quantity, study.observed);
   result.mode = mode;
   result.loo = std::move(loo);
