@@ -110,6 +110,11 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const Shape& shape
 
 }  // namespace
 
+bool proper(const Fit& fit) {
+  return std::all_of(fit.tails.begin(), fit.tails.end(),
+                     [](const Tail& tail) { return tail.integrable(); });
+}
+
 Chains chains_of(const Draws& draws, Eigen::Index parameter) {
   Chains chains;
   for (const Chain& chain : draws) {
@@ -131,7 +136,7 @@ bool mixed(const Fit& fit) {
 }
 
 // Where no quadrature vouches for them and nobody said how many there are to be, draws that do not
-// suffice are drawn anew, twice as long, and once more.
+// suffice are drawn anew, twice as long, and once more. Those of an improper posterior never do.
 void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& fit) {
   constexpr int most_doublings = 2;
   FitSettings longer = settings;
@@ -143,7 +148,7 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
     for (int i = 0; i < posterior.dimension(); ++i) {
       fit.diagnostics.push_back(diagnose(chains_of(fit.draws, i)));
     }
-    const bool may = settings.extend && !fit.exact && doubling < most_doublings;
+    const bool may = settings.extend && !fit.exact && proper(fit) && doubling < most_doublings;
     if (!may || mixed(fit)) return;
     longer.run.warmup *= 2;
     longer.run.draws *= 2;

@@ -50,6 +50,9 @@ struct Fit {
 /// The draws of one parameter, as diagnostics take them: views, valid while the draws live.
 Chains chains_of(const Draws& draws, Eigen::Index parameter);
 
+/// Every tail of every parameter can be integrated.
+bool proper(const Fit& fit);
+
 /// Finds the mode, examines the tails, integrates exactly when there are at most
 /// `max_exact_dimension` parameters and the posterior is proper, and draws.
 Fit fit(const Posterior& posterior, const FitSettings& settings);

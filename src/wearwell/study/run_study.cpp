@@ -226,11 +226,6 @@ ModeSummary summarize_mode(const PosteriorStudy& study, const Posterior& posteri
   return summary;
 }
 
-bool proper(const Fit& fit) {
-  return std::all_of(fit.tails.begin(), fit.tails.end(),
-                     [](const Tail& tail) { return tail.integrable(); });
-}
-
 std::vector<Check> all_checks(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit,
                               const std::optional<LooSummary>& loo) {
   std::vector<Check> checks = trust_checks(posterior, fit);
