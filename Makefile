@@ -15,14 +15,14 @@ calibrate: build
 
 # All tests but those in a browser and under strace; threads where there are any. Debian's oneTBB and DuckDB are not
 # instrumented: tests/sanitizers/thread.txt.
-sanitize: setup-tests
+sanitize: setup-tests setup-fuzz
 	@cmake --preset asan-ubsan >/dev/null && cmake --build --preset asan-ubsan && ctest --preset asan-ubsan
 	@cmake --preset tsan >/dev/null && cmake --build --preset tsan && ctest --preset tsan
 
 # Coverage-guided; an hour over all targets, or as many seconds as are asked for (make fuzz SECONDS=600).
 SECONDS = 3600
-fuzz: setup-fuzz
-	@cmake --preset fuzz >/dev/null
+fuzz: setup-tests setup-fuzz
+	@cmake --preset asan-ubsan >/dev/null
 	@cmake --build --preset fuzz
 	@tests/fuzz/run $(SECONDS)
 

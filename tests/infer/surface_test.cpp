@@ -7,7 +7,7 @@
 
 #include "infer/test_posteriors.h"
 #include "wearwell/base/rng.h"
-#include "wearwell/fatigue/sn_likelihood.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/math/view.h"
