@@ -217,8 +217,12 @@ std::string coverage_table(const CoverageTable& table) {
                      inside, failures, chosen_tests(table));
 }
 
-std::string count(double x) {
-  return std::isnan(x) ? "unknown" : std::isfinite(x) ? fmt::format("{:.0f}", x) : "never";
+// The digits that quadrature gives: four of a life, three of the difference of two.
+std::string count(double x, int digits = 4) {
+  if (std::isnan(x)) return "unknown";
+  if (!std::isfinite(x)) return "never";
+  const double last = std::pow(10, std::max(0.0, std::floor(std::log10(std::abs(x))) + 1 - digits));
+  return fmt::format("{:.0f}", x == 0 ? x : std::round(x / last) * last);
 }
 
 std::string life_lines(const LifeSummary& summary) {
@@ -237,7 +241,7 @@ std::string life_lines(const LifeSummary& summary) {
   return lives + passed +
          fmt::format(
              "  if it is not passed, inspect again within {} {}: {} % risk of reaching it before\n",
-             count(life.inspect_within), unit, number(100 * summary.risk));
+             count(life.inspect_within, 3), unit, number(100 * summary.risk));
 }
 
 std::string pointwise_table(const PointwiseTable& p) {

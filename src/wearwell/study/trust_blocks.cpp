@@ -40,7 +40,7 @@ present::Callout trust_callout(const std::vector<Check>& checks) {
 present::Table checks_table(const std::vector<Check>& checks) {
   static constexpr const char* words[] = {"Passed", "Warning", "Failed"};
   present::Table table{"checks",
-                       "Checks",
+                       "Every check",
                        {{"Check"}, {"Verdict"}, {"What was found"}, {"What to do"}},
                        {},
                        true};
