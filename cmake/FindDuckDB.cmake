@@ -1,7 +1,8 @@
-# DuckDB::DuckDB: an installed libduckdb first, else the one that setup/install brought from npm.
-set(npm ${PROJECT_SOURCE_DIR}/setup/node_modules)
-find_path(DuckDB_INCLUDE_DIR duckdb.h PATH_SUFFIXES src/duckdb/src/include HINTS ${npm}/duckdb)
-find_library(DuckDB_LIBRARY duckdb HINTS ${npm}/@duckdb/node-bindings-linux-x64)
+# DuckDB::DuckDB: the one that was installed with wearwell, one of the machine, else what setup/install brought from npm.
+set(installed ${CMAKE_CURRENT_LIST_DIR}/../../wearwell)
+set(npm ${CMAKE_CURRENT_LIST_DIR}/../setup/node_modules)
+find_path(DuckDB_INCLUDE_DIR duckdb.h PATH_SUFFIXES src/duckdb/src/include HINTS ${installed} ${npm}/duckdb)
+find_library(DuckDB_LIBRARY duckdb HINTS ${installed} ${npm}/@duckdb/node-bindings-linux-x64)
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(DuckDB

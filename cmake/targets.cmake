@@ -14,9 +14,11 @@ set(common_headers <algorithm> <array> <cmath> <filesystem> <fstream> <functiona
 wearwell_precompiled(wearwell_headers
   HEADERS ${common_headers}
   LIBRARIES Eigen3::Eigen fmt::fmt Threads::Threads)
-wearwell_precompiled(wearwell_test_headers
-  HEADERS ${common_headers} <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>
-  LIBRARIES Eigen3::Eigen fmt::fmt GTest::gmock rapidcheck Threads::Threads)
+if(WEARWELL_BUILD_TESTS)
+  wearwell_precompiled(wearwell_test_headers
+    HEADERS ${common_headers} <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>
+    LIBRARIES Eigen3::Eigen fmt::fmt GTest::gmock rapidcheck Threads::Threads)
+endif()
 
 # One library per folder, so that an include against the direction of the design fails to link.
 #
@@ -34,8 +36,12 @@ function(wearwell_library name)
     add_library(wearwell_${name} INTERFACE)
     set(scope INTERFACE)
   endif()
-  target_include_directories(wearwell_${name} ${scope} ${PROJECT_SOURCE_DIR}/src)
+  target_include_directories(wearwell_${name} ${scope}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(wearwell_${name} ${scope} cxx_std_20)
   target_link_libraries(wearwell_${name} ${scope} ${ARG_USES} ${ARG_LIBRARIES})
+  set_target_properties(wearwell_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY wearwell_libraries wearwell_${name})
 endfunction()
 
 # One test program per folder under tests/, linked to the folder it tests.

@@ -1,0 +1,31 @@
+# `cmake --install`: the program, the libraries with their headers, and the package for find_package(wearwell). Examples that
+# use it: examples/cpp.
+
+# What other programs link.
+add_library(wearwell_engine INTERFACE)
+target_link_libraries(wearwell_engine INTERFACE wearwell_infer wearwell_predict wearwell_regress)
+add_library(wearwell_wearwell INTERFACE)
+target_link_libraries(wearwell_wearwell INTERFACE wearwell_cli wearwell_models wearwell_engine)
+foreach(name engine wearwell)
+  set_target_properties(wearwell_${name} PROPERTIES EXPORT_NAME ${name})
+  add_library(wearwell::${name} ALIAS wearwell_${name})
+endforeach()
+
+get_property(libraries GLOBAL PROPERTY wearwell_libraries)
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/wearwell)
+set(third_party ${CMAKE_INSTALL_LIBDIR}/wearwell)  # DuckDB, which Debian does not package
+set_target_properties(wearwell PROPERTIES INSTALL_RPATH "$ORIGIN/../${third_party}")
+install(TARGETS wearwell RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS ${libraries} wearwell_engine wearwell_wearwell EXPORT wearwell
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT wearwell NAMESPACE wearwell:: DESTINATION ${package} FILE wearwellTargets.cmake)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/wearwell DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.h")
+install(FILES ${DuckDB_LIBRARY} ${DuckDB_INCLUDE_DIR}/duckdb.h DESTINATION ${third_party})
+
+include(CMakePackageConfigHelpers)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/wearwellConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_SOURCE_DIR}/cmake/wearwellConfig.cmake ${PROJECT_BINARY_DIR}/wearwellConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindDuckDB.cmake ${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake
+  DESTINATION ${package})
