@@ -1,12 +1,12 @@
 #include "wearwell/bayes/weighted_draws.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "wearwell/math/quantile.h"
+#include "wearwell/math/root.h"
 
 namespace wearwell {
 
@@ -133,18 +133,10 @@ double Distribution::quantile(double p) const {
     lowest = std::min(lowest, center_[j] - half_width_[j]);
     highest = std::max(highest, center_[j] + half_width_[j]);
   }
-  const auto excess = [&](double x) { return cdf(x) - p; };
-  double reach = std::max(
+  const double step = std::max(
       {2 * half_width_[i], 1e-12 * std::abs(center_[i]), std::numeric_limits<double>::min()});
-  double a = std::max(lowest, center_[i] - reach), b = std::min(highest, center_[i] + reach);
-  while (a > lowest && excess(a) > 0) a = std::max(lowest, a - (reach *= 2));
-  while (b < highest && excess(b) < 0) b = std::min(highest, b + (reach *= 2));
-  if (excess(a) >= 0) return a;
-  if (excess(b) <= 0) return b;
-  std::uintmax_t iterations = 200;  // a corner of the cdf can cost 100
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      excess, a, b, boost::math::tools::eps_tolerance<double>(40), iterations);
-  return 0.5 * (left + right);
+  return solve_increasing([&](double x) { return cdf(x) - p; }, center_[i], step,
+                          {.relative = 0x1p-39}, lowest, highest);
 }
 
 WeightedSampler::WeightedSampler(const WeightedDraws& draws) : draws_(draws) {

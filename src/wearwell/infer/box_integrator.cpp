@@ -5,6 +5,7 @@
 #include <cmath>
 #include <queue>
 
+#include "wearwell/base/monitor.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -181,6 +182,7 @@ void BoxIntegrator::refine() {
   };
   for (std::size_t i = 0; i < cells_.size(); ++i) queue.emplace(priority(cells_[i]), i);
   while (failure_.empty() && !queue.empty()) {
+    if (settings_.stop.stop_requested()) throw Cancelled();
     const auto [urgency, i] = queue.top();
     if (error_ <= settings_.tolerance * control_ && urgency <= max_cell_mass[d_]) break;
     if (evaluations_ >= settings_.max_evaluations) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "wearwell/bayes/draws.h"
@@ -14,6 +15,7 @@ struct ExactSettings {
   double tolerance = 1e-5;     ///< of mass and second moments, relative
   bool second_moments = true;  ///< false: the posterior has none, so only its mass is integrated
   long max_evaluations = 20'000'000;
+  std::stop_token stop = {};  ///< once requested, the integration throws `Cancelled`
 };
 
 /// The most parameters that quadrature is meant for.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "wearwell/base/monitor.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -353,6 +354,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   ExactPosterior exact;
   long evaluations = 0;
   for (double step = 1; evaluations < settings.max_evaluations; step /= std::sqrt(2.0)) {
+    if (settings.stop.stop_requested()) throw Cancelled();
     Lattice lattice(posterior, axes, step, std::min(step, 0.8));
     const std::string failure = lattice.fill();
     evaluations += lattice.nodes();

@@ -1,11 +1,11 @@
 #include "wearwell/predict/prediction.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "wearwell/predict/scattered.h"
+#include "wearwell/math/root.h"
 
 namespace wearwell {
 namespace {
@@ -84,18 +84,11 @@ struct Mixture {
   }
 
   double bracketed(double p) const {
-    double reach = std::max(width, 1e-12 * std::abs(middle));
-    const auto excess = [&](double y) { return cdf(y) - p; };
-    double a = middle - reach, b = middle + reach;
-    while (excess(a) > 0 && std::isfinite(a)) a -= reach *= 2;
-    while (excess(b) < 0 && std::isfinite(b)) b += reach *= 2;
-    if (!std::isfinite(a) || !std::isfinite(b)) return std::nan("");
-    std::uintmax_t iterations = 100;
-    const auto close = [&](double l, double r) {
-      return r - l <= 1e-7 * (std::abs(l) + std::abs(r));
-    };
-    const auto [left, right] = boost::math::tools::toms748_solve(excess, a, b, close, iterations);
-    return 0.5 * (left + right);
+    constexpr double most = std::numeric_limits<double>::max();
+    const double step = std::max(width, 1e-12 * std::abs(middle));
+    const double root = solve_increasing([&](double y) { return cdf(y) - p; }, middle, step,
+                                         {.relative = 1e-7}, -most, most);
+    return std::abs(root) == most ? std::nan("") : root;
   }
 };
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <limits>
+
+#include "wearwell/math/root.h"
 
 namespace wearwell {
 
@@ -33,20 +34,9 @@ double Scattered::quantile(double p) const {
   // From the heaviest point outward; beyond any number there is nothing to find.
   constexpr double beyond = 1e4;
   const double start = std::clamp(log_center_.front(), -beyond, beyond);
-  double a = start - 1, b = start + 1;
-  while (cdf(a) > p) {
-    if (a < -2 * beyond) return 0;
-    a -= b - a;
-  }
-  while (cdf(b) < p) {
-    if (b > 2 * beyond) return std::numeric_limits<double>::infinity();
-    b += b - a;
-  }
-  std::uintmax_t iterations = 100;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      [&](double x) { return cdf(x) - p; }, a, b, [](double l, double r) { return r - l <= 1e-9; },
-      iterations);
-  return std::exp(0.5 * (left + right));
+  const double root = solve_increasing([&](double x) { return cdf(x) - p; }, start, 1,
+                                       {.absolute = 1e-9}, -2 * beyond, 2 * beyond);
+  return std::exp(root);  // 0 and infinity at the ends
 }
 
 void stratified_normals(std::size_t draw, std::size_t count, std::vector<double>& z) {

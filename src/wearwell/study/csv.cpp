@@ -10,9 +10,10 @@ namespace {
 void add_predictions(std::string& out, std::size_t rows,
                      const std::vector<PredictionSummary>& predictions) {
   for (const PredictionSummary& p : predictions) {
+    const Prediction& b = p.best();
     fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{}\n", rows, p.at,
-                   p.quantity, p.unit, p.drawn.mean, p.drawn.ci05, p.drawn.ci95, p.drawn.pi05,
-                   p.drawn.pi95, p.measured ? fmt::format("{}", *p.measured) : "");
+                   p.quantity, p.unit, b.mean, b.ci05, b.ci95, b.pi05, b.pi95,
+                   p.measured ? fmt::format("{}", *p.measured) : "");
   }
 }
 

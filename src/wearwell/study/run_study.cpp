@@ -28,18 +28,18 @@ std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, c
     const Function value = [&, i](const double* x) { return from_si(parameter.unit, x[i]); };
     const Distribution drawn(fit.pooled, value);
     const Diagnostics& d = fit.diagnostics[i];
-    ParameterSummary summary{parameter.name,
-                             parameter.unit.text,
-                             drawn.mean(),
-                             drawn.sd(),
-                             d.mcse_mean / parameter.unit.scale,
-                             drawn.quantile(0.05),
-                             drawn.quantile(0.5),
-                             drawn.quantile(0.95),
-                             d.ess_bulk,
-                             d.ess_tail,
-                             d.rhat,
-                             {}};
+    ParameterSummary summary{.name = parameter.name,
+                             .unit = parameter.unit.text,
+                             .mean = drawn.mean(),
+                             .sd = drawn.sd(),
+                             .mcse = d.mcse_mean / parameter.unit.scale,
+                             .q05 = drawn.quantile(0.05),
+                             .q50 = drawn.quantile(0.5),
+                             .q95 = drawn.quantile(0.95),
+                             .ess_bulk = d.ess_bulk,
+                             .ess_tail = d.ess_tail,
+                             .rhat = d.rhat,
+                             .exact = {}};
     if (fit.exact) {
       const Distribution exact(fit.exact->nodes, value);
       const auto at = static_cast<Eigen::Index>(i);
@@ -62,13 +62,13 @@ PredictionSummary summarize(const PredictionRequest& request, const Fit& fit) {
     return in_unit(request.unit,
                    predict(draws, request.mean, request.sd, request.family, request.item));
   };
-  PredictionSummary summary{request.at_name,
-                            request.at,
-                            request.quantity,
-                            request.unit.text,
-                            predicted(fit.pooled),
-                            {},
-                            {}};
+  PredictionSummary summary{.at_name = request.at_name,
+                            .at = request.at,
+                            .quantity = request.quantity,
+                            .unit = request.unit.text,
+                            .drawn = predicted(fit.pooled),
+                            .exact = {},
+                            .measured = {}};
   if (fit.exact) summary.exact = predicted(fit.exact->nodes);
   if (request.measured) summary.measured = from_si(request.unit, *request.measured);
   summary.mean_of = request.mean_of;
@@ -157,13 +157,13 @@ LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
   const auto life = [&](const WeightedDraws& draws) {
     return predict_life(draws, request.life, request.now, request.risk);
   };
-  LifeSummary summary{request.unit_name,
-                      request.limit.value,
-                      request.limit.unit.text,
-                      request.now,
-                      request.risk,
-                      life(fit.pooled),
-                      {}};
+  LifeSummary summary{.unit = request.unit_name,
+                      .limit = request.limit.value,
+                      .limit_unit = request.limit.unit.text,
+                      .now = request.now,
+                      .risk = request.risk,
+                      .drawn = life(fit.pooled),
+                      .exact = {}};
   if (fit.exact) summary.exact = life(fit.exact->nodes);
   return summary;
 }
@@ -325,6 +325,7 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   FitSettings settings = fit_settings(study, choice);
   Progress progress(monitor, "iterations");
   settings.run.progress = &progress;
+  settings.exact.stop = monitor.stop;
   if (settings.method != Method::exact) {
     const RunSettings& run = settings.run;
     const long long fits = study.stages && study.data_rows <= most_stages
@@ -353,28 +354,25 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
     final.shortfalls.push_back(std::move(each));
   }
 
-  PosteriorSummary result{WEARWELL_VERSION,
-                     study.title,
-                     study.model,
-                     study.equation,
-                     study.data_file,
-                     study.data_rows,
-                     method_name(final.method),
-                     settings.run.chains,
-                     final.method == Method::exact ? 0 : final.run.warmup,
-                     final.run.draws,
-                     settings.run.seed,
-                     summarize_parameters(posterior, final),
-                     {},
-                     summarize(study.predictions, final),
-                     summarize_quantities(study, final),
-                     {},
-                     study.pointwise,
-                     {},
-                     final.exact ? final.exact->log_evidence : std::nullopt,
-                     all_checks(study, posterior, final, loo),
-                     true,
-                     in_units(study, std::move(final.draws))};
+  PosteriorSummary result;
+  result.version = WEARWELL_VERSION;
+  result.title = study.title;
+  result.model = study.model;
+  result.equation = study.equation;
+  result.data_file = study.data_file;
+  result.data_rows = study.data_rows;
+  result.method = method_name(final.method);
+  result.chains = settings.run.chains;
+  result.warmup = final.method == Method::exact ? 0 : final.run.warmup;
+  result.draws = final.run.draws;
+  result.seed = settings.run.seed;
+  result.parameters = summarize_parameters(posterior, final);
+  result.predictions = summarize(study.predictions, final);
+  result.quantities = summarize_quantities(study, final);
+  result.pointwise = study.pointwise;
+  result.log_evidence = final.exact ? final.exact->log_evidence : std::nullopt;
+  result.checks = all_checks(study, posterior, final, loo);
+  result.posterior_draws = in_units(study, std::move(final.draws));
   if (final.exact) {
     result.quadrature = {settings.exact.tolerance, final.exact->error,
                          static_cast<std::size_t>(final.exact->nodes.values.rows())};

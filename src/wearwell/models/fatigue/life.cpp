@@ -1,10 +1,11 @@
 #include "wearwell/models/fatigue/life.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+
+#include "wearwell/math/root.h"
 
 namespace wearwell::fatigue {
 namespace {
@@ -203,19 +204,12 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
     return life_of(law, x, log10_reversed).cdf(life) - (1 - reliability);
   };
   const int i = law.limit_index();
-  double low = unlimited, high = std::max(low, x[i] + 8 * x[i + 1]) + std::log10(2.0);
-  if (!(high <= most_decades)) high = most_decades;
-  while (excess(low) > 0) {
-    if ((low -= 1) < -most_decades) return -infinity;
-  }
-  while (excess(high) < 0) {
-    if ((high += 1) > most_decades) return infinity;
-  }
-  if (!(excess(low) <= 0 && excess(high) >= 0)) return std::nan("");  // it is no number there
-  std::uintmax_t iterations = 100;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      excess, low, high, [](double l, double r) { return r - l <= 1e-9; }, iterations);
-  return 0.5 * (left + right);
+  const double high = std::max(unlimited, x[i] + 8 * x[i + 1]) + std::log10(2.0);
+  if (std::isnan(high)) return high;
+  const double step = std::min(0.5 * (high - unlimited), most_decades);
+  const double root = solve_increasing(excess, unlimited + step, step, {.absolute = 1e-9},
+                                       -most_decades, most_decades);
+  return std::abs(root) == most_decades ? std::copysign(infinity, root) : root;
 }
 
 double alternating_allowed(const SnLaw& law, const double* x, const StressLine& line,

@@ -1,7 +1,8 @@
 #include "wearwell/models/fatigue/mean_stress.h"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
+
+#include "wearwell/math/root.h"
 
 namespace wearwell::fatigue {
 
@@ -46,16 +47,11 @@ double walker_at_mean(double reversed, double mean, double gamma) {
   const auto excess = [&](double t) {
     return power * std::log(t) + (1 - power) * std::log(t + between) - std::log(reversed);
   };
-  double low = reversed, high = reversed;
-  constexpr int most_halvings = 2200;  // from the largest double to the smallest
-  for (int i = 0; i < most_halvings && excess(low) > 0 && low > 0; ++i) low *= 0.5;
-  const double other_end = mean > 0 ? 0 : -mean;
-  if (low == 0 || low == high) return other_end + low;  // at an end, but for rounding
-  if (!(excess(low) <= 0 && excess(high) >= 0)) return std::nan("");  // something is no number
-  std::uintmax_t iterations = 200;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      excess, low, high, boost::math::tools::eps_tolerance<double>(45), iterations);
-  return other_end + 0.5 * (left + right);
+  // By its logarithm: it may be smaller by any number of decades.
+  const double highest = std::log(reversed), lowest = std::log(std::numeric_limits<double>::min());
+  const double root = solve_increasing([&](double log_t) { return excess(std::exp(log_t)); },
+                                       highest - 0.5, 0.5, {.absolute = 1e-14}, lowest, highest);
+  return (mean > 0 ? 0 : -mean) + (root == lowest ? 0 : std::exp(root));
 }
 
 }  // namespace

@@ -5,13 +5,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/math/root.h"
 
 namespace wearwell {
 namespace {
@@ -358,19 +358,8 @@ double next_allowed(const SnLaw& law, const WeightedDraws& draws, const StressLi
   };
   // Under so little or so much no specimen is tested.
   constexpr double least = 0, most = 13;
-  double low = 8, high = 8;
-  while (excess(low) > 0) {
-    high = low;
-    if ((low -= 0.25) < least) return 0;
-  }
-  while (excess(high) < 0) {
-    low = high;
-    if ((high += 0.25) > most) return INFINITY;
-  }
-  std::uintmax_t iterations = 100;
-  const auto [left, right] = boost::math::tools::toms748_solve(
-      excess, low, high, [](double l, double r) { return r - l <= 1e-8; }, iterations);
-  return std::pow(10, 0.5 * (left + right));
+  const double root = solve_increasing(excess, 8, 0.25, {.absolute = 1e-8}, least, most);
+  return root == least ? 0 : root == most ? INFINITY : std::pow(10, root);
 }
 
 SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, const SnData& data) {
