@@ -47,7 +47,7 @@ TEST(Plot, OneLegendForAllMarks) {
 
 TEST(Plot, NamesStandAtOneTwoThree) {
   const Json spec = plot("", {"Data sets", false, {}, {}, {"first", "\"second\""}}, {"y"},
-                         {bars({{"x", {1, 2}}, {"y", {0, 0}}, {"y2", {1, 1}}}, {"#aaaaaa"})});
+                         {ranges({{"x", {1, 2}}, {"y", {0, 0}}, {"y2", {1, 1}}}, {"#aaaaaa"})});
   const Json& x = spec["layer"][0]["encoding"]["x"];
   EXPECT_THAT(x["axis"]["values"], ElementsAre(1, 2));
   EXPECT_EQ(x["axis"]["labelExpr"], R"(["first","\"second\""][datum.value - 1])");
@@ -55,7 +55,7 @@ TEST(Plot, NamesStandAtOneTwoThree) {
 }
 
 TEST(Plot, LinesAcrossHaveOneCoordinate) {
-  const Json spec = plot("", {"x"}, {"y"}, {upright(5, {"#aaaaaa"}), level(7, {"#aaaaaa"})});
+  const Json spec = plot("", {"x"}, {"y"}, {vertical_line(5, {"#aaaaaa"}), horizontal_line(7, {"#aaaaaa"})});
   EXPECT_FALSE(spec["layer"][0]["encoding"].contains("y"));
   EXPECT_FALSE(spec["layer"][1]["encoding"].contains("x"));
   EXPECT_EQ(spec["layer"][1]["data"]["values"], "y\n7");

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wearwell/infer/climb.h"
+#include "wearwell/infer/maximize.h"
 #include "wearwell/math/minimizer.h"
 #include "wearwell/math/view.h"
 
@@ -80,7 +80,7 @@ Mode find_mode(const LogDensity& density, const Eigen::VectorXd& start) {
   const auto n = start.size();
   const Box everywhere{Eigen::VectorXd::Constant(n, -INFINITY),
                        Eigen::VectorXd::Constant(n, INFINITY)};
-  const Summit summit = climb(density, start, Eigen::VectorXd::Ones(n), everywhere);
+  const Maximum summit = maximize(density, start, Eigen::VectorXd::Ones(n), everywhere);
   if (summit.converged && summit.curvature.allFinite() &&
       (summit.x - start).cwiseAbs().maxCoeff() < farthest) {
     mode.position = summit.x;

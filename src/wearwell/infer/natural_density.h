@@ -1,7 +1,7 @@
 #pragma once
 
 #include "wearwell/bayes/posterior.h"
-#include "wearwell/infer/climb.h"
+#include "wearwell/infer/maximize.h"
 #include "wearwell/infer/whitened.h"
 
 namespace wearwell {

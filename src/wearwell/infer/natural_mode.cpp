@@ -52,7 +52,7 @@ constexpr const char* nowhere = "the search found no point of positive density";
 constexpr const char* no_end = "the search did not come to an end";
 
 // Why the highest point found is no mode; empty when it is one.
-std::string problem_of(const Posterior& posterior, const Box& box, const Summit& best,
+std::string problem_of(const Posterior& posterior, const Box& box, const Maximum& best,
                        const Eigen::VectorXd& center, const Eigen::VectorXd& width) {
   if (!std::isfinite(best.value)) return nowhere;
   for (Eigen::Index i = 0; i < best.x.size(); ++i) {
@@ -82,20 +82,20 @@ NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
   const NaturalDensity density(posterior);
   const Box box = natural_box(posterior, width);
   NaturalMode mode;
-  std::vector<Summit> summits;
+  std::vector<Maximum> summits;
   for (const Eigen::VectorXd& start : starts(posterior, fit)) {
-    summits.push_back(climb(density, start, width, box));
+    summits.push_back(maximize(density, start, width, box));
   }
   const auto best =
       std::max_element(summits.begin(), summits.end(),
-                       [](const Summit& a, const Summit& b) { return a.value < b.value; });
+                       [](const Maximum& a, const Maximum& b) { return a.value < b.value; });
   mode.problem = problem_of(posterior, box, *best, center, width);
   mode.fell_short = mode.problem == no_end || mode.problem == nowhere;
   if (!mode.problem.empty()) return mode;
 
   mode.starts = static_cast<int>(summits.size());
   mode.reached =
-      static_cast<int>(std::count_if(summits.begin(), summits.end(), [&](const Summit& each) {
+      static_cast<int>(std::count_if(summits.begin(), summits.end(), [&](const Maximum& each) {
         return each.value > best->value - 1e-6 * (1 + std::abs(best->value));
       }));
   mode.position = best->x;

@@ -242,7 +242,7 @@ class RelativeDensity {
 }  // namespace
 
 Check bounds(const Posterior& posterior, const Fit& fit) {
-  constexpr double worth_a_word = 0.3, piled_up = 0.6;
+  constexpr double warns_above = 0.3, fails_above = 0.6;
   Findings findings("bounds");
   const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
@@ -253,10 +253,10 @@ Check bounds(const Posterior& posterior, const Fit& fit) {
       const double bound = lower ? parameter.prior.lower : parameter.prior.upper;
       if (!std::isfinite(bound)) continue;
       const double ratio = lower ? density.above(bound) : density.below(bound);
-      if (ratio < worth_a_word) continue;
+      if (ratio < warns_above) continue;
       const bool natural = bound == (lower ? parameter.natural_lower : parameter.natural_upper);
       findings.add(
-          ratio >= piled_up && !natural ? dependence_on(parameter) : Verdict::warn,
+          ratio >= fails_above && !natural ? dependence_on(parameter) : Verdict::warn,
           fmt::format("the density of {} at its {}{} bound {} is {:.0f} % of its highest",
                       parameter.name, natural ? "physical " : "", lower ? "lower" : "upper",
                       in_unit(parameter, bound), 100 * std::min(1.0, ratio)),

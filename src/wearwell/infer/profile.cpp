@@ -138,7 +138,7 @@ class Search {
   // The root of the deviance, less the one that is sought; sets `problem_` where no search ended.
   double excess(double at) {
     const Held held(density_, box_, unit_, target_.quantity, at);
-    Summit summit;
+    Maximum summit;
     if (held.dimension() == 0) {
       summit.x.resize(0);
       summit.value = held.value({});
@@ -148,9 +148,9 @@ class Search {
       const double moved = last_ - target_.at_mode;
       const double share = moved != 0 ? (at - target_.at_mode) / moved : 1;
       const Eigen::VectorXd ahead = mode_others_ + share * (last_others_ - mode_others_);
-      summit = climb(held, ahead, others_unit_, others_box_);
+      summit = maximize(held, ahead, others_unit_, others_box_);
       if (!std::isfinite(summit.value))
-        summit = climb(held, last_others_, others_unit_, others_box_);
+        summit = maximize(held, last_others_, others_unit_, others_box_);
     }
     if (summit.value == -std::numeric_limits<double>::infinity()) return INFINITY;
     const double fall = highest_ - summit.value;

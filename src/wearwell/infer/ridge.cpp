@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "wearwell/infer/climb.h"
+#include "wearwell/infer/maximize.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -34,10 +34,10 @@ Eigen::VectorXd Slice::whole(const Eigen::VectorXd& rest) const {
   return Eigen::Map<const Eigen::VectorXd>(full.data(), rest.size() + 1);
 }
 
-Station visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
+ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
               const Eigen::VectorXd& width) {
   const auto n = static_cast<Eigen::Index>(slice.dimension());
-  Station station;
+  ConditionalMode station;
   station.at = slice.at;
   if (n == 0) {
     station.rest.resize(0);
@@ -60,7 +60,7 @@ Station visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
   const Box everywhere{Eigen::VectorXd::Constant(n, -infinity),
                        Eigen::VectorXd::Constant(n, infinity)};
   constexpr double enough = 1e-6;  // a Laplace approximation asks for no more
-  const Summit summit = climb(slice, *best, width, everywhere, enough);
+  const Maximum summit = maximize(slice, *best, width, everywhere, enough);
   station.rest = summit.x;
   station.width = width;
   station.log_density = station.log_marginal = summit.value;
@@ -87,7 +87,7 @@ Station visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
   return station;
 }
 
-std::vector<Eigen::VectorXd> guesses(const Station& before, const Station& last, double step) {
+std::vector<Eigen::VectorXd> guesses(const ConditionalMode& before, const ConditionalMode& last, double step) {
   std::vector<Eigen::VectorXd> all = {last.rest};
   const double back = last.at - before.at;
   if (back == 0 || last.rest.size() == 0) return all;

@@ -33,7 +33,7 @@ class Slice final : public LogDensity {
 };
 
 /// One place on a ridge: a coordinate is held, the others are at their conditional mode.
-struct Station {
+struct ConditionalMode {
   double at = 0;          ///< of the held coordinate
   Eigen::VectorXd rest;   ///< the others
   Eigen::VectorXd width;  ///< of the others there, one by one
@@ -45,11 +45,11 @@ struct Station {
 
 /// Climbs from the highest of `guesses` to the conditional mode at `slice.at`. `width` > 0 is about
 /// how far the others may move.
-Station visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
+ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
               const Eigen::VectorXd& width);
 
 /// Where the others may be at the next station, `step` farther than the last of the two: where they were,
 /// on the straight line through both, and on the curves of what grows or shrinks like e^held.
-std::vector<Eigen::VectorXd> guesses(const Station& before, const Station& last, double step);
+std::vector<Eigen::VectorXd> guesses(const ConditionalMode& before, const ConditionalMode& last, double step);
 
 }  // namespace wearwell

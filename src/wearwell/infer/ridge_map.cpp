@@ -12,10 +12,10 @@ namespace {
 // round enough for an affine map.
 constexpr double straight = 0.02;
 
-// Stations are half a standard deviation apart near the center and farther apart far out; they end
+// Modes are found half a standard deviation apart near the center and farther apart far out; they end
 // where the density (log) has fallen by so much.
 constexpr double first_step = 0.5, growth = 1.15, fallen = 40;
-constexpr int steady = 8, most_stations = 60;
+constexpr int steady = 8, most_modes = 60;
 
 // A marginal density of a scale that has not fallen by more (log) over such a way (log) has no end.
 constexpr double hardly = 8, endless_way = 100;
@@ -36,9 +36,9 @@ Eigen::VectorXd conditional_widths(const Eigen::MatrixXd& covariance, int axis) 
   return width;
 }
 
-Station visit_at(Slice& slice, double z, const Whitening& whitening,
-                 const Eigen::MatrixXd& covariance, int axis, const Station* last,
-                 const Station* before) {
+ConditionalMode visit_at(Slice& slice, double z, const Whitening& whitening,
+                 const Eigen::MatrixXd& covariance, int axis, const ConditionalMode* last,
+                 const ConditionalMode* before) {
   slice.at = z;
   if (last) {
     return visit(slice, guesses(before ? *before : *last, *last, z - last->at), last->width);
@@ -118,7 +118,7 @@ void RidgeMap::choose_axis(const Posterior& posterior) {
     const auto visited = [&](double t) {
       return visit_at(slice, z + t * sd, whitening_, covariance, a, nullptr, nullptr);
     };
-    const Station below = visited(-1.5), middle = visited(0), above = visited(1.5);
+    const ConditionalMode below = visited(-1.5), middle = visited(0), above = visited(1.5);
     if (!below.converged || !middle.converged || !above.converged) continue;
     const Eigen::VectorXd widths = below.width.cwiseQuotient(above.width).array().log().matrix();
     const Eigen::VectorXd bend =
@@ -134,58 +134,58 @@ void RidgeMap::choose_axis(const Posterior& posterior) {
   }
 }
 
-std::vector<Station> RidgeMap::walk(const Posterior& posterior, int way) const {
+std::vector<ConditionalMode> RidgeMap::walk(const Posterior& posterior, int way) const {
   const Eigen::MatrixXd covariance = whitening_.scale * whitening_.scale.transpose();
   Slice slice(posterior, axis_);
   const double z = whitening_.center[axis_];
-  std::vector<Station> stations = {
+  std::vector<ConditionalMode> modes = {
       visit_at(slice, z, whitening_, covariance, axis_, nullptr, nullptr)};
   const Law& prior = posterior.parameters()[static_cast<std::size_t>(axis_)].prior;
   const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
-  double t = 0, step = first_step, top = stations.front().log_marginal;
-  while (static_cast<int>(stations.size()) < most_stations) {
+  double t = 0, step = first_step, top = modes.front().log_marginal;
+  while (static_cast<int>(modes.size()) < most_modes) {
     t += way * step;
-    if (static_cast<int>(stations.size()) > steady) step *= growth;
-    const Station* before = stations.size() > 1 ? &stations[stations.size() - 2] : nullptr;
-    Station next =
-        visit_at(slice, z + t * unit_, whitening_, covariance, axis_, &stations.back(), before);
+    if (static_cast<int>(modes.size()) > steady) step *= growth;
+    const ConditionalMode* before = modes.size() > 1 ? &modes[modes.size() - 2] : nullptr;
+    ConditionalMode next =
+        visit_at(slice, z + t * unit_, whitening_, covariance, axis_, &modes.back(), before);
     if (!next.converged) break;
     top = std::max(top, next.log_marginal);
-    stations.push_back(std::move(next));
-    if (stations.back().log_marginal < top - fallen) break;
+    modes.push_back(std::move(next));
+    if (modes.back().log_marginal < top - fallen) break;
     if (!whole_line && std::abs(t) * unit_ > endless_way) break;
   }
-  return stations;
+  return modes;
 }
 
 void RidgeMap::follow(const Posterior& posterior) {
-  std::vector<Station> stations = walk(posterior, -1);
-  std::reverse(stations.begin(), stations.end());
-  std::vector<Station> up = walk(posterior, 1);
-  stations.insert(stations.end(), std::make_move_iterator(up.begin() + 1),
+  std::vector<ConditionalMode> modes = walk(posterior, -1);
+  std::reverse(modes.begin(), modes.end());
+  std::vector<ConditionalMode> up = walk(posterior, 1);
+  modes.insert(modes.end(), std::make_move_iterator(up.begin() + 1),
                   std::make_move_iterator(up.end()));
 
   const auto r = static_cast<Eigen::Index>(d_ - 1);
   std::vector<double> at;
-  Eigen::MatrixXd values(stations.size(), r + r * (r + 1) / 2);
+  Eigen::MatrixXd values(modes.size(), r + r * (r + 1) / 2);
   double top = -INFINITY;
-  for (std::size_t i = 0; i < stations.size(); ++i) {
-    const Station& station = stations[i];
-    at.push_back((station.at - whitening_.center[axis_]) / unit_);
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const ConditionalMode& mode = modes[i];
+    at.push_back((mode.at - whitening_.center[axis_]) / unit_);
     // The Cholesky factor of the inverse curvature: logarithms of its diagonal, the rest of each
     // column over it.
     const Eigen::MatrixXd scaled =
-        station.width.asDiagonal() * station.curvature * station.width.asDiagonal();
+        mode.width.asDiagonal() * mode.curvature * mode.width.asDiagonal();
     const Eigen::MatrixXd factor =
-        station.width.asDiagonal() * scaled.inverse().llt().matrixL().toDenseMatrix();
+        mode.width.asDiagonal() * scaled.inverse().llt().matrixL().toDenseMatrix();
     const auto row = static_cast<Eigen::Index>(i);
-    values.row(row).head(r) = station.rest.transpose();
+    values.row(row).head(r) = mode.rest.transpose();
     for (Eigen::Index j = 0, column = r; j < r; ++j) {
       values(row, column++) = std::log(factor(j, j));
       for (Eigen::Index k = j + 1; k < r; ++k) values(row, column++) = factor(k, j) / factor(j, j);
     }
-    top = std::max(top, station.log_marginal);
-    highest_ = std::max(highest_, station.log_density);
+    top = std::max(top, mode.log_marginal);
+    highest_ = std::max(highest_, mode.log_density);
   }
   if (at.size() < 4 || !values.allFinite()) {
     affine_ = true;
@@ -194,7 +194,7 @@ void RidgeMap::follow(const Posterior& posterior) {
   }
   const Law& prior = posterior.parameters()[static_cast<std::size_t>(axis_)].prior;
   if (std::isfinite(prior.lower) || std::isfinite(prior.upper)) {
-    for (const Station* end : {&stations.front(), &stations.back()}) {
+    for (const ConditionalMode* end : {&modes.front(), &modes.back()}) {
       endless_ |= std::abs(end->at - whitening_.center[axis_]) > endless_way &&
                   end->log_marginal > top - hardly;
     }
@@ -202,12 +202,12 @@ void RidgeMap::follow(const Posterior& posterior) {
   double integral = 0;
   lower_ = -3;
   upper_ = 3;
-  for (std::size_t i = 0; i < stations.size(); ++i) {
-    const double here = std::exp(stations[i].log_marginal - top);
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const double here = std::exp(modes[i].log_marginal - top);
     const double left = i > 0 ? at[i] - at[i - 1] : 0;
     const double right = i + 1 < at.size() ? at[i + 1] - at[i] : 0;
     integral += here * 0.5 * (left + right);
-    if (stations[i].log_marginal < top - begin) continue;
+    if (modes[i].log_marginal < top - begin) continue;
     lower_ = std::min(lower_, at[i]);
     upper_ = std::max(upper_, at[i]);
   }

@@ -66,7 +66,7 @@ class RidgeMap {
 
  private:
   void choose_axis(const Posterior& posterior);
-  std::vector<Station> walk(const Posterior& posterior, int way) const;
+  std::vector<ConditionalMode> walk(const Posterior& posterior, int way) const;
   void follow(const Posterior& posterior);
 
   Whitening whitening_;

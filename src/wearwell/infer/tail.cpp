@@ -105,7 +105,7 @@ bool Tail::has_moment(int order) const {
 namespace {
 
 // The place of the mode on the ridge along parameter i.
-Station at_mode(const Slice& slice, const Mode& mode, int i) {
+ConditionalMode at_mode(const Slice& slice, const Mode& mode, int i) {
   const Eigen::Index d = mode.position.size();
   Eigen::VectorXd rest(d - 1), width = Eigen::VectorXd::Ones(d - 1);
   for (Eigen::Index j = 0; j < d - 1; ++j) {
@@ -114,7 +114,7 @@ Station at_mode(const Slice& slice, const Mode& mode, int i) {
     const double bend = mode.curvature(from, from);
     if (mode.found && bend > 0) width[j] = 1 / std::sqrt(bend);
   }
-  Station station = visit(slice, {rest}, width);
+  ConditionalMode station = visit(slice, {rest}, width);
   if (!station.converged) station.rest = rest;
   return station;
 }
@@ -134,7 +134,7 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
   const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
   Slice slice(posterior, i);
   slice.at = mode.position[i];
-  Station last = at_mode(slice, mode, i), before = last;
+  ConditionalMode last = at_mode(slice, mode, i), before = last;
   const double top = last.log_marginal;
   const double unit = whole_line ? width_at(mode, i) : 1;
   Walk walk;
@@ -143,7 +143,7 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
     const double way = far_log * (step + 1) / steps;
     slice.at =
         mode.position[i] + (outward ? 1 : -1) * (whole_line ? unit * std::expm1(0.5 * way) : way);
-    Station station = visit(slice, guesses(before, last, slice.at - last.at), last.width);
+    ConditionalMode station = visit(slice, guesses(before, last, slice.at - last.at), last.width);
     if (!std::isfinite(station.log_density)) {
       // The end of the likelihood's domain, or of the range of doubles on the way up.
       (last.log_marginal > top + 1 ? walk.lost : walk.vanished) = true;

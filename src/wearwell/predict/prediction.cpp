@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "wearwell/predict/scattered.h"
+#include "wearwell/predict/item_mixture.h"
 #include "wearwell/math/root.h"
 
 namespace wearwell {
@@ -104,25 +104,25 @@ double weighted_median(std::vector<std::pair<double, double>> values_and_weights
 
 Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function& sd,
                 ObservationFamily family, const ItemFunction& item, std::size_t points) {
-  const Heaviest heaviest(draws);
-  const std::size_t n = heaviest.rows.size();
+  const DominantDraws dominant(draws);
+  const std::size_t n = dominant.rows.size();
   const std::size_t strata = item ? std::clamp<std::size_t>(points / n, 1, 100) : 1;
   std::vector<double> z = {0};
   Mixture all{family, {}, {}};
   std::vector<std::pair<double, double>> means, sds;
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::VectorXd x = draws.values.row(heaviest.rows[i]);
+    const Eigen::VectorXd x = draws.values.row(dominant.rows[i]);
     const double s = sd(x.data());
     if (item) stratified_normals(i, strata, z);
     for (const double each : z) {
-      const double weight = heaviest.weights[i] / static_cast<double>(strata);
+      const double weight = dominant.weights[i] / static_cast<double>(strata);
       const double m = item ? item(x.data(), each) : mean(x.data());
       if (std::isnan(m) || !(s > 0)) return {family, {}, {}, std::nan(""), std::nan("")};
       all.weight.push_back(weight);
       all.law.emplace_back(family, m, s);
       if (each == z[z.size() / 2]) {
-        means.emplace_back(m, heaviest.weights[i]);
-        sds.emplace_back(s, heaviest.weights[i]);
+        means.emplace_back(m, dominant.weights[i]);
+        sds.emplace_back(s, dominant.weights[i]);
       }
     }
   }
@@ -133,7 +133,7 @@ Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function
 
 }  // namespace
 
-Heaviest::Heaviest(const WeightedDraws& draws) {
+DominantDraws::DominantDraws(const WeightedDraws& draws) {
   constexpr double negligible = 1e-6;
   std::vector<Eigen::Index> order(static_cast<std::size_t>(draws.values.rows()));
   std::iota(order.begin(), order.end(), 0);

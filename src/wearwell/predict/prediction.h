@@ -16,8 +16,8 @@ using ItemFunction = std::function<double(const double* x, double z)>;
 
 /// The points that carry all but a millionth of the weight: the nodes of a quadrature reach far
 /// into tails. Weights are scaled to sum to 1.
-struct Heaviest {
-  explicit Heaviest(const WeightedDraws& draws);
+struct DominantDraws {
+  explicit DominantDraws(const WeightedDraws& draws);
   std::vector<Eigen::Index> rows;
   std::vector<double> weights;
 };

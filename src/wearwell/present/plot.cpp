@@ -145,7 +145,7 @@ Json arrows(const Columns& data, const std::string& shape, const Look& look) {
   return json;
 }
 
-Json bars(const Columns& data, const Look& look) {
+Json ranges(const Columns& data, const Look& look) {
   Json thick = stroke("rule", look);
   thick["strokeCap"] = "butt";
   return layer(data, thick, look);
@@ -162,13 +162,13 @@ Json cells(const Columns& data, const Look& look) {
   return json;
 }
 
-Json upright(double x, const Look& look) {
+Json vertical_line(double x, const Look& look) {
   Json json = layer({{"x", {x}}}, stroke("rule", look), look);
   json["encoding"].erase("y");
   return json;
 }
 
-Json level(double y, const Look& look) {
+Json horizontal_line(double y, const Look& look) {
   Json json = layer({{"y", {y}}}, stroke("rule", look), look);
   json["encoding"].erase("x");
   return json;

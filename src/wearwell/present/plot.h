@@ -52,10 +52,10 @@ Json points(const Columns& data, const Look& look);
 /// Points with a direction: "triangle-right" for what went on unseen, "triangle-left" for what was
 /// over before.
 Json arrows(const Columns& data, const std::string& shape, const Look& look);
-Json bars(const Columns& data, const Look& look);   ///< an upright stroke from y to y2 at x
+Json ranges(const Columns& data, const Look& look);   ///< an upright stroke from y to y2 at x
 Json cells(const Columns& data, const Look& look);  ///< x to x2, y to y2, opacity by `density`
-Json upright(double x, const Look& look);           ///< a line across the plot
-Json level(double y, const Look& look);
+Json vertical_line(double x, const Look& look);           ///< a line across the plot
+Json horizontal_line(double y, const Look& look);
 Json text(double x, double y, const std::string& words, const std::string& colour);
 
 /// The specification. `description` is what a screen reader says of it. `zoom`: wheel with Shift

@@ -135,7 +135,7 @@ html::Figure residual_figure(const std::string& id, const std::string& title,
                              const Eigen::VectorXd& x, const Eigen::VectorXd& residuals) {
   return {id, title, caption,
           plot::plot(title, {axis}, {"residual"},
-                     {plot::level(0, {colour::prior, "", 1, 1.5}),
+                     {plot::horizontal_line(0, {colour::prior, "", 1, 1.5}),
                       plot::points({{"x", list(x)}, {"y", list(residuals)}},
                                    {colour::posterior, "", 0.8, 2, false, 30})})};
 }
@@ -182,8 +182,8 @@ html::Figure leverage_figure(const SelectionResult& result) {
       "worth a second look.",
       plot::plot("Leverage of each row against its standardized residual", {"leverage"},
                  {"standardized residual"},
-                 {plot::level(0, {colour::prior, "", 1, 1.5}),
-                  plot::upright(usual, {colour::limit, "twice the mean", 1, 1.5, true}),
+                 {plot::horizontal_line(0, {colour::prior, "", 1, 1.5}),
+                  plot::vertical_line(usual, {colour::limit, "twice the mean", 1, 1.5, true}),
                   plot::points(
                       {{"x", list(fit.leverages)}, {"y", list(standardized(result))}, {"row", row}},
                       {colour::posterior, "", 0.8, 2, false, 30})})};

@@ -86,7 +86,7 @@ Figure history_figure(const PosteriorSummary& result, const Plots& plots) {
                              plot::line({{"x", h.at}, {"y", h.mean}, {at, h.at}, {"mean", h.mean}},
                                         {colour::posterior, "", 1, 2})};
   if (result.life) {
-    marks.push_back(plot::level(result.life->limit, {colour::limit, "limit", 1, 1.5, true}));
+    marks.push_back(plot::horizontal_line(result.life->limit, {colour::limit, "limit", 1, 1.5, true}));
   }
   marks.push_back(plot::points({{"x", plots.history_at},
                                 {"y", plots.measured},
@@ -118,7 +118,7 @@ Figure life_figure(const PosteriorSummary& result, const Plots& plots) {
                   {summary.unit, plots.life->x},
                   {"percent", percent}},
                  {colour::posterior, "probability that the limit is reached"}),
-      plot::upright(summary.now, {colour::prior, "last inspection", 1, 1.5, true})};
+      plot::vertical_line(summary.now, {colour::prior, "last inspection", 1, 1.5, true})};
   const std::pair<double, double> marked[] = {{life.b1, 1}, {life.b10, 10}, {life.b50, 50}};
   for (const auto& [x, p] : marked) {
     if (!std::isfinite(x)) continue;
@@ -163,13 +163,13 @@ Figure next_figure(const PosteriorSummary& result) {
     return within(window.low - reach, window.high + reach, values);
   };
   const PredictionSummary& first = result.stages.front().predictions.front();
-  std::vector<Json> marks = {plot::bars({{"x", x},
+  std::vector<Json> marks = {plot::ranges({{"x", x},
                                          {"y", drawn(pi05)},
                                          {"y2", drawn(pi95)},
                                          {"lower 5 %", pi05},
                                          {"upper 95 %", pi95}},
                                         {colour::wide, "90 % of measurements", 0.55, 8}),
-                             plot::bars({{"x", x},
+                             plot::ranges({{"x", x},
                                          {"y", drawn(ci05)},
                                          {"y2", drawn(ci95)},
                                          {"lower 5 %", ci05},
@@ -353,8 +353,8 @@ Figure interval_figure(const PosteriorSummary& result) {
                       wide ? ", on a logarithmic axis" : ""),
           plot::plot(fmt::format("Interval of {} after each data set", last.name),
                      {"Data sets", false, {}, {}, names}, {scale.title(last.name), wide},
-                     {plot::level(target, {colour::limit, "all data sets", 1, 1.5, true}),
-                      plot::bars({{"x", x},
+                     {plot::horizontal_line(target, {colour::limit, "all data sets", 1, 1.5, true}),
+                      plot::ranges({{"x", x},
                                   {"y", drawn(low)},
                                   {"y2", drawn(high)},
                                   {"lower 5 %", low},
@@ -385,11 +385,11 @@ Figure check_figure(const Plots& plots) {
           plot::plot("Measured minus fitted at each data set",
                      {fmt::format("Inspection at … {}", plots.at_name), false, {}, {}, names},
                      {fmt::format("Difference [{}]", html::unit(plots.unit))},
-                     {plot::bars({{"x", x}, {"y", low}, {"y2", high}},
+                     {plot::ranges({{"x", x}, {"y", low}, {"y2", high}},
                                  {colour::wide, "90 % of measurements", 0.55, 8}),
-                      plot::bars({{"x", x}, {"y", ci05}, {"y2", ci95}},
+                      plot::ranges({{"x", x}, {"y", ci05}, {"y2", ci95}},
                                  {colour::posterior, "90 % of the mean", 0.9, 8}),
-                      plot::level(0, {colour::prior, "", 1, 1}),
+                      plot::horizontal_line(0, {colour::prior, "", 1, 1}),
                       plot::points({{"x", x}, {"y", measured}, {"difference", measured}},
                                    {colour::measured, "measured", 1, 0, false, 70})},
                      300)};

@@ -14,7 +14,7 @@
 #include "wearwell/infer/natural_mode.h"
 #include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
-#include "wearwell/predict/scattered.h"
+#include "wearwell/predict/item_mixture.h"
 #include "wearwell/input/fingerprint.h"
 #include "wearwell/study/plot_study.h"
 
@@ -96,7 +96,7 @@ QuantityQuantiles in_unit(const Unit& unit, QuantityQuantiles q) {
 QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws& draws) {
   std::function<double(double p)> driver;
   if (request.scatter) {
-    driver = [items = Scattered(draws, request.driver, request.scatter)](double p) {
+    driver = [items = ItemMixture(draws, request.driver, request.scatter)](double p) {
       return items.quantile(p);
     };
   } else {

@@ -77,7 +77,7 @@ html::Figure chart_figure(const BearingData& data, const PredictedBearing& drawn
   }
   if (!delta.empty()) {
     marks.push_back(
-        plot::bars({{"x", delta}, {"y", low}, {"y2", high}}, {colour::measured, "", 0.5, 3}));
+        plot::ranges({{"x", delta}, {"y", low}, {"y2", high}}, {colour::measured, "", 0.5, 3}));
     marks.push_back(
         plot::points({{"x", delta}, {"y", middle}, {"delta", delta}, {"wear number", middle}},
                      {colour::measured, "inspections", 1, 0, false, 50}));

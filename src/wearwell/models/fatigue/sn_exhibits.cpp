@@ -176,7 +176,7 @@ class Drawing {
     }
     Numbers foot;
     for (const double y : b10_y) foot.push_back(y - 0.35);
-    marks.push_back(plot::bars({{"x", b10}, {"y", foot}, {"y2", b10_y}, {"B10 life", b10}},
+    marks.push_back(plot::ranges({{"x", b10}, {"y", foot}, {"y2", b10_y}, {"B10 life", b10}},
                                {colour::limit, "B10, posterior predictive", 1, 2}));
     if (!broke_x.empty()) {
       marks.push_back(plot::points({{"x", broke_x}, {"y", broke_y}, {"life", broke_life}},

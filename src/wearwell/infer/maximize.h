@@ -12,7 +12,7 @@ struct Box {
 };
 
 /// Where a climb ended.
-struct Summit {
+struct Maximum {
   Eigen::VectorXd x;
   double value = 0;
   Eigen::VectorXd gradient;
@@ -26,7 +26,7 @@ struct Summit {
 /// strongly correlated ones and starts far from any maximum, where L-BFGS gives up in its first
 /// line search. `unit` > 0 is about how far a parameter may move; the climb ends where another step
 /// promises less than `enough` of the log density.
-Summit climb(const LogDensity& density, const Eigen::VectorXd& start, const Eigen::VectorXd& unit,
+Maximum maximize(const LogDensity& density, const Eigen::VectorXd& start, const Eigen::VectorXd& unit,
              const Box& box, double enough = 1e-14);
 
 }  // namespace wearwell

@@ -1,4 +1,4 @@
-#include "wearwell/infer/climb.h"
+#include "wearwell/infer/maximize.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -21,48 +21,48 @@ class Climb {
   Climb(const LogDensity& density, const Eigen::VectorXd& unit, const Box& box, double enough)
       : density_(density), unit_(unit), box_(box), enough_(enough) {}
 
-  Summit from(const Eigen::VectorXd& start) const {
-    Summit summit{inside(start), 0, Eigen::VectorXd(start.size()), {}, false};
-    summit.value = density_.value_and_gradient(view(summit.x), view(summit.gradient));
-    if (!std::isfinite(summit.value)) return summit;
+  Maximum from(const Eigen::VectorXd& start) const {
+    Maximum maximum{inside(start), 0, Eigen::VectorXd(start.size()), {}, false};
+    maximum.value = density_.value_and_gradient(view(maximum.x), view(maximum.gradient));
+    if (!std::isfinite(maximum.value)) return maximum;
     Eigen::VectorXd difference = 1e-4 * unit_;
     for (int i = 0; i < iterations; ++i) {
-      summit.curvature = curvature(summit.x, difference);
-      if (!summit.curvature.allFinite() || !summit.gradient.allFinite()) return summit;
+      maximum.curvature = curvature(maximum.x, difference);
+      if (!maximum.curvature.allFinite() || !maximum.gradient.allFinite()) return maximum;
       for (Eigen::Index a = 0; a < start.size(); ++a) {
-        const double bend = summit.curvature(a, a);
+        const double bend = maximum.curvature(a, a);
         if (bend > 0) difference[a] = 1e-4 * std::min(unit_[a], 1 / std::sqrt(bend));
       }
-      const Step step = newton(summit);
-      if (step.hill && step.gain < enough_) {
-        summit.converged = true;
-        return summit;
+      const Step step = newton(maximum);
+      if (step.concave && step.gain < enough_) {
+        maximum.converged = true;
+        return maximum;
       }
-      if (!go(step.move, summit)) {
+      if (!go(step.move, maximum)) {
         // Rounding leaves no way up.
-        summit.converged = step.hill && step.gain < 1e-6;
-        return summit;
+        maximum.converged = step.concave && step.gain < 1e-6;
+        return maximum;
       }
     }
-    return summit;
+    return maximum;
   }
 
  private:
   struct Step {
     Eigen::VectorXd move;
     double gain;  // that it promises
-    bool hill;    // the density is curved downwards along every free parameter
+    bool concave;    // the density is curved downwards along every free parameter
   };
 
   Eigen::VectorXd inside(const Eigen::VectorXd& x) const {
     return x.cwiseMax(box_.lower).cwiseMin(box_.upper);
   }
 
-  Indices free_at(const Summit& summit) const {
+  Indices free_at(const Maximum& maximum) const {
     Indices free;
-    for (Eigen::Index i = 0; i < summit.x.size(); ++i) {
-      const bool held = (summit.x[i] <= box_.lower[i] && summit.gradient[i] <= 0) ||
-                        (summit.x[i] >= box_.upper[i] && summit.gradient[i] >= 0);
+    for (Eigen::Index i = 0; i < maximum.x.size(); ++i) {
+      const bool held = (maximum.x[i] <= box_.lower[i] && maximum.gradient[i] <= 0) ||
+                        (maximum.x[i] >= box_.upper[i] && maximum.gradient[i] >= 0);
       if (!held) free.push_back(i);
     }
     return free;
@@ -92,21 +92,21 @@ class Climb {
 
   // The step to the top of the parabola within the box: as long as it leaves through a bound, the
   // parameter that does so first ends there, and the others make the best of it.
-  Step newton(const Summit& summit) const {
-    Indices free = free_at(summit);
-    Step step{Eigen::VectorXd::Zero(summit.x.size()), 0, true};
-    Eigen::VectorXd gradient = summit.gradient;
+  Step newton(const Maximum& maximum) const {
+    Indices free = free_at(maximum);
+    Step step{Eigen::VectorXd::Zero(maximum.x.size()), 0, true};
+    Eigen::VectorXd gradient = maximum.gradient;
     while (!free.empty()) {
       const Eigen::VectorXd unit = unit_(free);
       const Eigen::VectorXd slope = gradient(free).cwiseProduct(unit);
-      const Parabola top = parabola(summit.curvature(free, free), unit, slope);
-      if (step.move.isZero(0)) step.hill = top.hill;
+      const Parabola top = parabola(maximum.curvature(free, free), unit, slope);
+      if (step.move.isZero(0)) step.concave = top.concave;
       const Eigen::VectorXd move = top.move.cwiseProduct(unit);
       // How much of it stays inside.
       double share = 1;
       std::size_t leaves = free.size();
       for (std::size_t j = 0; j < free.size(); ++j) {
-        const double by = move[static_cast<Eigen::Index>(j)], at = summit.x[free[j]];
+        const double by = move[static_cast<Eigen::Index>(j)], at = maximum.x[free[j]];
         const double way = (by > 0 ? box_.upper : box_.lower)[free[j]] - at;
         if (std::abs(by) * share > std::abs(way)) {
           share = std::abs(way / by);
@@ -120,17 +120,17 @@ class Climb {
       const Eigen::Index held = free[leaves];
       step.move[held] =
           (move[static_cast<Eigen::Index>(leaves)] > 0 ? box_.upper : box_.lower)[held] -
-          summit.x[held];
+          maximum.x[held];
       free.erase(free.begin() + static_cast<std::ptrdiff_t>(leaves));
-      gradient -= step.move[held] * summit.curvature.col(held);
+      gradient -= step.move[held] * maximum.curvature.col(held);
     }
-    step.gain = std::abs(step.move.dot(summit.gradient));
+    step.gain = std::abs(step.move.dot(maximum.gradient));
     return step;
   }
 
   struct Parabola {
     Eigen::VectorXd move;  // in units
-    bool hill;
+    bool concave;
   };
 
   // In units, or in widths where these are smaller: beside a width of 1e-8 the curvature of a width of
@@ -156,17 +156,17 @@ class Climb {
   }
 
   // The first of ever shorter steps that goes up, along `move` or else along the gradient.
-  bool go(const Eigen::VectorXd& move, Summit& summit) const {
-    const Eigen::VectorXd slope = summit.gradient.cwiseProduct(unit_.cwiseAbs2());
+  bool go(const Eigen::VectorXd& move, Maximum& maximum) const {
+    const Eigen::VectorXd slope = maximum.gradient.cwiseProduct(unit_.cwiseAbs2());
     for (const Eigen::VectorXd& direction : {move, slope}) {
       double share = 1;
       for (int halving = 0; halving < 50; ++halving, share *= 0.5) {
-        const Eigen::VectorXd x = inside(summit.x + share * direction);
-        const double expected = summit.gradient.dot(x - summit.x);
+        const Eigen::VectorXd x = inside(maximum.x + share * direction);
+        const double expected = maximum.gradient.dot(x - maximum.x);
         if (!(expected > 0)) continue;
-        if (!(density_.value(view(x)) > summit.value + 1e-4 * expected)) continue;
-        summit.x = x;
-        summit.value = density_.value_and_gradient(view(x), view(summit.gradient));
+        if (!(density_.value(view(x)) > maximum.value + 1e-4 * expected)) continue;
+        maximum.x = x;
+        maximum.value = density_.value_and_gradient(view(x), view(maximum.gradient));
         return true;
       }
     }
@@ -181,7 +181,7 @@ class Climb {
 
 }  // namespace
 
-Summit climb(const LogDensity& density, const Eigen::VectorXd& start, const Eigen::VectorXd& unit,
+Maximum maximize(const LogDensity& density, const Eigen::VectorXd& start, const Eigen::VectorXd& unit,
              const Box& box, double enough) {
   return Climb(density, unit, box, enough).from(start);
 }

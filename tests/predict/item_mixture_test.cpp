@@ -1,4 +1,4 @@
-#include "wearwell/predict/scattered.h"
+#include "wearwell/predict/item_mixture.h"
 
 #include <gtest/gtest.h>
 
@@ -31,30 +31,30 @@ double log_sd(const double* x) {
 }
 
 // A center that is never reached is an end that never comes; one that is no number says nothing.
-TEST(Scattered, OfCentersWithoutEnd) {
+TEST(ItemMixture, OfCentersWithoutEnd) {
   WeightedDraws draws;
   draws.values = Eigen::MatrixXd{{0, 0.1}, {2000, 0.1}};
   draws.weights = Eigen::VectorXd::Constant(2, 0.5);
-  const Scattered items(draws, [](const double* x) { return std::exp(x[0]); }, log_sd);
+  const ItemMixture items(draws, [](const double* x) { return std::exp(x[0]); }, log_sd);
   EXPECT_NEAR(items.quantile(0.25), 1, 1e-6);
   EXPECT_EQ(items.quantile(0.75), INFINITY);
-  const Scattered none(draws, [](const double* x) { return x[0] > 1 ? std::nan("") : 1; }, log_sd);
+  const ItemMixture none(draws, [](const double* x) { return x[0] > 1 ? std::nan("") : 1; }, log_sd);
   EXPECT_TRUE(std::isnan(none.quantile(0.25)));
 }
 
-TEST(Scattered, OfOneDrawIsLognormal) {
+TEST(ItemMixture, OfOneDrawIsLognormal) {
   WeightedDraws draws;
   draws.values = Eigen::MatrixXd{{std::log(3e-15), 0.4}};
   draws.weights = Eigen::VectorXd::Ones(1);
-  const Scattered items(draws, center, log_sd);
+  const ItemMixture items(draws, center, log_sd);
   EXPECT_NEAR(items.quantile(0.5) / 3e-15, 1, 1e-8);
   EXPECT_NEAR(items.quantile(0.05) / (3e-15 * std::exp(0.4 * z05)), 1, 1e-8);
   EXPECT_NEAR(items.quantile(0.95) / (3e-15 * std::exp(0.4 * z95)), 1, 1e-8);
 }
 
 // Variances of the posterior and of the items add.
-TEST(Scattered, AddsTheVarianceOfThePosterior) {
-  const Scattered items(normal_centers(-30, 0.3, 0.4, 20000), center, log_sd);
+TEST(ItemMixture, AddsTheVarianceOfThePosterior) {
+  const ItemMixture items(normal_centers(-30, 0.3, 0.4, 20000), center, log_sd);
   EXPECT_NEAR(std::log(items.quantile(0.05)), -30 + 0.5 * z05, 1e-3);
   EXPECT_NEAR(std::log(items.quantile(0.95)), -30 + 0.5 * z95, 1e-3);
 }

@@ -10,9 +10,9 @@ namespace wearwell {
 /// The distribution of a positive number that differs from item to item, for an item not yet seen:
 /// its logarithm is normal about ln center(x) with standard deviation log_sd(x), mixed over the
 /// posterior of x. No draws of the item: quantiles of the mixture are solved for.
-class Scattered {
+class ItemMixture {
  public:
-  Scattered(const WeightedDraws& draws, const Function& center, const Function& log_sd);
+  ItemMixture(const WeightedDraws& draws, const Function& center, const Function& log_sd);
 
   /// 0 < p < 1. Infinite or 0 where so many centers are; NaN where one with weight is no number.
   double quantile(double p) const;

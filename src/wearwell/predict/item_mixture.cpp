@@ -1,4 +1,4 @@
-#include "wearwell/predict/scattered.h"
+#include "wearwell/predict/item_mixture.h"
 
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
@@ -9,18 +9,18 @@
 
 namespace wearwell {
 
-Scattered::Scattered(const WeightedDraws& draws, const Function& center, const Function& log_sd) {
-  const Heaviest heaviest(draws);
-  for (std::size_t i = 0; i < heaviest.rows.size(); ++i) {
-    const Eigen::VectorXd x = draws.values.row(heaviest.rows[i]);
-    weight_.push_back(heaviest.weights[i]);
+ItemMixture::ItemMixture(const WeightedDraws& draws, const Function& center, const Function& log_sd) {
+  const DominantDraws dominant(draws);
+  for (std::size_t i = 0; i < dominant.rows.size(); ++i) {
+    const Eigen::VectorXd x = draws.values.row(dominant.rows[i]);
+    weight_.push_back(dominant.weights[i]);
     log_center_.push_back(std::log(center(x.data())));
     log_sd_.push_back(log_sd(x.data()));
     defined_ = defined_ && !std::isnan(log_center_.back()) && log_sd_.back() > 0;
   }
 }
 
-double Scattered::cdf(double log_value) const {
+double ItemMixture::cdf(double log_value) const {
   double sum = 0;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     sum +=
@@ -29,9 +29,9 @@ double Scattered::cdf(double log_value) const {
   return sum;
 }
 
-double Scattered::quantile(double p) const {
+double ItemMixture::quantile(double p) const {
   if (!defined_) return std::nan("");
-  // From the heaviest point outward; beyond any number there is nothing to find.
+  // From the dominant point outward; beyond any number there is nothing to find.
   constexpr double beyond = 1e4;
   const double start = std::clamp(log_center_.front(), -beyond, beyond);
   const double root = solve_increasing([&](double x) { return cdf(x) - p; }, start, 1,
