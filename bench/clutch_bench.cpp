@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "wearwell/models/clutch/wear_map.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_predict.h"
 #include "wearwell/models/clutch/clutch_study.h"
+#include "wearwell/models/clutch/wear_map.h"
 
 namespace wearwell::clutch {
 namespace {

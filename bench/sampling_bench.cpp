@@ -8,12 +8,12 @@
 #include <chrono>
 #include <string>
 
+#include "support/posterior_study.h"
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/exact.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/run_chains.h"
-#include "support/posterior_study.h"
 
 namespace wearwell {
 namespace {

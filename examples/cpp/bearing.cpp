@@ -18,5 +18,6 @@ int main() {
   bearing.rate = rate;
   bearing.depth = 60e-6;
   bearing.revolutions.reset();
-  std::printf("worn to 60 um after %.6g revolutions\n", solve(Quantity::revolutions, bearing).value);
+  std::printf("worn to 60 um after %.6g revolutions\n",
+              solve(Quantity::revolutions, bearing).value);
 }

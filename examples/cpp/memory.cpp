@@ -18,7 +18,8 @@ work_per_cycle = "5.966 N m"
 [likelihood]
 family = "normal"
 [prior]
-k = { law = "flat", unit = "mm^3/(N m)" }
+k = { law = "flat", unit = "mm^3/(N m)"
+}
 sigma = { law = "uniform", lower = "0 mm^3", upper = "15 mm^3" }
 [predict]
 cycles = [20585]

@@ -26,7 +26,8 @@ TEST(Observations, MatchR) {
 }
 
 double observation_cdf(ObservationFamily family, double y, double mu, double spread) {
-  return ObservationLaw(family, mu, spread).cdf(family == ObservationFamily::normal ? y : std::log(y));
+  return ObservationLaw(family, mu, spread)
+      .cdf(family == ObservationFamily::normal ? y : std::log(y));
 }
 
 // R: pnorm(8, 5, 2.5); z <- sqrt(log1p(.25)); plnorm(8, log(5) - z^2/2, z)

@@ -8,10 +8,10 @@
 
 #include "wearwell/base/rng.h"
 #include "wearwell/bayes/posterior.h"
-#include "wearwell/models/bearing/wear_fit.h"
-#include "wearwell/models/bearing/wear_number.h"
 #include "wearwell/infer/exact.h"
 #include "wearwell/infer/mode.h"
+#include "wearwell/models/bearing/wear_fit.h"
+#include "wearwell/models/bearing/wear_number.h"
 
 namespace wearwell::bearing {
 namespace {

@@ -8,11 +8,11 @@
 #include <cmath>
 
 #include "wearwell/base/rng.h"
+#include "wearwell/infer/fit_check.h"
+#include "wearwell/infer/prior_checks.h"
 #include "wearwell/models/bearing/wear_scores.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/models/fatigue/sn_scores.h"
-#include "wearwell/infer/fit_check.h"
-#include "wearwell/infer/prior_checks.h"
 #include "wearwell/models/joint/archard.h"
 
 namespace wearwell {
@@ -64,8 +64,9 @@ Shares simulate(const std::string& what, int replications, int parameters,
     shares.beyond += (each.p_loo > 2 * parameters + 2) / double(replications);
     shares.excluded += each.excluded / double(replications);
   }
-  fmt::print("{}: {} studies, warned {:.4f}, failed {:.4f}, p_loo beyond {:.4f}, prior excluded {:.4f}\n", what,
-             replications, shares.warned, shares.failed, shares.beyond, shares.excluded);
+  fmt::print(
+      "{}: {} studies, warned {:.4f}, failed {:.4f}, p_loo beyond {:.4f}, prior excluded {:.4f}\n",
+      what, replications, shares.warned, shares.failed, shares.beyond, shares.excluded);
   // Within three standard errors of what they promise at most.
   const auto bound = [&](double level) { return level + 3 * std::sqrt(level / replications); };
   EXPECT_LE(shares.warned, bound(fit_warns_below)) << what;
@@ -77,7 +78,8 @@ Shares simulate(const std::string& what, int replications, int parameters,
 
 // Volumes after even or early inspections; `outlier` is added to the last, in sigma.
 Replication joint_study(Rng& rng, int index, std::size_t n, double bend) {
-  const Law k_prior = normal(7e-13, 2e-13, 0, INFINITY), sigma_prior = make_law(Uniform{}, 1e-10, 15e-9);
+  const Law k_prior = normal(7e-13, 2e-13, 0, INFINITY),
+            sigma_prior = make_law(Uniform{}, 1e-10, 15e-9);
   const double k = quantile(k_prior, rng.uniform()), sigma = quantile(sigma_prior, rng.uniform());
   joint::Inspections inspections;
   for (std::size_t i = 0; i < n; ++i) {
@@ -140,12 +142,13 @@ Replication bearing_study(Rng& rng, int index, std::size_t bearings, bool scatte
   std::vector<Parameter> parameters = {parameter("k", k_prior, bearing::guess(inspections).k)};
   if (!known) parameters.push_back(parameter("sigma", sigma_prior, 3e-6));
   if (scatter) parameters.push_back(parameter("k_scatter", scatter_prior, 0.3));
-  const Posterior posterior(
-      parameters, bearing::wear_likelihood(model, inspections, inspections.depth.size()));
+  const Posterior posterior(parameters,
+                            bearing::wear_likelihood(model, inspections, inspections.depth.size()));
   const FitData data{bearing::wear_scores(model, inspections),
                      {},
                      {{"loading", loading}},
-                     Rise{"", loading, inspections.depth, scatter ? inspections.bearing : std::vector<std::size_t>{}, true},
+                     Rise{"", loading, inspections.depth,
+                          scatter ? inspections.bearing : std::vector<std::size_t>{}, true},
                      "row",
                      !scatter,
                      !scatter};
@@ -191,7 +194,8 @@ Replication sn_study(Rng& rng, int index, const fatigue::SnLaw& law, int repetit
   }
   data.scores = fatigue::sn_scores(law, tests);
   data.rise = rise;
-  const Posterior posterior({parameter("log10_a", priors[0], 9.3), {"b", "", Unit{"", 1, 0}, "", priors[1], -0.1, 0.02},
+  const Posterior posterior({parameter("log10_a", priors[0], 9.3),
+                             {"b", "", Unit{"", 1, 0}, "", priors[1], -0.1, 0.02},
                              parameter("sigma", priors[2], 0.3)},
                             fatigue::sn_likelihood(law, tests, tests.size()));
   return judge(posterior, data, index);

@@ -8,9 +8,9 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "wearwell/base/rng.h"
-#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/run_chains.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 
 namespace wearwell::fatigue {
 namespace {

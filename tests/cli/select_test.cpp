@@ -207,7 +207,8 @@ TEST_F(Select, NamesWhatIsWrongInOneSentence) {
   EXPECT_THAT(refusal(data + " --response w --inputs Td --force Mz"),
               HasSubstr("--force: 'Mz' is no candidate term"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td --keep 0"), HasSubstr("--keep"));
-  EXPECT_THAT(refusal(data + " --response w --inputs Td --near -1"), HasSubstr("--near: '-1' must be 0 or more"));
+  EXPECT_THAT(refusal(data + " --response w --inputs Td --near -1"),
+              HasSubstr("--near: '-1' must be 0 or more"));
   EXPECT_THAT(refusal(data + " --response w --inputs Td --folds 200"),
               HasSubstr("200 folds; there may be 2 to 101"));
   EXPECT_THAT(refusal("nowhere.csv --response w --inputs Td"), HasSubstr("nowhere.csv"));

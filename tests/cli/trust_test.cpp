@@ -22,9 +22,9 @@ class Trust : public ScratchTest {
  protected:
   json fit(const std::string& study) {
     const auto file = write("study.toml", study);
-    const CommandResult run =
-        run_wearwell("fit '" + file.string() + "' --json --no-report --method exact --draws 500 -o '" +
-                     (folder() / "out").string() + "'");
+    const CommandResult run = run_wearwell("fit '" + file.string() +
+                                           "' --json --no-report --method exact --draws 500 -o '" +
+                                           (folder() / "out").string() + "'");
     EXPECT_LE(run.exit_code, 1) << run.err;
     json result = json::parse(run.out);
     EXPECT_EQ(run.exit_code, result["trusted"] ? 0 : 1);
@@ -38,10 +38,11 @@ class Trust : public ScratchTest {
   }
 
   // The joint of the tutorial, by cycles and worn volumes in mm^3.
-  json joint(const Pairs& rows, const std::string& rest = "",
-             const std::string& k = R"x({ law = "flat", lower = "0 mm^3/(N m)" })x",
-             const std::string& sigma = R"x({ law = "uniform", lower = "0 mm^3", upper = "15 mm^3" })x",
-             const std::string& more = "") {
+  json joint(
+      const Pairs& rows, const std::string& rest = "",
+      const std::string& k = R"x({ law = "flat", lower = "0 mm^3/(N m)" })x",
+      const std::string& sigma = R"x({ law = "uniform", lower = "0 mm^3", upper = "15 mm^3" })x",
+      const std::string& more = "") {
     return fit(fmt::format(R"x(title = "t"
 model = "archard-joint"
 [data]
@@ -119,7 +120,8 @@ std::string verdict(const json& result, const std::string& name) {
   return check(result, name)["verdict"];
 }
 
-const Pairs right = {{1, 0.5}, {1000, 5.2}, {5000, 22.4}, {10000, 47.1}, {15000, 68.3}, {20000, 91.6}};
+const Pairs right = {{1, 0.5},      {1000, 5.2},   {5000, 22.4},
+                     {10000, 47.1}, {15000, 68.3}, {20000, 91.6}};
 
 TEST_F(Trust, RightDataAreTrusted) {
   const json result = joint(right);
@@ -130,9 +132,10 @@ TEST_F(Trust, RightDataAreTrusted) {
 TEST_F(Trust, WearThatFallsIsNot) {
   Pairs rows;
   const std::vector<double> depths = {40, 31, 23, 14, 5};
-  for (std::size_t i = 0; i < depths.size(); ++i) rows.emplace_back(50000 * (double(i) + 1), depths[i]);
-  for (const char* sigma :
-       {"", R"x({ law = "half-normal", scale = "2 um" })x", R"x({ law = "flat", lower = "0 um" })x"}) {
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    rows.emplace_back(50000 * (double(i) + 1), depths[i]);
+  for (const char* sigma : {"", R"x({ law = "half-normal", scale = "2 um" })x",
+                            R"x({ law = "flat", lower = "0 um" })x"}) {
     const json result = bearing(rows, sigma);
     EXPECT_EQ(verdict(result, "fit"), "fail") << sigma << check(result, "fit");
     EXPECT_FALSE(result["trusted"]);
@@ -142,8 +145,8 @@ TEST_F(Trust, WearThatFallsIsNot) {
 }
 
 TEST_F(Trust, AnOutlierOfTypingIsNot) {
-  const Pairs rows = {{50000, 17}, {100000, 24}, {150000, 30}, {200000, 5000}, {250000, 37},
-                      {300000, 40}};
+  const Pairs rows = {{50000, 17},    {100000, 24}, {150000, 30},
+                      {200000, 5000}, {250000, 37}, {300000, 40}};
   for (const char* sigma : {"", R"x({ law = "flat", lower = "0 um" })x"}) {
     const json result = bearing(rows, sigma);
     EXPECT_EQ(verdict(result, "fit"), "fail") << sigma << check(result, "fit");
@@ -165,8 +168,8 @@ TEST_F(Trust, NegativeWearIsNot) {
 }
 
 TEST_F(Trust, LivesThatGrowWithStressAreNot) {
-  const Pairs rows = {{200, 2e4}, {200, 3e4}, {250, 8e4}, {250, 9e4}, {300, 2.5e5}, {300, 3e5},
-                      {350, 9e5}, {350, 1.1e6}};
+  const Pairs rows = {{200, 2e4},   {200, 3e4}, {250, 8e4}, {250, 9e4},
+                      {300, 2.5e5}, {300, 3e5}, {350, 9e5}, {350, 1.1e6}};
   const json result = sn(rows);
   EXPECT_EQ(verdict(result, "fit"), "fail") << check(result, "fit");
   Pairs turned = rows;
@@ -181,15 +184,14 @@ TEST_F(Trust, PriorsThatDataExcludeAreNot) {
         R"x({ law = "normal", mean = "0.1 mm^3/(N m)", sd = "8e-5 mm^3/(N m)" })x",
         R"x({ law = "lognormal", median = "0.1 mm^3/(N m)", log_sd = 0.1 })x"}) {
     const json result = joint(right, "", prior);
-    EXPECT_FALSE(result["trusted"]) << prior << check(result, "prior-data-conflict")
-                                    << check(result, "fit");
+    EXPECT_FALSE(result["trusted"])
+        << prior << check(result, "prior-data-conflict") << check(result, "fit");
   }
   // The scatter that a gauge is said to have.
   const json result = joint({{1, 9}, {1000, -8}, {5000, 34}, {10000, 30}, {15000, 81}, {20000, 79}},
                             "", R"x({ law = "flat", lower = "0 mm^3/(N m)" })x",
                             R"x({ law = "half-normal", scale = "0.5 mm^3" })x");
-  EXPECT_EQ(verdict(result, "prior-data-conflict"), "fail")
-      << check(result, "prior-data-conflict");
+  EXPECT_EQ(verdict(result, "prior-data-conflict"), "fail") << check(result, "prior-data-conflict");
   EXPECT_THAT(std::string(check(result, "prior-data-conflict")["detail"]), HasSubstr("sigma"));
 }
 

@@ -15,8 +15,8 @@
 #include "wearwell/base/lock_file.h"
 #include "wearwell/base/sha1.h"
 #include "wearwell/base/staged_file.h"
-#include "wearwell/models/clutch/wear_model.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
+#include "wearwell/models/clutch/wear_model.h"
 
 namespace wearwell {
 namespace {

@@ -30,26 +30,56 @@ constexpr Example examples[] = {
 };
 
 // What people and machines write where a number or a word should stand.
-const std::vector<std::string> odd_values = {
-    "0",        "-1",    "1e308",  "-1e308", "1e-320", "nan",         "inf",    "\"\"",
-    "\"x\"",    "[]",    "{}",     "true",   "1e5",    "0x10",        "1,5",    "35.000",
-    "1.234.5",  "1e",    "\"1 m\"", "\"5\"", "\"nan mm\"", "2026-01-01", "999999999999999999999",
-    "\"1e400 mm\"", "\"-3 um\"", "[1, 2, 3]", "\"\\u0007\"", "\"\xc2\xb5m\"", "\"\xff\""};
+const std::vector<std::string> odd_values = {"0",
+                                             "-1",
+                                             "1e308",
+                                             "-1e308",
+                                             "1e-320",
+                                             "nan",
+                                             "inf",
+                                             "\"\"",
+                                             "\"x\"",
+                                             "[]",
+                                             "{}",
+                                             "true",
+                                             "1e5",
+                                             "0x10",
+                                             "1,5",
+                                             "35.000",
+                                             "1.234.5",
+                                             "1e",
+                                             "\"1 m\"",
+                                             "\"5\"",
+                                             "\"nan mm\"",
+                                             "2026-01-01",
+                                             "999999999999999999999",
+                                             "\"1e400 mm\"",
+                                             "\"-3 um\"",
+                                             "[1, 2, 3]",
+                                             "\"\\u0007\"",
+                                             "\"\xc2\xb5m\"",
+                                             "\"\xff\""};
 const std::vector<std::string> odd_cells = {
-    "",  "0", "-1", "1e308", "1e-308", "NaN",  "inf", "x",       "35.000", "1,5", "\"",  "\"a,b\"",
-    " ", "#", "-0", "1e400", "\xb5",   "NULL", "'",   "1e9999", "2026-01-01", "12:30", "true"};
-const std::vector<std::string> odd_units = {"mm", "1/mm", "N", "cycles", "rad", "degC", "1", "m^3",
-                                            "lg(re 1 mm)", "furlong", "mm^3/(N m)", "%", "2 3"};
+    "",       "0",    "-1", "1e308",   "1e-308",     "NaN",   "inf", "x",
+    "35.000", "1,5",  "\"", "\"a,b\"", " ",          "#",     "-0",  "1e400",
+    "\xb5",   "NULL", "'",  "1e9999",  "2026-01-01", "12:30", "true"};
+const std::vector<std::string> odd_units = {"mm",         "1/mm", "N",   "cycles",      "rad",
+                                            "degC",       "1",    "m^3", "lg(re 1 mm)", "furlong",
+                                            "mm^3/(N m)", "%",    "2 3"};
 const std::vector<std::string> options = {
-    "--method exact", "--method nuts", "--method metropolis", "--chains 1", "--chains 0",
-    "--draws 10",     "--draws -5",    "--seed -1",           "--seed 99999999999999999999",
-    "--threads 1",    "--threads 0",   "--no-report",         "--warmup 0", "--unknown", "--draws x"};
+    "--method exact", "--method nuts", "--method metropolis",
+    "--chains 1",     "--chains 0",    "--draws 10",
+    "--draws -5",     "--seed -1",     "--seed 99999999999999999999",
+    "--threads 1",    "--threads 0",   "--no-report",
+    "--warmup 0",     "--unknown",     "--draws x"};
 
 class Mutator {
  public:
   explicit Mutator(std::uint64_t stream, std::uint64_t seed) : rng_(seed, stream) {}
 
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(rng_.uniform() * static_cast<double>(n)); }
+  std::size_t below(std::size_t n) {
+    return static_cast<std::size_t>(rng_.uniform() * static_cast<double>(n));
+  }
   template <class T>
   const T& one_of(const std::vector<T>& of) {
     return of[below(of.size())];
@@ -231,13 +261,15 @@ TEST_F(Contract, HoldsForWhateverIsGiven) {
     const fs::path root = PROJECT_SOURCE_DIR "/examples";
     write("study.toml", mutate.study(slurp(root / example.study)));
     write(fs::path(example.data).filename(), mutate.data(slurp(root / example.data)));
-    const std::string option = mutate.below(2) == 0 ? "--chains 2 --draws 100 --warmup 200"
-                                                      : mutate.one_of(options);
+    const std::string option =
+        mutate.below(2) == 0 ? "--chains 2 --draws 100 --warmup 200" : mutate.one_of(options);
     const std::set<std::string> before = names();
-    const std::string what = "run " + std::to_string(i) + " (" + example.study + " " + option + "): ";
-    const CommandResult run = run_command(
-        "cd '" + folder().string() + "' && timeout --signal=ABRT 120 '" WEARWELL_BINARY
-        "' fit study.toml -o out --json --no-report " + option + " </dev/null");
+    const std::string what =
+        "run " + std::to_string(i) + " (" + example.study + " " + option + "): ";
+    const CommandResult run = run_command("cd '" + folder().string() +
+                                          "' && timeout --signal=ABRT 120 '" WEARWELL_BINARY
+                                          "' fit study.toml -o out --json --no-report " +
+                                          option + " </dev/null");
     expect_kept(run, before, what);
     if (run.exit_code >= 0 && run.exit_code <= 3) ++codes[static_cast<std::size_t>(run.exit_code)];
     if (HasFailure()) {
@@ -249,8 +281,8 @@ TEST_F(Contract, HoldsForWhateverIsGiven) {
     fs::remove_all(folder() / "out");
     if (testing::Test::HasFatalFailure()) return;
   }
-  std::printf("%d runs: %d trusted, %d not, %d refused, %d failed\n", runs, codes[0], codes[1], codes[2],
-              codes[3]);
+  std::printf("%d runs: %d trusted, %d not, %d refused, %d failed\n", runs, codes[0], codes[1],
+              codes[2], codes[3]);
   EXPECT_EQ(codes[3], 0) << "nothing failed on this machine, and yet a run said so";
 }
 

@@ -53,7 +53,8 @@ TEST_P(Replay, ReadsOrRefuses) {
   EXPECT_GT(seeds, 0) << corpus;
 }
 
-INSTANTIATE_TEST_SUITE_P(Doors, Replay, testing::ValuesIn(fuzz::targets().begin(), fuzz::targets().end()),
+INSTANTIATE_TEST_SUITE_P(Doors, Replay,
+                         testing::ValuesIn(fuzz::targets().begin(), fuzz::targets().end()),
                          [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace

@@ -11,12 +11,12 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
+#include "wearwell/input/labelled.h"
+#include "wearwell/input/toml_reader.h"
 #include "wearwell/models/bearing/uncertain.h"
+#include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/study/saved_result.h"
-#include "wearwell/models/clutch/clutch_model_file.h"
-#include "wearwell/input/toml_reader.h"
-#include "wearwell/input/labelled.h"
 
 namespace wearwell::fuzz {
 namespace {
@@ -29,9 +29,9 @@ const fs::path& scratch() {
     fs::path path;
     Folder() {
       const bool shared_memory = fs::is_directory("/dev/shm");
-      std::string pattern =
-          ((shared_memory ? fs::path("/dev/shm") : fs::temp_directory_path()) / "wearwell-fuzz-XXXXXX")
-              .string();
+      std::string pattern = ((shared_memory ? fs::path("/dev/shm") : fs::temp_directory_path()) /
+                             "wearwell-fuzz-XXXXXX")
+                                .string();
       if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a folder");
       path = pattern;
     }
@@ -133,7 +133,8 @@ void table(std::string_view bytes) {
 void study(std::string_view bytes) {
   static const bool copied = [] {
     const fs::path examples = PROJECT_SOURCE_DIR "/examples";
-    for (const char* data : {"joint/joint_wear.csv", "bearing/inspections.csv", "spring/spring_life.csv"}) {
+    for (const char* data :
+         {"joint/joint_wear.csv", "bearing/inspections.csv", "spring/spring_life.csv"}) {
       fs::copy_file(examples / data, scratch() / fs::path(data).filename());
     }
     return true;

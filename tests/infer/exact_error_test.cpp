@@ -9,11 +9,11 @@
 #include "infer/test_posteriors.h"
 #include "support/formula.h"
 #include "wearwell/base/rng.h"
-#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/infer/exact.h"
 #include "wearwell/infer/mode.h"
-#include "wearwell/models/joint/archard.h"
 #include "wearwell/math/quadrature.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
+#include "wearwell/models/joint/archard.h"
 
 namespace wearwell {
 namespace {

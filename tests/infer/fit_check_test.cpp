@@ -88,7 +88,8 @@ TEST(ResidualTests, SeeWhatTheyAreFor) {
 
 // By hand: two items whose levels differ, wear falls within each.
 TEST(ResidualTests, FallsWithinItems) {
-  const Rise items{"", {1, 2, 3, 1, 2, 3}, {30, 20.1, 10, 5000, 4990, 4980.1}, {0, 0, 0, 1, 1, 1}, true};
+  const Rise items{
+      "", {1, 2, 3, 1, 2, 3}, {30, 20.1, 10, 5000, 4990, 4980.1}, {0, 0, 0, 1, 1, 1}, true};
   EXPECT_LT(fall_test(items), 1e-4);
   EXPECT_GT(fall_test({"", items.driver, items.value, {}, true}), 0.1);
 }
@@ -105,7 +106,8 @@ struct Normal {
     double mean = 0;
     for (const double each : y) mean += each / double(y.size());
     draws.values.resize(500, 1);
-    for (int i = 0; i < 500; ++i) draws.values(i, 0) = mean + rng.normal() / std::sqrt(double(y.size()));
+    for (int i = 0; i < 500; ++i)
+      draws.values(i, 0) = mean + rng.normal() / std::sqrt(double(y.size()));
     draws.weights = Eigen::VectorXd::Constant(500, 1. / 500);
     data.scores = [*this, censored](const double* x) {
       std::vector<NormalScore> scores;

@@ -5,7 +5,6 @@
 #include <tbb/global_control.h>
 
 #include "infer/test_posteriors.h"
-#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/metropolis.h"
@@ -14,6 +13,7 @@
 #include "wearwell/infer/run_chains.h"
 #include "wearwell/infer/warmup.h"
 #include "wearwell/math/view.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 
 namespace wearwell {
 namespace {

@@ -5,12 +5,12 @@
 
 #include "infer/test_posteriors.h"
 #include "support/formula.h"
-#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/infer/natural_mode.h"
 #include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
-#include "wearwell/models/joint/archard.h"
 #include "wearwell/math/view.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
+#include "wearwell/models/joint/archard.h"
 
 namespace wearwell {
 namespace {
@@ -46,8 +46,7 @@ Verdicts judge(const Posterior& posterior) {
   Verdicts verdicts{fit(posterior, exact_settings()), {}};
   const NaturalMode mode = natural_mode(posterior, verdicts.fit);
   const Loo loo = leave_one_out(posterior, verdicts.fit);
-  for (Shortfall& each :
-       later_shortfalls(posterior, verdicts.fit, mode)) {
+  for (Shortfall& each : later_shortfalls(posterior, verdicts.fit, mode)) {
     verdicts.fit.shortfalls.push_back(std::move(each));
   }
   verdicts.checks = trust_checks(posterior, verdicts.fit);

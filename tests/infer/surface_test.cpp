@@ -7,10 +7,10 @@
 
 #include "infer/test_posteriors.h"
 #include "wearwell/base/rng.h"
-#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/math/view.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 
 namespace wearwell {
 namespace {

@@ -111,9 +111,9 @@ TEST(Trust, AWeakPriorOnScatterIsNoConflict) {
   const Posterior flat = joint_posterior(false, false, INFINITY, 4);
   std::vector<Parameter> parameters = flat.parameters();
   parameters[1].prior = make_law(Normal{0, 5e-9}, 0, INFINITY);
-  EXPECT_NE(check(checks_of(Posterior(parameters, flat.likelihood())), "prior-data-conflict")
-                .verdict,
-            Verdict::fail);
+  EXPECT_NE(
+      check(checks_of(Posterior(parameters, flat.likelihood())), "prior-data-conflict").verdict,
+      Verdict::fail);
 }
 
 // The mean of k with three lognormal data sets is 20 with the bound of sigma at 7 and 27 at 15: a

@@ -35,10 +35,12 @@ TEST(ItemMixture, OfCentersWithoutEnd) {
   WeightedDraws draws;
   draws.values = Eigen::MatrixXd{{0, 0.1}, {2000, 0.1}};
   draws.weights = Eigen::VectorXd::Constant(2, 0.5);
-  const ItemMixture items(draws, [](const double* x) { return std::exp(x[0]); }, log_sd);
+  const ItemMixture items(
+      draws, [](const double* x) { return std::exp(x[0]); }, log_sd);
   EXPECT_NEAR(items.quantile(0.25), 1, 1e-6);
   EXPECT_EQ(items.quantile(0.75), INFINITY);
-  const ItemMixture none(draws, [](const double* x) { return x[0] > 1 ? std::nan("") : 1; }, log_sd);
+  const ItemMixture none(
+      draws, [](const double* x) { return x[0] > 1 ? std::nan("") : 1; }, log_sd);
   EXPECT_TRUE(std::isnan(none.quantile(0.25)));
 }
 

@@ -55,7 +55,8 @@ TEST(Plot, NamesStandAtOneTwoThree) {
 }
 
 TEST(Plot, LinesAcrossHaveOneCoordinate) {
-  const Json spec = plot("", {"x"}, {"y"}, {vertical_line(5, {"#aaaaaa"}), horizontal_line(7, {"#aaaaaa"})});
+  const Json spec =
+      plot("", {"x"}, {"y"}, {vertical_line(5, {"#aaaaaa"}), horizontal_line(7, {"#aaaaaa"})});
   EXPECT_FALSE(spec["layer"][0]["encoding"].contains("y"));
   EXPECT_FALSE(spec["layer"][1]["encoding"].contains("x"));
   EXPECT_EQ(spec["layer"][1]["data"]["values"], "y\n7");

@@ -25,8 +25,7 @@ std::string shown(double patience, const std::vector<Step>& steps) {
 TEST(ProgressLine, SaysHowFarAndWipesItself) {
   EXPECT_EQ(shown(0, {{"iterations", 100, 400, 2}}),
             "\r  100 iterations, 50 a second, 25 %, 6 s left\033[K\r\033[K");
-  EXPECT_EQ(shown(0, {{"iterations", 100, 0, 2}}),
-            "\r  100 iterations, 50 a second\033[K\r\033[K");
+  EXPECT_EQ(shown(0, {{"iterations", 100, 0, 2}}), "\r  100 iterations, 50 a second\033[K\r\033[K");
 }
 
 TEST(ProgressLine, ShowsNothingOfShortWork) {

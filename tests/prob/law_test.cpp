@@ -72,12 +72,18 @@ TEST(Law, FlatUniformAndJeffreys) {
 }
 
 Law any_law() {
-  static const std::vector<Family> families = {Normal{1, 2},       Lognormal{0.2, 0.6},
-                                               Gamma{1, 3},        Gamma{2.5, 0.8},
-                                               InverseGamma{3, 0.04}, StudentT{3, 0.5, 2.},
-                                               StudentT{1, 0, 1},  Beta{2, 1.5},
-                                               Beta{1, 1},         Flat{},
-                                               Uniform{},          Jeffreys{}};
+  static const std::vector<Family> families = {Normal{1, 2},
+                                               Lognormal{0.2, 0.6},
+                                               Gamma{1, 3},
+                                               Gamma{2.5, 0.8},
+                                               InverseGamma{3, 0.04},
+                                               StudentT{3, 0.5, 2.},
+                                               StudentT{1, 0, 1},
+                                               Beta{2, 1.5},
+                                               Beta{1, 1},
+                                               Flat{},
+                                               Uniform{},
+                                               Jeffreys{}};
   const Family family = families[*rc::gen::inRange<std::size_t>(0, families.size())];
   const double lower = *between(1e-3, 0.9);
   return make_law(family, lower, lower + *between(1e-3, 50));

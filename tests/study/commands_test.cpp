@@ -73,11 +73,13 @@ TEST_F(ReportCommands, RefusesAFolderThatNobodyFitted) {
       if (only_compared && command.starts_with("report")) continue;
       const CommandResult run = run_wearwell(command);
       EXPECT_EQ(run.exit_code, 2) << command;
-      EXPECT_THAT(run.err, HasSubstr("summary.json is not what wearwell writes: " + why)) << command;
+      EXPECT_THAT(run.err, HasSubstr("summary.json is not what wearwell writes: " + why))
+          << command;
       EXPECT_EQ(run.out, "") << command;
     }
   };
-  refused("\"chains\": 4", "\"chains\": 0", "sampler.chains should be a whole number from 1 to 1000");
+  refused("\"chains\": 4", "\"chains\": 0",
+          "sampler.chains should be a whole number from 1 to 1000");
   refused("\"chains\": 4", "\"chains\": 2000000000", "sampler.chains");
   refused("\"rows\": 5", "\"rows\": null", "data.rows should be a whole number", false);
   refused("\"at\": \"inside\"", "\"at\": \"<script>\"", "mode.parameters.k.at should be one of");

@@ -81,9 +81,8 @@ TEST(PredictionsCsv, OfStages) {
   ASSERT_EQ(table.size(), 2u);
   EXPECT_THAT(table[0], ElementsAre("rows", "cycles", "quantity", "unit", "mean", "ci05", "ci95",
                                     "pi05", "pi95", "measured"));
-  EXPECT_THAT(table[1],
-              ElementsAre("1", "20585", "volume", "mm^3", "91.5", "88.5", "94.5", "80.5", "101.5",
-                          "92.73"));
+  EXPECT_THAT(table[1], ElementsAre("1", "20585", "volume", "mm^3", "91.5", "88.5", "94.5", "80.5",
+                                    "101.5", "92.73"));
 }
 
 // What quadrature gives, as in the report.
@@ -92,8 +91,8 @@ TEST(PredictionsCsv, WithoutStagesOfAllRows) {
   result.stages.clear();
   const auto table = rows(predictions_csv(result));
   ASSERT_EQ(table.size(), 2u);
-  EXPECT_THAT(table[1],
-              ElementsAre("2", "20585", "volume", "mm^3", "91.5", "88.5", "94.5", "80.5", "101.5", ""));
+  EXPECT_THAT(table[1], ElementsAre("2", "20585", "volume", "mm^3", "91.5", "88.5", "94.5", "80.5",
+                                    "101.5", ""));
 }
 
 }  // namespace

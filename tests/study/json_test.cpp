@@ -36,9 +36,9 @@ TEST(SummaryJson, HasTheKeysOfTheContract) {
   }
   EXPECT_THAT(keys(json["predictions"][0]),
               IsSupersetOf({"cycles", "mean", "ci05", "ci95", "pi05", "pi95"}));
-  EXPECT_THAT(keys(json["life"]), IsSupersetOf({"unit", "limit", "limit_unit", "now", "risk", "b1",
-                                                "b10", "b50", "q05", "q95", "inspect_within",
-                                                "passed"}));
+  EXPECT_THAT(keys(json["life"]),
+              IsSupersetOf({"unit", "limit", "limit_unit", "now", "risk", "b1", "b10", "b50", "q05",
+                            "q95", "inspect_within", "passed"}));
   for (const Json& check : json["checks"]) {
     EXPECT_THAT(keys(check), IsSupersetOf({"name", "verdict", "detail"}));
   }

@@ -6,8 +6,8 @@
 #include "support/json_mutations.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
-#include "wearwell/study/comparison.h"
 #include "wearwell/present/section_json.h"
+#include "wearwell/study/comparison.h"
 
 namespace wearwell {
 namespace {
@@ -87,8 +87,7 @@ class SavedResults : public ScratchTest {
 
 TEST_F(SavedResults, LoseNothing) {
   const SavedReport report = read_saved_report(folder());
-  EXPECT_EQ(report_html(report.header, report.sections),
-            report_html(full_.header, full_.sections));
+  EXPECT_EQ(report_html(report.header, report.sections), report_html(full_.header, full_.sections));
   const SavedResult read = read_saved_result(folder());
   const PosteriorSummary full = full_result();
   EXPECT_EQ(to_json(compare({{"a", read}, {"b", read}})).dump(),
@@ -104,8 +103,9 @@ TEST_F(SavedResults, OldOnesAreRefusedInWords) {
   old.erase("schema");
   old["wearwell"] = "0.1.0";
   put(old, report_);
-  EXPECT_THAT(refusal(), HasSubstr("was written by wearwell 0.1.0 with schema 0, and this one reads "
-                                   "schema 1: fit the study again"));
+  EXPECT_THAT(refusal(),
+              HasSubstr("was written by wearwell 0.1.0 with schema 0, and this one reads "
+                        "schema 1: fit the study again"));
 }
 
 class Mutated : public SavedResults {
@@ -164,9 +164,10 @@ TEST_F(SavedResults, NamesFileAndKey) {
   ASSERT_TRUE(table.contains("table")) << table.dump();
   table["rows"][0].erase(0);
   put(summary_, report);
-  EXPECT_THAT(refusal(),
-              HasSubstr("report.json is not what wearwell writes: sections[1].blocks[1].rows[0] has "
-                        "5 cells, and the table 6 columns"));
+  EXPECT_THAT(
+      refusal(),
+      HasSubstr("report.json is not what wearwell writes: sections[1].blocks[1].rows[0] has "
+                "5 cells, and the table 6 columns"));
 }
 
 TEST_F(SavedResults, DrawsAreOfTheParameters) {

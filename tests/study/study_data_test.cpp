@@ -4,8 +4,8 @@
 #include "support/posterior_study.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
-#include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/input/columns.h"
+#include "wearwell/models/clutch/clutch_tables.h"
 
 namespace wearwell {
 namespace {
@@ -58,16 +58,21 @@ TEST_F(StudyDataTest, FilesAreNamedAtTheirKey) {
     return TomlReader::parse_file(write("s.toml", "title = 1\n[data]\n" + text))
         .required_table("data");
   };
-  EXPECT_THAT(
-      message_of<InputError>([&] { read_table(section("file = \"non.csv\"\n"), Source{{folder() / "study.toml", ""}}); }),
-      AllOf(HasSubstr("s.toml:3:8: data.file: no such file: "), HasSubstr("non.csv")));
+  EXPECT_THAT(message_of<InputError>([&] {
+                read_table(section("file = \"non.csv\"\n"), Source{{folder() / "study.toml", ""}});
+              }),
+              AllOf(HasSubstr("s.toml:3:8: data.file: no such file: "), HasSubstr("non.csv")));
   write("a.csv", "x\n1\n");
   EXPECT_THAT(message_of<InputError>([&] {
-                read_table(section("file = \"a.csv\"\nsql = \"drop view data\"\n"), Source{{folder() / "study.toml", ""}});
+                read_table(section("file = \"a.csv\"\nsql = \"drop view data\"\n"),
+                           Source{{folder() / "study.toml", ""}});
               }),
               HasSubstr("s.toml:4:7: data.sql: "));
-  EXPECT_EQ(read_table(section("file = \"a.csv\"\n"), Source{{folder() / "study.toml", ""}}).rows, 1U);
-  EXPECT_THAT(message_of<InputError>([&] { read_table(section("file = \"\"\n"), Source{{folder() / "study.toml", ""}}); }),
+  EXPECT_EQ(read_table(section("file = \"a.csv\"\n"), Source{{folder() / "study.toml", ""}}).rows,
+            1U);
+  EXPECT_THAT(message_of<InputError>([&] {
+                read_table(section("file = \"\"\n"), Source{{folder() / "study.toml", ""}});
+              }),
               HasSubstr("s.toml:3:8: data.file: names no file"));
 }
 

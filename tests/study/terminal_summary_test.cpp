@@ -69,7 +69,8 @@ TEST(TerminalSummary, SaysFirstThatTheLimitIsPassed) {
   PosteriorSummary result = sample_result();
   result.life->drawn.passed = 0.9;
   const std::string text = terminal_summary(result, {});
-  EXPECT_THAT(text, HasSubstr("passed already with a probability of 90 %: more than the risk of 1 %"));
+  EXPECT_THAT(text,
+              HasSubstr("passed already with a probability of 90 %: more than the risk of 1 %"));
   EXPECT_LT(text.find("passed already"), text.find("inspect again"));
   result.life->drawn.passed = 1e-9;
   EXPECT_THAT(terminal_summary(result, {}), HasSubstr("a probability of less than 0.01 %\n"));

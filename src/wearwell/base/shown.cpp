@@ -55,7 +55,8 @@ std::string shown(std::string_view message) {
     const std::size_t end = text.find("] ", at);
     text.erase(at, end == text.npos ? end : end + 2 - at);
   }
-  std::replace_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
   std::string clean = shorten(printable(text));
   if (clean.size() <= longest_message) return clean;
   return fmt::format("{}... ({} characters)", start_of(clean, longest_message), clean.size());

@@ -1,7 +1,7 @@
 #include "wearwell/bayes/normal_score.h"
 
-#include <boost/math/special_functions/erf.hpp>
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <numbers>
 

@@ -12,11 +12,11 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/input/option_value.h"
-#include "wearwell/selection/search_line.h"
-#include "wearwell/selection/data.h"
 #include "wearwell/present/result_folder.h"
+#include "wearwell/selection/data.h"
 #include "wearwell/selection/json.h"
 #include "wearwell/selection/report.h"
+#include "wearwell/selection/search_line.h"
 #include "wearwell/selection/text.h"
 
 namespace wearwell {

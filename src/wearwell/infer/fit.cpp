@@ -201,8 +201,7 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
   if (fit.method == Method::exact && !fit.exact) fit.method = Method::nuts;
   draw_enough(posterior, settings, fit);
   fit.shortfalls = shortfalls(whole, shape, settings, fit, integral);
-  for (Shortfall& each :
-       digits(whole, fit.whitening, fit.exact ? fit.exact->nodes : fit.pooled)) {
+  for (Shortfall& each : digits(whole, fit.whitening, fit.exact ? fit.exact->nodes : fit.pooled)) {
     fit.shortfalls.push_back(std::move(each));
   }
   return fit;

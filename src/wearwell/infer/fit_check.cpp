@@ -53,8 +53,7 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
       "The law misses something that the data show: look at the residuals, try another law or "
       "exponent, or ask whether a prior holds it off.";
   std::vector<Judged> tests;
-  tests.push_back({"scatter", scatter_test,
-                   "residuals are not of the size that the scatter says",
+  tests.push_back({"scatter", scatter_test, "residuals are not of the size that the scatter says",
                    "The scatter that is known or believed is not that of these data: see what it "
                    "was taken for, or let it be fitted."});
   tests.push_back({"location", location_test, "residuals do not lie about zero", other_law});
@@ -90,10 +89,11 @@ std::string suspect(const FitData& data, std::size_t row) {
 // How far out the outermost observation lies: by its law given all others where that is known.
 FitTest extreme(const FitData& data, const Loo& loo, const std::vector<double>& residuals,
                 const std::vector<std::vector<double>>& scores) {
-  FitTest result{"extreme residual", 1, "",
-                 fmt::format("Look whether that {} is a mistake of reading, typing or unit; if not, "
-                             "the law cannot expect it.",
-                             data.noun)};
+  FitTest result{
+      "extreme residual", 1, "",
+      fmt::format("Look whether that {} is a mistake of reading, typing or unit; if not, "
+                  "the law cannot expect it.",
+                  data.noun)};
   if (data.terms && data.cheap && loo.terms.size() == residuals.size()) {
     // One impossible observation may make the others impossible too: of these the farthest.
     constexpr double impossible = 1e-100;
@@ -126,8 +126,10 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
   const std::size_t rows = data.scores(first.data()).size();
   std::vector<std::size_t> row;  // of each single observation
   for (std::size_t i = 0; i < rows; ++i) {
-    row.insert(row.end(),
-               static_cast<std::size_t>(data.counts.empty() ? 1 : std::min(data.counts[i], most_alike)), i);
+    row.insert(
+        row.end(),
+        static_cast<std::size_t>(data.counts.empty() ? 1 : std::min(data.counts[i], most_alike)),
+        i);
   }
   const Eigen::Index count =
       std::min(draws.values.rows(),
@@ -164,10 +166,10 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
                              fmt::format("by the law {}, in the data it falls", data.rise->law),
                              impossible});
     if (data.rise->from_zero) {
-      outcome.tests.push_back({"sign", sign_test(*data.rise),
-                               fmt::format("by the law {} from zero, in the data it goes below",
-                                           data.rise->law),
-                               impossible});
+      outcome.tests.push_back(
+          {"sign", sign_test(*data.rise),
+           fmt::format("by the law {} from zero, in the data it goes below", data.rise->law),
+           impossible});
     }
   }
   double least = 1;
@@ -187,8 +189,9 @@ Check fit_check(const FitOutcome& outcome) {
     findings.add(test.p * tests < fit_fails_below ? Verdict::fail : Verdict::warn,
                  fmt::format("{} (p = {:.1g})", test.finding, test.p), test.advice);
   }
-  return findings.result(fmt::format("of {} tests of the residuals the smallest p value is {:.2g} ({})",
-                                     outcome.tests.size(), sorted.front().p, sorted.front().name));
+  return findings.result(
+      fmt::format("of {} tests of the residuals the smallest p value is {:.2g} ({})",
+                  outcome.tests.size(), sorted.front().p, sorted.front().name));
 }
 
 }  // namespace wearwell

@@ -28,7 +28,7 @@ struct Driver {
 
 /// What a law can never do: let the observed fall while its driver grows.
 struct Rise {
-  std::string law;                 ///< "worn volume grows with friction work"
+  std::string law;  ///< "worn volume grows with friction work"
   std::vector<double> driver, value;
   std::vector<std::size_t> group;  ///< items whose own levels differ; empty for one
   bool from_zero = false;          ///< the law vanishes with its driver
@@ -41,22 +41,22 @@ struct FitData {
   std::vector<Driver> drivers;  ///< along the first one neighbours are judged
   std::optional<Rise> rise;
   std::string noun = "row";
-  bool terms = true;   ///< scores are of the factors of the likelihood, one by one
-  bool cheap = true;   ///< may be asked for at every node of a quadrature
+  bool terms = true;  ///< scores are of the factors of the likelihood, one by one
+  bool cheap = true;  ///< may be asked for at every node of a quadrature
 };
 
 /// One test, over all draws.
 struct FitTest {
-  std::string name;    ///< "trend with friction work"
-  double p = 1;        ///< of something as far off, when the law is right
-  std::string finding; ///< in words, for when it is small
+  std::string name;     ///< "trend with friction work"
+  double p = 1;         ///< of something as far off, when the law is right
+  std::string finding;  ///< in words, for when it is small
   std::string advice;
 };
 
 struct FitOutcome {
   std::vector<FitTest> tests;
   std::vector<double> residuals;  ///< the median score of each observation over the draws
-  double p = 1;  ///< of all tests together: the number of tests times the smallest
+  double p = 1;                   ///< of all tests together: the number of tests times the smallest
 };
 
 /// A right law is warned of in one study of a hundred at most, and fails in one of a thousand.

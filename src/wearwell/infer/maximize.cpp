@@ -50,8 +50,8 @@ class Climb {
  private:
   struct Step {
     Eigen::VectorXd move;
-    double gain;  // that it promises
-    bool concave;    // the density is curved downwards along every free parameter
+    double gain;   // that it promises
+    bool concave;  // the density is curved downwards along every free parameter
   };
 
   Eigen::VectorXd inside(const Eigen::VectorXd& x) const {
@@ -181,8 +181,8 @@ class Climb {
 
 }  // namespace
 
-Maximum maximize(const LogDensity& density, const Eigen::VectorXd& start, const Eigen::VectorXd& unit,
-             const Box& box, double enough) {
+Maximum maximize(const LogDensity& density, const Eigen::VectorXd& start,
+                 const Eigen::VectorXd& unit, const Box& box, double enough) {
   return Climb(density, unit, box, enough).from(start);
 }
 

@@ -26,7 +26,7 @@ struct Maximum {
 /// strongly correlated ones and starts far from any maximum, where L-BFGS gives up in its first
 /// line search. `unit` > 0 is about how far a parameter may move; the climb ends where another step
 /// promises less than `enough` of the log density.
-Maximum maximize(const LogDensity& density, const Eigen::VectorXd& start, const Eigen::VectorXd& unit,
-             const Box& box, double enough = 1e-14);
+Maximum maximize(const LogDensity& density, const Eigen::VectorXd& start,
+                 const Eigen::VectorXd& unit, const Box& box, double enough = 1e-14);
 
 }  // namespace wearwell

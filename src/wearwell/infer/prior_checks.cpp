@@ -40,9 +40,9 @@ Check proper_posterior(const Posterior& posterior, const Fit& fit) {
                     tail.towards_bound ? (tail.upward ? "its upper bound" : "its lower bound")
                     : tail.upward      ? "large values"
                                        : "minus infinity");
-    const std::string give_prior = fmt::format(
-        "Bound {} or give it a proper prior ({}): the data alone do not hold it.", parameter.name,
-        prior_for(parameter));
+    const std::string give_prior =
+        fmt::format("Bound {} or give it a proper prior ({}): the data alone do not hold it.",
+                    parameter.name, prior_for(parameter));
     if (!tail.known) {
       findings.add(Verdict::fail,
                    fmt::format("the posterior may be improper: how it ends with {} could not be "

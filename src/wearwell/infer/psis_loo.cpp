@@ -311,9 +311,11 @@ std::optional<Refitted> fitted_without(const Posterior& posterior, const Whiteni
 Eigen::MatrixXd log_densities(const LogDensity& likelihood, const WeightedDraws& draws,
                               std::size_t terms) {
   // Each of many observations moves the posterior so little that some hundred draws tell how it is predicted.
-  const double rows = static_cast<double>(draws.values.rows()), all = rows * static_cast<double>(terms);
-  const double wanted = terms < many_terms ? most_numbers
-                                           : std::max(most_at_draws, fewest_draws * static_cast<double>(terms));
+  const double rows = static_cast<double>(draws.values.rows()),
+               all = rows * static_cast<double>(terms);
+  const double wanted = terms < many_terms
+                            ? most_numbers
+                            : std::max(most_at_draws, fewest_draws * static_cast<double>(terms));
   const auto thin = static_cast<Eigen::Index>(std::ceil(all / wanted));
   const Eigen::Index used = (draws.values.rows() + thin - 1) / thin;
   Eigen::MatrixXd log_density(used, static_cast<Eigen::Index>(terms));
@@ -396,12 +398,13 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
   if (!fit.exact) return psis_loo(likelihood, fit.pooled, efficiency_of(fit), scores);
   Loo loo = psis_loo(likelihood, fit.pooled);
   if (loo.terms.empty()) return loo;
-  const double numbers = static_cast<double>(fit.exact->nodes.values.rows()) *
-                         static_cast<double>(loo.terms.size());
+  const double numbers =
+      static_cast<double>(fit.exact->nodes.values.rows()) * static_cast<double>(loo.terms.size());
   if (loo.terms.size() >= many_terms && numbers > most_at_nodes) {
     return scores ? psis_loo(likelihood, fit.pooled, 1, scores) : loo;
   }
-  const std::vector<LeftOut> sums = left_out(likelihood, fit.exact->nodes, loo.terms.size(), scores);
+  const std::vector<LeftOut> sums =
+      left_out(likelihood, fit.exact->nodes, loo.terms.size(), scores);
   loo.by_quadrature = true;
   loo.error = 0;
   // The worst first: those whose weights reach beyond the nodes.
@@ -416,9 +419,9 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
   std::stable_sort(uneven.begin(), uneven.end(), [&](std::size_t a, std::size_t b) {
     return loo.terms[a].khat > loo.terms[b].khat;
   });
-  const bool too_many =
-      std::count_if(loo.terms.begin(), loo.terms.end(),
-                    [&](const LooTerm& term) { return loo.doubtful(term); }) > most_refits;
+  const bool too_many = std::count_if(loo.terms.begin(), loo.terms.end(), [&](const LooTerm& term) {
+                          return loo.doubtful(term);
+                        }) > most_refits;
   for (std::size_t i = 0; i < std::min<std::size_t>(uneven.size(), most_refits) && !too_many; ++i) {
     LooTerm& term = loo.terms[uneven[i]];
     const auto refitted = fitted_without(posterior, fit.whitening, uneven[i], scores);

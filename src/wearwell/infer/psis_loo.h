@@ -53,7 +53,8 @@ struct Loo {
   std::vector<LooTerm> terms;
   double threshold = 0.7;
   bool by_quadrature = false;  ///< on the nodes of the exact posterior: no Monte Carlo error
-  double error = 0;  ///< of elpd: its Monte Carlo standard error; of a quadrature the estimated error
+  double error =
+      0;  ///< of elpd: its Monte Carlo standard error; of a quadrature the estimated error
 
   double observations() const;
   double elpd() const;   ///< sum over observations; natural logarithm, data in SI

@@ -132,7 +132,8 @@ double neighbour_test(std::span<const double> z) {
   constexpr std::size_t most_exact = 40;
   if (z.size() <= most_exact) {
     std::vector<double> weights;
-    for (double j = 1; j < n; ++j) weights.push_back(2 - 2 * std::cos(std::numbers::pi * j / n) - ratio);
+    for (double j = 1; j < n; ++j)
+      weights.push_back(2 - 2 * std::cos(std::numbers::pi * j / n) - ratio);
     return negative_form(weights);
   }
   // Between 2 - c and 2 + c, with the variance of von Neumann (1941).

@@ -35,7 +35,7 @@ Eigen::VectorXd Slice::whole(const Eigen::VectorXd& rest) const {
 }
 
 ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
-              const Eigen::VectorXd& width) {
+                      const Eigen::VectorXd& width) {
   const auto n = static_cast<Eigen::Index>(slice.dimension());
   ConditionalMode station;
   station.at = slice.at;
@@ -87,7 +87,8 @@ ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& gu
   return station;
 }
 
-std::vector<Eigen::VectorXd> guesses(const ConditionalMode& before, const ConditionalMode& last, double step) {
+std::vector<Eigen::VectorXd> guesses(const ConditionalMode& before, const ConditionalMode& last,
+                                     double step) {
   std::vector<Eigen::VectorXd> all = {last.rest};
   const double back = last.at - before.at;
   if (back == 0 || last.rest.size() == 0) return all;

@@ -46,10 +46,11 @@ struct ConditionalMode {
 /// Climbs from the highest of `guesses` to the conditional mode at `slice.at`. `width` > 0 is about
 /// how far the others may move.
 ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
-              const Eigen::VectorXd& width);
+                      const Eigen::VectorXd& width);
 
 /// Where the others may be at the next station, `step` farther than the last of the two: where they were,
 /// on the straight line through both, and on the curves of what grows or shrinks like e^held.
-std::vector<Eigen::VectorXd> guesses(const ConditionalMode& before, const ConditionalMode& last, double step);
+std::vector<Eigen::VectorXd> guesses(const ConditionalMode& before, const ConditionalMode& last,
+                                     double step);
 
 }  // namespace wearwell

@@ -37,8 +37,8 @@ Eigen::VectorXd conditional_widths(const Eigen::MatrixXd& covariance, int axis) 
 }
 
 ConditionalMode visit_at(Slice& slice, double z, const Whitening& whitening,
-                 const Eigen::MatrixXd& covariance, int axis, const ConditionalMode* last,
-                 const ConditionalMode* before) {
+                         const Eigen::MatrixXd& covariance, int axis, const ConditionalMode* last,
+                         const ConditionalMode* before) {
   slice.at = z;
   if (last) {
     return visit(slice, guesses(before ? *before : *last, *last, z - last->at), last->width);
@@ -163,7 +163,7 @@ void RidgeMap::follow(const Posterior& posterior) {
   std::reverse(modes.begin(), modes.end());
   std::vector<ConditionalMode> up = walk(posterior, 1);
   modes.insert(modes.end(), std::make_move_iterator(up.begin() + 1),
-                  std::make_move_iterator(up.end()));
+               std::make_move_iterator(up.end()));
 
   const auto r = static_cast<Eigen::Index>(d_ - 1);
   std::vector<double> at;

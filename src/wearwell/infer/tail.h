@@ -18,7 +18,7 @@ struct Tail {
   int parameter = 0;
   bool upward = true;  ///< towards larger values
   bool towards_bound = false;
-  double index = 0;  ///< infinity for a tail that falls faster than any power
+  double index = 0;   ///< infinity for a tail that falls faster than any power
   bool known = true;  ///< false: the ridge was lost before the index could be measured
   /// The highest density met on the way, and where on the real line; empty when there was no way.
   double highest = 0;

@@ -26,9 +26,10 @@ std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit) {
   const auto with_computation = [&] {
     checks.push_back(computation(
         fit.shortfalls,
-        fit.exact ? fmt::format("every stage came to its end; quadrature to an estimated relative {:.1g}",
-                                fit.exact->error)
-                  : "every stage came to its end"));
+        fit.exact
+            ? fmt::format("every stage came to its end; quadrature to an estimated relative {:.1g}",
+                          fit.exact->error)
+            : "every stage came to its end"));
     return checks;
   };
   if (fit.method == Method::exact) return with_computation();

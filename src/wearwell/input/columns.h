@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "wearwell/input/toml_reader.h"
 #include "wearwell/input/table.h"
+#include "wearwell/input/toml_reader.h"
 
 namespace wearwell {
 

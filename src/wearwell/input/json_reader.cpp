@@ -53,8 +53,8 @@ nlohmann::ordered_json read_json(const std::filesystem::path& file) {
   if (!stream) throw InputError(fmt::format("cannot read {}", file.string()));
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const auto bounded = [&](int depth, Json::parse_event_t event, const Json&) {
-    const bool opens = event == Json::parse_event_t::array_start ||
-                       event == Json::parse_event_t::object_start;
+    const bool opens =
+        event == Json::parse_event_t::array_start || event == Json::parse_event_t::object_start;
     if (opens && depth >= deepest) {
       throw InputError(fmt::format("{} is nested more than {} deep", file.string(), deepest));
     }

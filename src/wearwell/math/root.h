@@ -23,7 +23,8 @@ template <class F>
 double solve_increasing(const F& f, double guess, double step, Closeness close,
                         double lowest = -std::numeric_limits<double>::max(),
                         double highest = std::numeric_limits<double>::max()) {
-  double a = std::clamp(guess - step, lowest, highest), b = std::clamp(guess + step, lowest, highest);
+  double a = std::clamp(guess - step, lowest, highest),
+         b = std::clamp(guess + step, lowest, highest);
   double at_a = f(a), at_b = f(b);
   for (double width = step; at_a > 0; at_a = f(a)) {
     if (a <= lowest) return lowest;

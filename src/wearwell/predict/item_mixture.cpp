@@ -9,7 +9,8 @@
 
 namespace wearwell {
 
-ItemMixture::ItemMixture(const WeightedDraws& draws, const Function& center, const Function& log_sd) {
+ItemMixture::ItemMixture(const WeightedDraws& draws, const Function& center,
+                         const Function& log_sd) {
   const DominantDraws dominant(draws);
   for (std::size_t i = 0; i < dominant.rows.size(); ++i) {
     const Eigen::VectorXd x = draws.values.row(dominant.rows[i]);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "wearwell/predict/item_mixture.h"
 #include "wearwell/math/root.h"
+#include "wearwell/predict/item_mixture.h"
 
 namespace wearwell {
 namespace {

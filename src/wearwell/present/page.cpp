@@ -63,7 +63,8 @@ std::string content_security_policy() {
 std::string html_page(const Page& page) {
   std::string navigation;
   for (const present::Section& section : page.sections) {
-    navigation += fmt::format("<li><a href=\"#{}\">{}</a></li>", escape(section.id), escape(section.name));
+    navigation +=
+        fmt::format("<li><a href=\"#{}\">{}</a></li>", escape(section.id), escape(section.name));
   }
   std::string out = fmt::format(
       R"(<!doctype html>

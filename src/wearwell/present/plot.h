@@ -52,9 +52,9 @@ Json points(const Columns& data, const Look& look);
 /// Points with a direction: "triangle-right" for what went on unseen, "triangle-left" for what was
 /// over before.
 Json arrows(const Columns& data, const std::string& shape, const Look& look);
-Json ranges(const Columns& data, const Look& look);   ///< an upright stroke from y to y2 at x
-Json cells(const Columns& data, const Look& look);  ///< x to x2, y to y2, opacity by `density`
-Json vertical_line(double x, const Look& look);           ///< a line across the plot
+Json ranges(const Columns& data, const Look& look);  ///< an upright stroke from y to y2 at x
+Json cells(const Columns& data, const Look& look);   ///< x to x2, y to y2, opacity by `density`
+Json vertical_line(double x, const Look& look);      ///< a line across the plot
 Json horizontal_line(double y, const Look& look);
 Json text(double x, double y, const std::string& words, const std::string& colour);
 

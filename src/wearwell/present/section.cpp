@@ -23,8 +23,8 @@ std::string html_of(const Tiles& tiles) {
 std::string html_of(const Facts& facts) {
   std::string out = "<dl class=\"facts\">\n";
   for (const auto& [name, value] : facts.facts) {
-    out += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html::escape(name),
-                       html::escape(value));
+    out +=
+        fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", html::escape(name), html::escape(value));
   }
   return out + "</dl>\n";
 }
@@ -41,8 +41,7 @@ std::string html_of(const Table& table) {
   html::Table shown{table.caption, {}, {}, table.words};
   for (const Column& column : table.columns) {
     const std::string unit = html::unit(column.unit);
-    shown.heading.push_back(unit.empty() ? column.name
-                                         : fmt::format("{} [{}]", column.name, unit));
+    shown.heading.push_back(unit.empty() ? column.name : fmt::format("{} [{}]", column.name, unit));
   }
   for (const auto& row : table.rows) {
     if (shown.rows.size() == most_rows_shown) break;

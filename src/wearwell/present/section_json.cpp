@@ -35,14 +35,17 @@ struct CellJson {
   Json operator()(const Range& range) const {
     return {{"low", number_json(range.low)}, {"high", number_json(range.high)}};
   }
-  Json operator()(const Badge& badge) const { return {{"badge", badge.kind}, {"word", badge.word}}; }
+  Json operator()(const Badge& badge) const {
+    return {{"badge", badge.kind}, {"word", badge.word}};
+  }
 };
 
 Cell read_cell(const JsonReader& json) {
   if (json.is_null()) return {};
   if (json.json().is_string()) return json.text();
   if (const auto number = json.find("number")) return read_number(*number);
-  if (const auto low = json.find("low")) return Range{read_number(*low), read_number(json.at("high"))};
+  if (const auto low = json.find("low"))
+    return Range{read_number(*low), read_number(json.at("high"))};
   return Badge{json.at("badge").one_of({"pass", "warn", "fail"}), json.at("word").text()};
 }
 
@@ -58,10 +61,8 @@ struct BlockJson {
   Json operator()(const Tiles& tiles) const {
     Json items = Json::array();
     for (const html::Tile& tile : tiles.tiles) {
-      items.push_back({{"name", tile.name},
-                       {"value", tile.value},
-                       {"unit", tile.unit},
-                       {"note", tile.note}});
+      items.push_back(
+          {{"name", tile.name}, {"value", tile.value}, {"unit", tile.unit}, {"note", tile.note}});
     }
     return {{"tiles", std::move(items)}};
   }
@@ -115,8 +116,7 @@ Json list(const std::vector<Block>& blocks) {
 
 Column read_column(const JsonReader& json) {
   Column column{json.at("name").text(), json.at("unit").text(), {}, json.at("range").flag()};
-  const std::string kind =
-      json.at("format").one_of({kinds[0], kinds[1], kinds[2], kinds[3]});
+  const std::string kind = json.at("format").one_of({kinds[0], kinds[1], kinds[2], kinds[3]});
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kind == kinds[i]) column.format.kind = static_cast<Format::Kind>(i);
   }

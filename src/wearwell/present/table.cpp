@@ -64,7 +64,8 @@ std::string plain(double x, const Format& format) {
     case Format::Kind::fixed:
       return fmt::format("{:.{}f}", x, format.digits);
     case Format::Kind::life:
-      return std::isinf(x) && x > 0 ? "never" : fmt::format("{:.{}g}", x, digits_of_life(x, format.digits));
+      return std::isinf(x) && x > 0 ? "never"
+                                    : fmt::format("{:.{}g}", x, digits_of_life(x, format.digits));
     case Format::Kind::significant:
       break;
   }
@@ -72,15 +73,15 @@ std::string plain(double x, const Format& format) {
 }
 
 std::string plain(const Cell& cell, const Format& format) {
-  return std::visit(
-      Overloaded{[](std::monostate) { return std::string("-"); },
-                 [](const std::string& text) { return text; },
-                 [&](double x) { return std::isnan(x) ? "-" : plain(x, format); },
-                 [&](const Range& range) {
-                   return plain(range.low, format) + " .. " + plain(range.high, format);
-                 },
-                 [](const Badge& badge) { return badge.kind; }},
-      cell);
+  return std::visit(Overloaded{[](std::monostate) { return std::string("-"); },
+                               [](const std::string& text) { return text; },
+                               [&](double x) { return std::isnan(x) ? "-" : plain(x, format); },
+                               [&](const Range& range) {
+                                 return plain(range.low, format) + " .. " +
+                                        plain(range.high, format);
+                               },
+                               [](const Badge& badge) { return badge.kind; }},
+                    cell);
 }
 
 }  // namespace

@@ -19,9 +19,15 @@ struct Format {
   int digits = 4;
 };
 inline constexpr Format given{Format::Kind::given, 0};
-constexpr Format digits(int count) { return {Format::Kind::significant, count}; }
-constexpr Format fixed(int decimals) { return {Format::Kind::fixed, decimals}; }
-constexpr Format life(int count = 4) { return {Format::Kind::life, count}; }
+constexpr Format digits(int count) {
+  return {Format::Kind::significant, count};
+}
+constexpr Format fixed(int decimals) {
+  return {Format::Kind::fixed, decimals};
+}
+constexpr Format life(int count = 4) {
+  return {Format::Kind::life, count};
+}
 
 /// Two numbers with one meaning: an interval. In a file they are two columns.
 struct Range {

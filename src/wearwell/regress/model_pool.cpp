@@ -61,8 +61,8 @@ double ModelPool::threshold() const {
 void ModelPool::update_limits() {
   const double all = threshold();
   // Larger models than the last of all exact fits can only be exact, too, and lose the tie.
-  const bool exact =
-      settings_.near == 0 && models_.size() >= settings_.keep && models_.back().error <= problem_.least_error;
+  const bool exact = settings_.near == 0 && models_.size() >= settings_.keep &&
+                     models_.back().error <= problem_.least_error;
   const int largest = exact ? models_.back().size : problem_.terms;
   for (int size = 0; size <= problem_.terms; ++size) {
     double cut = -infinity, worth = -infinity;

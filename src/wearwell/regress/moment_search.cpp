@@ -122,8 +122,7 @@ void MomentSearch::relax(Node& node) {
   weighted_.assign(static_cast<std::size_t>((count + 1) * rows), 0.0);
   columns_.clear();
   const auto weigh = [&](const double* from, double* to) {
-    Eigen::Map<Eigen::VectorXd>(to, dimension) =
-        root.matrixU() * coordinates(from, dimension);
+    Eigen::Map<Eigen::VectorXd>(to, dimension) = root.matrixU() * coordinates(from, dimension);
   };
   for (int t = 0; t < count; ++t) {
     columns_.push_back(weighted_.data() + t * rows);

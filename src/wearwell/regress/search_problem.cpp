@@ -128,8 +128,7 @@ SearchProblem::SearchProblem(const Eigen::MatrixXd& data, const Eigen::VectorXd&
   const bool many = leave_one_out && !all_rows && rows >= many_rows(terms);
   if (many || (!leave_one_out && rows > terms + 1)) {
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(all);
-    if (many)
-      moments = RowMoments(qr.householderQ() * Eigen::MatrixXd::Identity(rows, terms + 1));
+    if (many) moments = RowMoments(qr.householderQ() * Eigen::MatrixXd::Identity(rows, terms + 1));
     all = qr.matrixQR().topRows(terms + 1).triangularView<Eigen::Upper>();
   }
   const Index block = row_kernels::row_block;

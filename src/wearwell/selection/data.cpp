@@ -6,9 +6,9 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
-#include "wearwell/regress/search_problem.h"
 #include "wearwell/input/fingerprint.h"
 #include "wearwell/input/table.h"
+#include "wearwell/regress/search_problem.h"
 
 namespace wearwell {
 namespace {

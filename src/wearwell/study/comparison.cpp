@@ -28,7 +28,8 @@ std::string obstacle_of(const std::vector<Comparison::Entry>& studies) {
   const auto& first = studies.front();
   for (const auto& each : studies) {
     const SavedResult &a = first.result, &b = each.result;
-    if (a.header.data.fingerprint.empty() || b.header.data.fingerprint.empty() || !a.loo || !b.loo) {
+    if (a.header.data.fingerprint.empty() || b.header.data.fingerprint.empty() || !a.loo ||
+        !b.loo) {
       const bool second = !a.header.data.fingerprint.empty() && a.loo;
       return fmt::format(
           "{} has no leave-one-out prediction (its posterior is improper, or an older wearwell "
@@ -198,7 +199,8 @@ std::string comparison_text(const Comparison& comparison) {
                   mode ? fmt::format("{:.2f}", mode->aic) : "-",
                   mode ? fmt::format("{:.2f}", mode->bic) : "-"});
     } else {
-      row.insert(row.end(), {result.header.data.names(), fmt::format("{}", result.header.data.rows)});
+      row.insert(row.end(),
+                 {result.header.data.names(), fmt::format("{}", result.header.data.rows)});
     }
     row.insert(row.end(),
                {fmt::format("{}", result.parameters.size()), result.header.trusted ? "yes" : "no"});

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <iterator>
 
-#include "wearwell/study/comparison.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/present/section.h"
+#include "wearwell/study/comparison.h"
 
 namespace wearwell {
 namespace {
@@ -50,9 +50,9 @@ Section verdict_section(const Comparison& comparison) {
                             static_cast<double>(result.parameters.size())});
     }
     section.add(std::move(table));
-    section.add(Prose{
-        "elpd is the expected log predictive density, summed over the observations (natural "
-        "logarithm, data in SI units); larger is better. Smaller AIC and BIC are better."});
+    section.add(
+        Prose{"elpd is the expected log predictive density, summed over the observations (natural "
+              "logarithm, data in SI units); larger is better. Smaller AIC and BIC are better."});
   }
   for (const std::string& caution : comparison.cautions) section.add(Prose{caution});
   return section;
@@ -135,8 +135,14 @@ html::Figure histograms(const Overlaid& parameter) {
 Section parameter_section(const std::vector<Overlaid>& parameters) {
   Table table{"parameters",
               "Parameters of each study",
-              {{"Parameter"}, {"Unit"}, {"Study"}, {"Mean"}, {"Sd", "1", digits(3)}, {"5 %"},
-               {"50 %"}, {"95 %"}}};
+              {{"Parameter"},
+               {"Unit"},
+               {"Study"},
+               {"Mean"},
+               {"Sd", "1", digits(3)},
+               {"5 %"},
+               {"50 %"},
+               {"95 %"}}};
   std::vector<html::Figure> figures;
   for (const Overlaid& parameter : parameters) {
     for (const auto& each : parameter.of) {
@@ -155,12 +161,12 @@ Section parameter_section(const std::vector<Overlaid>& parameters) {
 }
 
 Section study_section(const Comparison& comparison) {
-  Table table{"studies",
-              "Studies",
-              {{"Study"}, {"Title"}, {"Model"}, {"Data"}, {"Rows", "1", present::given},
-               {"Trusted"}},
-              {},
-              true};
+  Table table{
+      "studies",
+      "Studies",
+      {{"Study"}, {"Title"}, {"Model"}, {"Data"}, {"Rows", "1", present::given}, {"Trusted"}},
+      {},
+      true};
   for (const auto& [name, result, behind] : comparison.studies) {
     const Header& header = result.header;
     table.rows.push_back({name, header.title, header.equation, header.data.names(),

@@ -86,7 +86,8 @@ Figure history_figure(const PosteriorSummary& result, const Plots& plots) {
                              plot::line({{"x", h.at}, {"y", h.mean}, {at, h.at}, {"mean", h.mean}},
                                         {colour::posterior, "", 1, 2})};
   if (result.life) {
-    marks.push_back(plot::horizontal_line(result.life->limit, {colour::limit, "limit", 1, 1.5, true}));
+    marks.push_back(
+        plot::horizontal_line(result.life->limit, {colour::limit, "limit", 1, 1.5, true}));
   }
   marks.push_back(plot::points({{"x", plots.history_at},
                                 {"y", plots.measured},
@@ -164,17 +165,17 @@ Figure next_figure(const PosteriorSummary& result) {
   };
   const PredictionSummary& first = result.stages.front().predictions.front();
   std::vector<Json> marks = {plot::ranges({{"x", x},
-                                         {"y", drawn(pi05)},
-                                         {"y2", drawn(pi95)},
-                                         {"lower 5 %", pi05},
-                                         {"upper 95 %", pi95}},
-                                        {colour::wide, "90 % of measurements", 0.55, 8}),
+                                           {"y", drawn(pi05)},
+                                           {"y2", drawn(pi95)},
+                                           {"lower 5 %", pi05},
+                                           {"upper 95 %", pi95}},
+                                          {colour::wide, "90 % of measurements", 0.55, 8}),
                              plot::ranges({{"x", x},
-                                         {"y", drawn(ci05)},
-                                         {"y2", drawn(ci95)},
-                                         {"lower 5 %", ci05},
-                                         {"upper 95 %", ci95}},
-                                        {colour::posterior, "90 % of the mean", 0.9, 8}),
+                                           {"y", drawn(ci05)},
+                                           {"y2", drawn(ci95)},
+                                           {"lower 5 %", ci05},
+                                           {"upper 95 %", ci95}},
+                                          {colour::posterior, "90 % of the mean", 0.9, 8}),
                              plot::points({{"x", x}, {"y", measured}, {"measured", measured}},
                                           {colour::measured, "measured then", 1, 0, false, 70})};
   return {"next", "Predicted before each inspection",
@@ -355,11 +356,11 @@ Figure interval_figure(const PosteriorSummary& result) {
                      {"Data sets", false, {}, {}, names}, {scale.title(last.name), wide},
                      {plot::horizontal_line(target, {colour::limit, "all data sets", 1, 1.5, true}),
                       plot::ranges({{"x", x},
-                                  {"y", drawn(low)},
-                                  {"y2", drawn(high)},
-                                  {"lower 5 %", low},
-                                  {"upper 95 %", high}},
-                                 {colour::posterior, "90 % interval", 0.85, 8}),
+                                    {"y", drawn(low)},
+                                    {"y2", drawn(high)},
+                                    {"lower 5 %", low},
+                                    {"upper 95 %", high}},
+                                   {colour::posterior, "90 % interval", 0.85, 8}),
                       plot::points({{"x", x}, {"y", drawn(mid)}, {"median", mid}},
                                    {colour::measured, "median", 1, 0, false, 60})},
                      300)};
@@ -386,9 +387,9 @@ Figure check_figure(const Plots& plots) {
                      {fmt::format("Inspection at … {}", plots.at_name), false, {}, {}, names},
                      {fmt::format("Difference [{}]", html::unit(plots.unit))},
                      {plot::ranges({{"x", x}, {"y", low}, {"y2", high}},
-                                 {colour::wide, "90 % of measurements", 0.55, 8}),
+                                   {colour::wide, "90 % of measurements", 0.55, 8}),
                       plot::ranges({{"x", x}, {"y", ci05}, {"y2", ci95}},
-                                 {colour::posterior, "90 % of the mean", 0.9, 8}),
+                                   {colour::posterior, "90 % of the mean", 0.9, 8}),
                       plot::horizontal_line(0, {colour::prior, "", 1, 1}),
                       plot::points({{"x", x}, {"y", measured}, {"difference", measured}},
                                    {colour::measured, "measured", 1, 0, false, 70})},

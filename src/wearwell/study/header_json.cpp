@@ -14,9 +14,8 @@ using Json = nlohmann::ordered_json;
 Json to_json(const std::vector<Check>& checks) {
   Json json = Json::array();
   for (const Check& check : checks) {
-    Json each = {{"name", check.name},
-                 {"verdict", verdict_kind(check.verdict)},
-                 {"detail", check.detail}};
+    Json each = {
+        {"name", check.name}, {"verdict", verdict_kind(check.verdict)}, {"detail", check.detail}};
     if (!check.advice.empty()) each["advice"] = check.advice;
     json.push_back(std::move(each));
   }

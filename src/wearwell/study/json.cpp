@@ -84,8 +84,8 @@ Json to_json(const CoverageTable& table) {
 }
 
 Json to_json(const Life& life) {
-  return {{"b1", life.b1},   {"b10", life.b10}, {"b50", life.b50},
-          {"q05", life.q05}, {"q95", life.q95}, {"inspect_within", life.inspect_within},
+  return {{"b1", life.b1},        {"b10", life.b10}, {"b50", life.b50},
+          {"q05", life.q05},      {"q95", life.q95}, {"inspect_within", life.inspect_within},
           {"passed", life.passed}};
 }
 

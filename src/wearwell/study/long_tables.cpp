@@ -65,7 +65,8 @@ std::string chosen_tests(const CoverageTable& table) {
 std::vector<LooTerm> read_loo_table(const std::filesystem::path& folder) {
   CsvReader csv(folder / loo_table_file);
   const std::size_t elpd = csv.column("elpd"), lpd = csv.column("lpd"), khat = csv.column("khat"),
-                    count = csv.column("count"), refitted = csv.column("refitted"), tail = csv.column("tail");
+                    count = csv.column("count"), refitted = csv.column("refitted"),
+                    tail = csv.column("tail");
   std::vector<LooTerm> terms;
   while (csv.next()) {
     const long long alike = csv.integer(count);

@@ -60,7 +60,7 @@ struct Plots {
   std::optional<Curve> life;       ///< probability that the limit is reached by then
   std::string study_text;          ///< the study file
   std::vector<DataFile> files;
-  double seconds = 0;                        ///< that the study took
+  double seconds = 0;  ///< that the study took
   /// What the trade shows beyond that, by section: "predictions", "parameters" or "fit".
   std::map<std::string, std::vector<html::Figure>> exhibits;
 };

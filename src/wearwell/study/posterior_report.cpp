@@ -82,10 +82,9 @@ std::string verdict_sentence(const PosteriorSummary& result, const Plots& plots)
 
 void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) {
   const Life& life = summary.best();
-  tiles.push_back(
-      {"Life B10", life_in_words(life.b10, summary.unit), summary.unit,
-       fmt::format("one in ten reaches {} earlier",
-                   given_with_unit(summary.limit, summary.limit_unit))});
+  tiles.push_back({"Life B10", life_in_words(life.b10, summary.unit), summary.unit,
+                   fmt::format("one in ten reaches {} earlier",
+                               given_with_unit(summary.limit, summary.limit_unit))});
   if (summary.passed_beyond_risk()) {
     tiles.push_back({"Limit passed already", fmt::format("{:.2g}", 100 * life.passed), "%",
                      fmt::format("probability after {}; tolerated: {} %", given(summary.now),
@@ -188,9 +187,9 @@ void add_coverage(const CoverageTable& coverage, Section& section) {
     failures += row.failed();
     inside += row.failed() && row.inside();
   }
-  section.add(Prose{
-      fmt::format("{} of {} failures{} lie within the interval that should hold nine in ten.",
-                  inside, failures, chosen_tests(coverage))});
+  section.add(
+      Prose{fmt::format("{} of {} failures{} lie within the interval that should hold nine in ten.",
+                        inside, failures, chosen_tests(coverage))});
   section.add(coverage_table(coverage));
 }
 
@@ -203,12 +202,12 @@ Section fit_section(const PosteriorSummary& result, const Plots& plots) {
     inside += r.pi05[i] <= plots.measured[i] && plots.measured[i] <= r.pi95[i];
   if (!r.at.empty()) {
     const bool all = r.at.size() >= result.data_rows;
-    section.add(Prose{fmt::format(
-        "{} of {} measurements{} lie within the interval that should hold nine in ten.", inside,
-        r.at.size(),
-        all ? ""
-            : fmt::format(", evenly among the {}, ",
-                          given(static_cast<double>(result.data_rows))))});
+    section.add(Prose{
+        fmt::format("{} of {} measurements{} lie within the interval that should hold nine in ten.",
+                    inside, r.at.size(),
+                    all ? ""
+                        : fmt::format(", evenly among the {}, ",
+                                      given(static_cast<double>(result.data_rows))))});
     section.add(fit_table(plots));
     section.add(Figures{fit_figures(plots)});
   }
@@ -258,10 +257,10 @@ Section method_section(const PosteriorSummary& result, const Plots& plots) {
   section.add(Prose{
       "The same study file, data and seed give the same numbers to the bit, whatever the number of "
       "threads:"});
-  section.add(present::Verbatim{fmt::format(
-      "wearwell fit {} --method {} --chains {} --warmup {} --draws {} --seed {}",
-      plots.files.front().name, result.method, result.chains, result.warmup, result.draws,
-      result.seed)});
+  section.add(present::Verbatim{
+      fmt::format("wearwell fit {} --method {} --chains {} --warmup {} --draws {} --seed {}",
+                  plots.files.front().name, result.method, result.chains, result.warmup,
+                  result.draws, result.seed)});
   section.add(Details{"Study file", {{present::Verbatim{plots.study_text}}}});
   return section;
 }

@@ -15,10 +15,10 @@
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/fit_check.h"
 #include "wearwell/infer/profile.h"
-#include "wearwell/predict/prediction.h"
-#include "wearwell/study/posterior_summary.h"
 #include "wearwell/input/source.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/predict/prediction.h"
+#include "wearwell/study/posterior_summary.h"
 #include "wearwell/study/sense.h"
 #include "wearwell/study/study.h"
 #include "wearwell/study/units_check.h"
@@ -95,10 +95,10 @@ struct PosteriorStudy : Study {
   Result run(const RunOptions& options, const Monitor& monitor) const override;
 
   std::string title, model, equation;
-  TextFile file;               ///< the study file, as it was read
-  std::string data_file;       ///< as the study file names it
-  std::string data_sha1;       ///< of the file when it was read
-  std::size_t data_rows = 0;   ///< data sets; the posterior can be updated after each
+  TextFile file;              ///< the study file, as it was read
+  std::string data_file;      ///< as the study file names it
+  std::string data_sha1;      ///< of the file when it was read
+  std::size_t data_rows = 0;  ///< data sets; the posterior can be updated after each
   /// What was observed, row by row in SI: what the likelihood is a density of.
   std::vector<double> observed;
   std::vector<DataColumn> data_columns;  ///< what was read, to find mistaken units
@@ -107,7 +107,7 @@ struct PosteriorStudy : Study {
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
   std::optional<FitData> fit_data;  ///< by which the fit is checked
   std::vector<Reach> reaches;       ///< how far what is asked for goes beyond the data
-  bool stages = false;  ///< the posterior after 1, 2, ... data sets as well
+  bool stages = false;              ///< the posterior after 1, 2, ... data sets as well
   std::vector<PredictionRequest> predictions;
   /// What to predict at the stage after `rows` data sets, beside `predictions`: that inspection and
   /// the next.

@@ -112,8 +112,8 @@ struct ModeParameter {
   std::string name;
   std::string unit;
   double value = 0;
-  double standard_error = 0;  ///< NaN where a bound holds the parameter
-  std::string at;             ///< "inside", "lower bound" or "upper bound"
+  double standard_error = 0;                ///< NaN where a bound holds the parameter
+  std::string at;                           ///< "inside", "lower bound" or "upper bound"
   std::optional<ProfileSummary> profile{};  ///< at the maximum of the likelihood
 };
 

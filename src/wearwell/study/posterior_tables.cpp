@@ -33,9 +33,9 @@ Table prediction_rows(const char* id, const std::string& caption, const Predicti
            {first.at_name, "1", given},
            {first.quantity, first.unit},
            interval_column("90 % of the " + (items ? first.mean_of : "mean"), first.unit),
-           interval_column(items ? "90 % of measurements of a " + first.measured_of
-                                 : "90 % of measurements",
-                           first.unit),
+           interval_column(
+               items ? "90 % of measurements of a " + first.measured_of : "90 % of measurements",
+               first.unit),
            {"Measured", first.unit}}};
 }
 
@@ -60,8 +60,8 @@ Format life_format(const std::string& unit, int digits) {
 }
 
 Table prediction_table(const PosteriorSummary& result) {
-  Table table = prediction_rows("predictions", "Predictions from all data sets",
-                                result.predictions.front());
+  Table table =
+      prediction_rows("predictions", "Predictions from all data sets", result.predictions.front());
   for (const PredictionSummary& p : result.predictions) add_row(table, result.data_rows, p);
   return table;
 }
@@ -81,26 +81,34 @@ Table stage_prediction_table(const PosteriorSummary& result) {
 Table life_table(const LifeSummary& summary) {
   const Life& life = summary.best();
   const Format format = life_format(summary.unit);
-  return {"life",
-          fmt::format("Life until {} {}", html::given(summary.limit),
-                      html::unit(summary.limit_unit)),
-          {{"B1", summary.unit, format},
-           {"B10", summary.unit, format},
-           {"B50", summary.unit, format},
-           interval_column("90 % interval", summary.unit),
-           {"After", summary.unit, given},
-           {"Passed already", "%", digits(2)},
-           {"If not, inspect within", summary.unit, format},
-           {"At a risk of", "%", given}},
-          {{life.b1, life.b10, life.b50, Range{life.q05, life.q95}, summary.now, 100 * life.passed,
-            life.inspect_within, 100 * summary.risk}}};
+  return {
+      "life",
+      fmt::format("Life until {} {}", html::given(summary.limit), html::unit(summary.limit_unit)),
+      {{"B1", summary.unit, format},
+       {"B10", summary.unit, format},
+       {"B50", summary.unit, format},
+       interval_column("90 % interval", summary.unit),
+       {"After", summary.unit, given},
+       {"Passed already", "%", digits(2)},
+       {"If not, inspect within", summary.unit, format},
+       {"At a risk of", "%", given}},
+      {{life.b1, life.b10, life.b50, Range{life.q05, life.q95}, summary.now, 100 * life.passed,
+        life.inspect_within, 100 * summary.risk}}};
 }
 
 Table quantity_table(const std::vector<QuantitySummary>& quantities) {
   Table table{"quantities",
               "What follows from the parameters",
-              {{"Quantity"}, {"Unit"}, {"Of"}, {"Where"}, {"5 %"}, {"50 %"}, {"95 %"},
-               {"Safe end", "%", given}, {"B1"}, {"B10"}}};
+              {{"Quantity"},
+               {"Unit"},
+               {"Of"},
+               {"Where"},
+               {"5 %"},
+               {"50 %"},
+               {"95 %"},
+               {"Safe end", "%", given},
+               {"B1"},
+               {"B10"}}};
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
@@ -131,8 +139,8 @@ Table bound_table(const std::vector<QuantitySummary>& quantities) {
                        {"50 %"},
                        {"95 %"}};
     }
-    table.rows.push_back({each.name, each.unit, each.of, each.at, *q.predictive, *q.bound, q.q05,
-                          q.q50, q.q95});
+    table.rows.push_back(
+        {each.name, each.unit, each.of, each.at, *q.predictive, *q.bound, q.q05, q.q50, q.q95});
   }
   return table;
 }
@@ -140,22 +148,26 @@ Table bound_table(const std::vector<QuantitySummary>& quantities) {
 Table parameter_table(const std::vector<ParameterSummary>& parameters) {
   Table table{"parameters",
               "Parameters after all data sets",
-              {{"Parameter"}, {"Unit"}, {"Mean"}, {"Sd"}, {"5 %"}, {"50 %"}, {"95 %"},
-               {"Mean of draws"}, {"MCSE", "1", digits(2)}, {"Sd of draws"}}};
+              {{"Parameter"},
+               {"Unit"},
+               {"Mean"},
+               {"Sd"},
+               {"5 %"},
+               {"50 %"},
+               {"95 %"},
+               {"Mean of draws"},
+               {"MCSE", "1", digits(2)},
+               {"Sd of draws"}}};
   for (const ParameterSummary& p : parameters) {
     const ExactSummary b = p.best();
-    table.rows.push_back(
-        {p.name, p.unit, b.mean, b.sd, b.q05, b.q50, b.q95, p.mean, p.mcse, p.sd});
+    table.rows.push_back({p.name, p.unit, b.mean, b.sd, b.q05, b.q50, b.q95, p.mean, p.mcse, p.sd});
   }
   return table;
 }
 
 Table prior_table(const PosteriorSummary& result, const Plots& plots) {
-  Table table{"priors",
-              "What was believed before",
-              {{"Parameter"}, {"Meaning"}, {"Prior"}},
-              {},
-              true};
+  Table table{
+      "priors", "What was believed before", {{"Parameter"}, {"Meaning"}, {"Prior"}}, {}, true};
   for (std::size_t i = 0; i < result.parameters.size(); ++i) {
     table.rows.push_back({result.parameters[i].name, plots.parameters[i].meaning,
                           plots.parameters[i].prior_in_words});
@@ -181,7 +193,8 @@ Table mode_table(const ModeSummary& mode) {
     table.rows.push_back(std::move(row));
   };
   for (const ModeParameter& p : mode.parameters) {
-    add({p.name, p.unit, p.value, p.at == "inside" ? Cell(p.standard_error) : Cell("on its " + p.at)},
+    add({p.name, p.unit, p.value,
+         p.at == "inside" ? Cell(p.standard_error) : Cell("on its " + p.at)},
         p.profile);
   }
   for (const ModeQuantity& q : mode.quantities) {
@@ -193,9 +206,8 @@ Table mode_table(const ModeSummary& mode) {
 }
 
 Table stage_table(const PosteriorSummary& result) {
-  Table table{"parameters-by-data-set",
-              "Parameters, data set by data set",
-              {{"Data sets", "1", given}}};
+  Table table{
+      "parameters-by-data-set", "Parameters, data set by data set", {{"Data sets", "1", given}}};
   for (const ParameterSummary& p : result.parameters) {
     table.columns.push_back({p.name, p.unit});
     table.columns.push_back({"sd of " + p.name, p.unit});

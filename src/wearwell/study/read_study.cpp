@@ -13,8 +13,8 @@ std::unique_ptr<const Study> read_study(const Source& source, Models models) {
   for (const Model& model : models) keys.emplace_back(model.key);
   const auto key = root.choice("model", keys);
   if (!key) root.fail("model", fmt::format("is missing: it is one of {}", fmt::join(keys, ", ")));
-  const auto model =
-      std::find_if(models.begin(), models.end(), [&](const Model& each) { return each.key == *key; });
+  const auto model = std::find_if(models.begin(), models.end(),
+                                  [&](const Model& each) { return each.key == *key; });
   std::unique_ptr<const Study> study = model->read(root, source);
   root.finish();
   return study;

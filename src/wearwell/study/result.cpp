@@ -23,10 +23,9 @@ nlohmann::ordered_json summary_json(const Result& result) {
 std::string terminal_text(const Result& result, const TerminalStyle& style) {
   if (result.text) return result.text(style);
   const Header& header = result.header;
-  std::string out = fmt::format("{}\n  {}\n  {}: {} data sets\n", printable(header.title),
-                                printable(header.equation),
-                                printable(header.data.names()),
-                                header.data.rows);
+  std::string out =
+      fmt::format("{}\n  {}\n  {}: {} data sets\n", printable(header.title),
+                  printable(header.equation), printable(header.data.names()), header.data.rows);
   for (const present::Table* table : present::tables(result.sections)) {
     if (table->id != "checks") out += "\n" + present::text(*table);
   }
@@ -35,10 +34,10 @@ std::string terminal_text(const Result& result, const TerminalStyle& style) {
 }
 
 std::string report_html(const Header& header, const std::vector<present::Section>& sections) {
-  return html_page({header.version, header.title,
-                    fmt::format("{}, {} data sets of {}", header.model, header.data.rows,
-                                header.data.names()),
-                    sections});
+  return html_page(
+      {header.version, header.title,
+       fmt::format("{}, {} data sets of {}", header.model, header.data.rows, header.data.names()),
+       sections});
 }
 
 }  // namespace wearwell

@@ -25,7 +25,7 @@ struct Header {
   struct Data {
     std::vector<std::string> files = {};  ///< as the study names them
     std::size_t rows = 0;                 ///< data sets
-    std::string fingerprint = {};  ///< of what was observed: equal for the same data
+    std::string fingerprint = {};         ///< of what was observed: equal for the same data
 
     std::string names() const;  ///< "a.csv, b.csv"
   } data = {};
@@ -37,7 +37,7 @@ struct Header {
 /// What a study found: summary.json, the report, its tables and the terminal are views of it.
 struct Result {
   Header header;
-  nlohmann::ordered_json body = {};  ///< of summary.json, after the header
+  nlohmann::ordered_json body = {};             ///< of summary.json, after the header
   std::vector<present::Section> sections = {};  ///< of the report; none where none was asked for
   /// Other files of the result folder: name and content.
   std::vector<std::pair<std::string, std::string>> files = {};

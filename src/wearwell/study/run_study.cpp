@@ -14,8 +14,8 @@
 #include "wearwell/infer/natural_mode.h"
 #include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
-#include "wearwell/predict/item_mixture.h"
 #include "wearwell/input/fingerprint.h"
+#include "wearwell/predict/item_mixture.h"
 #include "wearwell/study/plot_study.h"
 
 namespace wearwell {
@@ -207,10 +207,12 @@ ModeSummary summarize_mode(const PosteriorStudy& study, const Posterior& posteri
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
     const Parameter& parameter = posterior.parameters()[i];
     const auto at = static_cast<Eigen::Index>(i);
-    summary.parameters.push_back(
-        {parameter.name, parameter.unit.text, from_si(parameter.unit, mode.position[at]),
-         mode.standard_error[at] / parameter.unit.scale, places[static_cast<int>(mode.place[i])],
-         {}});
+    summary.parameters.push_back({parameter.name,
+                                  parameter.unit.text,
+                                  from_si(parameter.unit, mode.position[at]),
+                                  mode.standard_error[at] / parameter.unit.scale,
+                                  places[static_cast<int>(mode.place[i])],
+                                  {}});
   }
   const double deviance = -2 * mode.log_likelihood;
   const auto unknowns = static_cast<double>(posterior.dimension());
@@ -226,12 +228,11 @@ ModeSummary summarize_mode(const PosteriorStudy& study, const Posterior& posteri
   return summary;
 }
 
-std::vector<Check> all_checks(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit,
-                              const std::optional<LooSummary>& loo) {
+std::vector<Check> all_checks(const PosteriorStudy& study, const Posterior& posterior,
+                              const Fit& fit, const std::optional<LooSummary>& loo) {
   std::vector<Check> checks = trust_checks(posterior, fit);
   if (study.fit_data && proper(fit)) {
-    checks.push_back(
-        fit_check(judge_fit(*study.fit_data, fit.pooled, loo ? loo->loo : Loo{})));
+    checks.push_back(fit_check(judge_fit(*study.fit_data, fit.pooled, loo ? loo->loo : Loo{})));
   }
   if (loo) checks.push_back(loo_check(loo->loo, loo->observation, posterior.dimension()));
   if (const auto units = units_check(study.data_columns)) checks.push_back(*units);
@@ -292,7 +293,8 @@ FitSettings fit_settings(const PosteriorStudy& study, const SamplerChoice& choic
   run.chains = chosen(choice.chains, study.sampler.chains, 4);
   run.warmup = chosen(choice.warmup, study.sampler.warmup, metropolis ? 4000 : 1000);
   run.draws = chosen(choice.draws, study.sampler.draws, metropolis ? 6000 : 1000);
-  settings.extend = !choice.warmup && !study.sampler.warmup && !choice.draws && !study.sampler.draws;
+  settings.extend =
+      !choice.warmup && !study.sampler.warmup && !choice.draws && !study.sampler.draws;
   run.seed = chosen(choice.seed, study.sampler.seed, std::uint64_t{1});
   return settings;
 }
@@ -347,9 +349,9 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
     if (!each.terms.empty()) loo = {study.observation, std::move(each)};
   }
   const NaturalMode natural = natural_mode(posterior, final);
-  const ModeSummary mode = summarize_mode(
-      study, posterior, final, natural,
-      loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
+  const ModeSummary mode =
+      summarize_mode(study, posterior, final, natural,
+                     loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
   for (Shortfall& each : later_shortfalls(whole, final, natural)) {
     final.shortfalls.push_back(std::move(each));
   }

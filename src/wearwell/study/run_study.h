@@ -1,7 +1,7 @@
 #pragma once
 
-#include "wearwell/study/posterior_summary.h"
 #include "wearwell/study/posterior_study.h"
+#include "wearwell/study/posterior_summary.h"
 
 namespace wearwell {
 

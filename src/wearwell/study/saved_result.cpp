@@ -176,7 +176,8 @@ SavedResult read_saved_result(const std::filesystem::path& folder) {
   if (sampler) {
     const long long chains = sampler->at("chains").integer(1, most_chains);
     for (long long c = 1; c <= chains; ++c)
-      result.draws.push_back(read_chain(folder / fmt::format("draws_{}.csv", c), result.parameters));
+      result.draws.push_back(
+          read_chain(folder / fmt::format("draws_{}.csv", c), result.parameters));
   }
   return result;
 }

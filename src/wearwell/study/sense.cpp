@@ -35,15 +35,15 @@ class Sense {
     const double decades = std::log10(q95 / q05);
     if (decades <= widest_interval) return;
     findings_.add(Verdict::warn,
-                  fmt::format("the 90 % interval of {} spans {:.1f} decades, {:.3g} to {:.3g}{}", what,
-                              decades, q05, q95, with_unit(unit)),
+                  fmt::format("the 90 % interval of {} spans {:.1f} decades, {:.3g} to {:.3g}{}",
+                              what, decades, q05, q95, with_unit(unit)),
                   advice);
   }
 
   Check result() {
-    return findings_.result(fmt::format(
-        "every result is a number, and no 90 % interval spans more than {:.0f} decades",
-        widest_interval));
+    return findings_.result(
+        fmt::format("every result is a number, and no 90 % interval spans more than {:.0f} decades",
+                    widest_interval));
   }
 
  private:
@@ -68,16 +68,16 @@ Check extrapolation_check(const std::vector<Reach>& reaches) {
                  "before, and fit again.");
   }
   return findings.result(fmt::format(
-      "what is asked for lies within {:.3g} times what the data hold (up to {:.3g} passes)", farthest,
-      farthest_reach));
+      "what is asked for lies within {:.3g} times what the data hold (up to {:.3g} passes)",
+      farthest, farthest_reach));
 }
 
 Check limit_check(const LifeSummary& life) {
   Findings findings("limit");
-  const std::string passed =
-      fmt::format("after {} {} the limit is passed already with a probability of {}; {} % is "
-                  "tolerated",
-                  life.now, life.unit, probability_in_words(life.best().passed), 100 * life.risk);
+  const std::string passed = fmt::format(
+      "after {} {} the limit is passed already with a probability of {}; {} % is "
+      "tolerated",
+      life.now, life.unit, probability_in_words(life.best().passed), 100 * life.risk);
   if (life.passed_beyond_risk()) {
     findings.add(Verdict::fail, passed,
                  "Do not wait for the next inspection: replace or measure now. The interval to the "
@@ -102,17 +102,17 @@ Check sense_check(const PosteriorSummary& result) {
   }
   for (const QuantitySummary& each : result.quantities) {
     const QuantityQuantiles& q = each.best();
-    sense.interval(fmt::format("{} of the {}{}{}", each.name, each.of, each.at.empty() ? "" : " ",
-                               each.at),
-                   each.unit, q.q05, q.q95,
-                   {q.q50, q.b1, q.b10, q.b50, q.predictive.value_or(0), q.bound.value_or(0)},
-                   false);
+    sense.interval(
+        fmt::format("{} of the {}{}{}", each.name, each.of, each.at.empty() ? "" : " ", each.at),
+        each.unit, q.q05, q.q95,
+        {q.q50, q.b1, q.b10, q.b50, q.predictive.value_or(0), q.bound.value_or(0)}, false);
   }
   if (result.life) {
     const Life& life = result.life->best();
-    sense.interval(fmt::format("the life to {:.6g} {}", result.life->limit, result.life->limit_unit),
-                   result.life->unit, life.q05, life.q95,
-                   {life.b1, life.b10, life.b50, life.inspect_within, life.passed}, true);
+    sense.interval(
+        fmt::format("the life to {:.6g} {}", result.life->limit, result.life->limit_unit),
+        result.life->unit, life.q05, life.q95,
+        {life.b1, life.b10, life.b50, life.inspect_within, life.passed}, true);
   }
   return sense.result();
 }

@@ -16,7 +16,7 @@ inline constexpr double widest_interval = 3;
 
 /// Something asked for, against the largest of its kind that the data hold; one unit, in words.
 struct Reach {
-  std::string what;  ///< "the prediction at 60000 cycles"
+  std::string what;     ///< "the prediction at 60000 cycles"
   std::string seen_as;  ///< "the last inspection was after 10000"
   double asked = 0, seen = 0;
 };

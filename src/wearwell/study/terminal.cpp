@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "wearwell/base/printable.h"
-#include "wearwell/study/long_tables.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/long_tables.h"
 
 namespace wearwell {
 namespace {
@@ -228,16 +228,16 @@ std::string count(double x, int digits = 4) {
 std::string life_lines(const LifeSummary& summary) {
   const Life& life = summary.best();
   const std::string unit = printable(summary.unit);
-  const std::string lives = fmt::format(
-      "  {} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})\n", unit,
-      number(summary.limit), printable(summary.limit_unit), count(life.b1), count(life.b10),
-      count(life.b50), count(life.q05), count(life.q95));
+  const std::string lives =
+      fmt::format("  {} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})\n", unit,
+                  number(summary.limit), printable(summary.limit_unit), count(life.b1),
+                  count(life.b10), count(life.b50), count(life.q05), count(life.q95));
   const std::string passed = fmt::format(
       "  after {} {} the limit is passed already with a probability of {}{}\n", summary.now, unit,
       probability_in_words(life.passed),
-      summary.passed_beyond_risk()
-          ? fmt::format(": more than the risk of {} % that is tolerated", number(100 * summary.risk))
-          : "");
+      summary.passed_beyond_risk() ? fmt::format(": more than the risk of {} % that is tolerated",
+                                                 number(100 * summary.risk))
+                                   : "");
   return lives + passed +
          fmt::format(
              "  if it is not passed, inspect again within {} {}: {} % risk of reaching it before\n",

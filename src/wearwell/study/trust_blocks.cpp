@@ -26,8 +26,7 @@ present::Callout trust_callout(const std::vector<Check>& checks) {
     return {"pass", "Trusted.", fmt::format("All {} checks passed.", checks.size())};
   const std::string names = names_of(checks, worst);
   if (worst == Verdict::warn) {
-    return {"warn", "Trusted, with a warning.",
-            fmt::format("No check failed; look at {}.", names)};
+    return {"warn", "Trusted, with a warning.", fmt::format("No check failed; look at {}.", names)};
   }
   std::string advice;
   for (const Check& check : checks) {

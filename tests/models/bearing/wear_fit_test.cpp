@@ -8,8 +8,8 @@
 #include <map>
 
 #include "support/between.h"
-#include "wearwell/math/quadrature.h"
 #include "wearwell/input/table.h"
+#include "wearwell/math/quadrature.h"
 
 namespace wearwell::bearing {
 namespace {

@@ -110,7 +110,8 @@ TEST(Life, AllowedStressOfParametersWithoutEnd) {
     const double x[] = {a, -0.1, 0.3, 8.4, 0.05};
     EXPECT_EQ(log10_reversed_allowed(law, x, 1e6, 0.9), std::copysign(INFINITY, a)) << a;
   }
-  const double without_limit[] = {9.3, -0.1, 0.3, 1e18, 0.05}, nothing[] = {NAN, -0.1, 0.3, 8.4, 0.05};
+  const double without_limit[] = {9.3, -0.1, 0.3, 1e18, 0.05},
+               nothing[] = {NAN, -0.1, 0.3, 8.4, 0.05};
   EXPECT_EQ(log10_reversed_allowed(law, without_limit, 1e6, 0.9), INFINITY);
   EXPECT_TRUE(std::isnan(log10_reversed_allowed(law, nothing, 1e6, 0.9)));
 }

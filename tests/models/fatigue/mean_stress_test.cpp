@@ -73,7 +73,8 @@ TEST(MeanStress, WalkerIsUndone) {
         const double back = alternating_stress(MeanStress::walker, std::pow(10, log10_reversed),
                                                StressLine{mean, {}}, 1, gamma);
         // What is left of the largest stress beside a large mean is lost in rounding where it hardly counts.
-        EXPECT_NEAR(back, alternating, 1e-7 * alternating) << gamma << ' ' << mean << ' ' << tension;
+        EXPECT_NEAR(back, alternating, 1e-7 * alternating)
+            << gamma << ' ' << mean << ' ' << tension;
       }
     }
   }

@@ -93,8 +93,10 @@ sigma     = { law = "uniform", lower = 0.01, upper = 0.6 }
 )toml");
   const Check cut = check(result, "prior-cut");
   EXPECT_EQ(cut.verdict, Verdict::warn);
-  EXPECT_THAT(cut.detail, HasSubstr("with the bounds of log10_Sut at twice the distance from its mean, the mean "
-                                    "of log10_Sut goes from 4.145"));
+  EXPECT_THAT(
+      cut.detail,
+      HasSubstr("with the bounds of log10_Sut at twice the distance from its mean, the mean "
+                "of log10_Sut goes from 4.145"));
   EXPECT_THAT(cut.detail, testing::Not(HasSubstr("cannot be integrated")));
   ASSERT_TRUE(result.mode);
   EXPECT_EQ(result.mode->parameters[1].at, "lower bound");

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "wearwell/bayes/observation.h"
-#include "wearwell/models/bearing/contact.h"
-#include "wearwell/models/bearing/wear_fit.h"
 #include "wearwell/input/source.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/models/bearing/contact.h"
+#include "wearwell/models/bearing/wear_fit.h"
 #include "wearwell/study/units_check.h"
 
 namespace wearwell {

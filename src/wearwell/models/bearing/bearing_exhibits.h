@@ -3,11 +3,11 @@
 #include <map>
 #include <string>
 
-#include "wearwell/models/bearing/wear_fit.h"
 #include "wearwell/infer/fit.h"
-#include "wearwell/study/plots.h"
 #include "wearwell/models/bearing/bearing_data.h"
 #include "wearwell/models/bearing/bearing_predictions.h"
+#include "wearwell/models/bearing/wear_fit.h"
+#include "wearwell/study/plots.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell {

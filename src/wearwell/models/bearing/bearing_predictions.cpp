@@ -180,10 +180,11 @@ class Predictions {
     const std::string to = "to " + in_words(limit);
     const auto& depths = data_.inspections.depth;
     const double deepest = *std::max_element(depths.begin(), depths.end());
-    study_.reaches.push_back({"the limit of " + in_words(limit),
-                              fmt::format("the deepest measured is {:.4g} {}",
-                                          from_si(data_.depth_unit, deepest), data_.depth_unit.text),
-                              limit.si(), deepest});
+    study_.reaches.push_back(
+        {"the limit of " + in_words(limit),
+         fmt::format("the deepest measured is {:.4g} {}", from_si(data_.depth_unit, deepest),
+                     data_.depth_unit.text),
+         limit.si(), deepest});
     if (!pressure_ && !required) {
       predict_.fail("limit",
                     "needs predict.pressure for the life until then, or required_revolutions (or "

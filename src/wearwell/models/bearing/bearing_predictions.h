@@ -1,10 +1,10 @@
 #pragma once
 
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/models/bearing/bearing_data.h"
 #include "wearwell/models/bearing/depth_law.h"
 #include "wearwell/models/bearing/wear_fit.h"
-#include "wearwell/models/bearing/bearing_data.h"
 #include "wearwell/study/posterior_study.h"
-#include "wearwell/input/toml_reader.h"
 
 namespace wearwell {
 

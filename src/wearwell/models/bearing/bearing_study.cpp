@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
-#include "wearwell/models/bearing/wear_fit.h"
-#include "wearwell/models/bearing/wear_scores.h"
+#include "wearwell/input/prior.h"
 #include "wearwell/models/bearing/bearing_data.h"
 #include "wearwell/models/bearing/bearing_exhibits.h"
 #include "wearwell/models/bearing/bearing_predictions.h"
-#include "wearwell/input/prior.h"
+#include "wearwell/models/bearing/wear_fit.h"
+#include "wearwell/models/bearing/wear_scores.h"
 
 namespace wearwell {
 namespace {

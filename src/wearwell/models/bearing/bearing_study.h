@@ -1,8 +1,8 @@
 #pragma once
 
-#include "wearwell/study/posterior_study.h"
 #include "wearwell/input/source.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/study/posterior_study.h"
 
 namespace wearwell {
 

@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "wearwell/base/error.h"
-#include "wearwell/models/bearing/scar.h"
-#include "wearwell/models/bearing/solve.h"
+#include "wearwell/input/option_value.h"
 #include "wearwell/models/bearing/chart_command.h"
 #include "wearwell/models/bearing/options.h"
 #include "wearwell/models/bearing/profile_command.h"
-#include "wearwell/input/option_value.h"
+#include "wearwell/models/bearing/scar.h"
+#include "wearwell/models/bearing/solve.h"
 
 namespace wearwell {
 namespace bearing {

@@ -63,8 +63,8 @@ std::vector<DepthLaw> depth_laws(const std::vector<Duty>& duties, double k) {
     range.to = std::max(range.to, log_wear);
   }
   for (auto& [key, range] : ranges) {
-    range.curve = std::make_shared<DepthCurve>(key.first, key.second, range.from - below,
-                                               range.to + above);
+    range.curve =
+        std::make_shared<DepthCurve>(key.first, key.second, range.from - below, range.to + above);
   }
   std::vector<DepthLaw> laws;
   for (const Duty& duty : duties) {

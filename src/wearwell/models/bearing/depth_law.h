@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "wearwell/models/bearing/contact.h"
 #include "wearwell/math/dual.h"
 #include "wearwell/math/hermite_table.h"
+#include "wearwell/models/bearing/contact.h"
 
 namespace wearwell::bearing {
 

@@ -79,9 +79,8 @@ FlankNoise flank_noise(const std::vector<double>& residuals, const Eigen::Matrix
       const double log_normal = 2 * root.matrixLLT().diagonal().array().log().sum();
       // A third for noise without memory (the others sum to 26); else every phi is as likely, on a
       // grid that is denser towards 1.
-      const double log_weight =
-          (step == 0 ? std::log(13) : std::log(1 - phi)) -
-          0.5 * (log_determinant + log_normal + degrees * std::log(squares));
+      const double log_weight = (step == 0 ? std::log(13) : std::log(1 - phi)) -
+                                0.5 * (log_determinant + log_normal + degrees * std::log(squares));
       best = std::max(best, log_weight);
       candidates.push_back({log_weight,
                             std::sqrt(squares / degrees * sum_variance(memory, weights)),

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "wearwell/models/bearing/wear_number.h"
 #include "wearwell/math/dual.h"
+#include "wearwell/models/bearing/wear_number.h"
 
 namespace wearwell::bearing {
 namespace {
@@ -171,8 +171,7 @@ RateShape Inspected::shape(double sigma) const {
     shape.lowest = std::min(shape.lowest, log_k_of(duties_[i], y / wide, limit_));
     shape.highest = std::max(shape.highest, log_k_of(duties_[i], top * wide, limit_));
     const LognormalByMoments<double> law(y, sigma);
-    shape.largest +=
-        lognormal_log_density(std::log(y), y, sigma) + 1 + 0.125 * law.zeta * law.zeta;
+    shape.largest += lognormal_log_density(std::log(y), y, sigma) + 1 + 0.125 * law.zeta * law.zeta;
   }
   return shape;
 }

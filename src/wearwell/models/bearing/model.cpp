@@ -19,9 +19,10 @@ Model model() {
   return {.key = "bearing-wear",
           .trade = "bearing",
           .example = example,
-          .read = [](const TomlReader& root, const Source& source) {
-            return read_posterior_study(root, source, read_bearing_study);
-          },
+          .read =
+              [](const TomlReader& root, const Source& source) {
+                return read_posterior_study(root, source, read_bearing_study);
+              },
           .add_commands = add_bearing_command};
 }
 

@@ -134,8 +134,8 @@ double correlation(const Alignment& alignment, const Window& window, double vari
 // averages: between two points interpolated noise alone is smaller, which looks like a better fit.
 // And the least of many misfits is small by chance: those of noise about noise scatter by the root
 // of the independent points in them.
-std::optional<double> best_shift(const Profile& before, const Profile& after, const Window& window, double middle,
-                  double spacing, double farthest) {
+std::optional<double> best_shift(const Profile& before, const Profile& after, const Window& window,
+                                 double middle, double spacing, double farthest) {
   const Averaged smooth_before(before, 2 * spacing), smooth_after(after, 2 * spacing);
   std::vector<double> heights;
   for (const double x : window.x) heights.push_back(smooth_after(middle + x));
@@ -165,7 +165,6 @@ std::optional<double> best_shift(const Profile& before, const Profile& after, co
   if (squares(0) - shifted.squares > by_chance * variance * independent) return best;
   return {};
 }
-
 
 // How far the inner quarters of the flanks lie below a line through the rest, in standard
 // deviations of the rest's noise.
@@ -265,9 +264,8 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
     weights[i] = weight;
     gradient += weight * row;
   }
-  const Eigen::VectorXd share = normal.topLeftCorner(unknowns, unknowns)
-                                    .ldlt()
-                                    .solve(gradient.head(unknowns));
+  const Eigen::VectorXd share =
+      normal.topLeftCorner(unknowns, unknowns).ldlt().solve(gradient.head(unknowns));
   for (std::size_t i = 0; i < n; ++i) {
     if (window.is_flank(i)) weights[i] = -design.row(static_cast<Eigen::Index>(i)).dot(share);
   }

@@ -14,8 +14,8 @@ struct Profile {
 
 /// The area that wear has removed between two profiles of one place.
 struct WornArea {
-  double area = 0;    ///< m^2
-  double sd = 0;      ///< its standard deviation from the noise of the profiles, m^2
+  double area = 0;        ///< m^2
+  double sd = 0;          ///< its standard deviation from the noise of the profiles, m^2
   double half_width = 0;  ///< of its interval of 90 %, m^2
   double shift = 0;   ///< by which the profile after was moved along the surface, m; 0 where the
                       ///< flanks have no feature to align by

@@ -9,11 +9,11 @@
 #include <numbers>
 
 #include "wearwell/base/error.h"
-#include "wearwell/models/bearing/profile.h"
-#include "wearwell/models/bearing/wear_number.h"
-#include "wearwell/models/bearing/options.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/table.h"
+#include "wearwell/models/bearing/options.h"
+#include "wearwell/models/bearing/profile.h"
+#include "wearwell/models/bearing/wear_number.h"
 
 namespace wearwell::bearing {
 namespace {
@@ -53,8 +53,9 @@ std::optional<double> read_flank(const std::string& text) {
 /// A wear rate and what it follows from.
 struct Result {
   WornArea worn;
-  std::optional<double> rate, rate_sd, rate_half;  ///< m^3/(N m); when load and revolutions are given
-  std::optional<double> depth;          ///< of a stationary contact with that area, m
+  std::optional<double> rate, rate_sd,
+      rate_half;                ///< m^3/(N m); when load and revolutions are given
+  std::optional<double> depth;  ///< of a stationary contact with that area, m
 };
 
 /// The inputs beside the area, all exact: k = A/(4 pi r^2 p_a n).
@@ -105,11 +106,8 @@ Result evaluate(const ProfileOptions& options) {
 }
 
 nlohmann::ordered_json with_interval(double value, double sd, double half, const char* unit) {
-  return {{"value", value},
-          {"unit", unit},
-          {"sd", sd},
-          {"q05", value - half},
-          {"q95", value + half}};
+  return {
+      {"value", value}, {"unit", unit}, {"sd", sd}, {"q05", value - half}, {"q95", value + half}};
 }
 
 void print_json(const Result& r) {

@@ -172,7 +172,7 @@ Top find_top(const Integrand& integrand) {
 // The trapezoidal rule about `top` with the given step; none where it does not resolve the bell or
 // the bell does not end.
 std::optional<Sums> trapezoids(const Integrand& integrand, const Top& top, double step) {
-  constexpr int most_nodes = 100;     // to either side
+  constexpr int most_nodes = 100;        // to either side
   constexpr double halves_agree = 3e-4;  // the error of the whole is about the square of theirs
   Sums even, odd;
   Integrand::add(even, top.z, top.value, step, top.value.g);
@@ -295,8 +295,7 @@ std::optional<Sums> adaptive(const Integrand& integrand, Top& top) {
   Sums sums;
   for (const Panel& each : panels) sums.add(each.sums, 1);
   if (edges.back() == integrand.last()) {  // the edge moves with ln k and the scatter
-    const double density =
-        std::exp(integrand(edges.back()).g - top.value.g) / integrand.scatter();
+    const double density = std::exp(integrand(edges.back()).g - top.value.g) / integrand.scatter();
     if (std::isfinite(density)) {
       sums.by_log_k -= density;
       sums.by_scatter -= density * edges.back();

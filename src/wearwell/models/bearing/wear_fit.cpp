@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "wearwell/base/error.h"
+#include "wearwell/math/dual.h"
 #include "wearwell/models/bearing/inspected.h"
 #include "wearwell/models/bearing/rate_integral.h"
-#include "wearwell/math/dual.h"
 
 namespace wearwell::bearing {
 namespace {

@@ -116,7 +116,7 @@ class BearingScores {
 
   WearModel model_;
   std::vector<DepthLaw> laws_;
-  std::vector<double> at_;                     // depth, or its logarithm for the lognormal family
+  std::vector<double> at_;                      // depth, or its logarithm for the lognormal family
   std::vector<std::vector<std::size_t>> rows_;  // of each bearing
 };
 

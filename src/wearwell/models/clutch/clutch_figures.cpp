@@ -6,9 +6,9 @@
 #include <cmath>
 #include <iterator>
 
+#include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/present/html.h"
 #include "wearwell/present/plot.h"
-#include "wearwell/models/clutch/clutch_tables.h"
 
 namespace wearwell::clutch {
 namespace {

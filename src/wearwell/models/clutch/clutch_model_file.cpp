@@ -112,15 +112,15 @@ ModelTerm read_term(const JsonReader& json) {
 }
 
 ScatterLaw read_scatter(const JsonReader& json) {
-  const ScatterLaw law{[&] {
-                         try {
-                           return read_scatter_kind(json.at("kind").text());
-                         } catch (const InputError& error) {
-                           json.at("kind").fail(
-                                fmt::format("is wrong: {}", printable(error.what())));
-                         }
-                       }(),
-                       json.at("p").numbers()};
+  const ScatterLaw law{
+      [&] {
+        try {
+          return read_scatter_kind(json.at("kind").text());
+        } catch (const InputError& error) {
+          json.at("kind").fail(fmt::format("is wrong: {}", printable(error.what())));
+        }
+      }(),
+      json.at("p").numbers()};
   if (std::ssize(law.p) != size_of(law.kind)) json.fail("has the wrong number of parameters");
   return law;
 }

@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
-#include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/input/column_stream.h"
+#include "wearwell/models/clutch/clutch_tables.h"
 
 namespace wearwell::clutch {
 namespace {

@@ -184,12 +184,10 @@ Table validation_table(const Validation& validation) {
 }
 
 Table measure_table(const Validation& validation) {
-  Table table{"validation",
-              "Held-out points together",
-              {{"Which"},
-               {"Points", "1", given},
-               {"R2", "1", fixed(3)},
-               {"RMSE", rate_unit, digits(3)}}};
+  Table table{
+      "validation",
+      "Held-out points together",
+      {{"Which"}, {"Points", "1", given}, {"R2", "1", fixed(3)}, {"RMSE", rate_unit, digits(3)}}};
   const auto add = [&](const char* name, const Validation::Metrics& m) {
     table.rows.push_back({name, static_cast<double>(m.points), m.r2, m.rmse / mm3_per_MJ});
   };
@@ -233,8 +231,8 @@ Section run_in_section(const ClutchResult& r) {
                 {"Relative error", "%", fixed(1)},
                 {"Factor used", "1", fixed(3)}}};
   for (const PlateFactor& p : r.run_in.plates)
-    plates.rows.push_back({static_cast<double>(p.plate), std::exp(p.log_factor),
-                           100 * p.standard_error, p.factor()});
+    plates.rows.push_back(
+        {static_cast<double>(p.plate), std::exp(p.log_factor), 100 * p.standard_error, p.factor()});
   section.add(std::move(constants));
   section.add(std::move(plates));
   return section;

@@ -7,11 +7,11 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/fingerprint.h"
+#include "wearwell/input/source.h"
+#include "wearwell/input/toml_reader.h"
 #include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/models/clutch/clutch_truth.h"
-#include "wearwell/input/source.h"
-#include "wearwell/input/fingerprint.h"
-#include "wearwell/input/toml_reader.h"
 
 namespace wearwell::clutch {
 namespace {

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "wearwell/base/progress.h"
+#include "wearwell/infer/check.h"
+#include "wearwell/input/text_file.h"
+#include "wearwell/input/toml_reader.h"
 #include "wearwell/models/clutch/closing.h"
 #include "wearwell/models/clutch/cycle_sum.h"
 #include "wearwell/models/clutch/life.h"
 #include "wearwell/models/clutch/tribometer.h"
 #include "wearwell/models/clutch/wear_model.h"
-#include "wearwell/infer/check.h"
-#include "wearwell/input/text_file.h"
-#include "wearwell/input/toml_reader.h"
 #include "wearwell/regress/nested.h"
 
 namespace wearwell::clutch {

@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "wearwell/base/printable.h"
-#include "wearwell/present/text_table.h"
 #include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/present/text_table.h"
 
 namespace wearwell::clutch {
 namespace {

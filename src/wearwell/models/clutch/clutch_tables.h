@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/input/labelled.h"
 #include "wearwell/models/clutch/campaign.h"
 #include "wearwell/models/clutch/closing.h"
 #include "wearwell/models/clutch/tribometer.h"
-#include "wearwell/input/labelled.h"
 
 /// Files of a campaign. Headings carry units, "torque [N m]" (table/labelled.h); any unit of the
 /// right dimension will do. All readers throw InputError naming file, row, column and value.

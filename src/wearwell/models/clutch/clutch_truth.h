@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "wearwell/models/clutch/tribometer.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/models/clutch/tribometer.h"
 
 namespace wearwell::clutch {
 

@@ -6,10 +6,10 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
-#include "wearwell/models/clutch/command_parts.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/clutch/closing.h"
 #include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/models/clutch/command_parts.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -22,8 +22,7 @@ struct FeatureOptions {
 int run(const FeatureOptions& options) {
   refuse_overwriting({{"the traces", options.traces}}, {{"--output", options.output}});
   ClosingRule rule;
-  rule.torque_on =
-      option_value("--torque-on", options.torque_on, "N m", Allowed::not_negative);
+  rule.torque_on = option_value("--torque-on", options.torque_on, "N m", Allowed::not_negative);
   rule.slip_off = option_value("--slip-off", options.slip_off, "rad/s", Allowed::not_negative);
   const std::vector<Sample> samples = read_traces(options.traces);
   std::vector<Closing> closings;

@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
-#include "wearwell/models/clutch/command_parts.h"
 #include "wearwell/input/option_value.h"
-#include "wearwell/present/text_table.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/models/clutch/command_parts.h"
+#include "wearwell/present/text_table.h"
 
 namespace wearwell::clutch {
 namespace {

@@ -13,11 +13,11 @@
 #include "wearwell/base/lock_file.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
-#include "wearwell/models/clutch/command_parts.h"
-#include "wearwell/present/text_table.h"
+#include "wearwell/input/fingerprint.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_tables.h"
-#include "wearwell/input/fingerprint.h"
+#include "wearwell/models/clutch/command_parts.h"
+#include "wearwell/present/text_table.h"
 
 namespace wearwell::clutch {
 namespace {

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include "wearwell/math/normality.h"
 #include "wearwell/models/clutch/wear_law.h"
 #include "wearwell/models/clutch/wear_map.h"
-#include "wearwell/math/normality.h"
 
 namespace wearwell::clutch {
 

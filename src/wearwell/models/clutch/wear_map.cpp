@@ -216,9 +216,8 @@ PairBest best_exponents(const WearPoints& points, Surrogate surrogate,
     least = std::min(least, pair.press);
   };
   run_tasks(static_cast<int>(pairs.size()), threads_of(threads), solve);
-  return *std::min_element(pairs.begin(), pairs.end(), [](const PairBest& a, const PairBest& b) {
-    return a.press < b.press;
-  });
+  return *std::min_element(pairs.begin(), pairs.end(),
+                           [](const PairBest& a, const PairBest& b) { return a.press < b.press; });
 }
 
 Eigen::MatrixXd WearMap::rows(const std::vector<OperatingPoint>& at) const {

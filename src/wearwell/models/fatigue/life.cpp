@@ -110,8 +110,8 @@ double MixedLife::quantile(double p) const {
   if (p >= ended_) return infinity;
   // Newton's method from the quantile of the heaviest law, between bounds that close in: laws
   // without weight may lie anywhere.
-  const auto heaviest = static_cast<std::size_t>(
-      std::max_element(weight_.begin(), weight_.end()) - weight_.begin());
+  const auto heaviest =
+      static_cast<std::size_t>(std::max_element(weight_.begin(), weight_.end()) - weight_.begin());
   double step = 1 / inverse_sigma_[heaviest];
   double at = center_[heaviest] + wearwell::quantile(standard(), p / ended_) * step;
   double low = -infinity, high = infinity;

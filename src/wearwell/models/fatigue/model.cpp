@@ -18,9 +18,10 @@ Model model() {
   return {.key = "sn",
           .trade = "fatigue",
           .example = example,
-          .read = [](const TomlReader& root, const Source& source) {
-            return read_posterior_study(root, source, read_sn_study);
-          },
+          .read =
+              [](const TomlReader& root, const Source& source) {
+                return read_posterior_study(root, source, read_sn_study);
+              },
           .add_commands = nullptr};
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "wearwell/models/fatigue/life_test.h"
 #include "wearwell/math/dual.h"
+#include "wearwell/models/fatigue/life_test.h"
 #include "wearwell/prob/standard_law.h"
 
 namespace wearwell::fatigue {

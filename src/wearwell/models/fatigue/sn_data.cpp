@@ -231,8 +231,7 @@ fatigue::StressLine read_line(const TomlReader& table) {
   return {0, ratio};
 }
 
-SnData read_sn_data(const TomlReader& root, const Source& source,
-                    MeanStress correction) {
+SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress correction) {
   const TomlReader section = root.required_table("data");
   const TomlReader columns = section.required_table("columns");
   const auto conditions = root.table("conditions");

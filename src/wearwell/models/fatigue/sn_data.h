@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "wearwell/models/fatigue/life_test.h"
-#include "wearwell/models/fatigue/spring.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/source.h"
+#include "wearwell/models/fatigue/life_test.h"
+#include "wearwell/models/fatigue/spring.h"
 #include "wearwell/study/units_check.h"
 
 namespace wearwell {
@@ -29,8 +29,7 @@ struct SnData {
 /// alternating_stress with mean_stress (0 where it does not matter), max_stress with min_stress,
 /// alternating_stress with stress_ratio, or displacement_mean with displacement_amplitude of a
 /// spring in [conditions]. Throws InputError naming file, row and column.
-SnData read_sn_data(const TomlReader& root, const Source& source,
-                    fatigue::MeanStress correction);
+SnData read_sn_data(const TomlReader& root, const Source& source, fatigue::MeanStress correction);
 
 /// The unit of lives as people read it: "1e5 cycles" of "1e5".
 Unit life_unit(Unit unit);

@@ -177,7 +177,7 @@ class Drawing {
     Numbers foot;
     for (const double y : b10_y) foot.push_back(y - 0.35);
     marks.push_back(plot::ranges({{"x", b10}, {"y", foot}, {"y2", b10_y}, {"B10 life", b10}},
-                               {colour::limit, "B10, posterior predictive", 1, 2}));
+                                 {colour::limit, "B10, posterior predictive", 1, 2}));
     if (!broke_x.empty()) {
       marks.push_back(plot::points({{"x", broke_x}, {"y", broke_y}, {"life", broke_life}},
                                    {colour::measured, "tests", 1, 0, false, 60}));
@@ -358,7 +358,8 @@ class Drawing {
 }  // namespace
 
 std::map<std::string, std::vector<html::Figure>> sn_exhibits(const SnLaw& law, const SnData& data,
-                                            const SnPredictions& predictions, const Fit& fit) {
+                                                             const SnPredictions& predictions,
+                                                             const Fit& fit) {
   const Drawing drawing(law, data, predictions, fit);
   std::map<std::string, std::vector<html::Figure>> exhibits;
   exhibits["predictions"].push_back(drawing.lives());

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wearwell/models/fatigue/random_limit.h"
 #include "wearwell/math/dual.h"
+#include "wearwell/models/fatigue/random_limit.h"
 #include "wearwell/prob/normal.h"
 
 namespace wearwell::fatigue {

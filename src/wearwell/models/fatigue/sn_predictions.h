@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "wearwell/models/fatigue/life.h"
-#include "wearwell/models/fatigue/sn_law.h"
 #include "wearwell/models/fatigue/sn_data.h"
+#include "wearwell/models/fatigue/sn_law.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell {

@@ -16,8 +16,8 @@ double score(const SnLaw& law, const double* x, double log10_reversed, double li
   const double at = law.logarithmic() ? std::log10(life) : life;
   if (law.limit) {
     const double* limit = x + law.limit_index();
-    const LimitedLife<double> item{law.standard(), *law.limit,        log10_reversed, x[0], x[1],
-                                   x[law.sigma_index()], limit[0], limit[1]};
+    const LimitedLife<double> item{law.standard(), *law.limit,           log10_reversed, x[0],
+                                   x[1],           x[law.sigma_index()], limit[0],       limit[1]};
     return normal_score(log_probability(item, Outcome::left, at, at),
                         log_probability(item, Outcome::runout, at, at));
   }

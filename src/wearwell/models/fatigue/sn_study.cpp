@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
-#include "wearwell/models/fatigue/sn_likelihood.h"
-#include "wearwell/models/fatigue/sn_scores.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/models/fatigue/sn_data.h"
 #include "wearwell/models/fatigue/sn_exhibits.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/models/fatigue/sn_predictions.h"
+#include "wearwell/models/fatigue/sn_scores.h"
 
 namespace wearwell {
 namespace {
@@ -235,8 +235,8 @@ std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
 FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Parameter>& parameters) {
   std::vector<double> start;
   for (const Parameter& parameter : parameters) start.push_back(parameter.start);
-  FitData result{fatigue::sn_scores(law, data.tests), {}, {{"stress", {}}}, Rise{}, "row", true,
-                 !law.limit};
+  FitData result{
+      fatigue::sn_scores(law, data.tests), {}, {{"stress", {}}}, Rise{}, "row", true, !law.limit};
   std::vector<double> mean;
   Rise& rise = *result.rise;
   rise.law = "life grows as stress falls";

@@ -52,8 +52,7 @@ std::shared_ptr<const LogDensity> archard_likelihood(const Archard& law, Observa
                                                      std::size_t count);
 
 /// Where each inspection lies in the law of its measurement.
-Scores archard_scores(const Archard& law, ObservationFamily family,
-                      const Inspections& inspections);
+Scores archard_scores(const Archard& law, ObservationFamily family, const Inspections& inspections);
 
 /// Least-squares k (V0 = 0, exponent 1) and the standard deviation about it: where searches start.
 struct LeastSquares {

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
-#include "wearwell/models/joint/archard.h"
-#include "wearwell/models/joint/inspection.h"
-#include "wearwell/models/joint/work_history.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/input/table.h"
+#include "wearwell/models/joint/archard.h"
+#include "wearwell/models/joint/inspection.h"
+#include "wearwell/models/joint/work_history.h"
 
 namespace wearwell {
 namespace {
@@ -67,8 +67,8 @@ PointwiseTable pointwise_table(const Table& table, const std::vector<double>& cy
 }
 
 // The friction work of each inspection, from whichever source the study names.
-void read_work(const TomlReader& root, const TomlReader& columns,
-               const Source& source, const Table& table, JointData& data) {
+void read_work(const TomlReader& root, const TomlReader& columns, const Source& source,
+               const Table& table, JointData& data) {
   const auto conditions = root.table("conditions");
   const auto constant =
       conditions ? conditions->quantity("work_per_cycle", "N m/cycle") : std::nullopt;
@@ -139,8 +139,7 @@ void read_pin_positions(const TomlReader& root, const TomlReader& columns, const
   data.inspections.volume = std::move(worn.volume);
 }
 
-JointData read_data(const TomlReader& root, const Source& source,
-                    ObservationFamily family) {
+JointData read_data(const TomlReader& root, const Source& source, ObservationFamily family) {
   const TomlReader data_table = root.required_table("data");
   const TomlReader columns = data_table.required_table("columns");
   const ColumnChoice cycles = required_column(columns, "cycles", "cycle");
@@ -259,8 +258,11 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   study.fit_data = FitData{joint::archard_scores(law, family, data.inspections),
                            {},
                            {{"friction work", work}},
-                           Rise{"worn volume grows with friction work", work,
-                                data.inspections.volume, {}, !law.has_constant},
+                           Rise{"worn volume grows with friction work",
+                                work,
+                                data.inspections.volume,
+                                {},
+                                !law.has_constant},
                            "inspection"};
 
   // Where the work per cycle is constant, it is so past and to come.
@@ -339,8 +341,8 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
     if (most > 0) {
       study.reaches.push_back(
           {fmt::format("the limit of {:.6g} {}", limit->value, limit->unit.text),
-           fmt::format("the largest volume measured is {:.4g} {}",
-                       from_si(data.volume_unit, most), data.volume_unit.text),
+           fmt::format("the largest volume measured is {:.4g} {}", from_si(data.volume_unit, most),
+                       data.volume_unit.text),
            limit->si(), most});
     }
     study.life = LifeRequest{Unit{"1", 1, 0},

@@ -18,9 +18,10 @@ Model model() {
   return {.key = "archard-joint",
           .trade = "joint",
           .example = example,
-          .read = [](const TomlReader& root, const Source& source) {
-            return read_posterior_study(root, source, read_joint_study);
-          },
+          .read =
+              [](const TomlReader& root, const Source& source) {
+                return read_posterior_study(root, source, read_joint_study);
+              },
           .add_commands = nullptr};
 }
 
