@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "wearwell/bayes/posterior.h"
+#include "wearwell/infer/fit.h"
+#include "wearwell/infer/natural_mode.h"
+#include "wearwell/study/posterior_study.h"
+#include "wearwell/study/posterior_summary.h"
+
+namespace wearwell {
+
+/// A fit in the units that its user asked for.
+std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, const Fit& fit);
+std::vector<PredictionSummary> summarize(const std::vector<PredictionRequest>& requests,
+                                         const Fit& fit);
+std::vector<QuantitySummary> summarize_quantities(const PosteriorStudy& study, const Fit& fit);
+LifeSummary summarize(const LifeRequest& request, const Fit& fit);
+/// `observations`: of which BIC takes the logarithm.
+ModeSummary summarize_mode(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit,
+                           const NaturalMode& mode, double observations);
+
+}  // namespace wearwell
