@@ -14,6 +14,7 @@ set(common_headers <algorithm> <array> <cmath> <filesystem> <fstream> <functiona
 wearwell_precompiled(wearwell_headers
   HEADERS ${common_headers}
   LIBRARIES Eigen3::Eigen fmt::fmt Threads::Threads)
+set_target_properties(wearwell_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
 if(WEARWELL_BUILD_TESTS)
   wearwell_precompiled(wearwell_test_headers
     HEADERS ${common_headers} <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>
@@ -41,6 +42,9 @@ function(wearwell_library name)
   target_compile_features(wearwell_${name} ${scope} cxx_std_20)
   target_link_libraries(wearwell_${name} ${scope} ${ARG_USES} ${ARG_LIBRARIES})
   set_target_properties(wearwell_${name} PROPERTIES EXPORT_NAME ${name})
+  if(ARG_SOURCES)
+    set_target_properties(wearwell_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
   set_property(GLOBAL APPEND PROPERTY wearwell_libraries wearwell_${name})
 endfunction()
 
