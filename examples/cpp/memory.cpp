@@ -6,7 +6,7 @@
 
 namespace {
 
-constexpr const char* study_text = R"(
+constexpr const char* study_text = R"toml(
 model = "archard-joint"
 [data]
 file = "inspections"
@@ -18,12 +18,11 @@ work_per_cycle = "5.966 N m"
 [likelihood]
 family = "normal"
 [prior]
-k = { law = "flat", unit = "mm^3/(N m)"
-}
+k = { law = "flat", unit = "mm^3/(N m)" }
 sigma = { law = "uniform", lower = "0 mm^3", upper = "15 mm^3" }
 [predict]
 cycles = [20585]
-)";
+)toml";
 
 }  // namespace
 
