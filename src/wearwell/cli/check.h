@@ -1,8 +1,10 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "wearwell/study/model.h"
+
+namespace CLI {
+class App;
+}
 
 namespace wearwell {
 

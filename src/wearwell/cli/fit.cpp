@@ -1,5 +1,7 @@
 #include "wearwell/cli/fit.h"
 
+#include <CLI/CLI.hpp>
+
 #include <fmt/format.h>
 #include <unistd.h>
 

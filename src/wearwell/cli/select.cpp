@@ -1,5 +1,7 @@
 #include "wearwell/cli/select.h"
 
+#include <CLI/CLI.hpp>
+
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>

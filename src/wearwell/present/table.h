@@ -42,6 +42,11 @@ struct Badge {
 /// Nothing, text, a number, an interval, a badge.
 using Cell = std::variant<std::monostate, std::string, double, Range, Badge>;
 
+/// How many, as a cell.
+inline double count(std::size_t n) {
+  return static_cast<double>(n);
+}
+
 struct Column {
   std::string name;
   std::string unit = "1";  ///< of its numbers: "mm^3"

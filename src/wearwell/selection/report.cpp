@@ -16,6 +16,7 @@ namespace {
 
 using html::number;
 using present::Cell;
+using present::count;
 using present::digits;
 using present::Figures;
 using present::fixed;
@@ -25,10 +26,6 @@ using present::Section;
 using present::Table;
 
 constexpr std::size_t most_models = 100;  // of the table
-
-double count(std::size_t n) {
-  return static_cast<double>(n);
-}
 
 std::string terms_of(const SelectionResult& result, const SubsetModel& model) {
   return fmt::format("{}", fmt::join(result.names(model.terms), " + "));

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -9,6 +8,10 @@
 #include "wearwell/input/source.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/study/study.h"
+
+namespace CLI {
+class App;
+}
 
 namespace wearwell {
 

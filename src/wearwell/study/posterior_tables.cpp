@@ -10,6 +10,7 @@ namespace {
 
 using present::Cell;
 using present::Column;
+using present::count;
 using present::digits;
 using present::fixed;
 using present::Format;
@@ -19,10 +20,6 @@ using present::Table;
 
 Column interval_column(const std::string& name, const std::string& unit, Format format = {}) {
   return {name, unit, format, true};
-}
-
-double count(std::size_t n) {
-  return static_cast<double>(n);
 }
 
 Table prediction_rows(const char* id, const std::string& caption, const PredictionSummary& first) {

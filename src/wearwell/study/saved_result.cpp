@@ -11,6 +11,7 @@
 #include "wearwell/present/section_json.h"
 #include "wearwell/study/header_json.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/posterior_study.h"
 
 namespace wearwell {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr int most = std::numeric_limits<int>::max();
-constexpr int most_chains = 1000;
 
 double number(const JsonReader& json, const char* key, double null = unknown) {
   return json.at(key).number_or(null);
@@ -174,7 +174,7 @@ SavedResult read_saved_result(const std::filesystem::path& folder) {
   if (const auto mode = json.find("mode")) result.mode = read_mode(*mode);
   if (const auto loo = json.find("loo")) result.loo = read_loo(*loo, folder);
   if (sampler) {
-    const long long chains = sampler->at("chains").integer(1, most_chains);
+    const long long chains = sampler->at("chains").integer(1, max_chains);
     for (long long c = 1; c <= chains; ++c)
       result.draws.push_back(
           read_chain(folder / fmt::format("draws_{}.csv", c), result.parameters));

@@ -1,5 +1,7 @@
 #include "wearwell/models/bearing/commands.h"
 
+#include <CLI/CLI.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -211,10 +213,6 @@ void print_json(const Answer& a) {
   }
   fmt::print("{}\n", json.dump(2));
   if (!a.margin.empty()) fmt::print(stderr, "{}\n", a.margin);
-}
-
-void print_row(const char* name, const std::string& value) {
-  fmt::print("  {:<32}{}\n", name, value);
 }
 
 void print_text(const Answer& a) {

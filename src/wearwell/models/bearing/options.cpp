@@ -1,5 +1,7 @@
 #include "wearwell/models/bearing/options.h"
 
+#include <CLI/CLI.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,6 +77,10 @@ UncertainBearing BearingOptions::read() const {
       result.given.push_back({&input_options[i], read_input(input_options[i], texts[i])});
   }
   return result;
+}
+
+void print_row(const char* name, const std::string& value) {
+  fmt::print("  {:<32}{}\n", name, value);
 }
 
 }  // namespace wearwell::bearing

@@ -63,4 +63,7 @@ struct BearingOptions {
   UncertainBearing read() const;
 };
 
+/// One line of an answer.
+void print_row(const char* name, const std::string& value);
+
 }  // namespace wearwell::bearing

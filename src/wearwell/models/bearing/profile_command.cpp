@@ -1,5 +1,7 @@
 #include "wearwell/models/bearing/profile_command.h"
 
+#include <CLI/CLI.hpp>
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -126,10 +128,6 @@ void print_json(const Result& r) {
                        {"correlation", w.correlation}};
   json["worn_place"] = {{"from", w.from * 1e3}, {"to", w.to * 1e3}, {"unit", "mm"}};
   fmt::print("{}\n", json.dump(2));
-}
-
-void print_row(const char* name, const std::string& value) {
-  fmt::print("  {:<32}{}\n", name, value);
 }
 
 void print_text(const Result& r) {

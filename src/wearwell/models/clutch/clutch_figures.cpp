@@ -18,7 +18,6 @@ using html::Figure;
 using plot::Json;
 using Numbers = std::vector<double>;
 
-constexpr double MJ = 1e6;
 constexpr const char* w_title = "wear rate w [mm³/MJ]";
 
 Numbers told(const Eigen::VectorXd& w) {

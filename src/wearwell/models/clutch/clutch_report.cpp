@@ -14,6 +14,7 @@ namespace wearwell::clutch {
 namespace {
 
 using present::Cell;
+using present::count;
 using present::digits;
 using present::Figures;
 using present::fixed;
@@ -22,12 +23,7 @@ using present::Prose;
 using present::Section;
 using present::Table;
 
-constexpr double MJ = 1e6;
 constexpr const char* rate_unit = "mm^3/MJ";
-
-double count(std::size_t n) {
-  return static_cast<double>(n);
-}
 
 Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
   Section section{"verdict", "Verdict"};
@@ -215,14 +211,13 @@ Section map_section(const ClutchStudy& study, const ClutchResult& r) {
 Section run_in_section(const ClutchResult& r) {
   Section section{"run-in-section", "Run-in"};
   section.add(Figures{{run_in_figure(r)}});
-  static constexpr const char* names[] = {"w0", "w1", "w2", "eps1", "eps2"};
   Table constants{"run-in",
                   "Constants of run-in",
                   {{"Constant"}, {"Unit"}, {"Fitted"}, {"Standard error", "1", digits(3)}}};
   for (int i = 0; i < RunInFit::size; ++i) {
-    const double unit = i < 3 ? mm3_per_MJ : MJ;
-    constants.rows.push_back({names[i], i < 3 ? rate_unit : "MJ", r.run_in.parameters[i] / unit,
-                              std::sqrt(r.run_in.covariance(i, i)) / unit});
+    const auto& [name, unit, si] = run_in_constants[static_cast<std::size_t>(i)];
+    constants.rows.push_back(
+        {name, unit, r.run_in.parameters[i] / si, std::sqrt(r.run_in.covariance(i, i)) / si});
   }
   Table plates{"plates",
                "Plates",

@@ -43,13 +43,12 @@ LooSummary leave_one_out(const ClutchResult& found) {
 std::vector<ParameterSummary> parameters_of(const RunInFit& fit) {
   constexpr double q95 = 1.6448536269514722;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  static constexpr const char* names[] = {"w0", "w1", "w2", "eps1", "eps2"};
   std::vector<ParameterSummary> parameters;
   for (int i = 0; i < RunInFit::size; ++i) {
-    const double unit = i < 3 ? mm3_per_MJ : 1e6;
-    const double value = fit.parameters[i] / unit, error = std::sqrt(fit.covariance(i, i)) / unit;
-    parameters.push_back({.name = names[i],
-                          .unit = i < 3 ? "mm^3/MJ" : "MJ",
+    const auto& [name, unit, si] = run_in_constants[static_cast<std::size_t>(i)];
+    const double value = fit.parameters[i] / si, error = std::sqrt(fit.covariance(i, i)) / si;
+    parameters.push_back({.name = name,
+                          .unit = unit,
                           .mean = value,
                           .sd = error,
                           .mcse = none,

@@ -9,15 +9,12 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell::clutch {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double MJ = 1e6;
-constexpr const char* run_in_names[] = {"w0", "w1", "w2", "eps1", "eps2"};
-constexpr double run_in_units[] = {mm3_per_MJ, mm3_per_MJ, mm3_per_MJ, MJ, MJ};
 
 std::vector<std::string> term_names(const WearMap& map) {
   std::vector<std::string> names;
@@ -111,10 +108,6 @@ Json to_json(const NamedLife& named) {
           {"levels", std::move(levels)}};
 }
 
-std::string word(Verdict verdict) {
-  return verdict == Verdict::pass ? "pass" : verdict == Verdict::warn ? "warn" : "fail";
-}
-
 std::string percent(double share) {
   return fmt::format("{:.1f} %", 100 * share);
 }
@@ -130,9 +123,11 @@ Json summary_body(const ClutchStudy& study, const ClutchResult& r) {
                   {"held_out", r.held_out.size()},
                   {"flags", r.blocks.flags}};
   Json run_in;
-  for (int i = 0; i < RunInFit::size; ++i)
-    run_in[run_in_names[i]] = {{"value", r.run_in.parameters[i] / run_in_units[i]},
-                               {"error", std::sqrt(r.run_in.covariance(i, i)) / run_in_units[i]}};
+  for (int i = 0; i < RunInFit::size; ++i) {
+    const RunInConstant& constant = run_in_constants[static_cast<std::size_t>(i)];
+    run_in[constant.name] = {{"value", r.run_in.parameters[i] / constant.si},
+                             {"error", std::sqrt(r.run_in.covariance(i, i)) / constant.si}};
+  }
   run_in["cycle_sd"] = r.run_in.cycle_sd / mm3_per_MJ;
   run_in["plate_sd"] = r.run_in.plate_sd;
   run_in["starts"] = r.run_in.starts;
@@ -198,12 +193,12 @@ std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
   const auto section = [&](const char* title, const std::vector<std::vector<std::string>>& rows) {
     out += fmt::format("\n{}\n{}", title, text_table(rows));
   };
-  std::vector<std::vector<std::string>> rows = {
-      {"", "w0", "w1", "w2", "eps1", "eps2"}, {"fitted"}, {"standard error"}};
+  std::vector<std::vector<std::string>> rows = {{""}, {"fitted"}, {"standard error"}};
   for (int i = 0; i < RunInFit::size; ++i) {
-    rows[1].push_back(fmt::format("{:.4g}", r.run_in.parameters[i] / run_in_units[i]));
-    rows[2].push_back(
-        fmt::format("{:.2g}", std::sqrt(r.run_in.covariance(i, i)) / run_in_units[i]));
+    const RunInConstant& constant = run_in_constants[static_cast<std::size_t>(i)];
+    rows[0].push_back(constant.name);
+    rows[1].push_back(fmt::format("{:.4g}", r.run_in.parameters[i] / constant.si));
+    rows[2].push_back(fmt::format("{:.2g}", std::sqrt(r.run_in.covariance(i, i)) / constant.si));
   }
   section("Run-in (mm^3/MJ, MJ)", rows);
   rows = {{"model", "r", "q", "terms", "R2", "R2p", "RMSE", "RMSEp"}};
@@ -270,7 +265,7 @@ std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
   }
   rows = {{"check", "verdict", "what was found"}};
   for (const Check& check : r.checks)
-    rows.push_back({check.name, word(check.verdict), check.detail});
+    rows.push_back({check.name, verdict_kind(check.verdict), check.detail});
   out += "\nChecks\n" + text_table(rows, true);
   out += r.trusted ? "\nTrusted.\n" : "\nNot trusted: a check failed.\n";
   return printable_lines(out);

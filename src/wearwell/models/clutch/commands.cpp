@@ -1,5 +1,7 @@
 #include "wearwell/models/clutch/commands.h"
 
+#include <CLI/CLI.hpp>
+
 #include "wearwell/models/clutch/command_parts.h"
 
 namespace wearwell {

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
+
+#include <CLI/CLI.hpp>
 #include "wearwell/models/clutch/command_parts.h"
 #include "wearwell/present/text_table.h"
 

@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
+
+#include <CLI/CLI.hpp>
 #include "wearwell/base/staged_file.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/input/option_value.h"

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
+
+#include <CLI/CLI.hpp>
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/input/option_value.h"

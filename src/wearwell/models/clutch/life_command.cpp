@@ -1,5 +1,7 @@
 #include "wearwell/models/clutch/life.h"
 
+#include <CLI/CLI.hpp>
+
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -1,5 +1,7 @@
 #include "wearwell/models/clutch/clutch_predict.h"
 
+#include <CLI/CLI.hpp>
+
 #include <fmt/format.h>
 
 #include <cmath>

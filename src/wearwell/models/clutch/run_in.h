@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,8 +21,20 @@ struct PlateFactor {
   double factor() const { return std::exp(shrunk); }
 };
 
+/// A constant of run-in as it is told.
+struct RunInConstant {
+  const char* name;
+  const char* unit;
+  double si;  ///< one unit
+};
+inline constexpr std::array<RunInConstant, 5> run_in_constants = {{{"w0", "mm^3/MJ", mm3_per_MJ},
+                                                                   {"w1", "mm^3/MJ", mm3_per_MJ},
+                                                                   {"w2", "mm^3/MJ", mm3_per_MJ},
+                                                                   {"eps1", "MJ", MJ},
+                                                                   {"eps2", "MJ", MJ}}};
+
 struct RunInFit {
-  static constexpr int size = 5;
+  static constexpr int size = run_in_constants.size();
   /// w0, w1, w2 [m^3/J], eps1, eps2 [J]; eps1 > eps2.
   Eigen::Matrix<double, size, 1> parameters;
   /// By linearization at the fit. Errors of eps1 and eps2 are near normal on the logarithm only,

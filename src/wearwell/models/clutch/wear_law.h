@@ -71,7 +71,8 @@ const char* formula_of(ScatterKind kind);
 /// Throws InputError for another name.
 ScatterKind read_scatter_kind(const std::string& name);
 
-/// One mm^3/MJ, the unit in which wear rates are told, in m^3/J.
+/// The units in which energies and wear rates are told, in J and m^3/J.
+inline constexpr double MJ = 1e6;
 inline constexpr double mm3_per_MJ = 1e-15;
 
 }  // namespace wearwell::clutch
