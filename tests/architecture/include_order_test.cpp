@@ -199,4 +199,17 @@ TEST(Architecture, NoTwoHeadersDefineTypesOfOneName) {
   EXPECT_GT(known.size(), 50u);
 }
 
+// One noun a file: longer ones say on a line of their own why they are one.
+TEST(Architecture, LongFilesSayWhyTheyAreLong) {
+  constexpr int longest = 350;
+  for (const auto& entry : fs::recursive_directory_iterator(source)) {
+    if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+    const std::string text = text_of(entry.path());
+    const auto lines = std::count(text.begin(), text.end(), '\n');
+    if (lines <= longest) continue;
+    EXPECT_NE(text.find("\n// Longer than others: "), text.npos)
+        << entry.path() << " has " << lines << " lines";
+  }
+}
+
 }  // namespace

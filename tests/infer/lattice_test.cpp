@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
 #include "infer/test_posteriors.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/math/view.h"
@@ -68,6 +71,26 @@ TEST(Lattice, QuantilesOfABentRidge) {
                cdf(StandardLaw::normal, (x2 - 0.5 * x1 * x1) / 0.25);
     }
     EXPECT_NEAR(below, p, 1e-2) << p;
+  }
+}
+
+// A funnel, with heavy tails along it.
+TEST(Lattice, QuantilesOfARegression) {
+  const KnownPosterior regression = known("Regression4");
+  const ExactPosterior exact = integrated(regression.make());
+  ASSERT_EQ(exact.failure, "");
+  EXPECT_LT(exact.nodes.values.rows(), 500'000);
+  const boost::math::students_t student(6);
+  const boost::math::chi_squared squares(6);
+  for (const double p : probabilities) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(quantile(exact, i, p), regression.mean[i] + 2 * boost::math::quantile(student, p),
+                  5e-3 * regression.sd[i])
+          << i << " " << p;
+    }
+    EXPECT_NEAR(quantile(exact, 3, p), 2 * std::sqrt(6 / boost::math::quantile(squares, 1 - p)),
+                5e-3 * regression.sd[3])
+        << p;
   }
 }
 

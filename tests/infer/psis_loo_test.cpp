@@ -1,4 +1,5 @@
 #include "wearwell/infer/psis_loo.h"
+#include "wearwell/infer/pareto_smoothing.h"
 
 #include <gmock/gmock.h>
 

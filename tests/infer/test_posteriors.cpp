@@ -97,6 +97,39 @@ Posterior bent_ridge() {
       });
 }
 
+// A regression with three coefficients and p(sigma) ~ 1/sigma, 6 degrees of freedom and s = 2: the
+// coefficients are N(mean, sigma^2 C), so Student t, 6 s^2/sigma^2 is chi squared. It opens like a
+// funnel.
+KnownPosterior regression() {
+  constexpr double freedom = 6, s = 2;
+  Eigen::Matrix3d c;
+  c << 1, 0.6, 0.2, 0.6, 1, 0.5, 0.2, 0.5, 1;
+  const Eigen::Matrix3d precision = c.inverse();
+  const Eigen::Vector3d mean(1, -2, 3);
+  const auto make = [=] {
+    return formula_posterior(
+        {flat_parameter("b0", 0, 1), flat_parameter("b1", 0, 1), flat_parameter("b2", 0, 1),
+         with_law("sigma", Jeffreys{}, 0, infinity, 1)},
+        [=](std::span<const double> x, std::span<double> gradient) {
+          const Eigen::Vector3d d = Eigen::Vector3d(x[0], x[1], x[2]) - mean;
+          const Eigen::Vector3d slope = precision * d;
+          const double square = d.dot(slope) + freedom * s * s, variance = x[3] * x[3];
+          for (std::size_t i = 0; i < 3; ++i)
+            gradient[i] = -slope[static_cast<Eigen::Index>(i)] / variance;
+          gradient[3] = (square / variance - (freedom + 3)) / x[3];
+          return -(freedom + 3) * std::log(x[3]) - 0.5 * square / variance;
+        });
+  };
+  const double of_sigma =
+      s * std::sqrt(0.5 * freedom) * std::tgamma(0.5 * (freedom - 1)) / std::tgamma(0.5 * freedom);
+  const double square = s * s * freedom / (freedom - 2), wide = std::sqrt(square);
+  return {"Regression4",
+          make,
+          {1, -2, 3, of_sigma},
+          {wide, wide, wide, std::sqrt(square - of_sigma * of_sigma)},
+          {}};
+}
+
 // Four independent normals, each cut to [0.5, 2].
 Posterior truncated() {
   std::vector<Parameter> parameters;
@@ -170,6 +203,7 @@ const std::vector<KnownPosterior>& known_posteriors() {
        {0, 0.5, 0.5, 0},
        {1, std::sqrt(0.5625), std::sqrt(0.8125), 1},
        {}},
+      regression(),
       // As "Truncated" below, four times.
       {"Truncated4", truncated, std::vector<double>(4, 1.04299333414245),
        std::vector<double>(4, 0.387661606931559), std::vector<double>(4, 0.971523471729424)},

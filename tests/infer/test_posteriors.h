@@ -24,7 +24,7 @@ inline std::ostream& operator<<(std::ostream& out, const KnownPosterior& known) 
 }
 
 /// The list: normal, correlated in 2 and 5 dimensions, banana, bimodal, half-bounded, truncated,
-/// Student tail, and the joint-wear posteriors of An et al. (2011) after 5 data sets (normal) and 6
+/// Student tail, a regression, and the joint-wear posteriors of An et al. (2011) after 5 data sets (normal) and 6
 /// (lognormal), by tests/golden/joint_grid.R.
 const std::vector<KnownPosterior>& known_posteriors();
 

@@ -23,6 +23,7 @@
 //
 // `heal` brings it to its end from wherever it stands: a kill, a failure and success differ only in
 // how far things had come.
+// Longer than others: what `commit` leaves half done is what `heal` must know.
 namespace wearwell {
 namespace fs = std::filesystem;
 

@@ -13,6 +13,7 @@
 
 #include "wearwell/math/quantile.h"
 
+// Longer than others: all diagnostics start from the same pooled, split and ranked draws.
 namespace wearwell {
 namespace {
 

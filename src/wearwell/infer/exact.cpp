@@ -33,8 +33,7 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
   if (posterior.dimension() > max_exact_dimension) {
     throw std::logic_error("integrate: too many parameters");
   }
-  // Boxes multiply too fast on a ridge in four dimensions, a lattice where the posterior opens like a
-  // funnel.
+  // Boxes multiply too fast in four dimensions; they are tried where a lattice does not converge.
   if (posterior.dimension() == 4) {
     ExactPosterior exact = integrate_on_lattice(posterior, whitening, settings);
     if (exact.failure.empty()) return exact;

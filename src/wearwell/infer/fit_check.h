@@ -7,7 +7,7 @@
 #include "wearwell/bayes/normal_score.h"
 #include "wearwell/infer/check.h"
 #include "wearwell/infer/fit.h"
-#include "wearwell/infer/psis_loo.h"
+#include "wearwell/infer/loo.h"
 
 /// Could the law have made these data? Residuals of observations are judged as scores (PIT on the
 /// normal scale, bayes/normal_score.h): when prior and law are right, those under one draw of the

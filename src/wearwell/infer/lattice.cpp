@@ -4,14 +4,15 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <unordered_map>
 
 #include "wearwell/base/monitor.h"
+#include "wearwell/infer/ridge_map.h"
 #include "wearwell/math/view.h"
 
+// Longer than others: one rule, whose lines are filled, judged and told in the same coordinates.
 namespace wearwell {
 namespace {
 
@@ -32,41 +33,15 @@ std::uint64_t key(const Index& index) {
   return packed;
 }
 
-// The real line's coordinates of three parameters as an affine map of u, the fourth apart.
-struct Axes {
-  int line = 0;  // the parameter that is integrated out first
-  std::array<int, outer> rest{};
-  Eigen::Vector3d center;
-  Eigen::Matrix3d scale;
-  double line_center = 0, line_scale = 1;
-};
-
-Axes axes_at(const Whitening& whitening) {
-  const Eigen::Matrix4d covariance = whitening.scale * whitening.scale.transpose();
-  const Eigen::Matrix4d precision = covariance.inverse();
-  Axes axes;
-  // The smallest share of its variance that is left when the others are known.
-  double least = INFINITY;
-  for (int i = 0; i < d; ++i) {
-    const double share = 1 / (precision(i, i) * covariance(i, i));
-    if (share < least * (1 - 1e-9)) {
-      least = share;
-      axes.line = i;
-    }
-  }
-  Eigen::Matrix3d block;
-  for (int i = 0, at = 0; i < d; ++i) {
-    if (i != axes.line) axes.rest[static_cast<std::size_t>(at++)] = i;
-  }
-  for (int i = 0; i < outer; ++i) {
-    axes.center[i] = whitening.center[axes.rest[i]];
-    for (int j = 0; j < outer; ++j) block(i, j) = covariance(axes.rest[i], axes.rest[j]);
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(block);
-  axes.scale = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().asDiagonal();
-  axes.line_center = whitening.center[axes.line];
-  axes.line_scale = 1 / std::sqrt(precision(axes.line, axes.line));
-  return axes;
+// The lattice stands askew in the coordinates u of a RidgeMap: along an axis whole layers of cells
+// would share one value of a parameter, and its distribution would have steps.
+const Eigen::Matrix4d& askew() {
+  static const Eigen::Matrix4d reflection = [] {
+    const Eigen::Vector4d v =
+        Eigen::Vector4d(1, std::sqrt(2), std::sqrt(3), std::sqrt(5)) / std::sqrt(11);
+    return Eigen::Matrix4d(Eigen::Matrix4d::Identity() - 2 * v * v.transpose());
+  }();
+  return reflection;
 }
 
 // One line: the fourth coordinate is middle + width t at t = 0, +-step, +-2 step, ...
@@ -78,20 +53,49 @@ struct Line {
   double highest = -INFINITY;
 };
 
+// What lies in a cell: the parabola through the masses of its node and of the neighbours along each
+// axis, in cell lengths.
+class CellShape {
+ public:
+  explicit CellShape(double node) : node_(node) {}
+
+  void along(int axis, double below, double above) {
+    tilt_[static_cast<std::size_t>(axis)] = 0.5 * (above - below);
+    bend_[static_cast<std::size_t>(axis)] = above - 2 * node_ + below;
+  }
+
+  void write(Eigen::Index row, WeightedDraws::Cells& cells) const {
+    double mass = node_;
+    for (const double bend : bend_) mass += bend / 24;
+    // Where a parabola would be negative somewhere, at an edge, the cell is filled evenly.
+    const bool even = !(mass > 0.5 * node_);
+    cells.mass[row] = even ? node_ : mass;
+    for (int axis = 0; axis < d; ++axis) {
+      const double tilt = tilt_[static_cast<std::size_t>(axis)],
+                   bend = bend_[static_cast<std::size_t>(axis)];
+      constexpr double steepest = 1.0 / 6;  // of a straight line without negative density
+      const double mean = even ? 0 : std::clamp(tilt / (12 * mass), -steepest, steepest);
+      const double square = even ? 1.0 / 12 : 1.0 / 12 + bend / (360 * mass);
+      cells.mean(row, axis) = mean;
+      cells.square(row, axis) = std::clamp(square, 1.0 / 24, 1.0 / 6);
+    }
+  }
+
+ private:
+  double node_;
+  std::array<double, d> tilt_{}, bend_{};
+};
+
 class Lattice {
  public:
-  Lattice(const Posterior& posterior, const Axes& axes, double step, double line_step)
-      : posterior_(posterior), axes_(axes), step_(step), line_step_(line_step) {
-    Line center;
-    center.middle = axes.line_center;
-    reference_ = posterior_.value(at(center, 0));
+  Lattice(const Posterior& posterior, const RidgeMap& map, double step, double line_step)
+      : posterior_(posterior), map_(map), step_(step), line_step_(line_step) {
+    reference_ = density(place({}, -1, 0, 0));
   }
 
   // Empty, or why it stopped.
   std::string fill() {
     std::vector<Line> ring(1);
-    ring.front().middle = axes_.line_center;
-    ring.front().width = axes_.line_scale;
     known_.emplace(key(ring.front().index), 0);
     while (!ring.empty()) {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ring.size(), 8), [&](const auto& part) {
@@ -174,6 +178,7 @@ class Lattice {
     const Eigen::VectorXd middle = natural(at(lines_.front(), 0));
     Eigen::VectorXd first = Eigen::VectorXd::Zero(d);
     Eigen::MatrixXd second = Eigen::MatrixXd::Zero(d, d);
+    double highest = -INFINITY;
     std::vector<std::pair<const Line*, int>> kept;
     for (const Line& line : lines_) {
       for (std::size_t j = 0; j < line.values.size(); ++j) {
@@ -181,13 +186,15 @@ class Lattice {
         if (here == 0) continue;
         const int t = line.first + static_cast<int>(j);
         if (here > negligible_share * mass) kept.emplace_back(&line, t);
-        const Eigen::VectorXd x = natural(at(line, t)) - middle;
+        const Place there = at(line, t);
+        highest = std::max(highest, reference_ + line.values[j] - there.log_jacobian);
+        const Eigen::VectorXd x = natural(there) - middle;
         first += here / mass * x;
         second += here / mass * (x * x.transpose());
       }
     }
     ExactPosterior exact;
-    exact.highest = reference_ + highest_;
+    exact.highest = highest;
     const auto n = static_cast<Eigen::Index>(kept.size());
     WeightedDraws& nodes = exact.nodes;
     nodes.values.resize(n, d);
@@ -195,8 +202,8 @@ class Lattice {
     WeightedDraws::Cells& cells = nodes.cells;
     cells.mass.resize(n);
     cells.node = Points::Zero(n, d);
-    cells.mean = Points::Zero(n, d);
-    cells.square = Points::Constant(n, d, 1.0 / 12);
+    cells.mean.resize(n, d);
+    cells.square.resize(n, d);
     nodes.lower.assign(d, Points(n, d));
     nodes.upper.assign(d, Points(n, d));
     tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, n, 256), [&](const auto& part) {
@@ -204,19 +211,19 @@ class Lattice {
         const auto [line, t] = kept[static_cast<std::size_t>(row)];
         nodes.values.row(row) = natural(at(*line, t));
         const double weight = node_mass(*line, t);
-        double held =
-            weight - (node_mass(*line, t - 1) - 2 * weight + node_mass(*line, t + 1)) / 24;
+        CellShape shape(weight);
+        shape.along(outer, node_mass(*line, t - 1), node_mass(*line, t + 1));
         nodes.lower[outer].row(row) = natural(at(*line, t - 0.5));
         nodes.upper[outer].row(row) = natural(at(*line, t + 0.5));
         for (int a = 0; a < outer; ++a) {
           const Line &below = neighbour(*line, a, -1), &above = neighbour(*line, a, 1);
-          held -= (mass_in(below, *line, t) - 2 * weight + mass_in(above, *line, t)) / 24;
+          shape.along(a, mass_in(below, *line, t), mass_in(above, *line, t));
           const auto axis = static_cast<std::size_t>(a);
           nodes.lower[axis].row(row) = natural(between(*line, below, above, a, -0.5, t));
           nodes.upper[axis].row(row) = natural(between(*line, above, below, a, 0.5, t));
         }
         nodes.weights[row] = weight;
-        cells.mass[row] = std::max(0.0, held);
+        shape.write(row, cells);
       }
     });
     nodes.weights /= nodes.weights.sum();
@@ -228,30 +235,42 @@ class Lattice {
     bool proper = true;
     for (const Parameter& parameter : posterior_.parameters()) proper &= parameter.prior.proper;
     if (proper) {
-      exact.log_evidence = reference_ + std::log(mass * line_step_) + outer * std::log(step_) +
-                           std::log(std::abs(axes_.scale.determinant()));
+      exact.log_evidence =
+          reference_ + std::log(mass * line_step_) + outer * std::log(step_) + map_.log_scale();
     }
     return exact;
   }
 
  private:
-  // The real line's coordinates at u = step (index + shift along one axis) and on a line.
-  Z place(const Index& index, int axis, double shift, double on_line) const {
-    Eigen::Vector3d u(index[0], index[1], index[2]);
-    if (axis >= 0) u[axis] += shift;
-    const Eigen::Vector3d three = axes_.center + axes_.scale * (step_ * u);
-    Z z;
-    for (int i = 0; i < outer; ++i) z[static_cast<std::size_t>(axes_.rest[i])] = three[i];
-    z[static_cast<std::size_t>(axes_.line)] = on_line;
-    return z;
+  // A point of a line, or beside it.
+  struct Place {
+    Z z;                      // on the real line
+    double log_jacobian = 0;  // of z by u
+  };
+  // Where the three coordinates are step (index + shift along one axis).
+  Place place(const Index& index, int axis, double shift, double on_line) const {
+    Eigen::Vector4d along;
+    for (int i = 0; i < outer; ++i)
+      along[i] = step_ * (index[static_cast<std::size_t>(i)] + (i == axis ? shift : 0));
+    along[outer] = on_line;
+    RidgeMap::Coordinates u;
+    Eigen::Map<Eigen::Vector4d>(u.data()).noalias() = askew() * along;
+    const RidgeMap::Frame frame = map_.at(u[static_cast<std::size_t>(map_.axis())]);
+    Place place;
+    map_.to_real(frame, u, place.z);
+    place.log_jacobian = frame.log_jacobian;
+    return place;
   }
-  Z at(const Line& line, double t) const {
+  Place at(const Line& line, double t) const {
     return place(line.index, -1, 0, line.middle + line.width * line_step_ * t);
+  }
+  double density(const Place& there) const {
+    return posterior_.value(there.z) + there.log_jacobian;
   }
   // Half way to a neighbour, at the same place across the ridge, which bends like the parabola
   // through it and the neighbour on the other side.
-  Z between(const Line& line, const Line& other, const Line& opposite, int axis, double shift,
-            int t) const {
+  Place between(const Line& line, const Line& other, const Line& opposite, int axis, double shift,
+                int t) const {
     const auto half_way = [](double here, double there, double back) {
       return 0.375 * there + 0.75 * here - 0.125 * back;
     };
@@ -260,9 +279,9 @@ class Lattice {
                      half_way(line.width, other.width, opposite.width) * line_step_ * t);
   }
 
-  Eigen::VectorXd natural(const Z& z) const {
+  Eigen::VectorXd natural(const Place& there) const {
     Eigen::VectorXd x(d);
-    posterior_.to_natural(z, view(x));
+    posterior_.to_natural(there.z, view(x));
     return x;
   }
 
@@ -300,7 +319,7 @@ class Lattice {
   // Finds the line's mode by parabolas from its neighbour's, then walks outward on both sides.
   void integrate(Line& line) const {
     const auto value = [&](double on_line) {
-      return posterior_.value(place(line.index, -1, 0, on_line)) - reference_;
+      return density(place(line.index, -1, 0, on_line)) - reference_;
     };
     double middle = value(line.middle);
     for (int iteration = 0; iteration < 6; ++iteration) {
@@ -336,7 +355,7 @@ class Lattice {
   }
 
   const Posterior& posterior_;
-  const Axes& axes_;
+  const RidgeMap& map_;
   double step_, line_step_;
   double reference_;
   double highest_ = -INFINITY;
@@ -350,12 +369,12 @@ class Lattice {
 
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
                                     const ExactSettings& settings) {
-  const Axes axes = axes_at(whitening);
+  const RidgeMap map(posterior, whitening);
   ExactPosterior exact;
   long evaluations = 0;
   for (double step = 1; evaluations < settings.max_evaluations; step /= std::sqrt(2.0)) {
     if (settings.stop.stop_requested()) throw Cancelled();
-    Lattice lattice(posterior, axes, step, std::min(step, 0.8));
+    Lattice lattice(posterior, map, step, std::min(step, 0.8));
     const std::string failure = lattice.fill();
     evaluations += lattice.nodes();
     if (!failure.empty()) {

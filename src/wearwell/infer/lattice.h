@@ -6,13 +6,14 @@ namespace wearwell {
 
 /// The posterior of four parameters on a lattice: the trapezoidal rule, which converges
 /// exponentially for a smooth density that falls off on the whole space (Trefethen and Weideman
-/// 2014). The parameter that the others hold closest is integrated out along its own line, about
-/// its conditional mode, so that a narrow ridge may bend; the lattice of the other three is filled
-/// outward from the mode as long as there is density, and refined until its two half lattices agree
-/// to `tolerance`.
+/// 2014). It stands in the coordinates of a RidgeMap, in which a funnel is round, but askew: no layer
+/// of cells shares the value of a parameter. One of its directions is integrated out along lines
+/// about their own modes; the lattice of the other three is filled outward from the mode as long as
+/// there is density, and refined until its two half lattices agree to `tolerance`. Cells hold the
+/// parabola through their neighbours.
 ///
-/// Limits: density and moments converge exponentially, cells only with the square of the step, so
-/// that quantiles keep an error of some thousandths of a standard deviation (a hundredth on a bent
+/// Limits: density and moments converge exponentially, cells by a power of the step, so that
+/// quantiles keep an error of some thousandths of a standard deviation (a hundredth on a bent
 /// ridge). A parameter that is cut by two bounds has long tails on the real line; with four of them
 /// the evaluations end at an estimated error of up to 1e-3, which is then accepted (`error` says
 /// so).

@@ -1,17 +1,16 @@
 #include "wearwell/infer/psis_loo.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 #include "wearwell/infer/mode.h"
+#include "wearwell/infer/pareto_smoothing.h"
+#include "wearwell/math/log_sum_exp.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -28,39 +27,6 @@ constexpr std::size_t many_terms = 1000;
 
 // With more doubtful observations than this the model is in doubt, not the weights.
 constexpr std::ptrdiff_t most_refits = 20;
-
-// Above this k-hat the tails of 1/p reach noticeably beyond the nodes of the whole posterior.
-constexpr double worth_a_refit = 0.5;
-
-double log_sum_exp(std::span<const double> values) {
-  const double highest = *std::max_element(values.begin(), values.end());
-  if (!std::isfinite(highest)) return highest;
-  double sum = 0;
-  for (const double value : values) sum += std::exp(value - highest);
-  return highest + std::log(sum);
-}
-
-// Over observations: their number, the sum of a value and that of squared distances from its mean.
-struct Sums {
-  double n = 0, sum = 0, scatter = 0;
-};
-template <class Value>
-Sums sums_of(std::size_t terms, const Value& value, const auto& count) {
-  Sums sums;
-  for (std::size_t i = 0; i < terms; ++i) {
-    sums.n += count(i);
-    sums.sum += count(i) * value(i);
-  }
-  for (std::size_t i = 0; i < terms; ++i) {
-    sums.scatter += count(i) * std::pow(value(i) - sums.sum / sums.n, 2);
-  }
-  return sums;
-}
-
-// sqrt(n) times the standard deviation.
-double standard_error(const Sums& sums) {
-  return std::sqrt(sums.n * sums.scatter / (sums.n - 1));
-}
 
 // All of a likelihood but one observation.
 class Without final : public LogDensity {
@@ -92,110 +58,6 @@ class Without final : public LogDensity {
   std::shared_ptr<const LogDensity> whole_;
   std::size_t term_;
 };
-
-}  // namespace
-
-double GeneralizedPareto::quantile(double p) const {
-  const double survival = std::log1p(-p);
-  return std::abs(k) < 1e-12 ? -sigma * survival : sigma * std::expm1(-k * survival) / k;
-}
-
-GeneralizedPareto fit_generalized_pareto(std::span<const double> ascending) {
-  const auto n = static_cast<double>(ascending.size());
-  const int grid = 30 + static_cast<int>(std::floor(std::sqrt(n)));
-  const double quartile = ascending[static_cast<std::size_t>(std::floor(n / 4 + 0.5)) - 1];
-  std::vector<double> theta, log_profile;
-  for (int j = 1; j <= grid; ++j) {
-    theta.push_back(1 / ascending.back() + (1 - std::sqrt(grid / (j - 0.5))) / (3 * quartile));
-    double shape = 0;
-    for (const double x : ascending) shape += std::log1p(-theta.back() * x);
-    shape /= n;
-    log_profile.push_back(n * (std::log(-theta.back() / shape) - shape - 1));
-  }
-  const double total = log_sum_exp(log_profile);
-  double mean = 0;
-  for (std::size_t j = 0; j < theta.size(); ++j)
-    mean += theta[j] * std::exp(log_profile[j] - total);
-  GeneralizedPareto law;
-  law.k = 0;
-  for (const double x : ascending) law.k += std::log1p(-mean * x);
-  law.k /= n;
-  law.sigma = -law.k / mean;
-  constexpr double prior_weight = 10, prior_k = 0.5;
-  law.k = (law.k * n + prior_weight * prior_k) / (n + prior_weight);
-  if (std::isnan(law.k)) law.k = infinity;
-  return law;
-}
-
-double pareto_smooth(std::vector<double>& log_weights) {
-  const auto draws = static_cast<double>(log_weights.size());
-  const auto tail =
-      static_cast<std::size_t>(std::ceil(std::min(0.2 * draws, 3 * std::sqrt(draws))));
-  const double highest = *std::max_element(log_weights.begin(), log_weights.end());
-  for (double& each : log_weights) each -= highest;
-  if (tail < 5) return infinity;
-  std::vector<std::size_t> order(log_weights.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::make_pair(log_weights[a], a) < std::make_pair(log_weights[b], b);
-  });
-  const std::size_t first = order.size() - tail;
-  const double cutoff = std::exp(log_weights[order[first - 1]]);
-  // All alike: the observation does not matter.
-  if (!(log_weights[order[first]] < 0)) return 0;
-  std::vector<double> excess;
-  for (std::size_t i = first; i < order.size(); ++i) {
-    excess.push_back(std::exp(log_weights[order[i]]) - cutoff);
-  }
-  const GeneralizedPareto law = fit_generalized_pareto(excess);
-  if (std::isfinite(law.k)) {
-    for (std::size_t i = 0; i < tail; ++i) {
-      const double p = (static_cast<double>(i) + 0.5) / static_cast<double>(tail);
-      log_weights[order[first + i]] = std::min(0.0, std::log(law.quantile(p) + cutoff));
-    }
-  }
-  return law.k;
-}
-
-double khat_threshold(double draws) {
-  return std::min(1 - 1 / std::log10(draws), 0.7);
-}
-
-double Loo::observations() const {
-  double n = 0;
-  for (const LooTerm& term : terms) n += term.count;
-  return n;
-}
-
-double Loo::elpd() const {
-  double sum = 0;
-  for (const LooTerm& term : terms) sum += term.count * term.elpd;
-  return sum;
-}
-
-double Loo::se() const {
-  return standard_error(sums_of(
-      terms.size(), [&](std::size_t i) { return terms[i].elpd; },
-      [&](std::size_t i) { return terms[i].count; }));
-}
-
-double Loo::p_loo() const {
-  double sum = 0;
-  for (const LooTerm& term : terms) sum += term.count * (term.lpd - term.elpd);
-  return sum;
-}
-
-double Loo::khat_max() const {
-  double highest = -infinity;
-  for (const LooTerm& term : terms) highest = std::max(highest, term.khat);
-  return highest;
-}
-
-bool Loo::doubtful(const LooTerm& term) const {
-  return !term.refitted && !(term.khat <= threshold);
-}
-
-namespace {
 
 // Sums over weighted points of a posterior that say how one term is predicted by all others: over
 // w/p, p the term's density at a point of weight w. Relative to the largest of them so far.
@@ -414,7 +276,7 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
     term.elpd = sums[i].elpd();
     term.lpd = sums[i].lpd();
     if (scores) term.tail = sums[i].tail();
-    if (!(term.khat <= std::min(loo.threshold, worth_a_refit))) uneven.push_back(i);
+    if (!(term.khat <= std::min(loo.threshold, refit_above))) uneven.push_back(i);
   }
   std::stable_sort(uneven.begin(), uneven.end(), [&](std::size_t a, std::size_t b) {
     return loo.terms[a].khat > loo.terms[b].khat;
@@ -435,61 +297,6 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
     if (!term.refitted) loo.error += term.count * fit.exact->error;
   }
   return loo;
-}
-
-Check loo_check(const Loo& loo, const std::string& noun, int parameters) {
-  Findings findings("leave-one-out");
-  // As many as there are, and what few observations may add by chance (docs/checks.md).
-  const double most = 2 * parameters + 2;
-  if (!(loo.p_loo() <= most)) {
-    findings.add(Verdict::fail,
-                 fmt::format("the effective number of parameters, {:.4g}, goes far beyond the {} "
-                             "that there are",
-                             loo.p_loo(), parameters),
-                 fmt::format("The model does not expect some {}, or the search for the posterior "
-                             "failed: look at the residuals and at the data's digits.",
-                             noun));
-  }
-  std::vector<std::string> doubtful, refitted;
-  for (std::size_t i = 0; i < loo.terms.size(); ++i) {
-    const LooTerm& term = loo.terms[i];
-    const std::string name = fmt::format("{} {} ({:.2f})", noun, i + 1, term.khat);
-    if (term.refitted) refitted.push_back(name);
-    if (loo.doubtful(term)) doubtful.push_back(name);
-  }
-  constexpr std::size_t most_named = 8;
-  const auto list = [&](std::vector<std::string> names) {
-    const std::size_t all = names.size();
-    names.resize(std::min(all, most_named));
-    return fmt::format("{}{}", fmt::join(names, ", "),
-                       all > most_named ? fmt::format(" and {} more", all - most_named) : "");
-  };
-  if (!doubtful.empty()) {
-    findings.add(Verdict::warn,
-                 fmt::format("leaving out one observation changes the posterior too much for its "
-                             "draws to say how well it is predicted: Pareto k above {:.2f} for {}",
-                             loo.threshold, list(doubtful)),
-                 fmt::format("Do not compare models by elpd here; look whether such a {} is a "
-                             "mistake, or whether the model cannot expect it.",
-                             noun));
-  }
-  return findings.result(
-      refitted.empty()
-          ? fmt::format("Pareto k at most {:.2f} (up to {:.2f} is good)", loo.khat_max(),
-                        loo.threshold)
-          : fmt::format("Pareto k above {:.2f} for {}: fitted anew without each, by quadrature",
-                        std::min(loo.threshold, worth_a_refit), list(refitted)));
-}
-
-ElpdDifference elpd_difference(std::span<const LooTerm> a, std::span<const LooTerm> b) {
-  const auto alike = [](const LooTerm& x, const LooTerm& y) { return x.count == y.count; };
-  if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), alike)) {
-    throw std::invalid_argument("elpd of different observations");
-  }
-  const Sums sums = sums_of(
-      a.size(), [&](std::size_t i) { return a[i].elpd - b[i].elpd; },
-      [&](std::size_t i) { return a[i].count; });
-  return {sums.sum, standard_error(sums)};
 }
 
 }  // namespace wearwell

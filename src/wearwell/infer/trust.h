@@ -5,8 +5,8 @@
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/check.h"
 #include "wearwell/infer/fit.h"
+#include "wearwell/infer/loo.h"
 #include "wearwell/infer/natural_mode.h"
-#include "wearwell/infer/psis_loo.h"
 
 namespace wearwell {
 

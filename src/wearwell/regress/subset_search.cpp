@@ -63,6 +63,29 @@ SubsetModel describe(const ScoredModel& model, const SearchProblem& problem,
   return described;
 }
 
+// The models that the pool has kept; `open`: the least score of what was not searched.
+void tell_models(const ModelPool& pool, double open, bool all_sizes_proven,
+                 const SearchProblem& problem, const Eigen::MatrixXd& columns,
+                 const Eigen::VectorXd& response, const Eigen::VectorXd& weights,
+                 SearchResult& result) {
+  const auto best = pool.best();
+  result.certified = open == infinity;
+  result.lower_bound =
+      problem.score.value(best.empty() ? open : std::min(open, best.front().score));
+  result.truncated = pool.truncated();
+  for (const auto& model : best)
+    result.models.push_back(describe(model, problem, columns, response, weights));
+  // All models up to this score have been kept.
+  const double known = std::min(open, pool.threshold());
+  for (const auto& model : pool.best_by_size()) {
+    SizeBest of_size;
+    if (model) of_size.model = describe(*model, problem, columns, response, weights);
+    of_size.proven = result.certified && all_sizes_proven;
+    if (model && model->score <= known) of_size.proven = true;
+    result.by_size.push_back(of_size);
+  }
+}
+
 }  // namespace
 
 SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorXd& response,
@@ -114,26 +137,12 @@ SearchResult search_subsets(const Eigen::MatrixXd& columns, const Eigen::VectorX
     open = frontier.bound() * (1 - bound_slack);
   }
 
-  const auto best = pool.best();
   const bool limited = problem.leave_one_out && settings.press_at_most < infinity;
-  if (best.empty() && open == infinity && !limited)
+  if (pool.best().empty() && open == infinity && !limited)
     throw InputError("no model of these terms can be fitted to these rows");
-  result.certified = open == infinity;
-  result.lower_bound =
-      problem.score.value(best.empty() ? open : std::min(open, best.front().score));
-  result.truncated = pool.truncated();
   result.submodels = std::ldexp(1.0, free_count) - (forced == 0 ? 1 : 0);
-  for (const auto& model : best)
-    result.models.push_back(describe(model, problem, columns, response, weights));
-  // All models up to this score have been kept.
-  const double known = std::min(open, pool.threshold());
-  for (const auto& model : pool.best_by_size()) {
-    SizeBest of_size;
-    if (model) of_size.model = describe(*model, problem, columns, response, weights);
-    of_size.proven = result.certified && (settings.prove_sizes || exhaustive);
-    if (model && model->score <= known) of_size.proven = true;
-    result.by_size.push_back(of_size);
-  }
+  tell_models(pool, open, settings.prove_sizes || exhaustive, problem, columns, response, weights,
+              result);
   result.dependences = find_dependences(columns);
   result.seconds = control.seconds();
   return result;

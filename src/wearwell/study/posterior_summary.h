@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "wearwell/bayes/draws.h"
-#include "wearwell/infer/psis_loo.h"
+#include "wearwell/infer/loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/study/plots.h"
@@ -136,7 +136,7 @@ struct ModeSummary {
   }
 };
 
-/// Leave-one-out cross-validation (infer/psis_loo.h).
+/// Leave-one-out cross-validation (infer/loo.h).
 struct LooSummary {
   std::string observation;  ///< what is left out: "row", "bearing"
   Loo loo;

@@ -186,14 +186,16 @@ double inner_step(const Before& before, const Window& window) {
          std::sqrt(variance * correlation(alignment, outer, variance) * (1 / count + 1 / degrees));
 }
 
-}  // namespace
+// Where the profiles lie over each other. Positions of the window are counted from its middle.
+struct Overlap {
+  Window window;
+  double middle = 0;
+  double farthest = 0;  ///< a quarter of a flank is kept free at either end, for the shift
+};
 
-WornArea worn_area(const Profile& before, const Profile& after, std::optional<double> flank,
-                   double curvature) {
-  check(before, "before");
-  check(after, "after");
-  double start = std::max(before.position.front(), after.position.front());
-  double end = std::min(before.position.back(), after.position.back());
+Overlap overlap_of(const Profile& before, const Profile& after, std::optional<double> flank) {
+  const double start = std::max(before.position.front(), after.position.front());
+  const double end = std::min(before.position.back(), after.position.back());
   if (!(end > start)) {
     throw InputError("the profiles before and after have no position in common");
   }
@@ -204,7 +206,6 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
         "{:.6g} m",
         width, end - start));
   }
-  // A quarter of a flank is kept free at either end, for the shift.
   const double farthest = 0.25 * width;
   const double middle = 0.5 * (start + end);
   Window window{{}, {}, 0, 0};
@@ -224,33 +225,27 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
         "flank",
         width, window.left, n - window.right, window.right - window.left, least));
   }
+  return {std::move(window), middle, farthest};
+}
 
-  const double spacing = (window.x.back() - window.x.front()) / static_cast<double>(n - 1);
-  const std::optional<double> told = best_shift(before, after, window, middle, spacing, farthest);
-  const double best = told.value_or(0);
-  const auto moved = [&](double shift) {
-    return [&before, at = middle + shift](double x) { return height_at(before, at + x); };
-  };
-  const Alignment alignment = align(moved(best), window.height, window);
-  const Eigen::Index unknowns = told ? 3 : 2;
+// The worn area between the flanks and its noise, once the profiles are aligned; `slope` is that of
+// the profile before by position, 0 where no shift was told.
+template <class Slope>
+WornArea area_between(const Window& window, const Alignment& alignment, Eigen::Index unknowns,
+                      double curvature, const Slope& slope) {
+  const std::size_t n = window.x.size();
   const auto degrees = static_cast<double>(window.flank_points());
   const double variance = alignment.squares / (degrees - static_cast<double>(unknowns));
-
   // Trapezoids between the flanks: a weight for each difference. The baseline moves with the
   // flanks' noise: its area is gradient . (height, tilt, shift).
   WornArea result;
-  result.from = middle + window.x[window.left];
-  result.to = middle + window.x[window.right - 1];
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::MatrixXd design(static_cast<Eigen::Index>(n), unknowns);
   std::vector<double> weights(n, 0.0);  // of each point's difference in the area
-  const double eps = 0.5 * spacing;
   for (std::size_t i = 0; i < n; ++i) {
-    const double x = window.x[i], there = middle + x + best;
-    const double slope =
-        told ? (height_at(before, there + eps) - height_at(before, there - eps)) / (2 * eps) : 0;
-    const Eigen::Vector3d row(1, x, slope);
+    const double x = window.x[i];
+    const Eigen::Vector3d row(1, x, slope(x));
     design.row(static_cast<Eigen::Index>(i)) = row.head(unknowns);
     if (window.is_flank(i)) {
       normal += row * row.transpose();
@@ -271,22 +266,53 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
   }
   const FlankNoise noise =
       flank_noise(alignment.difference, design, window.left, window.right, weights);
-  result.flank_step = inner_step(moved(best), window);
-  constexpr double least_independent = 6;
-  // Wear in the flanks looks like noise that goes together; that is said by the step.
-  if (degrees < least_independent * noise.correlation && !(result.flank_step > suspicious_step)) {
-    throw InputError(fmt::format(
-        "{:.3g} neighbouring points of the flanks go together, so their {} points are no more than "
-        "{:.2g} independent ones; {} are needed: take longer flanks",
-        noise.correlation, window.flank_points(), degrees / noise.correlation, least_independent));
-  }
   result.sd = noise.sd;
   result.half_width = noise.half_width;
   result.correlation = noise.correlation;
-  result.shift = best;
   result.offset = alignment.line[0];
   result.tilt = alignment.line[1];
   result.noise = std::sqrt(variance);
+  return result;
+}
+
+}  // namespace
+
+WornArea worn_area(const Profile& before, const Profile& after, std::optional<double> flank,
+                   double curvature) {
+  check(before, "before");
+  check(after, "after");
+  const Overlap overlap = overlap_of(before, after, flank);
+  const Window& window = overlap.window;
+  const double middle = overlap.middle;
+  const std::size_t n = window.x.size();
+  const double spacing = (window.x.back() - window.x.front()) / static_cast<double>(n - 1);
+  const std::optional<double> told =
+      best_shift(before, after, window, middle, spacing, overlap.farthest);
+  const double best = told.value_or(0);
+  const auto moved = [&](double shift) {
+    return [&before, at = middle + shift](double x) { return height_at(before, at + x); };
+  };
+  const Alignment alignment = align(moved(best), window.height, window);
+  const double eps = 0.5 * spacing;
+  const auto slope = [&](double x) {
+    const double there = middle + x + best;
+    return told ? (height_at(before, there + eps) - height_at(before, there - eps)) / (2 * eps) : 0;
+  };
+  WornArea result = area_between(window, alignment, told ? 3 : 2, curvature, slope);
+  result.from = middle + window.x[window.left];
+  result.to = middle + window.x[window.right - 1];
+  result.shift = best;
+  result.flank_step = inner_step(moved(best), window);
+  const auto degrees = static_cast<double>(window.flank_points());
+  constexpr double least_independent = 6;
+  // Wear in the flanks looks like noise that goes together; that is said by the step.
+  if (degrees < least_independent * result.correlation && !(result.flank_step > suspicious_step)) {
+    throw InputError(fmt::format(
+        "{:.3g} neighbouring points of the flanks go together, so their {} points are no more than "
+        "{:.2g} independent ones; {} are needed: take longer flanks",
+        result.correlation, window.flank_points(), degrees / result.correlation,
+        least_independent));
+  }
   return result;
 }
 

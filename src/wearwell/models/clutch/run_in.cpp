@@ -188,6 +188,47 @@ std::vector<Observation> observe(const std::vector<WornBlock>& blocks,
   return observations;
 }
 
+// From several starts, then again with the balance's share of the variance.
+Search search_from_starts(Problem& problem, double most_energy, double freedom, RunInFit& fit) {
+  std::optional<Search> best;
+  std::vector<double> sums;
+  for (const double share : {0.01, 0.03, 0.1}) {
+    for (const double ratio : {3.0, 10.0, 30.0}) {
+      VectorXd start = VectorXd::Zero(problem.unknowns());
+      start[0] = std::log(share * most_energy);
+      start[1] = std::log(ratio - 1);
+      Search search = descend(problem, start);
+      sums.push_back(search.state.sum);
+      if (!best || search.state.sum < best->state.sum) best = std::move(search);
+    }
+  }
+  fit.starts = static_cast<int>(sums.size());
+  fit.agreeing = static_cast<int>(std::count_if(
+      sums.begin(), sums.end(), [&](double sum) { return sum < best->state.sum * (1 + 1e-6); }));
+  for (int i = 0; i < 2 && std::isfinite(best->state.sum); ++i) {
+    fit.cycle_sd = std::sqrt(best->state.sum / freedom);
+    problem.set_cycle_sd(fit.cycle_sd);
+    best = descend(problem, best->state.x);
+  }
+  if (!std::isfinite(best->state.sum))
+    throw InputError("run-in: no start leads to wear rates that are not negative");
+  fit.converged = best->converged;
+  fit.cycle_sd = std::sqrt(best->state.sum / freedom);
+  fit.residual_sum = best->state.sum / freedom;
+  return *std::move(best);
+}
+
+// Of w0, w1, w2 and the unknowns that are searched for.
+MatrixXd covariance_of(const MatrixXd& jacobian, double cycle_sd) {
+  // Columns are of very different size: invert after scaling.
+  const VectorXd length = jacobian.colwise().norm().cwiseMax(1e-300).transpose();
+  const MatrixXd scaled = jacobian * length.cwiseInverse().asDiagonal();
+  const MatrixXd inverse =
+      (scaled.transpose() * scaled).completeOrthogonalDecomposition().pseudoInverse();
+  return cycle_sd * cycle_sd *
+         (length.cwiseInverse().asDiagonal() * inverse * length.cwiseInverse().asDiagonal());
+}
+
 }  // namespace
 
 RunInFit fit_run_in(const std::vector<WornBlock>& blocks) {
@@ -207,43 +248,8 @@ RunInFit fit_run_in(const std::vector<WornBlock>& blocks) {
   RunInFit fit;
   fit.blocks = static_cast<std::size_t>(problem.rows());
   const double freedom = static_cast<double>(problem.rows() - 5 - (plates - 1));
-
-  std::optional<Search> best;
-  std::vector<double> sums;
-  for (const double share : {0.01, 0.03, 0.1}) {
-    for (const double ratio : {3.0, 10.0, 30.0}) {
-      VectorXd start = VectorXd::Zero(problem.unknowns());
-      start[0] = std::log(share * most_energy);
-      start[1] = std::log(ratio - 1);
-      Search search = descend(problem, start);
-      sums.push_back(search.state.sum);
-      if (!best || search.state.sum < best->state.sum) best = std::move(search);
-    }
-  }
-  fit.starts = static_cast<int>(sums.size());
-  fit.agreeing = static_cast<int>(std::count_if(
-      sums.begin(), sums.end(), [&](double sum) { return sum < best->state.sum * (1 + 1e-6); }));
-  // Again with the balance's share of the variance.
-  for (int i = 0; i < 2 && std::isfinite(best->state.sum); ++i) {
-    fit.cycle_sd = std::sqrt(best->state.sum / freedom);
-    problem.set_cycle_sd(fit.cycle_sd);
-    best = descend(problem, best->state.x);
-  }
-  const Problem::State& state = best->state;
-  if (!std::isfinite(state.sum))
-    throw InputError("run-in: no start leads to wear rates that are not negative");
-  fit.converged = best->converged;
-  fit.cycle_sd = std::sqrt(state.sum / freedom);
-  fit.residual_sum = state.sum / freedom;
-
-  // Columns are of very different size: invert after scaling.
-  const VectorXd length = state.jacobian.colwise().norm().cwiseMax(1e-300).transpose();
-  const MatrixXd scaled = state.jacobian * length.cwiseInverse().asDiagonal();
-  const MatrixXd inverse =
-      (scaled.transpose() * scaled).completeOrthogonalDecomposition().pseudoInverse();
-  const MatrixXd covariance =
-      fit.cycle_sd * fit.cycle_sd *
-      (length.cwiseInverse().asDiagonal() * inverse * length.cwiseInverse().asDiagonal());
+  const Problem::State state = search_from_starts(problem, most_energy, freedom, fit).state;
+  const MatrixXd covariance = covariance_of(state.jacobian, fit.cycle_sd);
   const double slow = Problem::slow(state.x), fast = Problem::fast(state.x);
   fit.parameters << state.linear, slow, fast;
   MatrixXd to_parameters = MatrixXd::Zero(5, covariance.cols());
