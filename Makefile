@@ -1,5 +1,5 @@
 # make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
-.PHONY: run test build calibrate sanitize fuzz bench format clean
+.PHONY: run test install build calibrate sanitize fuzz bench format clean
 
 run: setup
 	@cmake --preset release >/dev/null
@@ -8,6 +8,14 @@ run: setup
 
 test: build
 	@ctest --preset release
+
+# The program, its manual page, completions of bash and zsh, and the library (docs/library.md); PREFIX=$HOME/.local for
+# one user.
+PREFIX = /usr/local
+install: setup
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release --target wearwell
+	@cmake --install build/release --prefix $(PREFIX)
 
 # Simulation-based calibration: slow, so apart from `make test`.
 calibrate: build

@@ -1,4 +1,4 @@
-# `cmake --install`: the program, the libraries with their headers, and the package for find_package(wearwell). Examples that
+# `cmake --install`: the program with its manual page and completions, the libraries with their headers, and the package for find_package(wearwell). Examples that
 # use it: examples/cpp.
 
 # What other programs link.
@@ -16,6 +16,19 @@ set(package ${CMAKE_INSTALL_LIBDIR}/cmake/wearwell)
 set(third_party ${CMAKE_INSTALL_LIBDIR}/wearwell)  # DuckDB, which Debian does not package
 set_target_properties(wearwell PROPERTIES INSTALL_RPATH "$ORIGIN/../${third_party}")
 install(TARGETS wearwell RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# The program knows its commands best: it writes what stands beside it.
+set(share ${PROJECT_BINARY_DIR}/share)
+install(CODE "
+  file(MAKE_DIRECTORY ${share})
+  foreach(each man:wearwell.1 bash:wearwell zsh:_wearwell)
+    string(REGEX MATCH \"^[a-z]+\" what \${each})
+    string(REGEX REPLACE \"^[a-z]+:\" \"\" name \${each})
+    execute_process(COMMAND $<TARGET_FILE:wearwell> generate \${what}
+      OUTPUT_FILE ${share}/\${name} COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()")
+install(FILES ${share}/wearwell.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${share}/wearwell DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(FILES ${share}/_wearwell DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
 install(TARGETS ${libraries} wearwell_engine wearwell_wearwell EXPORT wearwell
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT wearwell NAMESPACE wearwell:: DESTINATION ${package} FILE wearwellTargets.cmake)

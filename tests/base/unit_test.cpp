@@ -12,6 +12,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 constexpr double pi = std::numbers::pi;
 
@@ -202,6 +203,57 @@ TEST(Quantity, RefusesAGapInANumber) {
               AllOf(HasSubstr("a gap"), HasSubstr("12 times 500, which is 6000")));
   for (const char* text : {"1.5.2 mm", "10-3 mm", "3 1e-3 m"})
     EXPECT_THAT(quantity_refusal(text, "m"), HasSubstr("two ways")) << text;
+}
+
+TEST(Unit, SpellingsOfOtherLanguagesAndTypesetters) {
+  for (const char* one : {"LW", "Lastwechsel", "cyc", "tr", "Umdr", "Umdrehungen"})
+    EXPECT_EQ(read_unit(one, "cycle").scale, 1) << one;
+  EXPECT_DOUBLE_EQ(read_unit("MLW", "cycle").scale, 1e6);
+  for (const char* speed : {"tr/min", "Umdr/min", "min⁻¹"})
+    EXPECT_DOUBLE_EQ(read_unit(speed, "rev/s").scale, 1. / 60) << speed;
+  for (const char* rate :
+       {"mm³ N⁻¹ m⁻¹", "mm³N⁻¹m⁻¹", "mm³/Nm", "mm^3/N/m", "mm3/Nm", "mm³ N−1 m−1"})
+    EXPECT_DOUBLE_EQ(read_unit(rate, "m^3/(N m)").scale, 1e-9) << rate;
+  EXPECT_DOUBLE_EQ(read_unit("10⁻⁶ mm³/Nm", "m^3/(N m)").scale, 1e-15);
+  EXPECT_DOUBLE_EQ(read_unit("g/cm3", "kg/m^3").scale, 1000);
+  EXPECT_DOUBLE_EQ(read_unit("ksi", "Pa").scale, 6894757.293168361);  // NIST SP 811, appendix B.8
+}
+
+TEST(Unit, OtherCapitalsAreOfferedNeverTaken) {
+  EXPECT_THAT(refusal("mpa", "Pa"), HasSubstr("; did you mean 'mPa' or 'MPa'?"));
+  EXPECT_THAT(refusal("KSI", "Pa"), HasSubstr("; did you mean 'ksi'?"));
+  EXPECT_THAT(refusal("KN", "N"), HasSubstr("did you mean 'kN'?"));
+  EXPECT_THAT(refusal("Kg", "kg"), HasSubstr("did you mean 'kg'?"));
+  EXPECT_THAT(refusal("MM^3", "m^3"), HasSubstr("did you mean 'Mm^3' or 'mm^3'?"));
+  EXPECT_THAT(refusal("H", "s"), HasSubstr("did you mean 'h'?"));
+  EXPECT_THAT(refusal("parsnips", "m"), Not(HasSubstr("did you mean")));
+}
+
+TEST(Quantity, ADecimalCommaIsSaid) {
+  EXPECT_EQ(quantity_refusal("0,1 mm", "m"),
+            "'0,1 mm' has a decimal comma, and numbers here have a decimal point; write '0.1 mm'");
+  EXPECT_THAT(quantity_refusal("-9,5e-6 m", "m"), HasSubstr("write '-9.5e-6 m'"));
+  EXPECT_THAT(quantity_refusal("0,125 mm", "m"), HasSubstr("write '0.125 mm'"));
+  EXPECT_THAT(quantity_refusal("1234,567 mm", "m"), HasSubstr("write '1234.567 mm'"));
+  EXPECT_THAT(quantity_refusal("0,5", "1"), HasSubstr("write '0.5'"));
+  EXPECT_THAT(quantity_refusal("1.009,5 mm", "m"), HasSubstr("write '1009.5 mm'"));
+}
+
+TEST(Quantity, MarksForThousandsAreSaid) {
+  for (const char* text : {"1,234,567 cycles", "1'234'567 cycles", "1.234.567 cycles"})
+    EXPECT_THAT(quantity_refusal(text, "cycle"),
+                AllOf(HasSubstr("has marks for thousands"), HasSubstr("write '1234567 cycles'")))
+        << text;
+  EXPECT_THAT(quantity_refusal("1,009.5 mm", "m"), HasSubstr("write '1009.5 mm'"));
+  // Both readings.
+  EXPECT_THAT(quantity_refusal("20,585 cycles", "cycle"),
+              AllOf(HasSubstr("20.585"), HasSubstr("20585"), HasSubstr("mark for thousands")));
+}
+
+TEST(Quantity, APowerOfTenIsWrittenWithAnE) {
+  for (const char* text : {"2 x 10^-6 mm^3/Nm", "2×10⁻⁶ mm³/Nm", "2*10^-6 mm^3/Nm",
+                           "2 10^-6 mm^3/Nm", "2 · 10-6 mm^3/Nm", "2*10**-6 mm^3/Nm"})
+    EXPECT_THAT(quantity_refusal(text, "m^3/(N m)"), HasSubstr("with an e, as in 2e-6")) << text;
 }
 
 TEST(Quantity, IsFiniteAndAboveAbsoluteZero) {

@@ -3,6 +3,10 @@ cmake=$1 build=$2 examples=$3 folder=$4 compiler=$5
 rm -rf "$folder/prefix" "$folder/build"
 "$cmake" --install "$build" --prefix "$folder/prefix" >/dev/null
 "$folder/prefix/bin/wearwell" --version
+# What stands beside the program: manual page and completions.
+grep -q '^.SS wearwell clutch life' "$folder/prefix/share/man/man1/wearwell.1"
+grep -q '^complete .* wearwell' "$folder/prefix/share/bash-completion/completions/wearwell"
+grep -q '^#compdef wearwell' "$folder/prefix/share/zsh/site-functions/_wearwell"
 "$cmake" -S "$examples" -B "$folder/build" -G Ninja -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_CXX_COMPILER="$compiler" >/dev/null
 "$cmake" --build "$folder/build"
 expect() { # PROGRAM WORDS: what it prints holds the words

@@ -2,13 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
+#include <bit>
+#include <boost/algorithm/string/erase.hpp>
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/trim.hpp>
 #include <cctype>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <vector>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit_system.h"
@@ -72,6 +76,35 @@ double rotation_factor(const ParsedUnit& unit, const Dimension& wanted, int rota
   return std::pow(two_pi, in_turns ? rotations : -rotations);
 }
 
+constexpr std::size_t most_letters = 8;
+
+// The same letters with other capitals that are a unit of this dimension, fewest changes first:
+// "MPa" and "mPa" of "mpa".
+std::string other_capitals(const std::string& written, const Dimension& wanted) {
+  std::vector<std::size_t> letters;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    if (std::isalpha(static_cast<unsigned char>(written[i]))) letters.push_back(i);
+  }
+  if (letters.size() > most_letters) return {};
+  std::vector<std::pair<int, std::string>> found;
+  for (unsigned change = 1; change < 1U << letters.size(); ++change) {
+    std::string candidate = written;
+    for (std::size_t i = 0; i < letters.size(); ++i) {
+      if (change >> i & 1U) candidate[letters[i]] = static_cast<char>(candidate[letters[i]] ^ 0x20);
+    }
+    const auto unit = parse_unit(candidate);
+    if (unit && unit->linear && unit->dimension == wanted)
+      found.emplace_back(std::popcount(change), candidate);
+  }
+  if (found.empty()) return {};
+  std::sort(found.begin(), found.end());
+  constexpr std::size_t most_shown = 2;
+  std::string hint = "; did you mean '" + found.front().second + "'";
+  for (std::size_t i = 1; i < std::min(found.size(), most_shown); ++i)
+    hint += " or '" + found[i].second + "'";
+  return hint + "?";
+}
+
 [[noreturn]] void refuse_dimension(const Dimension& dimension, const Dimension& wanted,
                                    std::string_view written, std::string_view si) {
   Dimension reciprocal = dimension;
@@ -92,6 +125,7 @@ double rotation_factor(const ParsedUnit& unit, const Dimension& wanted, int rota
     const auto hinted = parse_unit(hint);
     hint = hinted && hinted->dimension == wanted ? fmt::format("; did you mean '{}'?", hint) : "";
   }
+  if (hint.empty()) hint = other_capitals(std::string(written), wanted);
   throw InputError(
       fmt::format("unit '{}' {} (expected one like '{}'{})", written, fault, example(si), hint));
 }
@@ -124,9 +158,10 @@ Unit read_linear(const std::string& written, std::string_view si, double value) 
   const auto unit = parse_unit(written);
   if (!unit) {
     const std::string sizes = two_sizes(written);
-    throw InputError(sizes.empty() ? fmt::format("'{}' is not a unit (expected one like '{}')",
-                                                 written, example(si))
-                                   : fmt::format("'{}' has two sizes: {}", written, sizes));
+    throw InputError(sizes.empty()
+                         ? fmt::format("'{}' is not a unit (expected one like '{}'{})", written,
+                                       example(si), other_capitals(written, wanted->dimension))
+                         : fmt::format("'{}' has two sizes: {}", written, sizes));
   }
   if (!unit->linear) {
     throw InputError(
@@ -176,6 +211,65 @@ Unit read_unit(std::string_view text, std::string_view si, double value) {
   return Unit{written, 1, std::log10(unit.scale)};
 }
 
+// "0,1 mm", "1.234,5 mm", "1,234.5 mm" and "12'000 cycles": a number ends before its mark.
+void refuse_marks(const std::string& written) {
+  const std::size_t sign = written.starts_with('-') || written.starts_with('+');
+  const std::size_t end =
+      std::min(written.find_first_not_of("0123456789.,'", sign), written.size());
+  const std::string number = written.substr(0, end);
+  const bool marked =
+      number.find_first_of(",'") != number.npos || number.find('.') != number.find_last_of('.');
+  if (!marked || !starts_with_number(number)) return;
+  const std::size_t last = number.find_last_of(".,");
+  const bool one_kind = number.find('.') == number.npos && number.find('\'') == number.npos;
+  const auto behind = static_cast<long>(end - last) - 1;
+  if (one_kind && last == number.find(',')) {
+    if (behind == 0) return;
+    const std::size_t before = last - sign;
+    if (behind == 3 && before <= 3 && number[sign] != '0') {
+      throw InputError(fmt::format(
+          "'{}': with a decimal comma that is {}, with a mark for thousands {}; write a decimal "
+          "point and no marks",
+          written, boost::algorithm::replace_first_copy(number, ",", "."),
+          boost::algorithm::erase_all_copy(number, ",")));
+    }
+  }
+  if (number.find_first_of(",'") == number.npos) {  // points alone: "1.5.2" is no number at all
+    for (std::size_t at = number.find('.'); at != number.npos; at = number.find('.', at + 1)) {
+      if (std::min(number.find('.', at + 1), end) != at + 4) return;
+    }
+  }
+  // A mark that stands twice is one for thousands; of two kinds the last is the decimal one.
+  const bool repeated = last == number.npos || number.find(number[last]) != last;
+  std::string plain;
+  for (std::size_t i = 0; i < end; ++i) {
+    if (i == last && !repeated)
+      plain += '.';
+    else if (number[i] != ',' && number[i] != '.' && number[i] != '\'')
+      plain += number[i];
+  }
+  const bool comma = last != number.npos && number[last] == ',' && !repeated;
+  throw InputError(fmt::format("'{}' has {}; write '{}'", written,
+                               comma ? "a decimal comma, and numbers here have a decimal point"
+                                     : "marks for thousands, and numbers here have none",
+                               plain + written.substr(end)));
+}
+
+// "2 x 10^-6 mm^3/Nm" is 2e-6.
+void refuse_power_of_ten(const std::string& written, std::string_view unit) {
+  for (const std::string_view times : {"\u00d7", "*", "x", "X", "\u00b7", "\u22c5"}) {
+    if (!unit.starts_with(times)) continue;
+    unit.remove_prefix(times.size());
+    break;
+  }
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  const bool power = unit.starts_with("10^") || unit.starts_with("10-") ||
+                     unit.starts_with("10\u207b") || unit.starts_with("10**");
+  if (power)
+    throw InputError(
+        fmt::format("'{}': write a power of ten with an e, as in 2e-6 for 2 x 10^-6", written));
+}
+
 // "35 200 cycles" is 35 times 200 cycles to UDUNITS-2. "60 1/min" is fine.
 void refuse_gap(const std::string& written, double value, const std::string& unit) {
   if (!starts_with_number(unit)) return;
@@ -210,11 +304,14 @@ bool is_number(const Unit& unit) {
 
 Quantity read_quantity(std::string_view text, std::string_view si) {
   const std::string written = boost::algorithm::trim_copy(std::string(text));
+  refuse_marks(written);
   double value = 0;
   const char* end = written.data() + written.size();
   const auto [rest, failure] = std::from_chars(written.data(), end, value);
   if (failure != std::errc{} || !std::isfinite(value)) {
-    throw InputError(fmt::format("'{}' is not a number with a unit (like '1.5 {}')", written, si));
+    throw InputError(
+        si == "1" ? fmt::format("'{}' is not a number", written)
+                  : fmt::format("'{}' is not a number with a unit (like '1.5 {}')", written, si));
   }
   const std::string unit = boost::algorithm::trim_copy(std::string(rest, end));
   if (unit.empty() && !may_be_plain(si)) {
@@ -222,6 +319,7 @@ Quantity read_quantity(std::string_view text, std::string_view si) {
         fmt::format("'{}' has no unit (write one like '{} {}')", written, written, si));
   }
   if (unit.empty()) return Quantity{value, Unit{"1", 1, 0}};
+  refuse_power_of_ten(written, unit);
   refuse_gap(written, value, unit);
   const Quantity quantity{value, read_unit(unit, si, value)};
   if (!std::isfinite(quantity.si())) throw InputError(fmt::format("'{}' is infinite", written));

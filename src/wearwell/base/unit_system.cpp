@@ -24,7 +24,9 @@ using UtUnit = std::unique_ptr<ut_unit, Free>;
 // UDUNITS-2 takes a cycle for 2 pi radians, and its hertz for 1/s.
 constexpr std::array counts = {"cycle",  "revolution", "rotation", "turn",
                                "stroke", "closing",    "rev",      "count"};
-constexpr std::array count_symbols = {"r", "U"};  // r/min (IEC 60050), U/min (German)
+// r/min (IEC 60050), U/min and Lastwechsel (German), tr/min (French)
+constexpr std::array count_symbols = {"r",  "U",           "Umdr", "Umdrehung", "Umdrehungen",
+                                      "LW", "Lastwechsel", "tr",   "cyc"};
 
 struct Name {
   const char* symbol;
@@ -154,12 +156,42 @@ ut_status visit_galilean(const ut_unit*, double scale, const ut_unit* underlying
   return status;
 }
 
+// "N⁻¹" is "N^-1": UDUNITS-2 knows raised digits, but no raised sign.
+std::string with_plain_powers(const std::string& text) {
+  static constexpr std::array<std::string_view, 11> raised = {
+      "\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074", "\u2075",
+      "\u2076", "\u2077", "\u2078", "\u2079", "\u207b"};
+  constexpr std::size_t minus = 10;
+  std::string result;
+  for (std::string_view rest = text; !rest.empty();) {
+    if (!rest.starts_with(raised[minus])) {
+      result += rest.front();
+      rest.remove_prefix(1);
+      continue;
+    }
+    result += "^-";
+    rest.remove_prefix(raised[minus].size());
+    for (std::size_t digit = 0; digit < minus;) {
+      if (!rest.starts_with(raised[digit])) {
+        ++digit;
+        continue;
+      }
+      result += static_cast<char>('0' + digit);
+      rest.remove_prefix(raised[digit].size());
+      digit = 0;
+    }
+    if (!rest.empty() && std::isalnum(static_cast<unsigned char>(rest.front()))) result += ' ';
+  }
+  return result;
+}
+
 }  // namespace
 
 std::optional<ParsedUnit> parse_unit(const std::string& text) {
-  std::string plain = text;
+  std::string plain = with_plain_powers(text);
   boost::algorithm::replace_all(plain, "\u22c5", "\u00b7");  // the other dot of products
   boost::algorithm::replace_all(plain, "\u00a0", " ");       // a space that does not break
+  boost::algorithm::replace_all(plain, "\u2212", "-");       // the minus of typesetters
   const UtUnit unit{ut_parse(unit_system(), plain.c_str(), UT_UTF8)};
   if (!unit) return {};
   ParsedUnit result;

@@ -7,6 +7,8 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "wearwell/base/same_file.h"
 #include "wearwell/input/option_value.h"
@@ -20,9 +22,15 @@ namespace {
 struct FitOptions {
   std::filesystem::path study, output;
   SamplerChoice sampler;
+  std::string method;
   int threads = 0;
   bool json = false, quiet = false, no_report = false;
 };
+
+std::optional<Method> method_named(const std::string& name) {
+  if (name.empty()) return {};
+  return name == "exact" ? Method::exact : name == "nuts" ? Method::nuts : Method::metropolis;
+}
 
 int run_fit(const FitOptions& options, Models models) {
   const std::filesystem::path output =
@@ -58,10 +66,9 @@ void add_fit_command(CLI::App& app, Models models, int& exit_code) {
   fit->add_option("STUDY", options->study, "Study file (TOML)")->required();
   fit->add_option("-o,--output", options->output,
                   "Folder for the results (default: STUDY-results here)");
-  fit->add_option("--method", options->sampler.method,
-                  "nuts (default), metropolis, or exact (up to 4 parameters)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Method>{
-          {"exact", Method::exact}, {"nuts", Method::nuts}, {"metropolis", Method::metropolis}}))
+  fit->add_option("--method", options->method,
+                  "How draws are made (default nuts); exact: up to 4 parameters")
+      ->check(one_of({"nuts", "metropolis", "exact"}))
       ->type_name("METHOD");
   fit->add_option("--chains", options->sampler.chains, "Independent chains (default 4)")
       ->check(CLI::Range(1, max_chains));
@@ -87,7 +94,10 @@ void add_fit_command(CLI::App& app, Models models, int& exit_code) {
       "Exit codes: 0 done and trusted; 1 done, but a check failed; 2 the request or the data is "
       "wrong, nothing\n"
       "written; 3 the machine failed.");
-  fit->callback([options, models, &exit_code] { exit_code = run_fit(*options, models); });
+  fit->callback([options, models, &exit_code] {
+    options->sampler.method = method_named(options->method);
+    exit_code = run_fit(*options, models);
+  });
 }
 
 }  // namespace wearwell

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "wearwell/input/option_value.h"
 #include "wearwell/study/example.h"
 
 namespace wearwell {
@@ -28,7 +29,7 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
       app.add_subcommand("new", "Write a commented study with data, that runs as it is");
   command->add_option("TRADE", options->trade, "What to start from")
       ->required()
-      ->check(CLI::IsMember(trades));
+      ->check(one_of(trades));
   command->add_option("DIR", options->folder, "Folder for it: new or empty")->required();
   command->footer("Example:\n  wearwell new joint my-joint && wearwell fit my-joint/study.toml");
   command->callback([options, models, &exit_code] {

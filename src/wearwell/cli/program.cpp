@@ -3,25 +3,25 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
-
 #include <CLI/CLI.hpp>
+
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <memory>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "wearwell/base/ending.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/shown.h"
-#include "wearwell/cli/check.h"
-#include "wearwell/cli/compare.h"
-#include "wearwell/cli/fit.h"
-#include "wearwell/cli/new.h"
-#include "wearwell/cli/report.h"
-#include "wearwell/cli/select.h"
+#include "wearwell/cli/app.h"
+#include "wearwell/cli/command_line.h"
 
 namespace wearwell {
 namespace {
@@ -53,27 +53,15 @@ std::string trouble_with_output(int error) {
 
 int run(int argc, char** argv, Models models, int& output_error) {
   int exit_code = 0;
-  CLI::App app(
-      "Wear and fatigue-life parameters from few noisy measurements, with honest uncertainty.",
-      "wearwell");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", WEARWELL_VERSION);
-  add_fit_command(app, models, exit_code);
-  for (const Model& model : models) {
-    if (model.add_commands) model.add_commands(app, exit_code);
-  }
-  add_select_command(app, exit_code);
-  add_check_command(app, models, exit_code);
-  add_compare_command(app, exit_code);
-  add_new_command(app, models, exit_code);
-  add_report_command(app, exit_code);
-
+  const std::unique_ptr<CLI::App> app = make_app(models, exit_code);
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
   try {
-    app.parse(argc, argv);
+    check_command_line(*app, arguments);
+    app->parse(argc, argv);
   } catch (const CLI::Success& help) {
-    return app.exit(help);
+    return app->exit(help);
   } catch (const CLI::ParseError& error) {
-    return complain(fmt::format("{} (see wearwell --help)", error.what()), bad_request);
+    return complain(said_of(*app, error), bad_request);
   } catch (const InputError& error) {
     return complain(error.what(), bad_request);
   } catch (const MachineError& error) {

@@ -50,7 +50,10 @@ nlohmann::ordered_json read_json(const std::filesystem::path& file) {
     throw InputError(fmt::format("{} is a folder, not a file", file.string()));
   }
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("cannot read {}", file.string()));
+  if (!stream) {
+    const bool is_there = std::filesystem::exists(file, ignored);
+    throw InputError((is_there ? "cannot read " : "no such file: ") + file.string());
+  }
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const auto bounded = [&](int depth, Json::parse_event_t event, const Json&) {
     const bool opens =

@@ -1,13 +1,16 @@
 #include "wearwell/input/option_value.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
 #include "wearwell/base/unit.h"
 
 namespace wearwell {
@@ -45,6 +48,16 @@ CLI::Validator number_between(double least, double most) {
                                  least > 0 ? "positive" : "0 or more", most);
       },
       range, "number");
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return CLI::Validator(
+      [words](std::string& text) {
+        if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+        return fmt::format("'{}' is not possible; it is one of {}{}", text, fmt::join(words, ", "),
+                           did_you_mean(text, words));
+      },
+      fmt::format("{}", fmt::join(words, "|")), "one of");
 }
 
 CLI::Validator seed_number() {

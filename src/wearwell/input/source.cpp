@@ -2,14 +2,44 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
 
 namespace wearwell {
 
 Source source_of(const std::filesystem::path& file) {
+  static const std::vector<std::string> tables = {".csv", ".tsv", ".xlsx", ".xls", ".parquet"};
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(file, ignored) &&
+      std::find(tables.begin(), tables.end(), file.extension().string()) != tables.end()) {
+    throw InputError(
+        fmt::format("{} is a table, not a study; a study (TOML) names it: data.file = \"{}\" "
+                    "(wearwell new writes one to start from)",
+                    valid_utf8(file.string()), valid_utf8(file.filename().string())));
+  }
   return {read_text_file(file)};
 }
+
+namespace {
+
+std::vector<std::string> files_in(const std::filesystem::path& folder) {
+  constexpr std::size_t most = 1000;
+  std::vector<std::string> names;
+  std::error_code ignored;
+  const std::filesystem::path here = folder.empty() ? "." : folder;
+  for (std::filesystem::directory_iterator at(here, ignored), end; at != end && names.size() < most;
+       at.increment(ignored))
+    names.push_back(at->path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
 
 std::filesystem::path required_file(const TomlReader& section, const std::string& key,
                                     const std::filesystem::path& folder) {
@@ -17,8 +47,13 @@ std::filesystem::path required_file(const TomlReader& section, const std::string
   if (name.empty() || name.find('\0') != name.npos) section.fail(key, "names no file");
   std::filesystem::path file = folder / name;
   std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored))
-    section.fail(key, fmt::format("no such file: {}", valid_utf8(file.string())));
+  if (!std::filesystem::exists(file, ignored)) {
+    section.fail(key,
+                 fmt::format("no such file: {}{}", valid_utf8(file.string()),
+                             did_you_mean(file.filename().string(), files_in(file.parent_path()))));
+  }
+  if (std::filesystem::is_directory(file, ignored))
+    section.fail(key, fmt::format("{} is a folder, not a file", valid_utf8(file.string())));
   return file;
 }
 

@@ -15,8 +15,13 @@ TextFile read_text_file(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
     throw InputError(fmt::format("no such file: {}", name));
-  if (std::filesystem::is_directory(file, ignored))
-    throw InputError(fmt::format("{} is a folder, not a study file", name));
+  if (std::filesystem::is_directory(file, ignored)) {
+    const bool has_study = std::filesystem::exists(file / "study.toml", ignored);
+    throw InputError(fmt::format(
+        "{} is a folder, not a study file{}", name,
+        has_study ? fmt::format("; did you mean '{}'?", valid_utf8((file / "study.toml").string()))
+                  : ""));
+  }
   if (!std::filesystem::is_regular_file(file, ignored))
     throw InputError(fmt::format(
         "{} is a pipe or a device; a study is a file, beside which its data lie", name));

@@ -24,60 +24,17 @@ struct NoToml {};
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/toml_text.h"
 
 namespace wearwell {
 namespace {
-
-constexpr int most_parts = 32;  // of a dotted key
-
-/// The length of the string or comment that begins at `at`; 0 where none does.
-std::size_t skipped(const std::string& text, std::size_t at) {
-  const char quote = text[at];
-  if (quote == '#') return std::min(text.find('\n', at), text.size()) - at;
-  if (quote != '"' && quote != '\'') return 0;
-  const bool long_one = text.compare(at, 3, std::string(3, quote)) == 0;
-  const std::string end(long_one ? 3 : 1, quote);
-  for (std::size_t i = at + end.size(); i < text.size(); ++i) {
-    if (quote == '"' && text[i] == '\\') {
-      ++i;
-    } else if (text.compare(i, end.size(), end) == 0) {
-      return i + end.size() - at;
-    } else if (text[i] == '\n' && !long_one) {
-      return i - at;  // never closed, which the parser says better
-    }
-  }
-  return text.size() - at;
-}
-
-/// toml++ goes down a call for each part of a dotted key; a key of many thousands is a table that
-/// the stack cannot hold.
-void refuse_long_keys(const std::string& text, const std::string& name) {
-  int parts = 1, line = 1;
-  for (std::size_t i = 0; i < text.size();) {
-    if (const std::size_t length = skipped(text, i)) {
-      line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(i),
-                                          text.begin() + static_cast<std::ptrdiff_t>(i + length),
-                                          '\n'));
-      i += length;
-      continue;
-    }
-    const char c = text[i++];
-    if (c == '.') {
-      if (++parts > most_parts)
-        throw InputError(fmt::format("{}:{}: a key of more than {} parts is none of a study", name,
-                                     line, most_parts));
-    } else if (c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}' || c == '\n') {
-      parts = 1;
-      if (c == '\n') ++line;
-    }
-  }
-}
 
 /// The line at which an assertion fails: no shorter part of the text breaks it.
 std::size_t line_of_failure(std::string_view text) {
@@ -99,6 +56,18 @@ std::size_t line_of_failure(std::string_view text) {
   return static_cast<std::size_t>(first - ends.begin()) + 1;
 }
 
+/// "and is a list".
+std::string not_a(const toml::node& node) {
+  const char* is = node.is_table()            ? "a table"
+                   : node.is_array()          ? "a list"
+                   : node.is_string()         ? "a text"
+                   : node.is_boolean()        ? "true or false"
+                   : node.is_integer()        ? "a whole number"
+                   : node.is_floating_point() ? "a number"
+                                              : "a date or a time";
+  return fmt::format("and is {}", is);
+}
+
 }  // namespace
 
 struct TomlReader::State {
@@ -106,12 +75,16 @@ struct TomlReader::State {
   const toml::table* table = nullptr;
   std::string file;
   std::string name;  // "prior.k"; empty for the whole file
-  std::set<std::string, std::less<>> asked;
+  std::map<std::string, std::set<std::string>, std::less<>> asked;  // and as what
   std::map<std::string, std::shared_ptr<State>, std::less<>> children;
 
-  const toml::node* find(std::string_view key) {
-    asked.emplace(key);
+  const toml::node* find(std::string_view key, std::string kind = {}) {
+    std::set<std::string>& kinds = asked[std::string(key)];
+    if (!kind.empty()) kinds.insert(std::move(kind));
     return table->get(key);
+  }
+  std::string path(std::string_view key) const {
+    return name.empty() ? std::string(key) : fmt::format("{}.{}", name, key);
   }
 };
 
@@ -136,8 +109,10 @@ TomlReader TomlReader::parse(const TextFile& file) {
     if (state->table->empty()) throw InputError(fmt::format("{} is empty", name));
     return TomlReader(state);
   } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}:{}: {}", name, error.source().begin.line,
-                                 error.source().begin.column, error.description()));
+    const toml::source_position at = error.source().begin;
+    std::string what = common_slip(file.text, at.line);
+    if (what.empty()) what = in_our_words(error.description());
+    throw InputError(fmt::format("{}:{}:{}: {}", name, at.line, at.column, what));
   } catch (const NoToml&) {
     throw InputError(fmt::format(
         "{}:{}: no TOML: a key or a value is missing where one must stand, behind '[' or '='", name,
@@ -164,11 +139,15 @@ bool TomlReader::is_text(std::string_view key) const {
   return node && node->is_string();
 }
 
-std::optional<std::string> TomlReader::text(std::string_view key) const {
-  const toml::node* node = state_->find(key);
+std::optional<std::string> TomlReader::text_as(std::string_view key, std::string kind) const {
+  const toml::node* node = state_->find(key, std::move(kind));
   if (!node) return {};
-  if (!node->is_string()) fail(key, "must be a text in quotes");
+  if (!node->is_string()) fail(key, fmt::format("must be a text in quotes, {}", not_a(*node)));
   return node->as_string()->get();
+}
+
+std::optional<std::string> TomlReader::text(std::string_view key) const {
+  return text_as(key, "text");
 }
 
 std::string TomlReader::required_text(std::string_view key) const {
@@ -178,9 +157,9 @@ std::string TomlReader::required_text(std::string_view key) const {
 }
 
 std::vector<std::string> TomlReader::texts(std::string_view key) const {
-  const toml::node* node = state_->find(key);
+  const toml::node* node = state_->find(key, "text, or a list of them");
   if (!node) return {};
-  if (!node->is_array()) return {*text(key)};
+  if (!node->is_array()) return {*text_as(key, {})};
   std::vector<std::string> values;
   for (const toml::node& each : *node->as_array()) {
     if (!each.is_string()) fail(key, "must be a text in quotes, or a list of them");
@@ -191,8 +170,10 @@ std::vector<std::string> TomlReader::texts(std::string_view key) const {
 
 std::optional<std::string> TomlReader::choice(std::string_view key,
                                               const std::vector<std::string>& allowed) const {
-  auto value = text(key);
+  auto value = text_as(key, fmt::format("`\"{}\"`", fmt::join(allowed, "\"`, `\"")));
   if (value && std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
+    if (allowed.size() == 1)
+      fail(key, fmt::format("'{}' is not possible; only '{}' is", *value, allowed.front()));
     fail(key, fmt::format("'{}' is not possible; it is one of {} (nearest: '{}')", *value,
                           fmt::join(allowed, ", "), nearest_name(*value, allowed)));
   }
@@ -201,9 +182,12 @@ std::optional<std::string> TomlReader::choice(std::string_view key,
 
 std::optional<long long> TomlReader::integer(std::string_view key, long long least,
                                              long long most) const {
-  const toml::node* node = state_->find(key);
+  const bool bounded = most < std::numeric_limits<long long>::max();
+  const toml::node* node =
+      state_->find(key, bounded ? fmt::format("whole number, {} to {}", least, most)
+                                : fmt::format("whole number from {}", least));
   if (!node) return {};
-  if (!node->is_integer()) fail(key, "must be a whole number");
+  if (!node->is_integer()) fail(key, fmt::format("must be a whole number, {}", not_a(*node)));
   const long long value = node->as_integer()->get();
   if (value < least || value > most) {
     fail(key, fmt::format("{} is out of range, {} to {} is possible", value, least, most));
@@ -212,6 +196,13 @@ std::optional<long long> TomlReader::integer(std::string_view key, long long lea
 }
 
 namespace {
+
+// What a key with such a quantity may hold.
+std::string kind_of_quantity(std::string_view si) {
+  if (si == "1") return "number";
+  return may_be_plain(si) ? fmt::format("number, or text like `\"1 {}\"`", si)
+                          : fmt::format("text like `\"1 {}\"`", si);
+}
 
 // What a node holds as a quantity; throws InputError without a place.
 Quantity read_node(const toml::node& node, std::string_view si) {
@@ -222,7 +213,12 @@ Quantity read_node(const toml::node& node, std::string_view si) {
     return quantity;
   }
   const auto number = node.value<double>();
-  if (!number || node.is_boolean()) throw InputError("must be a number, or a text like '1.5 mm'");
+  if (!number || node.is_boolean()) {
+    throw InputError(may_be_plain(si)
+                         ? fmt::format("must be a number, {}", not_a(node))
+                         : fmt::format("must be a number with its unit, a text like '1.5 {}', {}",
+                                       si, not_a(node)));
+  }
   if (!std::isfinite(*number)) throw InputError("must be finite");
   if (!may_be_plain(si)) {
     throw InputError(
@@ -234,7 +230,7 @@ Quantity read_node(const toml::node& node, std::string_view si) {
 }  // namespace
 
 std::optional<Quantity> TomlReader::quantity(std::string_view key, std::string_view si) const {
-  const toml::node* node = state_->find(key);
+  const toml::node* node = state_->find(key, kind_of_quantity(si));
   if (!node) return {};
   try {
     return read_node(*node, si);
@@ -245,36 +241,44 @@ std::optional<Quantity> TomlReader::quantity(std::string_view key, std::string_v
 
 Quantity TomlReader::required_quantity(std::string_view key, std::string_view si) const {
   const auto value = quantity(key, si);
+  if (!value && si == "1") fail(key, "is missing (a number)");
   if (!value) fail(key, fmt::format("is missing (a quantity like '1 {}')", si));
   return *value;
 }
 
 std::vector<Quantity> TomlReader::quantities(std::string_view key, std::string_view si) const {
-  const toml::node* node = state_->find(key);
+  const toml::node* node = state_->find(key, kind_of_quantity(si) + ", or a list");
   if (!node) return {};
-  if (!node->is_array()) return {*quantity(key, si)};
   std::vector<Quantity> values;
-  for (const toml::node& each : *node->as_array()) {
+  const auto read = [&](const toml::node& each, const std::string& where) {
     try {
       values.push_back(read_node(each, si));
     } catch (const InputError& error) {
-      fail(key, fmt::format("entry {}: {}", values.size() + 1, error.what()));
+      fail(key, where + error.what());
     }
+  };
+  if (!node->is_array()) {
+    read(*node, "");
+    return values;
   }
+  for (const toml::node& each : *node->as_array())
+    read(each, fmt::format("entry {}: ", values.size() + 1));
   return values;
 }
 
 std::optional<TomlReader> TomlReader::table(std::string_view key) const {
-  const toml::node* node = state_->find(key);
+  const toml::node* node = state_->find(key, "table");
   if (!node) return {};
-  if (!node->is_table()) fail(key, "must be a table");
+  if (!node->is_table())
+    fail(key, fmt::format("must be a table ([{}] on a line of its own), {}", state_->path(key),
+                          not_a(*node)));
   auto& child = state_->children[std::string(key)];
   if (!child) {
     child = std::make_shared<State>();
     child->root = state_->root;
     child->table = node->as_table();
     child->file = state_->file;
-    child->name = state_->name.empty() ? std::string(key) : fmt::format("{}.{}", state_->name, key);
+    child->name = state_->path(key);
   }
   return TomlReader(child);
 }
@@ -296,10 +300,50 @@ std::vector<std::string> TomlReader::keys() const {
   return names;
 }
 
+namespace {
+
+void add_present(const toml::table& table, const std::string& name,
+                 std::vector<std::pair<toml::source_position, TomlReader::Present>>& found) {
+  for (const auto& [key, node] : table) {
+    const toml::source_position at = node.source().begin;
+    const std::string path =
+        name.empty() ? std::string(key.str()) : fmt::format("{}.{}", name, key.str());
+    found.push_back({key.source().begin,
+                     {path, node.is_table(), node.value_exact<std::string>().value_or(""),
+                      fmt::format("{}:{}", at.line, at.column)}});
+    if (node.is_table()) add_present(*node.as_table(), path, found);
+  }
+}
+
+}  // namespace
+
+std::vector<TomlReader::Present> TomlReader::present() const {
+  std::vector<std::pair<toml::source_position, Present>> found;
+  add_present(*state_->table, state_->name, found);
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Present> all;
+  for (auto& [position, each] : found) all.push_back(std::move(each));
+  return all;
+}
+
+std::map<std::string, std::set<std::string>> TomlReader::asked() const {
+  std::map<std::string, std::set<std::string>> all;
+  for (const auto& [key, kinds] : state_->asked)
+    all[state_->path(key)].insert(kinds.begin(), kinds.end());
+  for (const auto& [key, child] : state_->children) all.merge(TomlReader(child).asked());
+  return all;
+}
+
+const std::string& TomlReader::file() const {
+  return state_->file;
+}
+
 void TomlReader::finish() const {
   for (const std::string& key : keys()) {
-    if (state_->asked.count(key)) continue;
-    const std::vector<std::string> allowed(state_->asked.begin(), state_->asked.end());
+    if (state_->asked.contains(key)) continue;
+    std::vector<std::string> allowed;
+    for (const auto& [name, kinds] : state_->asked) allowed.push_back(name);
     if (allowed.empty()) fail(key, "unknown key; nothing may stand here");
     fail(key, fmt::format("unknown key; did you mean '{}'? (possible: {})",
                           nearest_name(key, allowed), fmt::join(allowed, ", ")));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -55,12 +56,29 @@ class TomlReader {
   /// Refuses the value of `key`, or the table itself when it has no such key.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 
+  /// A key that stands in the file, with its table: "prior.k.law".
+  struct Present {
+    std::string path;
+    bool is_table = false;
+    std::string text;   ///< its value, where that is a text
+    std::string place;  ///< "12:3", line and column of the value
+  };
+  /// All that stands here and in the tables below, in the order of the file. Asks for nothing.
+  std::vector<Present> present() const;
+
+  /// What was asked for so far, here and in the tables below, and as what: "predict.limit" as
+  /// {"quantity `m^3`"}. Of a key that was only looked for, nothing is known.
+  std::map<std::string, std::set<std::string>> asked() const;
+
+  const std::string& file() const;
+
   /// Refuses keys that were never asked for, here and in the tables below, naming the nearest that
   /// may stand there.
   void finish() const;
 
  private:
   struct State;
+  std::optional<std::string> text_as(std::string_view key, std::string kind) const;
   explicit TomlReader(std::shared_ptr<State> state);
   std::shared_ptr<State> state_;
 };

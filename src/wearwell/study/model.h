@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "wearwell/input/source.h"
+#include "wearwell/input/study_keys.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/study/study.h"
 
@@ -31,6 +32,8 @@ struct Model {
   std::unique_ptr<const Study> (*read)(const TomlReader& root, const Source& source);
   /// Adds commands of its own; may be null.
   void (*add_commands)(CLI::App& app, int& exit_code);
+  /// All keys of its studies, for messages and docs/study-keys.md; may be null.
+  StudyKeys (*keys)() = nullptr;
 };
 
 /// A list of models; programs hand in those that they know (models/registry.h).

@@ -163,8 +163,24 @@ Chain read_chain(const std::filesystem::path& file,
 
 }  // namespace
 
+std::filesystem::path summary_file(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder, ignored))
+    throw InputError(fmt::format("no such folder: {}", folder.string()));
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    throw InputError(
+        fmt::format("{} is a file; wanted is the folder of results that wearwell fit wrote (its "
+                    "last line says where)",
+                    folder.string()));
+  }
+  std::filesystem::path file = folder / "summary.json";
+  if (std::filesystem::exists(file, ignored)) return file;
+  throw InputError(fmt::format("{} holds no summary.json: it is no folder that wearwell fit wrote",
+                               folder.string()));
+}
+
 SavedResult read_saved_result(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "summary.json";
+  const std::filesystem::path file = summary_file(folder);
   const auto summary = read_json(file);
   const JsonReader json(summary, file);
   SavedResult result{read_header(json)};
@@ -183,7 +199,7 @@ SavedResult read_saved_result(const std::filesystem::path& folder) {
 }
 
 SavedReport read_saved_report(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "summary.json", report = folder / "report.json";
+  const std::filesystem::path file = summary_file(folder), report = folder / "report.json";
   const auto summary = read_json(file);
   SavedReport saved{read_header(JsonReader(summary, file)), {}};
   if (!std::filesystem::exists(report)) {

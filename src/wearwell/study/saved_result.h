@@ -20,6 +20,9 @@ struct SavedResult {
   Draws draws = {};  ///< in the parameters' units; none where the fit drew none
 };
 
+/// summary.json of a folder of results. Throws InputError where it holds none, or is no folder.
+std::filesystem::path summary_file(const std::filesystem::path& folder);
+
 /// Reads summary.json, loo.csv where that names it, and draws_1.csv, draws_2.csv, ...: the parameters
 /// and which draws were divergent. Throws InputError naming the file and key that is missing or is
 /// not what wearwell writes.

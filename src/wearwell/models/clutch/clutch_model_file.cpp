@@ -162,6 +162,17 @@ PlateWear read_plate(const JsonReader& json, std::size_t replicates) {
   return p;
 }
 
+// The file itself, or of a folder of results the one in it.
+std::filesystem::path model_in(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return path;
+  const std::filesystem::path file = path / "model.json";
+  if (std::filesystem::exists(file, ignored)) return file;
+  throw InputError(fmt::format(
+      "{} is a folder, not a file, and holds no model.json, which wearwell fit writes of a clutch",
+      path.string()));
+}
+
 }  // namespace
 
 nlohmann::ordered_json to_json(const WearModel& model) {
@@ -202,7 +213,8 @@ nlohmann::ordered_json to_json(const WearModel& model) {
       {"replicates", std::move(replicates)}};
 }
 
-WearModel read_model(const std::filesystem::path& file) {
+WearModel read_model(const std::filesystem::path& path) {
+  const std::filesystem::path file = model_in(path);
   const Json content = read_json(file);
   const JsonReader json(content, file);
   check_format(json, file, model_format, model_version);

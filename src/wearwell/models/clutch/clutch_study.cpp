@@ -112,8 +112,10 @@ ClutchStudy read_clutch_study(const TomlReader& root, const TextFile& text) {
   root.required_text("model");
   const auto simulation = root.table("simulation");
   const auto data = root.table("data");
-  if (simulation.has_value() == data.has_value())
-    root.fail("data", "is missing: [data] with the files of a rig, or [simulation], not both");
+  if (simulation && data)
+    root.fail("data", "stands beside [simulation]; keep one: the files of a rig, or a simulation");
+  if (!simulation && !data)
+    root.fail("data", "is missing: [data] with the files of a rig, or [simulation]");
   if (simulation) {
     read_simulation(*simulation, study);
   } else {

@@ -1,39 +1,38 @@
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
-
-#include <CLI/CLI.hpp>
+#include "wearwell/input/json_reader.h"
 #include "wearwell/models/clutch/command_parts.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/saved_result.h"
 
 namespace wearwell::clutch {
 namespace {
 
 /// A result folder as one row of Table 4.
 std::vector<std::string> row_of(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "summary.json";
-  std::ifstream stream(file);
-  if (!stream) throw InputError(fmt::format("cannot read {}", file.string()));
-  try {
-    const auto json = nlohmann::json::parse(stream);
-    const auto& map = json.at("maps").at(0);
-    return {json.at("title").get<std::string>(),
-            fmt::format("{:.3f}", map.at("r2").get<double>()),
-            fmt::format("{:.3f}", map.at("r2p").get<double>()),
-            fmt::format("{:.3g}", map.at("rmse").get<double>()),
-            fmt::format("{}", map.at("terms").size()),
-            fmt::format("{:.1f}", map.at("r").get<double>()),
-            fmt::format("{:.1f}", map.at("q").get<double>()),
-            fmt::format("{:.4g}", json.at("run_in").at("w0").at("value").get<double>())};
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(
-        fmt::format("{} is no summary of a clutch study: {}", file.string(), error.what()));
-  }
+  const std::filesystem::path file = summary_file(folder);
+  const auto summary = read_json(file);
+  const JsonReader json(summary, file);
+  const std::string model = json.at("model").text();
+  if (model != "clutch-wear")
+    throw InputError(fmt::format("{} is of model {}, not of a clutch; wearwell compare is for all",
+                                 file.string(), model));
+  const std::vector<JsonReader> maps = json.at("maps").items();
+  if (maps.empty()) json.at("maps").fail("is empty");
+  const JsonReader& map = maps.front();
+  return {json.at("title").text(),
+          fmt::format("{:.3f}", map.at("r2").number()),
+          fmt::format("{:.3f}", map.at("r2p").number()),
+          fmt::format("{:.3g}", map.at("rmse").number()),
+          fmt::format("{}", map.at("terms").items().size()),
+          fmt::format("{:.1f}", map.at("r").number()),
+          fmt::format("{:.1f}", map.at("q").number()),
+          fmt::format("{:.4g}", json.at("run_in").at("w0").at("value").number())};
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "wearwell/base/error.h"
-
-#include <CLI/CLI.hpp>
 #include "wearwell/base/staged_file.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/input/option_value.h"

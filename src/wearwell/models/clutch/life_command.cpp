@@ -1,6 +1,5 @@
-#include "wearwell/models/clutch/life.h"
-
 #include <CLI/CLI.hpp>
+#include "wearwell/models/clutch/life.h"
 
 #include <fmt/format.h>
 
@@ -91,7 +90,10 @@ void add_life_command(CLI::App& clutch) {
   CLI::App* command = clutch.add_subcommand(
       "life", "Cycles to any wear level for an operating point or a duty that repeats");
   const auto options = std::make_shared<LifeOptions>();
-  command->add_option("MODEL", options->model, "model.json of wearwell fit")->required();
+  command
+      ->add_option("MODEL", options->model,
+                   "model.json of wearwell fit, or the folder that holds it")
+      ->required();
   command->add_option("--slip-speed", options->slip_speed)->type_name("'NUMBER rpm'");
   command->add_option("--torque", options->torque)->type_name("'NUMBER N m'");
   command->add_option("--temperature", options->temperature)->type_name("'NUMBER degC'");

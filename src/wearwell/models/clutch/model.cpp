@@ -2,6 +2,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/models/clutch/clutch_describe.h"
+#include "wearwell/models/clutch/clutch_keys.h"
 #include "wearwell/models/clutch/clutch_result.h"
 #include "wearwell/models/clutch/commands.h"
 
@@ -49,7 +50,8 @@ Model model() {
           .read = [](const TomlReader& root, const Source& source) -> std::unique_ptr<const Study> {
             return std::make_unique<CampaignStudy>(read_clutch_study(root, source.study));
           },
-          .add_commands = add_clutch_command};
+          .add_commands = add_clutch_command,
+          .keys = study_keys};
 }
 
 }  // namespace clutch

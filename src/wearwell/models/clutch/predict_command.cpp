@@ -1,6 +1,5 @@
-#include "wearwell/models/clutch/clutch_predict.h"
-
 #include <CLI/CLI.hpp>
+#include "wearwell/models/clutch/clutch_predict.h"
 
 #include <fmt/format.h>
 

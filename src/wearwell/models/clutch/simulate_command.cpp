@@ -1,11 +1,10 @@
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>
 
 #include "wearwell/base/same_file.h"
-
-#include <CLI/CLI.hpp>
 #include "wearwell/base/staged_folder.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/clutch/clutch_tables.h"

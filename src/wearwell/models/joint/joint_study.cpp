@@ -332,7 +332,7 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   }
   const auto risk = predict->quantity("risk", "1");
   if (risk && !(risk->si() > 0 && risk->si() < 1))
-    predict->fail("risk", "must lie between 0 and 1");
+    predict->fail("risk", "must lie between 0 and 1, as 0.05 or \"5 %\"");
   if (const auto limit = predict->quantity("limit", "m^3")) {
     need_rate("limit");
     if (!(limit->si() > 0)) predict->fail("limit", "must be positive");

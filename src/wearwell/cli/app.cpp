@@ -1,0 +1,38 @@
+#include "wearwell/cli/app.h"
+
+#include "wearwell/cli/check.h"
+#include "wearwell/cli/compare.h"
+#include "wearwell/cli/fit.h"
+#include "wearwell/cli/generate.h"
+#include "wearwell/cli/help.h"
+#include "wearwell/cli/new.h"
+#include "wearwell/cli/report.h"
+#include "wearwell/cli/select.h"
+
+namespace wearwell {
+
+std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
+  auto app = std::make_unique<CLI::App>(
+      "Wear and fatigue-life parameters from few noisy measurements, with honest uncertainty.",
+      "wearwell");
+  app->require_subcommand(1);
+  app->set_version_flag("--version", WEARWELL_VERSION, "Print the version and exit");
+  app->footer(
+      "wearwell help COMMAND says more of each; wearwell new JOB DIR writes a study to start "
+      "from.");
+  add_fit_command(*app, models, exit_code);
+  for (const Model& model : models) {
+    if (model.add_commands) model.add_commands(*app, exit_code);
+  }
+  add_select_command(*app, exit_code);
+  add_check_command(*app, models, exit_code);
+  add_compare_command(*app, exit_code);
+  add_new_command(*app, models, exit_code);
+  add_report_command(*app, exit_code);
+  add_help_command(*app, exit_code);
+  add_version_command(*app, exit_code);
+  add_generate_command(*app, exit_code);
+  return app;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,26 @@
+#include "wearwell/cli/generate.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "wearwell/cli/completion.h"
+#include "wearwell/cli/man_page.h"
+#include "wearwell/input/option_value.h"
+
+namespace wearwell {
+
+void add_generate_command(CLI::App& app, int& exit_code) {
+  auto what = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("generate", "Manual page or completions of a shell");
+  command->group("");
+  command->add_option("WHAT", *what, "Which")->required()->check(one_of({"man", "bash", "zsh"}));
+  command->callback([what, &app, &exit_code] {
+    fmt::print("{}", *what == "man"    ? man_page(app, WEARWELL_VERSION)
+                     : *what == "bash" ? bash_completion(app)
+                                       : zsh_completion(app));
+    exit_code = 0;
+  });
+}
+
+}  // namespace wearwell

@@ -1,0 +1,291 @@
+#include "wearwell/input/study_keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "wearwell/base/nearest.h"
+
+namespace wearwell {
+namespace {
+
+using Present = TomlReader::Present;
+
+// "data.columns" and "volume" of "data.columns.volume".
+std::string_view parent_of(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == path.npos ? std::string_view() : path.substr(0, dot);
+}
+std::string_view leaf_of(std::string_view path) {
+  return path.substr(path.rfind('.') + 1);
+}
+std::string under(std::string_view parent, std::string_view leaf) {
+  return parent.empty() ? std::string(leaf) : fmt::format("{}.{}", parent, leaf);
+}
+bool is_below(std::string_view path, std::string_view ancestor) {
+  return path.size() > ancestor.size() && path.starts_with(ancestor) &&
+         path[ancestor.size()] == '.';
+}
+std::string table_named(std::string_view path) {
+  return path.empty() ? "at the top, before the first [table]" : fmt::format("in [{}]", path);
+}
+
+class Keys {
+ public:
+  Keys(const TomlReader& root, const StudyKeys& keys)
+      : file_(root.file()), keys_(keys), present_(root.present()) {
+    for (const auto& [path, kinds] : root.asked()) asked_.insert(path);
+  }
+
+  // "12:3: predict.limt: unknown key; did you mean 'limit'? (possible: ...)", each.
+  std::vector<std::string> unknown() {
+    std::vector<std::string> faults;
+    std::string_view last;  // of a table that is unknown, what is in it does not matter
+    for (const Present& each : present_) {
+      if (!last.empty() && is_below(each.path, last)) continue;
+      if (is_known(each.path)) continue;
+      last = each.path;
+      faults.push_back(fmt::format("{}: {}: {}", each.place, each.path, said_of(each.path)));
+    }
+    return faults;
+  }
+
+  // Known, but not asked for.
+  std::vector<std::string> idle() const {
+    std::vector<std::string> faults;
+    for (const Present& each : present_) {
+      const std::string table(parent_of(each.path));
+      const bool table_was_read = table.empty() || asked_.contains(table);
+      if (!table_was_read || asked_.contains(each.path)) continue;
+      faults.push_back(fmt::format(
+          "{}: {}: has no effect beside the rest of this study; take it out, or give what it "
+          "needs (docs/study-keys.md)",
+          each.place, each.path));
+    }
+    return faults;
+  }
+
+  // After `unknown`: what it named is not missing too.
+  StudyKeys missing() const {
+    StudyKeys result;
+    for (const StudyKey& key : keys_) {
+      if (!key.needed) continue;
+      const std::string parent(parent_of(key.path));
+      if (parent.find('*') == parent.npos) {
+        if (lacks(key, parent)) result.push_back(key);
+        continue;
+      }
+      for (const Present& each : present_) {
+        if (!each.is_table || !matches_key(parent, each.path) || !lacks(key, each.path)) continue;
+        result.push_back(key);
+        result.back().path = under(each.path, leaf_of(key.path));
+      }
+    }
+    return result;
+  }
+
+  const std::string& file() const { return file_; }
+
+ private:
+  const Present* find(std::string_view path) const {
+    const auto found = std::find_if(present_.begin(), present_.end(),
+                                    [&](const Present& each) { return each.path == path; });
+    return found == present_.end() ? nullptr : &*found;
+  }
+
+  bool is_known(std::string_view path) const {
+    if (asked_.contains(std::string(path))) return true;
+    return std::any_of(keys_.begin(), keys_.end(), [&](const StudyKey& key) {
+      if (matches_key(key.path, path)) return true;
+      // A table of known keys; where it is the user who names it, it has an entry of its own.
+      return is_below(key.path, path) && path.find('*') == path.npos;
+    });
+  }
+
+  // Names that may stand in a table.
+  std::vector<std::string> possible(std::string_view table) const {
+    std::set<std::string> names;
+    const auto add = [&](std::string_view path) {
+      std::string_view rest = path;
+      for (std::string_view at = table; !at.empty();) {
+        const std::size_t dot = std::min(at.find('.'), at.size()),
+                          end = std::min(rest.find('.'), rest.size());
+        if (end == rest.size()) return;
+        if (rest.substr(0, end) != "*" && rest.substr(0, end) != at.substr(0, dot)) return;
+        at.remove_prefix(std::min(dot + 1, at.size()));
+        rest.remove_prefix(end + 1);
+      }
+      const std::string_view name = rest.substr(0, rest.find('.'));
+      if (name != "*") names.emplace(name);
+    };
+    for (const StudyKey& key : keys_) add(key.path);
+    for (const std::string& path : asked_) add(path);
+    return {names.begin(), names.end()};
+  }
+
+  // Tables that may hold a key of this name.
+  std::vector<std::string> homes(std::string_view leaf) const {
+    std::vector<std::string> tables;
+    for (const StudyKey& key : keys_) {
+      const std::string_view parent = parent_of(key.path);
+      if (leaf_of(key.path) != leaf || parent.find('*') != parent.npos) continue;
+      std::string where = table_named(parent);
+      if (std::find(tables.begin(), tables.end(), where) == tables.end())
+        tables.push_back(std::move(where));
+    }
+    return tables;
+  }
+
+  std::string said_of(const std::string& path) {
+    const std::string parent(parent_of(path)), leaf(leaf_of(path));
+    const std::vector<std::string> names = possible(parent);
+    const std::vector<std::string> elsewhere = homes(leaf);
+    if (!elsewhere.empty()) {
+      moved_.insert(leaf);
+      return fmt::format("unknown key here; {} stands {}", leaf, fmt::join(elsewhere, " or "));
+    }
+    if (const auto near = near_name(leaf, names)) meant_.insert(under(parent, *near));
+    if (names.empty()) return "unknown key; nothing may stand here";
+    return fmt::format("unknown key{} (possible: {})", did_you_mean(leaf, names),
+                       fmt::join(names, ", "));
+  }
+
+  // "data", "law.fatigue_limit=random", ".law=normal".
+  bool holds(const std::string& condition, std::string_view table) const {
+    const std::size_t equals = condition.find('=');
+    std::string path = condition.substr(0, equals);
+    if (path.starts_with('.')) path = under(table, path.substr(1));
+    const Present* found = find(path);
+    return found && (equals == condition.npos || found->text == condition.substr(equals + 1));
+  }
+
+  bool lacks(const StudyKey& key, std::string_view table) const {
+    const std::string path = under(table, leaf_of(key.path));
+    const auto any = [&](const std::vector<std::string>& conditions) {
+      return std::any_of(conditions.begin(), conditions.end(),
+                         [&](const std::string& each) { return holds(each, table); });
+    };
+    if (find(path) || any(key.unless) || (!key.when.empty() && !any(key.when))) return false;
+    const bool misspelt = moved_.contains(std::string(leaf_of(path))) ||
+                          std::any_of(meant_.begin(), meant_.end(), [&](const std::string& meant) {
+                            return path == meant || is_below(path, meant);
+                          });
+    if (misspelt) return false;
+    // Misspelt too: one of the keys instead of which this one is needed.
+    return std::none_of(key.unless.begin(), key.unless.end(),
+                        [&](const std::string& each) { return meant_.contains(each); });
+  }
+
+  std::string file_;
+  const StudyKeys& keys_;
+  std::vector<Present> present_;
+  std::set<std::string> asked_, meant_, moved_;
+};
+
+// "data.columns.radius = {...} (or conditions.radius)"
+std::string like(const StudyKey& key) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> others;
+  for (const std::string& each : key.unless) {
+    const bool is_path = each.find('=') == each.npos && !each.starts_with('.');
+    if (is_path && others.size() < most) others.push_back(each);
+  }
+  return fmt::format("{} = {}{}", key.path, key.example,
+                     others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, ", ")));
+}
+
+}  // namespace
+
+StudyKey needed_key(std::string path, std::string example, std::string meaning,
+                    std::vector<std::string> unless, std::vector<std::string> when) {
+  return {std::move(path), std::move(example), std::move(meaning), true,
+          std::move(when), std::move(unless)};
+}
+
+void add_keys(StudyKeys& keys, const StudyKeys& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+}
+
+StudyKeys column_keys() {
+  return {needed_key("data.columns.*.column", "\"wear\"", "heading of the column"),
+          {"data.columns.*.unit", "\"mm^3\"", "unit of its numbers; a count needs none"}};
+}
+
+StudyKeys prior_keys() {
+  return {
+      needed_key("prior.*.law", "\"normal\"", "law: see [priors.md](priors.md)"),
+      {"prior.*.unit", "\"mm^3\"", "unit to report in; needed where no quantity has one"},
+      needed_key("prior.*.lower", "\"0 mm^3\"", "lower bound; needed by uniform", {},
+                 {".law=uniform"}),
+      needed_key("prior.*.upper", "\"15 mm^3\"", "upper bound; needed by uniform", {},
+                 {".law=uniform"}),
+      needed_key("prior.*.mean", "\"5 mm^3\"",
+                 "mean, of normal, exponential and lognormal (of the parameter itself)",
+                 {".median", ".log_sd"}, {".law=normal", ".law=exponential", ".law=lognormal"}),
+      needed_key("prior.*.sd", "\"2 mm^3\"", "standard deviation, of normal and lognormal",
+                 {".median", ".log_sd"}, {".law=normal", ".law=lognormal"}),
+      needed_key("prior.*.median", "\"5 mm^3\"", "median, of lognormal, beside log_sd", {},
+                 {".log_sd"}),
+      needed_key("prior.*.log_sd", "0.5",
+                 "standard deviation of the natural logarithm, of lognormal, beside median", {},
+                 {".median"}),
+      needed_key("prior.*.scale", "\"5 mm^3\"",
+                 "scale, of half-normal, half-cauchy, gamma, inverse-gamma and student-t", {},
+                 {".law=half-normal", ".law=half-cauchy", ".law=gamma", ".law=inverse-gamma",
+                  ".law=student-t"}),
+      needed_key("prior.*.shape", "2", "shape, of gamma and inverse-gamma", {},
+                 {".law=gamma", ".law=inverse-gamma"}),
+      needed_key("prior.*.df", "4", "degrees of freedom, of student-t", {}, {".law=student-t"}),
+      needed_key("prior.*.location", "\"5 mm^3\"", "location, of student-t", {},
+                 {".law=student-t"}),
+      needed_key("prior.*.alpha", "2", "first shape, of beta", {}, {".law=beta"}),
+      needed_key("prior.*.beta", "2", "second shape, of beta", {}, {".law=beta"}),
+  };
+}
+
+bool matches_key(std::string_view pattern, std::string_view path) {
+  while (true) {
+    const std::size_t dot = pattern.find('.'), end = path.find('.');
+    const std::string_view part = pattern.substr(0, dot);
+    if (part != "*" && part != path.substr(0, end)) return false;
+    if (dot == pattern.npos || end == path.npos) return dot == pattern.npos && end == path.npos;
+    pattern.remove_prefix(dot + 1);
+    path.remove_prefix(end + 1);
+  }
+}
+
+StudyKeys missing_keys(const TomlReader& root, const StudyKeys& keys) {
+  return Keys(root, keys).missing();
+}
+
+std::string key_faults(const TomlReader& root, const StudyKeys& keys, std::string_view refusal) {
+  Keys all(root, keys);
+  const std::vector<std::string> unknown = all.unknown();
+  const StudyKeys missing = all.missing();
+  if (unknown.empty() && missing.empty()) return {};
+  if (unknown.empty() && missing.size() == 1) {
+    const StudyKey& key = missing.front();
+    if (refusal.find(std::string(leaf_of(key.path))) != refusal.npos) return {};
+    return fmt::format("{}: {} is missing, {}: {}", all.file(), key.path, key.meaning, like(key));
+  }
+  std::string message = all.file() + ":";
+  if (!unknown.empty()) message += fmt::format("{}", fmt::join(unknown, "; and "));
+  if (missing.empty()) return message;
+  std::vector<std::string> examples;
+  for (const StudyKey& key : missing) examples.push_back(like(key));
+  const char* are = unknown.empty()       ? " {} keys are missing; with values of yours: {}"
+                    : missing.size() == 1 ? "; and missing is {1}"
+                                          : "; and {} keys are missing: {}";
+  return message + fmt::format(fmt::runtime(are), missing.size(), fmt::join(examples, "; "));
+}
+
+std::string unused_keys(const TomlReader& root, const StudyKeys& keys) {
+  Keys all(root, keys);
+  std::vector<std::string> faults = all.unknown();
+  if (faults.empty()) faults = all.idle();
+  return faults.empty() ? "" : fmt::format("{}:{}", all.file(), fmt::join(faults, "; and "));
+}
+
+}  // namespace wearwell

@@ -1,0 +1,152 @@
+#include "wearwell/models/fatigue/sn_keys.h"
+
+#include "wearwell/study/posterior_keys.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+using Names = std::vector<std::string>;
+
+// Of a column or of [conditions].
+Names given(const Names& names) {
+  Names paths;
+  for (const std::string& name : names) {
+    paths.push_back("data.columns." + name);
+    paths.push_back("conditions." + name);
+  }
+  return paths;
+}
+
+Names joined(Names a, const Names& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+// A stress of every test: a column, or the same for all.
+StudyKeys input_keys(const std::string& name, const std::string& column,
+                     const std::string& constant, const std::string& meaning, Names unless,
+                     const Names& when) {
+  unless.push_back("conditions." + name);
+  return {needed_key("data.columns." + name, column, meaning, unless, when),
+          {"conditions." + name, constant, meaning + ", the same for all tests"}};
+}
+
+StudyKeys stress_keys() {
+  const Names extremes = given({"max_stress", "min_stress"});
+  const Names spring = given({"displacement_amplitude", "displacement_mean"});
+  const Names other = joined(extremes, spring);
+  StudyKeys keys =
+      input_keys("alternating_stress", "{ column = \"alternating_stress\", unit = \"MPa\" }",
+                 "\"300 MPa\"", "alternating stress: half of the range", other, {});
+  add_keys(keys,
+           input_keys("stress_ratio", "\"R\"", "-1", "smallest over largest stress",
+                      joined(joined(other, given({"mean_stress"})), {"law.mean_stress=none"}), {}));
+  add_keys(keys, {{"data.columns.mean_stress", "{ column = \"mean_stress\", unit = \"MPa\" }",
+                   "mean stress, instead of stress_ratio"},
+                  {"conditions.mean_stress", "\"0 MPa\"", "mean stress, the same for all tests"}});
+  add_keys(keys,
+           input_keys("max_stress", "{ column = \"max_stress\", unit = \"MPa\" }", "\"600 MPa\"",
+                      "largest stress, with min_stress instead", {}, given({"min_stress"})));
+  add_keys(keys,
+           input_keys("min_stress", "{ column = \"min_stress\", unit = \"MPa\" }", "\"0 MPa\"",
+                      "smallest stress, with max_stress", {}, given({"max_stress"})));
+  add_keys(keys, input_keys("displacement_amplitude", "{ column = \"amplitude\", unit = \"mm\" }",
+                            "\"5 mm\"", "of a helical spring, with displacement_mean instead", {},
+                            given({"displacement_mean"})));
+  add_keys(keys, input_keys("displacement_mean", "{ column = \"mean\", unit = \"mm\" }",
+                            "\"10 mm\"", "mean displacement of a helical spring", {},
+                            given({"displacement_amplitude"})));
+  add_keys(keys,
+           {needed_key("conditions.wire_diameter", "\"4 mm\"", "of the spring", {}, spring),
+            needed_key("conditions.coil_diameter", "\"30 mm\"", "of the spring, mean", {}, spring),
+            needed_key("conditions.active_coils", "6", "of the spring", {}, spring),
+            needed_key("conditions.shear_modulus", "\"79 GPa\"", "of the spring", {}, spring)});
+  return keys;
+}
+
+StudyKeys parameter_keys() {
+  const std::string logarithm = "{ law = \"normal\", mean = \"3 log10(MPa)\", sd = 0.3 }";
+  const Names ultimate = {"law.mean_stress=goodman", "law.mean_stress=gerber"};
+  const Names yield = {"law.mean_stress=soderberg"}, fracture = {"law.mean_stress=morrow"};
+  const Names walker = {"law.mean_stress=walker"}, random = {"law.fatigue_limit=random"};
+  return {
+      {"conditions.S_ut", "\"1200 MPa\"", "ultimate strength, known (goodman, gerber)"},
+      {"conditions.S_y", "\"900 MPa\"", "yield strength, known (soderberg)"},
+      {"conditions.sigma_f", "\"1500 MPa\"", "true fracture strength, known (morrow)"},
+      {"conditions.gamma", "0.5", "Walker's exponent, known (walker)"},
+      needed_key("prior.log10_a", "{ law = \"normal\", mean = \"3.3 log10(MPa)\", sd = 0.3 }",
+                 "logarithm of the stress at one cycle"),
+      needed_key("prior.b", "{ law = \"normal\", mean = -0.1, sd = 0.04 }", "Basquin's exponent"),
+      needed_key("prior.sigma", "{ law = \"half-normal\", scale = 0.3 }",
+                 "scatter of log10 life; of life itself with family \"normal\""),
+      needed_key("prior.log10_Sut", logarithm, "logarithm of the ultimate strength",
+                 {"conditions.S_ut"}, ultimate),
+      needed_key("prior.log10_Sy", logarithm, "logarithm of the yield strength", {"conditions.S_y"},
+                 yield),
+      needed_key("prior.log10_sigma_f", logarithm, "logarithm of the true fracture strength",
+                 {"conditions.sigma_f"}, fracture),
+      needed_key("prior.gamma", "{ law = \"beta\", alpha = 2, beta = 2 }", "Walker's exponent",
+                 {"conditions.gamma"}, walker),
+      needed_key("prior.log10_limit", "{ law = \"normal\", mean = \"2.3 log10(MPa)\", sd = 0.3 }",
+                 "logarithm of the fatigue limit", {}, random),
+      needed_key("prior.sigma_limit", "{ law = \"half-normal\", scale = 0.1 }",
+                 "scatter of the logarithm of the fatigue limit", {}, random),
+  };
+}
+
+// One stress that is asked about.
+StudyKeys point_keys() {
+  const std::string at = "predict.stress.*";
+  const Names other = {".max_stress", ".min_stress", ".displacement_amplitude",
+                       ".displacement_mean"};
+  return {
+      {at, "{ alternating_stress = \"400 MPa\", stress_ratio = -1 }",
+       "a stress by a name of yours: which lives has it?"},
+      needed_key(at + ".alternating_stress", "\"400 MPa\"", "of that stress, as the next six",
+                 other),
+      {at + ".stress_ratio", "-1", "smallest over largest stress"},
+      {at + ".mean_stress", "\"100 MPa\"", "instead of stress_ratio"},
+      needed_key(at + ".max_stress", "\"600 MPa\"", "with min_stress instead", {}, {".min_stress"}),
+      needed_key(at + ".min_stress", "\"0 MPa\"", "with max_stress", {}, {".max_stress"}),
+      needed_key(at + ".displacement_amplitude", "\"5 mm\"", "of a helical spring", {},
+                 {".displacement_mean"}),
+      needed_key(at + ".displacement_mean", "\"10 mm\"", "of a helical spring", {},
+                 {".displacement_amplitude"}),
+  };
+}
+
+}  // namespace
+
+StudyKeys study_keys() {
+  StudyKeys keys = posterior_keys();
+  add_keys(keys, stress_keys());
+  add_keys(keys,
+           {needed_key("data.columns.life", "\"cycles\"",
+                       "cycles at which a test ended, or was stopped"),
+            {"data.columns.life_until", "\"cycles_until\"", "end of an interval in which it broke"},
+            {"data.columns.status", "\"status\"",
+             "failure, runout, left or interval; without it all failed"},
+            {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
+            {"data.columns.label", "\"type\"", "a name, for predict.types and the report"},
+            needed_key("law.mean_stress", "\"goodman\"",
+                       "how a mean stress shortens life ([fatigue.md](fatigue.md))"),
+            {"law.fatigue_limit", "\"random\"", "whether there is a fatigue limit (none)"},
+            {"law.limit_family", "\"normal\"", "how the logarithm of the limit scatters (normal)"},
+            {"likelihood.family", "\"log10-normal\"", "how lives scatter (log10-normal)"}});
+  add_keys(keys, parameter_keys());
+  add_keys(keys, {{"predict.types", "\"all\"", "the stresses of these labels, or of all tests"}});
+  add_keys(keys, point_keys());
+  add_keys(keys,
+           {{"predict.b_lives", "[1, 10]", "when have 1 and 10 % failed? (1 and 10)"},
+            {"predict.credible_level", "0.9", "of lower bounds"},
+            {"predict.survival_to", "\"5e5 cycles\"", "what share outlasts that?"},
+            needed_key("predict.required_life", "\"1e6 cycles\"",
+                       "which alternating stress lasts that long,", {}, {"predict.reliability"}),
+            needed_key("predict.reliability", "[\"50 %\", \"90 %\"]", "by such a share", {},
+                       {"predict.required_life"}),
+            {"predict.stress_ratio", "0.1", "of that stress"},
+            {"predict.mean_stress", "\"300 MPa\"", "of that stress, instead of stress_ratio"}});
+  return keys;
+}
+
+}  // namespace wearwell::fatigue

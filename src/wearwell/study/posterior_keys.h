@@ -1,0 +1,10 @@
+#pragma once
+
+#include "wearwell/input/study_keys.h"
+
+namespace wearwell {
+
+/// The keys that every study of a posterior has, whatever the trade.
+StudyKeys posterior_keys();
+
+}  // namespace wearwell

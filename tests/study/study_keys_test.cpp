@@ -1,0 +1,424 @@
+// What the lists of keys say of a study is what its reader does; docs/study-keys.md is made of both.
+#include "wearwell/input/study_keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+
+#include "support/run_command.h"
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
+#include "wearwell/models/registry.h"
+#include "wearwell/study/posterior_keys.h"
+
+namespace wearwell {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const Model& model(std::string_view key) {
+  for (const Model& each : all_models()) {
+    if (each.key == key) return each;
+  }
+  throw std::logic_error("no such model");
+}
+
+// "data.columns" and "volume".
+std::pair<std::string, std::string> split(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == path.npos ? std::pair(std::string(), path)
+                          : std::pair(path.substr(0, dot), path.substr(dot + 1));
+}
+
+// Keys with their values, in the order in which they were added.
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+std::string toml(const Values& values) {
+  std::vector<std::string> tables;
+  for (const auto& [path, value] : values) {
+    const std::string table = split(path).first;
+    if (std::find(tables.begin(), tables.end(), table) == tables.end()) tables.push_back(table);
+  }
+  std::sort(tables.begin(), tables.end());  // the top of the file first
+  std::string text;
+  for (const std::string& table : tables) {
+    if (!table.empty()) text += fmt::format("[{}]\n", table);
+    for (const auto& [path, value] : values) {
+      if (split(path).first == table) text += fmt::format("{} = {}\n", split(path).second, value);
+    }
+  }
+  return text;
+}
+
+class StudyKeysTest : public ScratchTest {
+ protected:
+  void SetUp() override {
+    ScratchTest::SetUp();
+    // Every column that an example of a key names.
+    write("wear.csv",
+          "cycles,volume,work,force,slip,depth,bearing,radius,clearance,contact,pressure,length,"
+          "revolutions,speed,time,alternating_stress,R,mean_stress,max_stress,min_stress,amplitude,"
+          "mean,cycles_until,status,count,type\n"
+          "100,5,1,60,6,10,A,10,25,stationary,1,20,1000,60,1,300,-1,10,300,-300,5,10,200,failure,1,"
+          "A\n"
+          "1000,9,8,61,60,20,B,10,25,stationary,1,20,3000,60,3,250,-1,10,250,-250,4,10,2000,"
+          "failure,2,B\n"
+          "9000,40,70,60,540,60,B,10,25,stationary,1,20,9000,60,9,200,-1,10,200,-200,3,10,9900,"
+          "runout,1,B\n");
+    write("cycle.csv", "force,ds\n60,1\n61,1\n60,1\n61,1\n");
+    write("positions.csv",
+          "cycles,dx,dy\n100,0.01,0\n100,0,0.01\n100,-0.01,0\n100,0,-0.01\n9000,0.05,0\n9000,0,"
+          "0.05\n9000,-0.05,0\n9000,0,-0.05\n");
+    for (const char* name : {"joint", "bearing", "fatigue", "clutch", "spring"}) {
+      for (const auto& entry :
+           fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / name))
+        if (!fs::exists(folder() / entry.path().filename()))
+          fs::copy(entry.path(), folder() / entry.path().filename());
+    }
+  }
+
+  // Reads as `read_study` does, and keeps what was asked for.
+  std::unique_ptr<const Study> read(const Model& model, const std::string& text) {
+    const fs::path file = write("s.toml", text);
+    const Source source = source_of(file);
+    const TomlReader root = TomlReader::parse(source.study);
+    root.has("model");
+    std::unique_ptr<const Study> study = model.read(root, source);
+    for (const auto& [path, kinds] : root.asked()) {
+      asked_[std::string(model.key)][path].insert(kinds.begin(), kinds.end());
+    }
+    EXPECT_EQ(unused_keys(root, model.keys()), "") << text;
+    EXPECT_EQ(key_faults(root, model.keys(), ""), "") << text;
+    return study;
+  }
+
+  // `seeds`, and all that they need, with the values that the list has for an example.
+  Values completed(const Model& model, const Values& seeds) {
+    Values values = seeds;
+    values.insert(values.begin(), {"model", fmt::format("\"{}\"", model.key)});
+    for (bool more = true; more;) {
+      more = false;
+      const TomlReader root = TomlReader::parse({folder() / "s.toml", toml(values)});
+      for (const StudyKey& key : missing_keys(root, model.keys())) {
+        values.emplace_back(key.path, key.example);
+        more = true;
+        break;  // it may stand for others
+      }
+    }
+    return values;
+  }
+
+  std::map<std::string, std::map<std::string, std::set<std::string>>> asked_;
+};
+
+struct Start {
+  const char* model;
+  Values values;
+};
+
+// The ways to say a thing; each needs keys of its own.
+const std::vector<Start>& starts() {
+  static const std::vector<Start> all = {
+      {"archard-joint", {}},
+      {"archard-joint", {{"data.columns.work", "{ column = \"work\", unit = \"J\" }"}}},
+      {"archard-joint", {{"data.columns.force", "{ column = \"force\", unit = \"N\" }"}}},
+      {"archard-joint", {{"conditions.profile.rule", "\"rectangle\""}}},
+      {"archard-joint",
+       {{"data.file", "\"positions.csv\""},
+        {"data.columns.dx", "{ column = \"dx\", unit = \"mm\" }"}}},
+      {"bearing-wear", {}},
+      {"bearing-wear", {{"conditions.force", "\"400 N\""}}},
+      {"bearing-wear", {{"conditions.time", "\"400 h\""}}},
+      {"bearing-wear", {{"likelihood.depth_error", "\"2 um\""}}},
+      {"sn", {}},
+      {"sn", {{"conditions.max_stress", "\"400 MPa\""}}},
+      {"sn",
+       {{"data.columns.displacement_amplitude", "{ column = \"amplitude\", unit = \"mm\" }"}}},
+      {"sn", {{"law.mean_stress", "\"none\""}}},
+      {"sn", {{"law.mean_stress", "\"soderberg\""}, {"conditions.S_y", "\"900 MPa\""}}},
+      {"sn", {{"law.mean_stress", "\"morrow\""}, {"conditions.sigma_f", "\"1500 MPa\""}}},
+      {"sn", {{"law.mean_stress", "\"walker\""}, {"conditions.gamma", "0.5"}}},
+      {"sn", {{"predict.stress.part.max_stress", "\"400 MPa\""}}},
+      {"sn",
+       {{"data.columns.displacement_amplitude", "{ column = \"amplitude\", unit = \"mm\" }"},
+        {"predict.stress.part.displacement_amplitude", "\"4 mm\""}}},
+      {"sn", {{"law.mean_stress", "\"soderberg\""}}},
+      {"sn", {{"law.mean_stress", "\"morrow\""}}},
+      {"sn", {{"law.mean_stress", "\"walker\""}, {"law.fatigue_limit", "\"random\""}}},
+      {"sn",
+       {{"conditions.S_ut", "\"1200 MPa\""},
+        {"predict.reliability", "\"90 %\""},
+        {"predict.stress_ratio", "-1"}}},
+  };
+  return all;
+}
+
+// With the needed keys a study can be read; without any of them it cannot, and the refusal names it.
+TEST_F(StudyKeysTest, NeededIsWhatReadersNeed) {
+  for (const Start& start : starts()) {
+    const Model& of = model(start.model);
+    const Values whole = completed(of, start.values);
+    ASSERT_NO_THROW(read(of, toml(whole))) << toml(whole);
+    for (std::size_t i = start.values.size() + 1; i < whole.size(); ++i) {
+      Values less = whole;
+      less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
+      write("s.toml", toml(less));
+      EXPECT_THAT(
+          message_of<InputError>([&] { read_study(source_of(folder() / "s.toml"), all_models()); }),
+          HasSubstr(split(whole[i].first).second))
+          << toml(less);
+    }
+  }
+}
+
+TEST_F(StudyKeysTest, OfAClutchToo) {
+  const Model& clutch = model("clutch-wear");
+  const Values whole =
+      completed(clutch, {{"simulation.seed", "1"}, {"life.points.launch.torque", "\"50 N m\""}});
+  ASSERT_NO_THROW(read(clutch, toml(whole))) << toml(whole);
+  for (std::size_t i = 3; i < whole.size(); ++i) {
+    Values less = whole;
+    less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_THAT(message_of<InputError>([&] { read(clutch, toml(less)); }),
+                HasSubstr(split(whole[i].first).second));
+  }
+  const Values rig = completed(clutch, {{"data.traces", "\"traces.csv\""}});
+  EXPECT_EQ(rig.size(), 9U) << toml(rig);
+}
+
+// All missing keys in one message, however early the reader stumbles.
+TEST_F(StudyKeysTest, AllMissingKeysInOneMessage) {
+  for (const Start& start : starts()) {
+    const Model& of = model(start.model);
+    const Values whole = completed(of, start.values);
+    Values less = start.values;
+    less.insert(less.begin(), {"model", fmt::format("\"{}\"", of.key)});
+    write("s.toml", toml(less));
+    const std::string message =
+        message_of<InputError>([&] { read_study(source_of(folder() / "s.toml"), all_models()); });
+    const TomlReader root = TomlReader::parse_file(folder() / "s.toml");
+    for (const StudyKey& key : missing_keys(root, of.keys()))
+      EXPECT_THAT(message, HasSubstr(key.path + " = " + key.example));
+  }
+}
+
+// Everything that may stand in a study, in as few studies as that takes.
+const std::vector<std::pair<const char*, std::string>>& rich_studies() {
+  const std::string sampler = R"toml(
+[update]
+stages = "row"
+[sampler]
+method = "metropolis"
+chains = 4
+half_width.k = "1e-5 mm^3/(N m)"
+half_width.sigma = "1 KEY"
+)toml";
+  const auto joint = [&](const std::string& more) {
+    return R"toml(model = "archard-joint"
+title = "t"
+[data]
+file = "wear.csv"
+sql = "select * from data"
+[data.columns]
+cycles = "cycles"
+volume = { column = "volume", unit = "mm^3" }
+[conditions]
+work_per_cycle = "5 N m"
+[likelihood]
+family = "normal"
+[predict]
+limit = "100 mm^3"
+)toml" + more;
+  };
+  const auto with_law = [&](const std::string& law) {
+    return joint("[prior]\nk = " + law + "\nsigma = { law = \"flat\", unit = \"mm^3\" }\n");
+  };
+  static const std::vector<std::pair<const char*, std::string>> all = {
+      {"archard-joint",
+       joint(
+           "[prior]\nk = { law = \"flat\", unit = \"mm^3/(N m)\" }\nsigma = { law = \"flat\", unit "
+           "= \"mm^3\" }\n" +
+           std::regex_replace(sampler, std::regex("KEY"), "mm^3"))},
+      {"archard-joint", with_law("{ law = \"lognormal\", mean = \"1e-3 mm^3/(N m)\", sd = \"1e-3 "
+                                 "mm^3/(N m)\" }")},
+      {"archard-joint",
+       with_law("{ law = \"lognormal\", median = \"1e-3 mm^3/(N m)\", log_sd = 1 }")},
+      {"archard-joint", with_law("{ law = \"gamma\", shape = 2, scale = \"1e-3 mm^3/(N m)\" }")},
+      {"archard-joint", with_law("{ law = \"student-t\", df = 4, location = \"1e-3 mm^3/(N m)\", "
+                                 "scale = \"1e-3 mm^3/(N m)\" }")},
+      {"archard-joint", with_law("{ law = \"uniform\", lower = \"0 mm^3/(N m)\", upper = \"1 "
+                                 "mm^3/(N m)\" }") +
+                            "V0 = { law = \"flat\", unit = \"mm^3\" }\nexponent = { law = "
+                            "\"beta\", alpha = 2, beta = 2 }\n"},
+      {"archard-joint", R"toml(model = "archard-joint"
+[data]
+file = "wear.csv"
+[data.columns]
+cycles = "cycles"
+volume = { column = "volume", unit = "mm^3" }
+work = { column = "work", unit = "J" }
+[likelihood]
+family = "normal"
+[prior]
+k = { law = "flat", unit = "mm^3/(N m)" }
+sigma = { law = "flat", unit = "mm^3" }
+[predict]
+work_per_cycle = "5 N m"
+cycles = [10000]
+)toml"},
+  };
+  return all;
+}
+
+void add_examples(std::vector<std::pair<std::string, std::string>>& studies) {
+  const std::map<std::string, std::string> folders = {{"joint", "archard-joint"},
+                                                      {"bearing", "bearing-wear"},
+                                                      {"fatigue", "sn"},
+                                                      {"spring", "sn"},
+                                                      {"clutch", "clutch-wear"}};
+  for (const auto& [folder, model] : folders) {
+    for (const auto& entry :
+         fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / folder)) {
+      if (entry.path().extension() == ".toml" && entry.path().filename() != "truth.toml")
+        studies.emplace_back(model, read_text_file(entry.path()).text);
+    }
+  }
+}
+
+// What stands in docs/study-keys.md of some keys.
+using Asked = std::map<std::string, std::set<std::string>>;
+
+std::string kinds_of(const StudyKey& key, const Asked& asked) {
+  std::set<std::string> kinds;
+  for (const auto& [path, each] : asked) {
+    if (matches_key(key.path, path)) kinds.insert(each.begin(), each.end());
+  }
+  const std::string table = split(key.path).first;
+  if (table.ends_with("columns")) return "heading, or `{ column, unit }`";
+  if (key.path.starts_with("prior.") && !key.path.starts_with("prior.*"))
+    return "law with its keys";
+  const bool of_unknown = key.path.starts_with("prior.*") || key.path.ends_with("half_width.*");
+  if (of_unknown && (kinds.size() > 1 || kinds.begin()->starts_with("text like")))
+    return "as the unknown";
+  return fmt::format("{}", fmt::join(kinds, " or "));
+}
+
+std::string needed_words(const StudyKey& key) {
+  if (!key.needed) return "";
+  const auto list = [](const std::vector<std::string>& conditions) {
+    std::vector<std::string> shown;
+    for (const std::string& each : conditions) {
+      const std::string plain = each.starts_with('.') ? each.substr(1) : each;
+      const std::size_t equals = plain.find('=');
+      shown.push_back(equals == plain.npos ? "`" + plain + "`"
+                                           : fmt::format("`{} = \"{}\"`", plain.substr(0, equals),
+                                                         plain.substr(equals + 1)));
+    }
+    return fmt::format("{}", fmt::join(shown, " or "));
+  };
+  std::string words = key.when.empty() ? "yes" : "with " + list(key.when);
+  if (!key.unless.empty()) words += ", unless " + list(key.unless);
+  return words;
+}
+
+std::string block(const StudyKeys& keys, const Asked& asked) {
+  std::string text =
+      "| key | for example | may be | needed | what it is |\n|---|---|---|---|---|\n";
+  for (const StudyKey& key : keys)
+    text += fmt::format("| `{}` | `{}` | {} | {} | {} |\n", key.path, key.example,
+                        kinds_of(key, asked), needed_words(key), key.meaning);
+  return text;
+}
+
+void expect_asked(const StudyKeys& keys, const Asked& asked) {
+  for (const StudyKey& key : keys) {
+    const bool is_asked = std::any_of(asked.begin(), asked.end(), [&](const auto& one) {
+      return matches_key(key.path, one.first);
+    });
+    EXPECT_TRUE(is_asked) << "nobody asks for " << key.path;
+  }
+}
+
+// Keys that readers ask for stand in the lists, keys of the lists are asked for; and the docs say so.
+TEST_F(StudyKeysTest, ListsHoldWhatReadersAskForAndDocsShowThem) {
+  for (const Start& start : starts())
+    read(model(start.model), toml(completed(model(start.model), start.values)));
+  for (const auto& [key, text] : rich_studies()) read(model(key), text);
+  std::vector<std::pair<std::string, std::string>> examples;
+  add_examples(examples);
+  for (const auto& [key, text] : examples) read(model(key), text);
+  const Model& clutch = model("clutch-wear");
+  const CommandResult rig = run_command(fmt::format(
+      "cd '{}' && '{}' clutch simulate --design design.csv --truth truth.toml --traces 1 -o rig",
+      folder().string(), WEARWELL_BINARY));
+  ASSERT_EQ(rig.exit_code, 0) << rig.err;
+  read(clutch, toml(completed(clutch, {{"data.design", "\"design.csv\""},
+                                       {"data.cycles", "\"rig/cycles.csv\""},
+                                       {"data.weighings", "\"rig/weighings.csv\""},
+                                       {"data.traces", "\"rig/traces.csv\""}})));
+  std::string docs = read_text_file(fs::path(PROJECT_SOURCE_DIR) / "docs/study-keys.md").text;
+  const auto put = [&](const std::string& name, const std::string& content) {
+    const std::string begin = fmt::format("<!-- keys: {} -->\n", name), end = "<!-- end -->";
+    const std::size_t from = docs.find(begin);
+    ASSERT_NE(from, docs.npos) << name;
+    const std::size_t at = from + begin.size();
+    docs.replace(at, docs.find(end, at) - at, content);
+  };
+  const StudyKeys common = posterior_keys();
+  Asked of_all;
+  for (const Model& each : all_models()) {
+    const StudyKeys keys = each.keys();
+    const Asked& asked = asked_[std::string(each.key)];
+    for (const auto& [path, kinds] : asked) of_all[path].insert(kinds.begin(), kinds.end());
+    for (const auto& [path, kinds] : asked) {
+      const bool known =
+          std::any_of(keys.begin(), keys.end(), [&, &path = path](const StudyKey& key) {
+            return matches_key(key.path, path) || key.path.starts_with(path + ".");
+          });
+      EXPECT_TRUE(known) << each.key << " asks for " << path << ", which is not in its list";
+    }
+    StudyKeys own;
+    for (const StudyKey& key : keys) {
+      const bool is_common = std::any_of(common.begin(), common.end(),
+                                         [&](const StudyKey& one) { return one.path == key.path; });
+      if (!is_common || &each == &clutch) own.push_back(key);
+    }
+    expect_asked(own, asked);
+    put(std::string(each.key), block(own, asked));
+  }
+  expect_asked(common, of_all);
+  put("all", block(common, of_all));
+  const fs::path file = fs::path(PROJECT_SOURCE_DIR) / "docs/study-keys.md";
+  if (std::getenv("WEARWELL_WRITE_DOCS")) std::ofstream(file) << docs;
+  EXPECT_EQ(docs, read_text_file(file).text)
+      << "docs/study-keys.md is not what readers ask for; WEARWELL_WRITE_DOCS=1 writes it anew";
+}
+
+// The studies of the tutorials, whose data are the reader's own: no key of theirs is wrong or missing.
+TEST(DocsStudies, HaveTheKeysThatTheyNeed) {
+  int studies = 0;
+  for (const char* page : {"joint", "bearing", "fatigue", "clutch"}) {
+    const std::string text =
+        read_text_file(fs::path(PROJECT_SOURCE_DIR) / "docs" / (std::string(page) + ".md")).text;
+    const std::string begin = "```toml\n", end = "```\n";
+    for (std::size_t at = text.find(begin); at != text.npos; at = text.find(begin, at)) {
+      at += begin.size();
+      const std::string toml = text.substr(at, text.find(end, at) - at);
+      if (!toml.starts_with("model = ")) continue;
+      const TomlReader root = TomlReader::parse({fs::path(page), toml});
+      EXPECT_EQ(key_faults(root, model(*root.text("model")).keys(), ""), "");
+      ++studies;
+    }
+  }
+  EXPECT_EQ(studies, 4);
+}
+
+}  // namespace
+}  // namespace wearwell
