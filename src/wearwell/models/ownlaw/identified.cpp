@@ -71,13 +71,9 @@ Eigen::VectorXd still(Eigen::MatrixXd slopes) {
 
 std::string in_words(const std::vector<Parameter>& parameters, const Eigen::VectorXd& direction) {
   constexpr double counts = 0.01;
-  const double sign = direction[[&] {
-                        Eigen::Index first = 0;
-                        while (std::abs(direction[first]) < counts) ++first;
-                        return first;
-                      }()] > 0
-                          ? 1
-                          : -1;
+  Eigen::Index first = 0;
+  while (std::abs(direction[first]) < counts) ++first;
+  const double sign = direction[first] > 0 ? 1 : -1;
   std::vector<std::string> moves;
   for (Eigen::Index p = 0; p < direction.size(); ++p) {
     const double by = sign * direction[p];

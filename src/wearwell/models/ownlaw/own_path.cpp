@@ -202,9 +202,9 @@ Crossing::Crossing(const Path& path, bool rising, double begin, double scale)
 // halved ends (Dowell and Jarratt 1971): of a straight path it is there at once.
 void Crossing::solve(std::size_t count, const double* z, const double* level, double* place) {
   constexpr int most_outward = 60, most_inward = 120;
-  double low[Path::most], high[Path::most], at_low[Path::most], at_high[Path::most];
-  double trial[Path::most];
-  std::uint8_t state[Path::most];  // 0 looks outward, 1 inward, 2 is done
+  double low[Path::most] = {}, high[Path::most] = {}, at_low[Path::most] = {};
+  double at_high[Path::most] = {}, trial[Path::most] = {};
+  std::uint8_t state[Path::most] = {};  // 0 looks outward, 1 inward, 2 is done
   int side[Path::most] = {};
   const auto excess = [&](std::size_t i) {
     const double y = at_.output(0, i) - level[i];

@@ -48,7 +48,7 @@ class Spread {
 
 struct Candidate {
   std::vector<double> x;
-  double log_density;
+  double log_density = 0;
 };
 
 double log_density_at(const LogDensity& likelihood, const std::vector<Parameter>& parameters,
