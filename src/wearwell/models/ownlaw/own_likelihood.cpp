@@ -142,7 +142,7 @@ void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool slope
     double value = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t u = column.unit[chunk.begin + i];
-      if (u != last) value = population_.value(law_, e, &z[u * d]);
+      if (u != last) value = held_ ? held_[e] : population_.value(law_, e, &z[u * d]);
       last = u;
       effect_[e][i] = value;
     }
@@ -257,6 +257,44 @@ void UnitRows::add_gradient(std::span<const double> z, std::span<const double> w
   if (d > 0) population_at_.add_gradient(x_, by, gradient);
 }
 
+void UnitRows::means_at(const double* effects, std::size_t c, std::span<double> mean,
+                        std::span<double> sd) {
+  held_ = effects;
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    if (chunk.index != c) return;
+    forward(chunk, {}, false);
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      mean[i] = slots_[0][i - chunk.begin];
+      sd[i] = slots_[1][i - chunk.begin];
+    }
+  });
+  held_ = nullptr;
+}
+
+void UnitRows::add_mean_gradient(const double* effects, std::size_t c,
+                                 std::span<const double> by_mean, std::span<const double> by_sd,
+                                 std::span<double> gradient) {
+  held_ = effects;
+  std::fill(inner_gradient_.begin(), inner_gradient_.end(), 0.0);
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    if (chunk.index != c) return;
+    forward(chunk, {}, false);
+    const std::size_t n = chunk.end - chunk.begin;
+    std::fill_n(slope_.begin(), most_response_slots * n, 0.0);
+    std::copy_n(by_mean.begin() + static_cast<std::ptrdiff_t>(chunk.begin), n, slope_.begin());
+    if (!by_sd.empty()) {
+      std::copy_n(by_sd.begin() + static_cast<std::ptrdiff_t>(chunk.begin), n,
+                  slope_.begin() + static_cast<std::ptrdiff_t>(n));
+    }
+    fill_adjoints(chunk, nullptr);
+    chunk.column->measured->program.reverse(
+        chunk.column->data, chunk.begin, chunk.end, {inner_, {effect_at_, law_.effects.size()}},
+        workspaces_[chunk.index], inner_gradient_, {by_effect_at_, law_.effects.size()});
+  });
+  held_ = nullptr;
+  for (std::size_t i = 0; i < inner_.size(); ++i) gradient[law_.shared[i]] += inner_gradient_[i];
+}
+
 std::vector<std::vector<double>> UnitRows::each_term(std::span<const double> z) {
   std::vector<std::vector<double>> all;
   for (const BoundColumn& column : columns_) {
@@ -304,12 +342,9 @@ class OwnLikelihood final : public LogDensity {
   int dimension() const override { return static_cast<int>(law_->parameters.size()); }
 
   double value(std::span<const double> x) const override {
+    if (law_->varies()) return number(rows_->integrate(x.data()).sum());
     Scratch& scratch = mine();
     scratch.rows.move_to(x.data());
-    if (law_->varies()) {
-      latent::integrate(scratch.rows, scratch.integrals);
-      return number(scratch.integrals.sum());
-    }
     scratch.value.resize(law_->units.size());
     scratch.rows.evaluate({}, all_, scratch.value, {});
     double sum = 0;
@@ -324,6 +359,10 @@ class OwnLikelihood final : public LogDensity {
     if (!(sum > -infinity)) return sum;
     if (!law_->varies()) {
       scratch.rows.add_gradient({}, ones_, gradient);
+      return sum;
+    }
+    if (scratch.linear) {
+      scratch.linear->add_gradient(scratch.integrals, gradient);
       return sum;
     }
     // The derivative of a log integral is the mean of the integrand's under the unit's posterior.
@@ -341,12 +380,9 @@ class OwnLikelihood final : public LogDensity {
 
   // Of units where they differ, else of observations, column by column.
   std::vector<double> pointwise(std::span<const double> x) const override {
+    if (law_->varies()) return rows_->integrate(x.data()).log_likelihood;
     Scratch& scratch = mine();
     scratch.rows.move_to(x.data());
-    if (law_->varies()) {
-      latent::integrate(scratch.rows, scratch.integrals);
-      return scratch.integrals.log_likelihood;
-    }
     std::vector<double> all;
     for (const auto& column : scratch.rows.each_term({})) {
       all.insert(all.end(), column.begin(), column.end());
@@ -379,11 +415,28 @@ class OwnLikelihood final : public LogDensity {
 }  // namespace
 
 OwnRows::OwnRows(std::shared_ptr<const OwnLaw> law, std::size_t rows)
-    : law_(std::move(law)), columns_(bind_columns(*law_, rows)) {}
+    : law_(std::move(law)), columns_(bind_columns(*law_, rows)) {
+  linear_ = is_linear(*law_, columns_);
+}
+
+const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
+  Scratch& scratch = mine();
+  scratch.rows.move_to(x);
+  if (scratch.linear) {
+    scratch.linear->move();
+    latent::integrate(*scratch.linear, scratch.integrals);
+  } else {
+    latent::integrate(scratch.rows, scratch.integrals);
+  }
+  return scratch.integrals;
+}
 
 OwnRows::Scratch& OwnRows::mine() const {
   std::unique_ptr<Scratch>& scratch = scratch_.local();
-  if (!scratch) scratch.reset(new Scratch{UnitRows(*law_, columns_), {}, {}});
+  if (!scratch) {
+    scratch.reset(new Scratch{UnitRows(*law_, columns_), {}, {}, {}});
+    if (linear_) scratch->linear = std::make_unique<LinearUnits>(scratch->rows);
+  }
   return *scratch;
 }
 

@@ -10,6 +10,7 @@
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/latent/unit_integral.h"
 #include "wearwell/models/ownlaw/own_law.h"
+#include "wearwell/models/ownlaw/own_linear.h"
 #include "wearwell/prob/response_block.h"
 
 namespace wearwell::ownlaw {
@@ -48,6 +49,20 @@ class UnitRows final : public latent::UnitTerms {
   void add_gradient(std::span<const double> z, std::span<const double> weight,
                     std::span<double> gradient);
 
+  /// Outputs of all rows of column c with every unit's effects at `effects`: the mean and the standard
+  /// deviation of a normal law, row by row.
+  void means_at(const double* effects, std::size_t c, std::span<double> mean, std::span<double> sd);
+  /// Adds to `gradient` the sum over the rows of column c of adjoint times derivative, of what
+  /// `means_at` gives, with the effects held.
+  void add_mean_gradient(const double* effects, std::size_t c, std::span<const double> by_mean,
+                         std::span<const double> by_sd, std::span<double> gradient);
+  const std::vector<BoundColumn>& columns() const { return columns_; }
+  const OwnLaw& law() const { return law_; }
+  /// Adds what derivatives by middles, scatters and the correlation come to.
+  void add_population_gradient(const Population& by, std::span<double> gradient) {
+    population_at_.add_gradient(x_, by, gradient);
+  }
+
   /// log density of each observation at z, by column, in the order of `Observed`.
   std::vector<std::vector<double>> each_term(std::span<const double> z);
 
@@ -79,6 +94,7 @@ class UnitRows final : public latent::UnitTerms {
   double* by_effect_at_[2] = {};
   std::vector<SlotValues> slots_;
   double zero_ = 0;
+  const double* held_ = nullptr;  // effects of all units, where they are held
 };
 
 /// The rows of a law, for any thread.
@@ -88,16 +104,20 @@ class OwnRows {
 
   struct Scratch {
     UnitRows rows;
+    std::unique_ptr<LinearUnits> linear;  ///< where means are straight in what differs
     latent::UnitIntegrals integrals;
     std::vector<double> value;
   };
   /// This thread's own.
   Scratch& mine() const;
+  /// Of a law that varies: integrates effects out at x, into this thread's `integrals`.
+  const latent::UnitIntegrals& integrate(const double* x) const;
   const OwnLaw& law() const { return *law_; }
 
  private:
   std::shared_ptr<const OwnLaw> law_;
   std::vector<BoundColumn> columns_;
+  bool linear_ = false;
   mutable tbb::enumerable_thread_specific<std::unique_ptr<Scratch>> scratch_;
 };
 

@@ -112,10 +112,7 @@ class Part {
       }
       return;
     }
-    OwnRows::Scratch& scratch = rows_.mine();
-    scratch.rows.move_to(x);
-    latent::integrate(scratch.rows, scratch.integrals);
-    const auto& sweeps = scratch.integrals.sweeps;
+    const auto& sweeps = rows_.integrate(x).sweeps;
     for (std::size_t u = 0; u < units; ++u) {
       nodes_.clear();
       for (const latent::Sweep& sweep : sweeps) {
