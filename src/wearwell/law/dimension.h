@@ -1,6 +1,6 @@
 #pragma once
 
-#include <boost/rational.hpp>
+#include <compare>
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,7 +10,23 @@
 
 namespace wearwell::law {
 
-using Power = boost::rational<int>;
+/// A fraction in lowest terms, of small numbers.
+class Power {
+ public:
+  constexpr Power(int whole = 0) : above_(whole) {}
+  Power(int numerator, int denominator);
+  int numerator() const { return above_; }
+  int denominator() const { return below_; }
+  bool operator==(const Power& other) const = default;
+  /// Some order, not that of size.
+  auto operator<=>(const Power& other) const = default;
+  Power operator-() const { return {-above_, below_}; }
+  friend Power operator+(const Power& a, const Power& b);
+  friend Power operator*(const Power& a, const Power& b);
+
+ private:
+  int above_ = 0, below_ = 1;
+};
 
 /// Powers of the base units (docs/units.md: those of the SI, "cycle" for whatever is counted and
 /// "radian"), none of them 0. Unlike those of a written unit they may be fractions: the square root

@@ -55,9 +55,10 @@ class Data {
   ~Data();
   std::size_t rows() const;
 
+  struct Body;
+
  private:
   friend class Program;
-  struct Body;
   std::unique_ptr<Body> body_;
 };
 
@@ -76,9 +77,10 @@ class Workspace {
   /// same length. Undefined before.
   std::span<double> adjoints(std::size_t i);
 
+  struct Body;
+
  private:
   friend class Program;
-  struct Body;
   std::unique_ptr<Body> body_;
 };
 
