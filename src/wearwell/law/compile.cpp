@@ -75,6 +75,7 @@ class Compiler {
     for (const Token& token : written(item).tokens) {
       if (token.kind != Token::name) continue;
       if (token.text == lines_.state) {
+        if (item == beginning_item()) continue;  // refused where it is read
         found.push_back(rate ? beginning_item() : state_item());
         continue;
       }
@@ -180,31 +181,8 @@ class Compiler {
     inside_.state_node = graph_.add(now);
   }
 
-  bool rate_leans_on_state() const {
-    if (inside_.state_node >= 0) return false;  // and its dimension is known
-    std::vector<int> open = {state_item()};
-    std::vector<bool> seen(done_.size());
-    while (!open.empty()) {
-      const int item = open.back();
-      open.pop_back();
-      if (seen[static_cast<std::size_t>(item)]) continue;
-      seen[static_cast<std::size_t>(item)] = true;
-      for (const Token& token : written(item).tokens)
-        if (token.kind == Token::name && token.text == lines_.state) return true;
-      for (const int next : needs(item))
-        if (next != beginning_item()) open.push_back(next);
-    }
-    return false;
-  }
-
   void read_state() {
     const Text& text = lines_.rate.text;
-    if (rate_leans_on_state()) {
-      throw InputError(
-          fmt::format("{}: what dimension has '{}'? Say where it begins, with a unit, as in "
-                      "\"{}(0)\" = \"0 [mm]\"",
-                      text.where, lines_.state, lines_.state));
-    }
     const int rate = read(lines_.rate, inside_);
     const ColumnSymbol& axis = symbols_.columns[static_cast<std::size_t>(lines_.start.axis)];
     const Node& node = graph_[rate];

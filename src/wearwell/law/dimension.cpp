@@ -151,11 +151,11 @@ std::string in_words(const Powers& powers) {
   double least = cost(powers);
   if (!powers.contains("kilogram")) return fraction(best);
   for (const Named& unit : named_units()) {
-    for (const int sign : {1, -1}) {
+    for (const int sign : {1, -1, 2, -2}) {
       Powers rest = powers;
       multiply(rest, unit.powers, -sign);
-      if (cost(rest) + 1 >= least) continue;
-      least = cost(rest) + 1;
+      if (cost(rest) + std::abs(sign) >= least) continue;
+      least = cost(rest) + std::abs(sign);
       best = factors_of(rest);
       best.insert(best.begin(), {unit.symbol, sign});
     }
@@ -199,7 +199,16 @@ std::string with_roots(std::string text) {
 }
 
 AnyUnit plain_unit(const std::string& text) {
+  // UDUNITS-2 reads m^0.3 as m^0 times 0.3.
+  for (std::size_t at = 0; (at = text.find_first_of("^*", at)) != text.npos; ++at) {
+    if (text[at] == '*' && text.substr(at, 2) != "**") continue;
+    const std::size_t end = text.find_first_not_of("^*+-0123456789", at);
+    if (end != text.npos && text[end] == '.' && end + 1 < text.size() &&
+        std::isdigit(static_cast<unsigned char>(text[end + 1])) != 0)
+      throw InputError(fmt::format("'{}': a power in a unit is a whole number, or sqrt(m)", text));
+  }
   const auto parsed = parse_unit(text);
+  if (!parsed && two_sizes(text).empty()) throw InputError(fmt::format("'{}' is not a unit", text));
   const Powers powers = parsed ? powers_of(parsed->dimension) : Powers{};
   return {read_unit(text, si_text(powers)), powers};
 }

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/law/naming.h"
 #include "wearwell/law/rules.h"
 
 namespace wearwell::law {
@@ -17,14 +17,10 @@ namespace {
 constexpr int deepest = 200;  // brackets, signs and powers within each other
 
 // Recursive descent; from loose to tight: or, and, not, a comparison, + -, * /, a sign in front, ^.
-class Reader {
+class Reader : Naming {
  public:
   Reader(Graph& graph, const Text& text, const std::vector<Token>& tokens, const Names& names)
-      : graph_(graph),
-        text_(text),
-        tokens_(tokens),
-        names_(names),
-        rules_(graph, text, names.symbols) {}
+      : Naming(graph, text, tokens, names) {}
 
   int run() {
     const Term all = alternative();
@@ -46,17 +42,6 @@ class Reader {
     Deeper& operator=(const Deeper&) = delete;
     Reader& reader_;
   };
-
-  const Token& here() const { return tokens_[at_]; }
-  const Token& ahead() const { return tokens_[std::min(at_ + 1, tokens_.size() - 1)]; }
-  bool is_sign(const char* sign) const { return here().kind == Token::sign && here().text == sign; }
-  bool is_word(const char* word) const { return here().kind == Token::name && here().text == word; }
-  std::size_t end_of_last() const {
-    const std::size_t next = here().at;
-    std::size_t end = next;
-    while (end > 0 && std::isspace(static_cast<unsigned char>(text_.text[end - 1])) != 0) --end;
-    return end;
-  }
 
   Term alternative() {
     Term left = conjunction();
@@ -235,6 +220,8 @@ class Reader {
 
   AnyUnit unit_of(const Token& token, const std::string& number) {
     AnyUnit any;
+    if (token.text.find_first_not_of(" ") == token.text.npos)
+      complain(text_, token.at, "brackets without a unit", "a pure number has none");
     try {
       any = read_any_unit(token.text);
     } catch (const InputError& error) {
@@ -291,154 +278,12 @@ class Reader {
     }
     close(open);
     if (arguments.empty()) complain(text_, start, fmt::format("{} has no argument", function.name));
-    Term term = rules_.call(function, arguments, start);
+    Term term = rules_.call(function, arguments, start, end_of_last());
     term.at = start;
     term.end = end_of_last();
     return term;
   }
 
-  Term leaf(Op op, std::size_t index, const Powers& powers, std::size_t at, int level = -1) {
-    Node node;
-    node.op = op;
-    node.index = static_cast<int>(index);
-    node.level = level;
-    node.powers = graph_.intern(powers);
-    return {graph_.add(node), at, end_of_last()};
-  }
-
-  Term named(const Token& token) {
-    const std::string& name = token.text;
-    ++at_;
-    const Symbols& symbols = names_.symbols;
-    const auto index_of = [&](const auto& list) {
-      const auto at = std::find_if(list.begin(), list.end(),
-                                   [&](const auto& each) { return each.name == name; });
-      return static_cast<std::size_t>(at - list.begin());
-    };
-    if (const std::size_t i = index_of(symbols.parameters); i < symbols.parameters.size())
-      return parameter(i, token);
-    const bool index = here().kind == Token::sign && here().text == "[";
-    if (index && index_of(symbols.labels) == symbols.labels.size()) no_index(token);
-    if (name == names_.state) return state(token);
-    if (const auto line = names_.lines.find(name); line != names_.lines.end())
-      return {line->second, token.at, end_of_last()};
-    if (const std::size_t i = index_of(symbols.columns); i < symbols.columns.size())
-      return column(i, token);
-    if (const std::size_t i = index_of(symbols.constants); i < symbols.constants.size()) {
-      const ConstantSymbol& symbol = symbols.constants[i];
-      return {graph_.constant(symbol.value, graph_.intern(symbol.powers)), token.at, end_of_last()};
-    }
-    if (const std::size_t i = index_of(symbols.labels); i < symbols.labels.size()) {
-      if (index) no_index(token);
-      Term term{-1, token.at, end_of_last(), Term::label};
-      term.label_index = static_cast<int>(i);
-      return term;
-    }
-    unknown(token);
-  }
-
-  [[noreturn]] void no_index(const Token& token) {
-    complain(text_, here().at,
-             fmt::format("'{}' is no parameter that differs by a label", token.text),
-             "a unit stands behind a number only, and the unit of a column in [data.columns]");
-  }
-
-  Term state(const Token& token) {
-    if (names_.state_node < 0)
-      complain(text_, token.at, fmt::format("the state '{}' in its own beginning", token.text));
-    return {names_.state_node, token.at, end_of_last()};
-  }
-
-  Term column(std::size_t i, const Token& token) {
-    const ColumnSymbol& symbol = names_.symbols.columns[i];
-    if (names_.in_rate && static_cast<int>(i) == names_.axis)
-      return leaf(Op::axis_now, i, symbol.powers, token.at);
-    if (symbol.measured) {
-      complain(text_, token.at,
-               fmt::format("'{}' is what is measured, and no law may lean on it", token.text),
-               "to use its values as they are, read the column a second time under another name");
-    }
-    return leaf(Op::column, i, symbol.powers, token.at);
-  }
-
-  Term parameter(std::size_t i, const Token& token) {
-    const ParameterSymbol& symbol = names_.symbols.parameters[i];
-    const bool index = is_sign("[");
-    if (symbol.scope != Scope::per_level) {
-      if (index) no_index(token);
-      return leaf(symbol.scope == Scope::one ? Op::parameter : Op::by_row, i, symbol.powers,
-                  token.at);
-    }
-    if (!index) {
-      complain(text_, token.at, fmt::format("'{}' differs by '{}'", token.text, symbol.label),
-               fmt::format("write {}[{}]", token.text, symbol.label));
-    }
-    ++at_;
-    const Token& inside = tokens_[at_];
-    if (inside.kind != Token::name && inside.kind != Token::quotation) {
-      complain(text_, inside.at, "a label, or one of its texts in quotes, stands in the brackets",
-               fmt::format("write {}[{}]", token.text, symbol.label));
-    }
-    ++at_;
-    if (!is_sign("]")) complain(text_, here().at, "a ']' is missing");
-    ++at_;
-    if (inside.kind == Token::quotation)
-      return leaf(Op::parameter, i, symbol.powers, token.at, level_of(symbol.label, inside));
-    if (inside.text != symbol.label) {
-      complain(
-          text_, inside.at,
-          fmt::format("'{}' differs by '{}', not by '{}'", token.text, symbol.label, inside.text),
-          fmt::format("write {}[{}]", token.text, symbol.label));
-    }
-    return leaf(Op::pick, i, symbol.powers, token.at);
-  }
-
-  int level_of(const std::string& label, const Token& level) {
-    for (const LabelSymbol& symbol : names_.symbols.labels) {
-      if (symbol.name != label) continue;
-      const auto at = std::find(symbol.levels.begin(), symbol.levels.end(), level.text);
-      if (at != symbol.levels.end()) return static_cast<int>(at - symbol.levels.begin());
-      complain(text_, level.at,
-               fmt::format("no row has \"{}\" in '{}'", printable(shortened(level.text)), label),
-               symbol.levels.empty()
-                   ? ""
-                   : fmt::format("did you mean \"{}\"?",
-                                 nearest_name(shortened(level.text), symbol.levels)));
-    }
-    complain(text_, level.at, fmt::format("there is no label '{}'", label));
-  }
-
-  [[noreturn]] void unknown(const Token& token) {
-    const std::string name = shortened(token.text);
-    std::vector<std::string> known = names_.all_lines;
-    const auto add = [&](const auto& list) {
-      for (const auto& each : list) known.push_back(each.name);
-    };
-    add(names_.symbols.columns);
-    add(names_.symbols.labels);
-    add(names_.symbols.parameters);
-    add(names_.symbols.constants);
-    const bool called = here().kind == Token::sign && here().text == "(";
-    if (called)
-      for (const Function& each : functions()) known.push_back(each.name);
-    std::string hint;
-    if (name == "ln") hint = "the natural logarithm is log";
-    if (name == "e") hint = "e is exp(1)";
-    if (hint.empty() && !known.empty())
-      hint = fmt::format("did you mean '{}'?", nearest_name(name, known));
-    complain(text_, token.at,
-             fmt::format(
-                 "'{}' is {}", name,
-                 called ? "no function" : "no column, label, parameter, constant or line of [law]"),
-             hint);
-  }
-
-  Graph& graph_;
-  const Text& text_;
-  const std::vector<Token>& tokens_;
-  const Names& names_;
-  Rules rules_;
-  std::size_t at_ = 0;
   int depth_ = 0;
   std::vector<std::size_t> open_;
 };

@@ -148,7 +148,7 @@ Term Rules::power(const Term& base, const Term& exponent, std::size_t at) {
         constant ? (std::abs(power.value) > largest_exponent
                         ? fmt::format("an exponent above {}", largest_exponent)
                         : "a power that is not a whole number")
-                 : fmt::format("the exponent '{}', which is no fixed number,", written(exponent));
+                 : fmt::format("a power by '{}', which is no fixed number,", written(exponent));
     complain(
         text_, at,
         fmt::format("{} takes a pure number, and '{}' is {}", why, written(base), dimension(base)),
@@ -203,7 +203,8 @@ Term Rules::comparison(const std::string& sign, const Term& a, const Term& b, st
     if (other.kind != Term::quotation) {
       complain(text_, other.at,
                fmt::format("the label '{}' can be compared with a text only", written(label)),
-               fmt::format("as in {} == \"...\"", written(label)));
+               fmt::format("texts stand in quotes: {} == \"{}\"", written(label),
+                           other.kind == Term::number ? written(other) : "..."));
     }
     if (sign != "==" && sign != "!=")
       complain(text_, at, fmt::format("a label is no number: '{}' means nothing", sign),
@@ -239,7 +240,8 @@ Term Rules::opposite(const Term& a, std::size_t at) {
   return made(result, a, a, at);
 }
 
-Term Rules::call(const Function& function, const std::vector<Term>& arguments, std::size_t at) {
+Term Rules::call(const Function& function, const std::vector<Term>& arguments, std::size_t at,
+                 std::size_t end) {
   const bool many = function.op == Op::min || function.op == Op::max;
   const auto given = static_cast<int>(arguments.size());
   if (many ? given < function.arguments : given != function.arguments) {
@@ -249,6 +251,8 @@ Term Rules::call(const Function& function, const std::vector<Term>& arguments, s
                          function.arguments == 1 ? "" : "s", given));
   }
   const Term& a = arguments.front();
+  Term last = arguments.back();
+  last.end = end;  // a message quotes the whole call
   const std::string name = function.name;
   Node result;
   result.op = function.op;
@@ -266,11 +270,14 @@ Term Rules::call(const Function& function, const std::vector<Term>& arguments, s
     case Rule::angle:
       demand_value(a);
       if (!has_angle(powers(a)) && !node(a).any) {
-        complain(text_, at,
-                 fmt::format("{} takes an angle, and '{}' is {}", name, written(a), dimension(a)),
-                 powers(a).empty()
-                     ? fmt::format("if it is in radians: {}({} * 1 [rad])", name, written(a))
-                     : "");
+        complain(
+            text_, at,
+            fmt::format("{} takes an angle, and '{}' is {}", name, written(a), dimension(a)),
+            powers(a).empty()
+                ? fmt::format("if it is in radians: {}({} * 1 [rad])", name, written(a))
+            : powers(a) == Powers{{"cycle", 1}}
+                ? fmt::format("one turn is 2*pi: {}({} * 2*pi [rad] / 1 [cycle])", name, written(a))
+                : "");
       }
       break;
     case Rule::root:
@@ -302,7 +309,7 @@ Term Rules::call(const Function& function, const std::vector<Term>& arguments, s
       result.truth = node(arguments[1]).truth && node(arguments[2]).truth;
       break;
   }
-  return made(result, a, arguments.back(), at);
+  return made(result, a, last, at);
 }
 
 }  // namespace wearwell::law

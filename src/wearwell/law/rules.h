@@ -34,7 +34,9 @@ class Rules {
   Term comparison(const std::string& sign, const Term& a, const Term& b, std::size_t at);
   Term logic(Op op, const Term& a, const Term& b, std::size_t at);
   Term opposite(const Term& a, std::size_t at);
-  Term call(const Function& function, const std::vector<Term>& arguments, std::size_t at);
+  /// `end`: behind its closing bracket.
+  Term call(const Function& function, const std::vector<Term>& arguments, std::size_t at,
+            std::size_t end);
 
   /// Refuses a label or text that stands alone.
   void demand_value(const Term& term) const;

@@ -52,17 +52,15 @@ Shape shape_of(Op op) {
   }
 }
 
+constexpr std::size_t longest = 4000;  // what is shared is written out each time
+
 class Printer {
  public:
   Printer(const Graph& graph, const Symbols& symbols) : graph_(graph), symbols_(symbols) {}
 
   // The depth of a graph is bounded, and so is this recursion; so is the text.
   void print(int at, Binding least) {
-    constexpr std::size_t longest = 4000;
-    if (out.size() > longest) {
-      if (!out.ends_with("...")) out += "...";
-      return;
-    }
+    if (out.size() > longest) return;
     const Node& node = graph_[at];
     if (node.a < 0) return leaf(node, least);
     const Shape shape = shape_of(node.op);
@@ -177,6 +175,7 @@ class Printer {
 std::string text_of(const Graph& graph, int node, const Symbols& symbols) {
   Printer printer(graph, symbols);
   printer.print(node, loose);
+  if (printer.out.size() > longest) printer.out = printer.out.substr(0, longest) + "...";
   return std::move(printer.out);
 }
 

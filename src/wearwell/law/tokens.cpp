@@ -107,7 +107,8 @@ class Lexer {
   }
 
   Token sign() {
-    static constexpr std::string_view two[] = {"<=", ">=", "==", "!=", "**", "&&", "||"};
+    static constexpr std::string_view two[] = {"<=", ">=", "==", "!=", "**",
+                                               "&&", "||", "<>", "=<", "=>"};
     for (const std::string_view each : two) {
       if (std::string_view(all_).substr(at_, 2) == each) return sign_of(each);
     }
@@ -123,6 +124,9 @@ class Lexer {
     const std::size_t start = at_;
     at_ += sign.size();
     if (sign == "**") complain(text_, start, "'**' is no sign here", "a power is written with ^");
+    if (sign == "<>") complain(text_, start, "'<>' is no sign here", "write: !=");
+    if (sign == "=<") complain(text_, start, "'=<' is no sign here", "write: <=");
+    if (sign == "=>") complain(text_, start, "'=>' is no sign here", "write: >=");
     if (sign == "&&") complain(text_, start, "'&&' is no sign here", "write: and");
     if (sign == "||") complain(text_, start, "'||' is no sign here", "write: or");
     if (sign == "!") complain(text_, start, "'!' is no sign here", "write: not");
