@@ -20,15 +20,17 @@ const fs::path source = PROJECT_SOURCE_DIR "/src/wearwell";
 // Each folder may include those before it, but none of its own line.
 const std::vector<std::set<std::string>> order = {{"base"},
                                                   {"math"},
+                                                  {"law"},
                                                   {"prob"},
                                                   {"bayes"},
+                                                  {"latent"},
                                                   {"infer", "regress"},
                                                   {"physics"},
                                                   {"predict"},
                                                   {"input"},
                                                   {"present"},
                                                   {"study", "selection"},
-                                                  {"joint", "bearing", "clutch", "fatigue"},
+                                                  {"joint", "bearing", "clutch", "fatigue", "ownlaw"},
                                                   {"models"},
                                                   {"cli"}};
 

@@ -30,6 +30,14 @@ TEST(Shown, NothingReachesTheTerminalButText) {
   EXPECT_EQ(shown(std::string("nul\0.", 5)), "nul\\x00.");
 }
 
+TEST(Shown, AnExcerptWithACaretKeepsItsLines) {
+  EXPECT_EQ(shown("law: two\nlines\n    a  +\x1b b\n       ^"),
+            "law: two lines\n    a  +\\x1b b\n       ^");
+  EXPECT_EQ(shown("a\nwearwell: b\n    ^"), "a wearwell: b     ^");
+  EXPECT_EQ(shown("a\n    b\n c  ^"), "a     b  c  ^");
+  EXPECT_EQ(shown("a\n    ^"), "a     ^");
+}
+
 // RFC 3629: what is no UTF-8 (a lone byte, an overlong form, a surrogate, beyond U+10FFFF, cut).
 TEST(Shown, WhatIsNoUtf8IsReplacedByteByByte) {
   const std::string no = "\xEF\xBF\xBD";

@@ -3,13 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "wearwell/base/printable.h"
 
 namespace wearwell {
 namespace {
 
-constexpr std::size_t longest_value = 120, longest_word = 400, longest_message = 2400;
+constexpr std::size_t longest_value = 120, longest_word = 400, longest_message = 2400,
+                      longest_excerpt = 400;
 constexpr std::size_t kept = 60;  // of what is cut, at its start
 
 /// The start of `text`, whole characters.
@@ -46,6 +48,29 @@ std::string shorten(std::string_view text) {
   return result;
 }
 
+std::string on_one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  std::string clean = shorten(printable(text));
+  if (clean.size() <= longest_message) return clean;
+  return fmt::format("{}... ({} characters)", start_of(clean, longest_message), clean.size());
+}
+
+/// Where a message ends with a line of what it speaks of and a caret below the place, both indented
+/// by four spaces, so that neither can pass for a message; npos where it does not.
+std::size_t excerpt_in(std::string_view text) {
+  constexpr std::string_view indent = "\n    ";
+  const std::size_t caret = text.rfind('\n');
+  if (caret == text.npos || caret == 0 || !text.ends_with('^')) return text.npos;
+  const std::size_t line = text.rfind('\n', caret - 1);
+  if (line == text.npos || text.size() - line > longest_excerpt) return text.npos;
+  const std::string_view below = text.substr(caret + 1, text.size() - caret - 2);
+  const bool indented = text.substr(line).starts_with(indent) &&
+                        text.substr(caret).starts_with(indent) &&
+                        below.find_first_not_of(' ') == below.npos;
+  return indented ? line : text.npos;
+}
+
 }  // namespace
 
 std::string shown(std::string_view message) {
@@ -55,11 +80,9 @@ std::string shown(std::string_view message) {
     const std::size_t end = text.find("] ", at);
     text.erase(at, end == text.npos ? end : end + 2 - at);
   }
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\t'; }, ' ');
-  std::string clean = shorten(printable(text));
-  if (clean.size() <= longest_message) return clean;
-  return fmt::format("{}... ({} characters)", start_of(clean, longest_message), clean.size());
+  const std::size_t excerpt = excerpt_in(text);
+  if (excerpt == text.npos) return on_one_line(std::move(text));
+  return on_one_line(text.substr(0, excerpt)) + printable_lines(text.substr(excerpt));
 }
 
 }  // namespace wearwell

@@ -4,6 +4,7 @@
 #include "wearwell/models/clutch/model.h"
 #include "wearwell/models/fatigue/model.h"
 #include "wearwell/models/joint/model.h"
+#include "wearwell/models/ownlaw/model.h"
 
 namespace wearwell {
 
@@ -13,6 +14,7 @@ Models all_models() {
       bearing::model(),
       clutch::model(),
       fatigue::model(),
+      ownlaw::model(),
   };
   return models;
 }

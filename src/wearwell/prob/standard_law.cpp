@@ -11,6 +11,10 @@ namespace {
 constexpr double half_log_two_pi = 0.91893853320467274178;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+double log_one_plus_exp(double z) {
+  return z > 0 ? z + std::log1p(std::exp(-z)) : std::log1p(std::exp(z));
+}
+
 double normal_log_density(double z) {
   return -0.5 * z * z - half_log_two_pi;
 }
@@ -67,30 +71,94 @@ double log_between_extreme(double a, double b) {
   return -std::exp(a) + std::log(-std::expm1(-step));
 }
 
-}  // namespace
+// P(a < Z <= b) = P(Z <= b) P(Z > a) (1 - exp(a - b)).
+double log_between_logistic(double a, double b) {
+  return -log_one_plus_exp(-b) - log_one_plus_exp(a) + std::log(-std::expm1(a - b));
+}
 
-ValueAndSlope log_density_and_slope(StandardLaw law, double z) {
-  if (law == StandardLaw::normal) return {normal_log_density(z), -z};
+double log_probability_between(StandardLaw law, double a, double b) {
+  switch (law) {
+    case StandardLaw::smallest_extreme_value:
+      return log_between_extreme(a, b);
+    case StandardLaw::largest_extreme_value:
+      return log_between_extreme(-b, -a);
+    case StandardLaw::logistic:
+      return log_between_logistic(a, b);
+    case StandardLaw::normal:
+      break;
+  }
+  return log_between_normal(a, b);
+}
+
+ValueAndSlope extreme_log_density(double z) {
   const double e = std::exp(z);
   return {z - e, 1 - e};
 }
 
-ValueAndSlope log_survival_and_slope(StandardLaw law, double z) {
-  if (law == StandardLaw::normal) return normal_log_survival(z);
+ValueAndSlope extreme_log_survival(double z) {
   const double e = std::exp(z);
   return {-e, -e};
 }
 
-ValueAndSlope log_cdf_and_slope(StandardLaw law, double z) {
-  if (law == StandardLaw::normal) {
-    const ValueAndSlope mirrored = normal_log_survival(-z);
-    return {mirrored.value, -mirrored.slope};
-  }
+ValueAndSlope extreme_log_cdf(double z) {
   const double e = std::exp(z);
   // exp(z - e^z)/(1 - exp(-e^z)), the density over the probability.
   if (z < -37) return {z, 1};
   return {e < 1 ? std::log(-std::expm1(-e)) : std::log1p(-std::exp(-e)),
           e > 700 ? 0 : e / std::expm1(e)};
+}
+
+ValueAndSlope logistic_log_survival(double z) {
+  return {-log_one_plus_exp(z), -1 / (1 + std::exp(-z))};
+}
+
+// Of the mirrored law, at the mirrored place.
+ValueAndSlope mirrored(ValueAndSlope y) {
+  return {y.value, -y.slope};
+}
+
+}  // namespace
+
+ValueAndSlope log_density_and_slope(StandardLaw law, double z) {
+  switch (law) {
+    case StandardLaw::smallest_extreme_value:
+      return extreme_log_density(z);
+    case StandardLaw::largest_extreme_value:
+      return mirrored(extreme_log_density(-z));
+    case StandardLaw::logistic:
+      return {-std::abs(z) - 2 * std::log1p(std::exp(-std::abs(z))), -std::tanh(0.5 * z)};
+    case StandardLaw::normal:
+      break;
+  }
+  return {normal_log_density(z), -z};
+}
+
+ValueAndSlope log_survival_and_slope(StandardLaw law, double z) {
+  switch (law) {
+    case StandardLaw::smallest_extreme_value:
+      return extreme_log_survival(z);
+    case StandardLaw::largest_extreme_value:
+      return mirrored(extreme_log_cdf(-z));
+    case StandardLaw::logistic:
+      return logistic_log_survival(z);
+    case StandardLaw::normal:
+      break;
+  }
+  return normal_log_survival(z);
+}
+
+ValueAndSlope log_cdf_and_slope(StandardLaw law, double z) {
+  switch (law) {
+    case StandardLaw::smallest_extreme_value:
+      return extreme_log_cdf(z);
+    case StandardLaw::largest_extreme_value:
+      return mirrored(extreme_log_survival(-z));
+    case StandardLaw::logistic:
+      return mirrored(logistic_log_survival(-z));
+    case StandardLaw::normal:
+      break;
+  }
+  return mirrored(normal_log_survival(-z));
 }
 
 LogBetween log_between_and_slopes(StandardLaw law, double a, double b) {
@@ -102,19 +170,37 @@ LogBetween log_between_and_slopes(StandardLaw law, double a, double b) {
     const ValueAndSlope y = log_survival_and_slope(law, a);
     return {y.value, y.slope, 0};
   }
-  const double value =
-      law == StandardLaw::normal ? log_between_normal(a, b) : log_between_extreme(a, b);
+  const double value = log_probability_between(law, a, b);
   return {value, -std::exp(log_density_and_slope(law, a).value - value),
           std::exp(log_density_and_slope(law, b).value - value)};
 }
 
 double cdf(StandardLaw law, double z) {
-  return law == StandardLaw::normal ? 0.5 * std::erfc(-z * M_SQRT1_2) : -std::expm1(-std::exp(z));
+  switch (law) {
+    case StandardLaw::smallest_extreme_value:
+      return -std::expm1(-std::exp(z));
+    case StandardLaw::largest_extreme_value:
+      return std::exp(-std::exp(-z));
+    case StandardLaw::logistic:
+      return 1 / (1 + std::exp(-z));
+    case StandardLaw::normal:
+      break;
+  }
+  return 0.5 * std::erfc(-z * M_SQRT1_2);
 }
 
 double quantile(StandardLaw law, double p) {
-  return law == StandardLaw::normal ? -M_SQRT2 * boost::math::erfc_inv(2 * p)
-                                    : std::log(-std::log1p(-p));
+  switch (law) {
+    case StandardLaw::smallest_extreme_value:
+      return std::log(-std::log1p(-p));
+    case StandardLaw::largest_extreme_value:
+      return -std::log(-std::log(p));
+    case StandardLaw::logistic:
+      return std::log(p) - std::log1p(-p);
+    case StandardLaw::normal:
+      break;
+  }
+  return -M_SQRT2 * boost::math::erfc_inv(2 * p);
 }
 
 }  // namespace wearwell

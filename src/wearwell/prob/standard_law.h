@@ -9,8 +9,8 @@ namespace wearwell {
 
 /// A law on the whole line without location and scale, of which lives are made: log life, or life
 /// itself, is location + scale times a standard variable. The smallest extreme value law of log
-/// life is the Weibull law of life.
-enum class StandardLaw { normal, smallest_extreme_value };
+/// life is the Weibull law of life, the logistic law of log life the loglogistic one.
+enum class StandardLaw { normal, smallest_extreme_value, largest_extreme_value, logistic };
 
 /// A function's value and its derivative.
 struct ValueAndSlope {

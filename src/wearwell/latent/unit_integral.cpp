@@ -1,0 +1,396 @@
+#include "wearwell/latent/unit_integral.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace wearwell::latent {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double log_sqrt_two_pi = 0.91893853320467274178;
+constexpr double negligible = -36;        // of log f below its highest
+constexpr double farthest = 1000;         // of z: beyond there is nothing
+constexpr double most_difference = 3e-6;  // between a rule and every second node of it
+constexpr int most_halvings = 6, most_steps = 40;
+
+// A pair of numbers for each unit, of which the first counts alone where there is one effect.
+using Pair = std::array<double, 2>;
+
+// Where the integrand of a unit is highest, about, and how wide it is there.
+struct Bell {
+  Pair center{};
+  // Columns of the lattice: z = center + step (i across[0] + j across[1]).
+  std::array<Pair, 2> across{{{1, 0}, {0, 1}}};
+};
+
+class Search {
+ public:
+  Search(UnitTerms& terms)
+      : terms_(terms),
+        units_(terms.units()),
+        effects_(static_cast<std::size_t>(terms.effects())),
+        z_(units_ * effects_),
+        value_(units_),
+        slope_(units_ * effects_),
+        wanted_(units_, 1) {}
+
+  std::vector<Bell> bells() { return effects_ == 1 ? along_line() : over_plane(); }
+
+ private:
+  // log f and its slopes at `at` for the units that are wanted.
+  void look(const std::vector<Pair>& at, std::vector<double>& log_f, std::vector<Pair>& slope) {
+    for (std::size_t u = 0; u < units_; ++u) {
+      for (std::size_t e = 0; e < effects_; ++e) z_[u * effects_ + e] = at[u][e];
+    }
+    terms_.evaluate(z_, wanted_, value_, slope_);
+    for (std::size_t u = 0; u < units_; ++u) {
+      if (!wanted_[u]) continue;
+      log_f[u] = value_[u];
+      for (std::size_t e = 0; e < effects_; ++e) {
+        log_f[u] -= 0.5 * at[u][e] * at[u][e];
+        slope[u][e] = slope_[u * effects_ + e] - at[u][e];
+      }
+    }
+  }
+
+  // Units without a density at 0 begin where there is one.
+  void begin(std::vector<Pair>& at, std::vector<double>& log_f, std::vector<Pair>& slope) {
+    look(at, log_f, slope);
+    const auto lost = [&](std::size_t u) { return !(log_f[u] > -infinity); };
+    for (const double away : {1.0, -1.0, 2.5, -2.5, 5.0, -5.0}) {
+      bool any = false;
+      for (std::size_t u = 0; u < units_; ++u) {
+        wanted_[u] = lost(u);
+        any |= lost(u);
+      }
+      if (!any) break;
+      for (std::size_t u = 0; u < units_; ++u) {
+        if (wanted_[u]) at[u] = {away, away};
+      }
+      look(at, log_f, slope);
+    }
+    for (std::size_t u = 0; u < units_; ++u) wanted_[u] = !lost(u);
+  }
+
+  // One effect: the root of the slope by the secant's method within a bracket.
+  std::vector<Bell> along_line() {
+    std::vector<Pair> at(units_), slope(units_), next(units_), next_slope(units_);
+    std::vector<double> log_f(units_, -infinity), next_f(units_, -infinity);
+    std::vector<double> curvature(units_, 1), low(units_, -farthest), high(units_, farthest);
+    begin(at, log_f, slope);
+    constexpr double probe = 0.02, close = 0.1;
+    bool first = true;
+    for (int step = 0; step < most_steps; ++step) {
+      bool any = false;
+      for (std::size_t u = 0; u < units_; ++u) {
+        next[u] = at[u];
+        if (!wanted_[u]) continue;
+        any = true;
+        const double g = slope[u][0];
+        (g > 0 ? low : high)[u] = at[u][0];
+        double move = first ? std::copysign(probe, g) : std::clamp(g / curvature[u], -3.0, 3.0);
+        double to = at[u][0] + move;
+        if (!(to > low[u] && to < high[u])) to = 0.5 * (low[u] + high[u]);
+        next[u][0] = to;
+      }
+      if (!any) break;
+      look(next, next_f, next_slope);
+      for (std::size_t u = 0; u < units_; ++u) {
+        if (!wanted_[u]) continue;
+        const double moved = next[u][0] - at[u][0];
+        if (!(next_f[u] > -infinity) || !std::isfinite(next_slope[u][0])) {
+          (moved > 0 ? high : low)[u] = next[u][0];  // no density there
+          curvature[u] *= 4;
+          if (std::abs(moved) < 1e-12) wanted_[u] = 0;
+          continue;
+        }
+        const double by_secant = -(next_slope[u][0] - slope[u][0]) / moved;
+        curvature[u] = by_secant > 0 ? by_secant : std::max(1.0, std::abs(by_secant));
+        at[u] = next[u];
+        slope[u] = next_slope[u];
+        log_f[u] = next_f[u];
+        const bool there = std::abs(slope[u][0]) < close * std::sqrt(curvature[u]);
+        if (!first && by_secant > 0 && there) wanted_[u] = 0;
+        if (std::abs(moved) < 1e-13 * (1 + std::abs(at[u][0]))) wanted_[u] = 0;
+      }
+      first = false;
+    }
+    std::vector<Bell> bells(units_);
+    for (std::size_t u = 0; u < units_; ++u) {
+      bells[u].center = at[u];
+      bells[u].across[0] = {1 / std::sqrt(curvature[u]), 0};
+    }
+    return bells;
+  }
+
+  // Two effects: Newton's method with the curvature by differences, kept positive.
+  std::vector<Bell> over_plane() {
+    std::vector<Pair> at(units_), slope(units_), one(units_), two(units_), probe(units_);
+    std::vector<Pair> to_slope(units_);
+    std::vector<double> log_f(units_, -infinity), other(units_, -infinity), to_f(units_, -infinity);
+    std::vector<Bell> bells(units_);
+    std::vector<double> share(units_, 1);
+    begin(at, log_f, slope);
+    constexpr double width = 1e-3;
+    for (int step = 0; step < most_steps; ++step) {
+      if (std::none_of(wanted_.begin(), wanted_.end(), [](auto w) { return w; })) break;
+      for (std::size_t u = 0; u < units_; ++u) probe[u] = {at[u][0] + width, at[u][1]};
+      look(probe, other, one);
+      for (std::size_t u = 0; u < units_; ++u) probe[u] = {at[u][0], at[u][1] + width};
+      look(probe, other, two);
+      for (std::size_t u = 0; u < units_; ++u) {
+        if (!wanted_[u]) continue;
+        double a = -(one[u][0] - slope[u][0]) / width, d = -(two[u][1] - slope[u][1]) / width;
+        double b = -0.5 * (one[u][1] - slope[u][1] + two[u][0] - slope[u][0]) / width;
+        if (!(std::isfinite(a) && std::isfinite(b) && std::isfinite(d))) a = d = 1, b = 0;
+        // Eigenvalues below that of half the prior are raised to it.
+        const double middle = 0.5 * (a + d), off = std::hypot(0.5 * (a - d), b);
+        if (middle - off < 0.5) {
+          const double raise = 0.5 - (middle - off);
+          a += raise;
+          d += raise;
+        }
+        // Inverse of the Cholesky factor of the curvature: z = center + L^-T (i, j).
+        const double l11 = std::sqrt(a), l21 = b / l11, l22 = std::sqrt(d - l21 * l21);
+        bells[u].across = {{{1 / l11, 0}, {-l21 / (l11 * l22), 1 / l22}}};
+        const double det = a * d - b * b;
+        Pair move = {(d * slope[u][0] - b * slope[u][1]) / det,
+                     (a * slope[u][1] - b * slope[u][0]) / det};
+        const double length = std::hypot(move[0], move[1]);
+        const double most = std::min(1.0, 3 / length) * share[u];
+        const double promise = move[0] * slope[u][0] + move[1] * slope[u][1];
+        bells[u].center = at[u];
+        if (!(promise > 0.01)) {
+          wanted_[u] = 0;
+          probe[u] = at[u];
+          continue;
+        }
+        probe[u] = {at[u][0] + most * move[0], at[u][1] + most * move[1]};
+      }
+      look(probe, to_f, to_slope);
+      for (std::size_t u = 0; u < units_; ++u) {
+        if (!wanted_[u]) continue;
+        if (to_f[u] > log_f[u]) {
+          at[u] = probe[u];
+          log_f[u] = to_f[u];
+          slope[u] = to_slope[u];
+          share[u] = std::min(1.0, 2 * share[u]);
+        } else if ((share[u] *= 0.25) < 1e-8) {
+          wanted_[u] = 0;
+        }
+        bells[u].center = at[u];
+      }
+    }
+    return bells;
+  }
+
+  UnitTerms& terms_;
+  std::size_t units_, effects_;
+  std::vector<double> z_, value_, slope_;
+  std::vector<std::uint8_t> wanted_;
+};
+
+// Sums of exp(log f) over the even and over the odd nodes of a lattice, relative to the highest.
+struct Sum {
+  double highest = -infinity;
+  double even = 0, odd = 0;
+
+  void add(double log_f, bool is_odd) {
+    if (!(log_f > -infinity)) return;
+    if (log_f > highest) {
+      const double scale = std::exp(highest - log_f);
+      even *= scale;
+      odd *= scale;
+      highest = log_f;
+    }
+    (is_odd ? odd : even) += std::exp(log_f - highest);
+  }
+  double difference() const { return std::abs(even - odd) / (even + odd); }
+};
+
+class Lattice {
+ public:
+  Lattice(UnitTerms& terms, const std::vector<Bell>& bells, UnitIntegrals& result)
+      : terms_(terms),
+        bells_(bells),
+        result_(result),
+        units_(terms.units()),
+        effects_(static_cast<std::size_t>(terms.effects())),
+        wanted_(units_),
+        sums_(units_) {}
+
+  void run() {
+    result_.log_likelihood.assign(units_, -infinity);
+    result_.settled = true;
+    used_ = 0;
+    effects_ == 1 ? line() : plane();
+    result_.sweeps.resize(used_);
+    for (Sweep& sweep : result_.sweeps) {
+      for (std::size_t u = 0; u < units_; ++u) {
+        sweep.weight[u] = std::exp(sweep.log_f[u] + sweep.weight[u] - result_.log_likelihood[u]);
+        if (!(result_.log_likelihood[u] > -infinity)) sweep.weight[u] = 0;
+      }
+    }
+  }
+
+ private:
+  // Nodes at step (i, j) of each wanted unit; `weight` keeps the log of the area of a cell.
+  Sweep& sweep(double i, double j, double log_cell) {
+    if (used_ == result_.sweeps.size()) result_.sweeps.emplace_back();
+    Sweep& s = result_.sweeps[used_++];
+    s.z.resize(units_ * effects_);
+    s.log_f.assign(units_, -infinity);
+    s.weight.resize(units_);
+    for (std::size_t u = 0; u < units_; ++u) {
+      const Bell& bell = bells_[u];
+      double area = effects_ == 1 ? bell.across[0][0] : bell.across[0][0] * bell.across[1][1];
+      s.weight[u] = log_cell + std::log(area);
+      for (std::size_t e = 0; e < effects_; ++e) {
+        double& z = s.z[u * effects_ + e];
+        z = bell.center[e] + i * bell.across[0][e] + j * bell.across[1][e];
+        if (std::abs(z) > farthest) wanted_[u] = 0;
+      }
+    }
+    value_.assign(units_, -infinity);
+    terms_.evaluate(s.z, wanted_, value_, {});
+    for (std::size_t u = 0; u < units_; ++u) {
+      if (!wanted_[u]) continue;
+      s.log_f[u] = value_[u] - static_cast<double>(effects_) * log_sqrt_two_pi;
+      for (std::size_t e = 0; e < effects_; ++e) {
+        s.log_f[u] -= 0.5 * s.z[u * effects_ + e] * s.z[u * effects_ + e];
+      }
+    }
+    return s;
+  }
+
+  bool any_wanted() const {
+    return std::any_of(wanted_.begin(), wanted_.end(), [](auto w) { return w != 0; });
+  }
+
+  // One effect. With `offset` the nodes between those of a coarser lattice of the units in `whose`.
+  void walk(const std::vector<std::uint8_t>& whose, double step, bool between) {
+    constexpr int most = 4000;
+    for (const int sign : {1, -1}) {
+      std::copy(whose.begin(), whose.end(), wanted_.begin());
+      for (int n = sign > 0 || between ? 0 : 1; n < most && any_wanted(); ++n) {
+        const double i = sign * (between ? 2 * n + 1 : n) * step;
+        const Sweep& s = sweep(i, 0, std::log(step));
+        for (std::size_t u = 0; u < units_; ++u) {
+          if (!wanted_[u]) continue;
+          sums_[u].add(s.log_f[u], between || n % 2 == 1);
+          if (s.log_f[u] < sums_[u].highest + negligible) wanted_[u] = 0;
+        }
+      }
+    }
+  }
+
+  void line() {
+    double step = 0.5;
+    std::vector<std::uint8_t> whose(units_, 1);
+    walk(whose, step, false);
+    for (int halving = 0;; ++halving) {
+      bool again = false;
+      for (std::size_t u = 0; u < units_; ++u) {
+        if (!whose[u]) continue;
+        finish(u, step);
+        whose[u] = sums_[u].highest > -infinity && sums_[u].difference() > most_difference;
+        again |= whose[u] != 0;
+        if (whose[u]) {  // all so far are the even nodes of the finer lattice
+          sums_[u].even += sums_[u].odd;
+          sums_[u].odd = 0;
+        }
+      }
+      if (!again) return;
+      if (halving == most_halvings) {
+        result_.settled = false;
+        return;
+      }
+      for (std::size_t n = 0; n < used_; ++n) {
+        for (std::size_t u = 0; u < units_; ++u) {
+          if (whose[u]) result_.sweeps[n].weight[u] -= std::log(2.0);
+        }
+      }
+      step *= 0.5;
+      walk(whose, step, true);
+    }
+  }
+
+  void finish(std::size_t u, double step) {
+    const Bell& bell = bells_[u];
+    const double area = effects_ == 1 ? step * bell.across[0][0]
+                                      : step * step * bell.across[0][0] * bell.across[1][1];
+    result_.log_likelihood[u] = sums_[u].highest + std::log((sums_[u].even + sums_[u].odd) * area);
+  }
+
+  // Two effects: rings about the mode, until one adds nothing; with a smaller step where the nodes of
+  // one colour of the chessboard and those of the other do not agree.
+  void plane() {
+    double step = 0.7;
+    std::vector<std::uint8_t> whose(units_, 1);
+    for (int attempt = 0;; ++attempt) {
+      std::copy(whose.begin(), whose.end(), wanted_.begin());
+      for (std::size_t u = 0; u < units_; ++u) {
+        if (!whose[u]) continue;
+        sums_[u] = {};
+        for (std::size_t n = 0; n < used_; ++n) result_.sweeps[n].log_f[u] = -infinity;
+      }
+      const int most = static_cast<int>(40 / step);
+      for (int ring = 0; ring <= most && any_wanted(); ++ring) walk_ring(ring, step);
+      bool again = false;
+      for (std::size_t u = 0; u < units_; ++u) {
+        if (!whose[u]) continue;
+        finish(u, step);
+        whose[u] = sums_[u].highest > -infinity && sums_[u].difference() > most_difference;
+        again |= whose[u] != 0;
+      }
+      if (!again) return;
+      if (attempt == 4) {
+        result_.settled = false;
+        return;
+      }
+      step *= 0.6;
+    }
+  }
+
+  void walk_ring(int ring, double step) {
+    std::vector<std::uint8_t> more(units_, 0), before(wanted_);
+    for (int i = -ring; i <= ring; ++i) {
+      for (int j = -ring; j <= ring; ++j) {
+        if (std::max(std::abs(i), std::abs(j)) != ring) continue;
+        std::copy(before.begin(), before.end(), wanted_.begin());
+        const Sweep& s = sweep(i * step, j * step, 2 * std::log(step));
+        for (std::size_t u = 0; u < units_; ++u) {
+          if (!before[u]) continue;
+          sums_[u].add(s.log_f[u], (i + j) % 2 != 0);
+          more[u] |= s.log_f[u] > sums_[u].highest + negligible + 8;
+        }
+      }
+    }
+    wanted_ = more;
+  }
+
+  UnitTerms& terms_;
+  const std::vector<Bell>& bells_;
+  UnitIntegrals& result_;
+  std::size_t units_, effects_, used_ = 0;
+  std::vector<std::uint8_t> wanted_;
+  std::vector<double> value_;
+  std::vector<Sum> sums_;
+};
+
+}  // namespace
+
+double UnitIntegrals::sum() const {
+  double total = 0;
+  for (const double each : log_likelihood) total += each;
+  return total;
+}
+
+void integrate(UnitTerms& terms, UnitIntegrals& result) {
+  const std::vector<Bell> bells = Search(terms).bells();
+  Lattice(terms, bells, result).run();
+}
+
+}  // namespace wearwell::latent

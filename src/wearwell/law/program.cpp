@@ -1,0 +1,207 @@
+#include "wearwell/law/program.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "wearwell/law/program_body.h"
+#include "wearwell/law/running_sum.h"
+
+namespace wearwell::law {
+
+Data::Data() = default;
+Data::Data(Data&&) noexcept = default;
+Data& Data::operator=(Data&&) noexcept = default;
+Data::~Data() = default;
+std::size_t Data::rows() const {
+  return body_ ? body_->rows : 0;
+}
+
+Workspace::Workspace() = default;
+Workspace::Workspace(Workspace&&) noexcept = default;
+Workspace& Workspace::operator=(Workspace&&) noexcept = default;
+Workspace::~Workspace() = default;
+
+std::span<const double> Workspace::values(std::size_t i) const {
+  return {body_->at[static_cast<std::size_t>(body_->output_cells[i])],
+          body_->output_uniform[i] ? 1 : body_->rows};
+}
+
+std::span<double> Workspace::adjoints(std::size_t i) {
+  return {body_->output_adjoints[i].data(), body_->output_uniform[i] ? 1 : body_->rows};
+}
+
+const std::vector<Output>& Program::outputs() const {
+  return body_->outputs;
+}
+bool Program::uses_parameter(std::size_t i) const {
+  return body_->parameters[i];
+}
+bool Program::uses_column(std::size_t i) const {
+  return body_->columns[i];
+}
+bool Program::uses_label(std::size_t i) const {
+  return body_->labels[i];
+}
+bool Program::has_paths() const {
+  return body_->tape.has_paths;
+}
+
+namespace {
+
+void prepare_state(const Tape& tape, Workspace::Body& work, const Data::Body& data,
+                   std::size_t begin) {
+  const StatePlan& plan = tape.states.front();
+  const auto values = [&](int cell) {
+    return Values{work.at[static_cast<std::size_t>(cell)],
+                  tape.cells[static_cast<std::size_t>(cell)].uniform()};
+  };
+  work.state_rows.axis = work.at[static_cast<std::size_t>(plan.axis)];
+  work.state_rows.starts = data.starts.data() + begin;
+  work.state_rows.count = work.rows;
+  work.state_rows.beginning = values(plan.beginning);
+  for (std::size_t j = 0; j < plan.inputs.size(); ++j)
+    work.state_rows.inputs[j] = values(plan.inputs[j]);
+}
+
+}  // namespace
+
+void Program::forward(const Data& data, std::size_t begin, std::size_t end, const Inputs& inputs,
+                      Workspace& workspace) const {
+  const Tape& tape = body_->tape;
+  const Data::Body& rows = *data.body_;
+  Workspace::Body& work = *workspace.body_;
+  if (begin > end || end > rows.rows || end - begin > work.most)
+    throw std::logic_error("forward: rows that the data or the workspace do not have");
+  const std::size_t n = work.rows = end - begin;
+  for (std::size_t i = 0; i < tape.cells.size(); ++i) {
+    if (tape.cells[i].home == Cell::data)
+      work.at[i] = rows.columns[static_cast<std::size_t>(tape.cells[i].slot)].data() + begin;
+  }
+  for (const ParameterLeaf& leaf : tape.by_row)
+    work.at[static_cast<std::size_t>(leaf.cell)] =
+        inputs.by_row[static_cast<std::size_t>(leaf.slot)];
+  for (const ParameterLeaf& leaf : tape.parameters) {
+    const auto slot =
+        static_cast<std::size_t>(tape.cells[static_cast<std::size_t>(leaf.cell)].slot);
+    work.numbers[slot] = inputs.parameters[static_cast<std::size_t>(leaf.slot)];
+  }
+  const auto at = [&](int cell) {
+    return cell < 0 ? nullptr : work.at[static_cast<std::size_t>(cell)];
+  };
+  for (const Step& step : tape.number_steps) {
+    double* out = &work.numbers[static_cast<std::size_t>(
+        tape.cells[static_cast<std::size_t>(step.out)].slot)];
+    step.kernels.forward(at(step.a), at(step.b), at(step.c), out, 1, step.extra);
+  }
+  for (const Step& step : tape.row_steps) {
+    double* out =
+        &work.values[static_cast<std::size_t>(tape.cells[static_cast<std::size_t>(step.out)].slot) *
+                     work.most];
+    if (step.kernels.forward != nullptr) {
+      step.kernels.forward(at(step.a), at(step.b), at(step.c), out, n, step.extra);
+    } else if (step.op == Op::pick) {
+      const int* label = rows.labels[static_cast<std::size_t>(step.label)].data() + begin;
+      const double* first = inputs.parameters.data() + step.index;
+      for (std::size_t i = 0; i < n; ++i) out[i] = first[label[i]];
+    } else if (step.op == Op::cum) {
+      running_sum(at(step.a), tape.cells[static_cast<std::size_t>(step.a)].uniform(),
+                  rows.starts.data() + begin, out, n);
+    } else {
+      prepare_state(tape, work, rows, begin);
+      work.solver->forward(work.state_rows, out);
+    }
+  }
+}
+
+namespace {
+
+// The place of a cell's adjoints, emptied where nothing was given to it yet.
+double* emptied(const Tape& tape, Workspace::Body& work, int cell, bool gives, bool first) {
+  if (!gives) return nullptr;
+  double* to = work.adjoint_at[static_cast<std::size_t>(cell)];
+  if (first && !tape.cells[static_cast<std::size_t>(cell)].uniform())
+    std::fill(to, to + work.rows, 0.0);
+  return to;
+}
+
+void reverse_state(const Tape& tape, Workspace::Body& work, const Data::Body& data,
+                   std::size_t begin, const Step& step) {
+  const StatePlan& plan = tape.states.front();
+  prepare_state(tape, work, data, begin);
+  for (std::size_t j = 0; j < plan.inputs.size(); ++j)
+    work.state_adjoints.inputs[j] =
+        emptied(tape, work, plan.inputs[j], plan.gives[j], plan.first[j]);
+  work.state_adjoints.beginning =
+      emptied(tape, work, plan.beginning, plan.beginning_gives, plan.beginning_first);
+  work.solver->reverse(work.state_rows, work.at[static_cast<std::size_t>(step.out)],
+                       work.adjoint_at[static_cast<std::size_t>(step.out)], work.state_adjoints);
+}
+
+// What the caller gave to outputs that do not own the adjoints of their cell.
+void collect_outputs(const Tape& tape, Workspace::Body& work) {
+  for (std::size_t i = 0; i < tape.outputs.size(); ++i) {
+    const OutputCell& output = tape.outputs[i];
+    double* to = work.adjoint_at[static_cast<std::size_t>(output.cell)];
+    if (!output.active || output.owner || to == nullptr) continue;
+    const std::size_t n = work.output_uniform[i] ? 1 : work.rows;
+    for (std::size_t j = 0; j < n; ++j) to[j] += work.output_adjoints[i][j];
+  }
+}
+
+}  // namespace
+
+void Program::reverse(const Data& data, std::size_t begin, std::size_t, const Inputs&,
+                      Workspace& workspace, std::span<double> gradient,
+                      std::span<double* const> by_row) const {
+  const Tape& tape = body_->tape;
+  const Data::Body& rows = *data.body_;
+  Workspace::Body& work = *workspace.body_;
+  std::fill(work.number_adjoints.begin(), work.number_adjoints.end(), 0.0);
+  for (const ParameterLeaf& leaf : tape.by_row) {
+    const auto slot = static_cast<std::size_t>(leaf.slot);
+    work.adjoint_at[static_cast<std::size_t>(leaf.cell)] =
+        slot < by_row.size() ? by_row[slot] : nullptr;
+  }
+  collect_outputs(tape, work);
+  const auto at = [&](int cell) {
+    return cell < 0 ? nullptr : work.at[static_cast<std::size_t>(cell)];
+  };
+  const auto to = [&](const Step& step, int cell, unsigned bit) {
+    return (step.gives >> bit & 1u) != 0 ? work.adjoint_at[static_cast<std::size_t>(cell)]
+                                         : nullptr;
+  };
+  const auto run = [&](const Step& step, std::size_t n) {
+    step.kernels.reverse(at(step.a), at(step.b), at(step.c), at(step.out),
+                         work.adjoint_at[static_cast<std::size_t>(step.out)], to(step, step.a, 0),
+                         to(step, step.b, 1), to(step, step.c, 2), n, step.extra, step.first);
+  };
+  for (std::size_t i = tape.row_steps.size(); i-- > 0;) {
+    const Step& step = tape.row_steps[i];
+    if (step.gives == 8) continue;  // nobody asks
+    const double* given = work.adjoint_at[static_cast<std::size_t>(step.out)];
+    if (step.kernels.reverse != nullptr) {
+      run(step, work.rows);
+    } else if (step.op == Op::pick) {
+      const int* label = rows.labels[static_cast<std::size_t>(step.label)].data() + begin;
+      double* first = gradient.data() + step.index;
+      for (std::size_t j = 0; j < work.rows; ++j) first[label[j]] += given[j];
+    } else if (step.op == Op::cum) {
+      if (double* sum = to(step, step.a, 0); sum != nullptr)
+        running_sum_reverse(given, tape.cells[static_cast<std::size_t>(step.a)].uniform(),
+                            rows.starts.data() + begin, sum, work.rows, (step.first & 1u) != 0);
+    } else {
+      reverse_state(tape, work, rows, begin, step);
+    }
+  }
+  for (std::size_t i = tape.number_steps.size(); i-- > 0;)
+    if (tape.number_steps[i].gives != 8) run(tape.number_steps[i], 1);
+  for (const ParameterLeaf& leaf : tape.parameters)
+    gradient[static_cast<std::size_t>(leaf.slot)] +=
+        *work.adjoint_at[static_cast<std::size_t>(leaf.cell)];
+}
+
+std::string Program::text(std::size_t output) const {
+  return text_of(body_->graph, body_->roots[output], body_->symbols);
+}
+
+}  // namespace wearwell::law

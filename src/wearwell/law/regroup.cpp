@@ -1,0 +1,149 @@
+#include "wearwell/law/regroup.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace wearwell::law {
+namespace {
+
+// What a factor costs: it is known, is computed once for all data, once a call, once a row, or
+// within a path.
+enum Class { known, of_data, of_parameters, of_rows, of_state, classes };
+
+class Regrouping {
+ public:
+  Regrouping(const Graph& from, const std::vector<int>& roots, Graph& to)
+      : from_(from),
+        to_(to),
+        image_(static_cast<std::size_t>(from.size()), -1),
+        uses_(static_cast<std::size_t>(from.size())) {
+    needed_ = reachable(from, roots);
+    for (int i = 0; i < from.size(); ++i) {
+      if (!needed_[static_cast<std::size_t>(i)]) continue;
+      for (const int argument : {from[i].a, from[i].b, from[i].c})
+        if (argument >= 0) ++uses_[static_cast<std::size_t>(argument)];
+    }
+    for (const int root : roots) ++uses_[static_cast<std::size_t>(root)];
+  }
+
+  void run() {
+    for (int i = 0; i < from_.size(); ++i)
+      if (needed_[static_cast<std::size_t>(i)]) image_[static_cast<std::size_t>(i)] = image_of(i);
+  }
+
+  int image(int i) const { return image_[static_cast<std::size_t>(i)]; }
+
+ private:
+  static bool is_product(Op op) {
+    return op == Op::multiply || op == Op::divide || op == Op::negate;
+  }
+
+  Class class_of(int node) const {
+    const Node& each = to_[node];
+    if (each.op == Op::constant) return known;
+    if (each.moving) return of_state;
+    if (!each.parametric) return of_data;
+    return each.rows ? of_rows : of_parameters;
+  }
+
+  int image_of(int i) {
+    const Node& node = from_[i];
+    if (is_product(node.op) && node.parametric) return product(i);
+    Node copy = node;
+    const auto mapped = [&](int argument) { return argument < 0 ? -1 : image(argument); };
+    copy.a = mapped(node.a);
+    copy.b = mapped(node.b);
+    copy.c = mapped(node.c);
+    copy.powers = 0;  // checked by now
+    copy.any = false;
+    if (node.op == Op::power && !to_[copy.a].parametric && !to_[copy.a].moving &&
+        to_[copy.b].parametric) {
+      copy.op = Op::power_log;
+      copy.c = to_.make(Op::log, 0, copy.a);
+    }
+    return to_.add(copy);
+  }
+
+  // Factors above (0) and below (1) the line, by class.
+  using Factors = std::array<std::array<std::vector<int>, classes>, 2>;
+
+  // Products within this one, unless others share them.
+  void gather(int i, bool below, bool& negative, Factors& factors) {
+    std::vector<std::pair<int, bool>> open = {{i, below}};
+    while (!open.empty()) {
+      const auto [at, under] = open.back();
+      open.pop_back();
+      const Node& node = from_[at];
+      const bool own = at == i || (uses_[static_cast<std::size_t>(at)] == 1 && node.parametric);
+      if (!is_product(node.op) || !own) {
+        const int factor = image(at);
+        factors[under][class_of(factor)].push_back(factor);
+        continue;
+      }
+      if (node.op == Op::negate) negative = !negative;
+      if (node.op != Op::negate) open.emplace_back(node.b, under != (node.op == Op::divide));
+      open.emplace_back(node.a, under);
+    }
+  }
+
+  int times(int a, int b) {
+    if (a < 0) return b;
+    return b < 0 ? a : to_.make(Op::multiply, 0, a, b);
+  }
+
+  int product_of(const std::vector<int>& factors) {
+    int result = -1;
+    for (const int each : factors) result = times(result, each);
+    return result;
+  }
+
+  int product(int i) {
+    bool negative = false;
+    Factors factors;
+    gather(i, false, negative, factors);
+    // From what is known to what changes most.
+    int result = -1;
+    const auto join = [&](std::initializer_list<Class> group) {
+      int above = -1, below = -1;
+      for (const Class each : group) {
+        above = times(above, product_of(factors[0][each]));
+        below = times(below, product_of(factors[1][each]));
+      }
+      if (below >= 0) above = to_.make(Op::divide, 0, above < 0 ? to_.constant(1) : above, below);
+      result = times(result, above);
+    };
+    const bool parameters =
+        !factors[0][of_parameters].empty() || !factors[1][of_parameters].empty();
+    if (parameters) {
+      join({known, of_parameters});
+      join({of_data});
+    } else {
+      join({known, of_data});
+    }
+    for (const Class each : {of_rows, of_state}) {
+      result = times(result, product_of(factors[0][each]));
+      if (const int below = product_of(factors[1][each]); below >= 0)
+        result = to_.make(Op::divide, 0, result < 0 ? to_.constant(1) : result, below);
+    }
+    return negative ? to_.make(Op::negate, 0, result) : result;
+  }
+
+  const Graph& from_;
+  Graph& to_;
+  std::vector<int> image_, uses_;
+  std::vector<bool> needed_;
+};
+
+}  // namespace
+
+std::vector<int> regrouped(const Graph& from, const std::vector<int>& roots, Graph& to) {
+  Regrouping regrouping(from, roots, to);
+  regrouping.run();
+  std::vector<int> images;
+  images.reserve(roots.size());
+  for (const int root : roots) images.push_back(regrouping.image(root));
+  return images;
+}
+
+}  // namespace wearwell::law

@@ -1,0 +1,283 @@
+#include "wearwell/models/ownlaw/own_data.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+template <class Columns>
+auto find(const Columns& columns, const std::string& name) {
+  const auto at = std::find_if(columns.begin(), columns.end(),
+                               [&](const auto& each) { return each.name == name; });
+  return at == columns.end() ? nullptr : &*at;
+}
+
+std::string cell(const Column& column, std::size_t row) {
+  return column.is_number ? fmt::format("{}", column.numbers[row]) : column.text[row];
+}
+
+LabelColumn read_labels(const Table& table, const std::string& name, const Column& column) {
+  LabelColumn result{name, column.name, {}, {}};
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const bool empty = column.is_number ? std::isnan(column.numbers[i]) : column.text[i].empty();
+    if (empty) {
+      throw InputError(
+          fmt::format("{}: no value; a label must not be empty", place(table, column.name, i)));
+    }
+    const std::string text = cell(column, i);
+    const auto at = std::find(result.levels.begin(), result.levels.end(), text);
+    result.at.push_back(static_cast<int>(at - result.levels.begin()));
+    if (at == result.levels.end()) result.levels.push_back(text);
+  }
+  return result;
+}
+
+// SI, NaN where the cell is empty.
+NumberColumn read_numbers(const Table& table, const std::string& name, const Column& column,
+                          law::AnyUnit unit) {
+  bool any_empty = false;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    values.push_back(cell_number(table, column, i));
+    any_empty |= std::isnan(values.back());
+  }
+  if (!any_empty) {
+    values = si_numbers(table, column.name, unit.unit);
+    return {name, column.name, std::move(unit), std::move(values)};
+  }
+  for (double& each : values) {
+    if (!std::isnan(each)) each = to_si(unit.unit, each);
+  }
+  return {name, column.name, std::move(unit), std::move(values)};
+}
+
+bool is_text(const Column& column) {
+  if (column.is_number) return false;
+  return std::any_of(column.text.begin(), column.text.end(), [](const std::string& text) {
+    return !text.empty() && text.find_first_of("0123456789") == std::string::npos;
+  });
+}
+
+Seen read_seen(const Table& table, const Column& column, std::size_t row) {
+  static const std::vector<std::pair<std::string, Seen>> words = {
+      {"failure", Seen::exactly}, {"F", Seen::exactly},        {"0", Seen::exactly},
+      {"runout", Seen::above},    {"run-out", Seen::above},    {"right", Seen::above},
+      {"S", Seen::above},         {"1", Seen::above},          {"left", Seen::below},
+      {"-1", Seen::below},        {"interval", Seen::between}, {"2", Seen::between}};
+  const std::string word = cell(column, row);
+  for (const auto& [name, seen] : words) {
+    if (word == name) return seen;
+  }
+  const std::vector<std::string> names = {"failure", "runout", "left", "interval"};
+  throw InputError(
+      fmt::format("{}: '{}' is no status; it is failure, runout (or right), left or interval (or "
+                  "F, S; or the codes 0 failure, 1 runout, -1 left, 2 interval) (nearest: '{}')",
+                  place(table, column.name, row), word, nearest_name(word, names)));
+}
+
+// One measured column with what the others say of it.
+class ObservedReader {
+ public:
+  ObservedReader(const OwnData& data, const std::string& name, const ResponseForm& form,
+                 const SpecialColumns& special, const std::optional<std::string>& trials)
+      : data_(data), form_(form), exact_(data.number(name)) {
+    const auto column = [&](const std::optional<std::string>& each) {
+      return each ? data.number(*each) : nullptr;
+    };
+    lower_ = column(special.lower);
+    upper_ = column(special.upper);
+    entry_ = column(special.entry);
+    count_ = column(special.count);
+    trials_ = column(trials);
+    if (special.status) status_ = &data.table.column(data.label(*special.status)->column);
+  }
+
+  Observed read(bool may_lack) {
+    Observed all;
+    for (std::size_t i = 0; i < data_.table.rows; ++i) {
+      if (may_lack && exact_ && std::isnan(exact_->values[i])) continue;
+      const Response response = row(i);
+      all.rows.push_back(i);
+      all.responses.push_back(response);
+      all.counts.push_back(count(i));
+      all.failures += response.seen != Seen::above;
+    }
+    return all;
+  }
+
+ private:
+  const NumberColumn& need(const NumberColumn* column, std::size_t i, const char* what) const {
+    if (!column) {
+      throw InputError(fmt::format("{}: an interval needs the columns data.columns.lower and upper",
+                                   place(data_.table, status_->name, i)));
+    }
+    if (std::isnan(column->values[i])) {
+      throw InputError(
+          fmt::format("{}: no value; {}", place(data_.table, column->column, i), what));
+    }
+    return *column;
+  }
+
+  void demand(bool good, const NumberColumn& column, std::size_t i, const char* allowed) const {
+    if (good) return;
+    throw InputError(fmt::format("{}: {:.10g} {} must be {}", place(data_.table, column.column, i),
+                                 from_si(column.unit.unit, column.values[i]), column.unit.unit.text,
+                                 allowed));
+  }
+
+  int count(std::size_t i) const {
+    if (!count_) return 1;
+    const double n = count_->values[i];
+    demand(n >= 1 && n == std::floor(n) && n <= 1e6, *count_, i, "a whole number from 1");
+    return static_cast<int>(n);
+  }
+
+  // Between two values, of which an empty one is none.
+  Response between(std::size_t i) const {
+    if (!lower_ || !upper_) {
+      const NumberColumn* there = lower_ ? lower_ : upper_;
+      throw InputError(fmt::format(
+          "{}: an interval needs both data.columns.lower and upper",
+          there ? place(data_.table, there->column, i) : place(data_.table, status_->name, i)));
+    }
+    double a = lower_->values[i], b = upper_->values[i];
+    if (std::isnan(a) && std::isnan(b)) {
+      throw InputError(fmt::format("{}: neither this nor the upper end has a value",
+                                   place(data_.table, lower_->column, i)));
+    }
+    if (std::isnan(a) || (form_.positive && a <= 0)) return {Seen::below, b};
+    if (std::isnan(b) || b == infinity) return {Seen::above, a};
+    demand(b >= a, *upper_, i, "no less than the lower end");
+    if (a == b) return {Seen::exactly, a};
+    return {Seen::between, a, b};
+  }
+
+  Response row(std::size_t i) const {
+    const bool has_exact = exact_ && !std::isnan(exact_->values[i]);
+    const Seen seen = status_ ? read_seen(data_.table, *status_, i) : Seen::exactly;
+    Response y;
+    if (seen == Seen::between || (!status_ && lower_ && !has_exact)) {
+      y = between(i);
+    } else {
+      if (!exact_) {
+        throw InputError(fmt::format("{}: the study names no column of the observed value itself",
+                                     place(data_.table, status_->name, i)));
+      }
+      y = {seen, need(exact_, i, "what was observed is missing").values[i]};
+    }
+    if (form_.positive && exact_ && y.seen != Seen::between) {
+      demand(y.at > 0, *exact_, i, fmt::format("positive for the {} family", form_.name).c_str());
+    }
+    if (form_.counted) {
+      if (y.seen != Seen::exactly) {
+        throw InputError(fmt::format("{}: a count of the {} family is never censored",
+                                     place(data_.table, exact_ ? exact_->column : "", i),
+                                     form_.name));
+      }
+      demand(y.at >= 0 && y.at == std::floor(y.at), *exact_, i, "a whole number, 0 or more");
+    }
+    if (trials_) {
+      y.trials = need(trials_, i, "how many trials were there?").values[i];
+      demand(y.trials >= 1 && y.trials == std::floor(y.trials), *trials_, i,
+             "a whole number from 1");
+      demand(y.at <= y.trials, *exact_, i, "no more than the number of trials");
+    }
+    if (entry_ && !std::isnan(entry_->values[i]) && !(form_.positive && entry_->values[i] <= 0)) {
+      y.entry = entry_->values[i];
+      const double last = y.seen == Seen::between ? y.until : y.at;
+      demand(y.entry < last, *entry_, i,
+             "less than what was observed (it is where watching began)");
+      if (y.seen == Seen::below) {
+        demand(false, *entry_, i, "empty for a left-censored row: it ended after watching began");
+      }
+      if (y.seen == Seen::between) y.at = std::max(y.at, y.entry);
+    }
+    return y;
+  }
+
+  const OwnData& data_;
+  const ResponseForm& form_;
+  const NumberColumn *exact_, *lower_ = nullptr, *upper_ = nullptr, *entry_ = nullptr,
+                              *count_ = nullptr, *trials_ = nullptr;
+  const Column* status_ = nullptr;
+};
+
+}  // namespace
+
+const NumberColumn* OwnData::number(const std::string& name) const {
+  return find(numbers, name);
+}
+
+const LabelColumn* OwnData::label(const std::string& name) const {
+  return find(labels, name);
+}
+
+void OwnData::require_complete(const NumberColumn& column) const {
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    if (std::isfinite(column.values[i])) continue;
+    throw InputError(fmt::format(
+        "{}: {}", place(table, column.column, i),
+        std::isnan(column.values[i]) ? "no value (empty or NaN)" : "the value is infinite"));
+  }
+}
+
+OwnData read_own_data(const TomlReader& root, const Source& source,
+                      const std::vector<std::string>& label_names) {
+  const TomlReader section = root.required_table("data");
+  const TomlReader columns = section.required_table("columns");
+  OwnData data{read_table(section, source), {}, {}};
+  const auto is_label = [&](const std::string& name) {
+    return std::find(label_names.begin(), label_names.end(), name) != label_names.end();
+  };
+  for (const std::string& name : columns.keys()) {
+    std::string heading;
+    std::optional<law::AnyUnit> unit;
+    if (columns.is_text(name)) {
+      heading = columns.required_text(name);
+    } else {
+      const TomlReader choice = columns.required_table(name);
+      heading = choice.required_text("column");
+      if (const auto text = choice.text("unit")) {
+        try {
+          unit = law::read_any_unit(*text);
+        } catch (const InputError& error) {
+          choice.fail("unit", error.what());
+        }
+      }
+    }
+    const Column* column = nullptr;
+    try {
+      column = &data.table.column(heading);
+    } catch (const InputError& error) {
+      columns.fail(name, error.what());
+    }
+    if (is_label(name) && unit) {
+      columns.fail(name, "has a unit, but the study uses it as a label; keep one of the two");
+    }
+    if (is_label(name) || (!unit && is_text(*column))) {
+      data.labels.push_back(read_labels(data.table, name, *column));
+    } else {
+      if (!unit) unit = law::read_any_unit("1");
+      data.numbers.push_back(read_numbers(data.table, name, *column, std::move(*unit)));
+    }
+  }
+  if (data.table.rows == 0) throw InputError(fmt::format("{} has no rows", data.table.source));
+  return data;
+}
+
+Observed read_observed(const OwnData& data, const std::string& name, const ResponseForm& form,
+                       const SpecialColumns& special, const std::optional<std::string>& trials,
+                       bool may_lack) {
+  return ObservedReader(data, name, form, special, trials).read(may_lack);
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,45 @@
+#include "wearwell/models/ownlaw/own_law.h"
+
+#include <cmath>
+
+namespace wearwell::ownlaw {
+
+double Population::value(const OwnLaw& law, std::size_t i, const double* z) const {
+  const double own =
+      i == 0 ? z[0] : correlation * z[0] + std::sqrt(1 - correlation * correlation) * z[1];
+  return law.effects[i].lognormal ? middle[i] * std::exp(scatter[i] * own)
+                                  : middle[i] + scatter[i] * own;
+}
+
+PopulationAt::PopulationAt(const OwnLaw& law) : law_(&law) {
+  if (!law.varies()) return;
+  law::Rows rows;
+  rows.count = 1;
+  rows.columns.resize(law.symbols.columns.size());
+  rows.labels.resize(law.symbols.labels.size());
+  data_ = law.population.bind(rows);
+  workspace_ = law.population.workspace(1);
+}
+
+Population PopulationAt::operator()(const double* x) {
+  Population p;
+  if (!law_->varies()) return p;
+  law_->population.forward(data_, 0, 1, {{x, law_->parameters.size()}, {}}, workspace_);
+  for (std::size_t i = 0; i < law_->effects.size(); ++i) {
+    p.middle[i] = x[law_->effects[i].parameter];
+    p.scatter[i] = workspace_.values(i)[0];
+  }
+  if (law_->correlated) p.correlation = workspace_.values(law_->effects.size())[0];
+  return p;
+}
+
+void PopulationAt::add_gradient(const double* x, const Population& by, std::span<double> gradient) {
+  for (std::size_t i = 0; i < law_->effects.size(); ++i) {
+    gradient[law_->effects[i].parameter] += by.middle[i];
+    workspace_.adjoints(i)[0] = by.scatter[i];
+  }
+  if (law_->correlated) workspace_.adjoints(law_->effects.size())[0] = by.correlation;
+  law_->population.reverse(data_, 0, 1, {{x, law_->parameters.size()}, {}}, workspace_, gradient);
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/bayes/parameter.h"
+#include "wearwell/law/program.h"
+#include "wearwell/models/ownlaw/own_data.h"
+#include "wearwell/prob/response.h"
+
+namespace wearwell::ownlaw {
+
+/// A parameter that differs from unit to unit, about the one of its name: k of each is k exp(s z), or
+/// k + s z, z ~ N(0, 1).
+struct Effect {
+  std::string name;
+  std::size_t symbol = 0;     ///< among Symbols::parameters
+  std::size_t parameter = 0;  ///< its middle, among the parameters of the study
+  bool lognormal = false;
+};
+
+/// One measured column with the law of its scatter.
+struct Measured {
+  std::string column;
+  Unit unit;
+  law::Powers powers;
+  const ResponseForm* form = nullptr;
+  std::optional<std::string> trials;  ///< the column of their numbers
+  std::vector<law::Wanted> wanted;    ///< the slots that are given, as expressions
+  std::vector<std::size_t> slot;      ///< of the form, for each of `wanted`
+  law::Program program;               ///< outputs as `wanted`
+  Observed observed;
+};
+
+/// A study of a law in the user's own words, read and compiled; data in SI.
+struct OwnLaw {
+  std::vector<law::Line> lines;
+  law::Symbols symbols;      ///< of the study's parameters as they are: middles of what differs
+  law::Symbols row_symbols;  ///< the same with what differs from unit to unit given by row
+  std::vector<Measured> measured;
+  std::vector<Parameter> parameters;  ///< the study's: slots(symbols)
+  /// Parameters of `row_symbols` among the study's.
+  std::vector<std::size_t> shared;
+
+  std::vector<Effect> effects;       ///< none, one or two
+  std::optional<std::string> label;  ///< whose levels the units are; none where nothing differs
+  /// The scatter of each effect, and where there are two that are correlated, their correlation: of
+  /// the study's parameters.
+  law::Program population;
+  bool correlated = false;
+
+  OwnData data;
+  /// Rows in the order in which programs see them: unit by unit, along the axis.
+  std::vector<std::size_t> order;
+  std::vector<std::size_t> unit_of_row;  ///< by the table's rows; all 0 where there is one
+  std::vector<std::string> units;        ///< their labels; one without a name where there are none
+  std::optional<std::string> along;      ///< the column that is the axis of wear and life
+
+  bool varies() const { return !effects.empty(); }
+};
+
+/// The population at one point of the parameters.
+struct Population {
+  double middle[2] = {}, scatter[2] = {};
+  double correlation = 0;
+
+  /// What effect i of a unit is at z (of all effects), and its derivatives by the standard normal z.
+  double value(const OwnLaw& law, std::size_t i, const double* z) const;
+};
+
+/// Evaluates the population; one thread's.
+class PopulationAt {
+ public:
+  explicit PopulationAt(const OwnLaw& law);
+  Population operator()(const double* x);
+  /// Adds to `gradient` what derivatives by middles, scatters and the correlation come to, after a
+  /// call at the same x.
+  void add_gradient(const double* x, const Population& by, std::span<double> gradient);
+
+ private:
+  const OwnLaw* law_;
+  law::Data data_;
+  law::Workspace workspace_;
+};
+
+}  // namespace wearwell::ownlaw

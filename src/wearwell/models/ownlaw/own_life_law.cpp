@@ -1,0 +1,180 @@
+#include "wearwell/models/ownlaw/own_life_law.h"
+
+#include <cmath>
+
+#include "wearwell/math/root.h"
+#include "wearwell/models/ownlaw/own_lives.h"
+#include "wearwell/predict/prediction.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+// Places of a unit's effects, with weights: a trapezoidal rule over the standard normal law, whose
+// error is e^-80 of a smooth function.
+struct NormalNodes {
+  std::vector<double> z, weight;
+
+  explicit NormalNodes(std::size_t effects) {
+    if (effects == 0) {
+      weight = {1};
+      return;
+    }
+    const double step = effects == 1 ? 0.5 : 0.75;
+    const int most = static_cast<int>(6.5 / step);
+    const auto density = [&](int i) {
+      return step * std::exp(-0.5 * i * i * step * step) * 0.3989422804014327;
+    };
+    for (int i = -most; i <= most; ++i) {
+      if (effects == 1) {
+        z.push_back(i * step);
+        weight.push_back(density(i));
+        continue;
+      }
+      for (int j = -most; j <= most; ++j) {
+        z.push_back(i * step);
+        z.push_back(j * step);
+        weight.push_back(density(i) * density(j));
+      }
+    }
+  }
+};
+
+double probability(ResponseFamily family, double life, const double* slots) {
+  return std::exp(log_cdf(family, life, slots));
+}
+
+// Where a rising distribution function has the value p: by the logarithm of positive values.
+template <class F>
+double solve(const F& cdf, double p, double middle, bool positive) {
+  if (!std::isfinite(middle)) return std::nan("");
+  if (!positive) {
+    return solve_increasing([&](double y) { return cdf(y) - p; }, middle,
+                            std::max(1e-3 * std::abs(middle), 1e-12), {.relative = 1e-10});
+  }
+  return std::exp(solve_increasing([&](double log_y) { return cdf(std::exp(log_y)) - p; },
+                                   std::log(middle), 0.5, {.absolute = 1e-10}, -700, 700));
+}
+
+}  // namespace
+
+// The slots at one point of the parameters, over the population.
+class LifeLaw::AtPoint {
+ public:
+  explicit AtPoint(const LifeLaw& life)
+      : life_(life), nodes_(life.slots_->law->effects.size()), path_(*life.slots_) {
+    slots_.resize(most_response_slots * nodes_.weight.size());
+  }
+
+  void move_to(const double* x) {
+    path_.move_to(x);
+    const std::size_t d = life_.slots_->law->effects.size(), count = nodes_.weight.size();
+    for (std::size_t at = 0; at < count; at += Path::most) {
+      const std::size_t n = std::min(Path::most, count - at);
+      path_.evaluate(n, d ? &nodes_.z[at * d] : nullptr, nullptr);
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t o = 0; o < life_.slot_.size(); ++o) {
+          slots_[(at + i) * most_response_slots + life_.slot_[o]] = path_.output(o, i);
+        }
+      }
+    }
+  }
+
+  std::size_t size() const { return nodes_.weight.size(); }
+  double weight(std::size_t i) const { return nodes_.weight[i]; }
+  const double* slots(std::size_t i) const { return &slots_[i * most_response_slots]; }
+
+  double cdf(double life) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      sum += weight(i) * probability(life_.family_, life, slots(i));
+    }
+    return sum;
+  }
+
+  double quantile(double p) const {
+    if (size() == 1) return wearwell::quantile(life_.family_, p, slots(0));
+    const double middle = wearwell::quantile(life_.family_, 0.5, slots(size() / 2));
+    return solve([&](double y) { return cdf(y); }, p, middle, life_.positive_);
+  }
+
+ private:
+  const LifeLaw& life_;
+  NormalNodes nodes_;
+  PathAt path_;
+  std::vector<double> slots_;
+};
+
+LifeLaw::LifeLaw(std::shared_ptr<const Path> slots, const Measured& measured)
+    : slots_(std::move(slots)),
+      family_(measured.form->family),
+      positive_(measured.form->positive),
+      slot_(measured.slot) {}
+
+double LifeLaw::Next::cdf(double life) const {
+  double sum = 0;
+  for (const Component& each : components_) {
+    sum += each.weight * probability(family_, life, each.slot);
+  }
+  return sum;
+}
+
+double LifeLaw::Next::quantile(double p) const {
+  return solve([&](double y) { return cdf(y); }, p, middle_, positive_);
+}
+
+LifeLaw::Next LifeLaw::next(const WeightedDraws& draws) const {
+  AtPoint at(*this);
+  Next next;
+  next.family_ = family_;
+  next.positive_ = positive_;
+  const FewPoints few(draws, at.size() == 1 ? 20'000 : 1000);
+  for (std::size_t i = 0; i < few.weights.size(); ++i) {
+    at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
+    if (i == 0) next.middle_ = at.quantile(0.5);
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      if (at.weight(j) < 1e-9) continue;
+      Next::Component component{few.weights[i] * at.weight(j), {}};
+      std::copy_n(at.slots(j), most_response_slots, component.slot);
+      next.components_.push_back(component);
+    }
+  }
+  return next;
+}
+
+// Where every point needs an equation solved there are few.
+WeightedDraws LifeLaw::points(const WeightedDraws& draws) const {
+  if (slots_->law->effects.empty()) return draws;
+  FewPoints few(draws, 2000);
+  WeightedDraws result;
+  result.values = std::move(few.values);
+  result.weights = Eigen::Map<const Eigen::VectorXd>(few.weights.data(),
+                                                     static_cast<Eigen::Index>(few.weights.size()));
+  return result;
+}
+
+Distribution LifeLaw::quantile(const WeightedDraws& draws, double p) const {
+  AtPoint at(*this);
+  return {points(draws), [&](const double* x) {
+            at.move_to(x);
+            return at.quantile(p);
+          }};
+}
+
+Distribution LifeLaw::survival(const WeightedDraws& draws, double life) const {
+  AtPoint at(*this);
+  return {points(draws), [&](const double* x) {
+            at.move_to(x);
+            return 1 - at.cdf(life);
+          }};
+}
+
+Distribution LifeLaw::ratio(const WeightedDraws& draws, const LifeLaw& other) const {
+  AtPoint here(*this), there(other);
+  return {points(draws), [&](const double* x) {
+            here.move_to(x);
+            there.move_to(x);
+            return here.quantile(0.5) / there.quantile(0.5);
+          }};
+}
+
+}  // namespace wearwell::ownlaw

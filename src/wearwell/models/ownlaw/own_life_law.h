@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/models/ownlaw/own_path.h"
+
+namespace wearwell::ownlaw {
+
+/// A life as a family of a likelihood gives it, under conditions: what follows from it over a posterior.
+class LifeLaw {
+ public:
+  /// `slots` has the outputs of the measured column.
+  LifeLaw(std::shared_ptr<const Path> slots, const Measured& measured);
+
+  /// The next one: all that is unknown averaged in.
+  class Next {
+   public:
+    double cdf(double life) const;
+    double quantile(double p) const;
+
+   private:
+    friend class LifeLaw;
+    struct Component {
+      double weight, slot[most_response_slots];
+    };
+    ResponseFamily family_;
+    bool positive_ = true;
+    std::vector<Component> components_;
+    double middle_ = 1;
+  };
+  Next next(const WeightedDraws& draws) const;
+
+  /// The life by which a share p of all has failed, over a posterior.
+  Distribution quantile(const WeightedDraws& draws, double p) const;
+  /// The share of all that outlasts a life.
+  Distribution survival(const WeightedDraws& draws, double life) const;
+  /// The median life over that of `other`.
+  Distribution ratio(const WeightedDraws& draws, const LifeLaw& other) const;
+
+ private:
+  class AtPoint;
+  WeightedDraws points(const WeightedDraws& draws) const;
+
+  std::shared_ptr<const Path> slots_;
+  ResponseFamily family_;
+  bool positive_;
+  std::vector<std::size_t> slot_;
+};
+
+}  // namespace wearwell::ownlaw

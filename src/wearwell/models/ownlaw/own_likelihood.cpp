@@ -1,0 +1,447 @@
+#include "wearwell/models/ownlaw/own_likelihood.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t rows_of_call = 256;
+
+// Columns and labels of these rows, kept while a program binds them.
+struct RowColumns {
+  std::vector<std::vector<double>> numbers;
+  std::vector<std::vector<int>> labels;
+  law::Rows rows;
+
+  RowColumns(const OwnLaw& law, const std::vector<std::size_t>& which,
+             const law::Program& program) {
+    rows.count = which.size();
+    for (std::size_t c = 0; c < law.row_symbols.columns.size(); ++c) {
+      numbers.emplace_back();
+      if (!program.uses_column(c)) continue;
+      const NumberColumn* column = law.data.number(law.row_symbols.columns[c].name);
+      for (const std::size_t row : which) numbers.back().push_back(column->values[row]);
+    }
+    for (std::size_t c = 0; c < law.row_symbols.labels.size(); ++c) {
+      labels.emplace_back();
+      if (!program.uses_label(c)) continue;
+      const LabelColumn* column = law.data.label(law.row_symbols.labels[c].name);
+      for (const std::size_t row : which) labels.back().push_back(column->at[row]);
+    }
+    for (const auto& each : numbers) rows.columns.emplace_back(each);
+    for (const auto& each : labels) rows.labels.emplace_back(each);
+  }
+};
+
+BoundColumn bind_column(const OwnLaw& law, const Measured& measured, std::size_t count) {
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> seen(law.data.table.rows, none);
+  for (std::size_t i = 0; i < measured.observed.rows.size(); ++i) {
+    seen[measured.observed.rows[i]] = i;
+  }
+  const bool paths = measured.program.has_paths();
+  BoundColumn bound;
+  bound.measured = &measured;
+  std::vector<std::size_t> which;
+  std::vector<Response> responses;
+  for (const std::size_t row : law.order) {
+    const bool observed = seen[row] != none && row < count;
+    if (!observed && !paths) continue;
+    which.push_back(row);
+    bound.unit.push_back(law.unit_of_row[row]);
+    bound.term.push_back(seen[row]);
+    bound.count.push_back(observed ? measured.observed.counts[seen[row]] : 0);
+    // A row without an observation stands for its path alone.
+    responses.push_back(observed ? measured.observed.responses[seen[row]]
+                                 : measured.observed.responses.front());
+  }
+  for (std::size_t u = 0; u <= law.units.size(); ++u) {
+    bound.begin.push_back(static_cast<std::size_t>(
+        std::lower_bound(bound.unit.begin(), bound.unit.end(), u) - bound.unit.begin()));
+  }
+  RowColumns columns(law, which, measured.program);
+  bound.most_rows = rows_of_call;
+  if (paths) {
+    for (std::size_t u = 0; u < law.units.size(); ++u) {
+      if (bound.begin[u] < bound.begin[u + 1]) columns.rows.paths.push_back(bound.begin[u]);
+      bound.most_rows = std::max(bound.most_rows, bound.begin[u + 1] - bound.begin[u]);
+    }
+  }
+  bound.data = measured.program.bind(columns.rows);
+  bound.responses = ResponseColumn(std::move(responses));
+  return bound;
+}
+
+}  // namespace
+
+std::vector<BoundColumn> bind_columns(const OwnLaw& law, std::size_t rows) {
+  std::vector<BoundColumn> all;
+  for (const Measured& each : law.measured) all.push_back(bind_column(law, each, rows));
+  return all;
+}
+
+UnitRows::UnitRows(const OwnLaw& law, const std::vector<BoundColumn>& columns)
+    : law_(law), columns_(columns), population_at_(law) {
+  std::size_t most = 0;
+  for (const BoundColumn& column : columns) {
+    workspaces_.push_back(column.measured->program.workspace(column.most_rows));
+    most = std::max(most, column.most_rows);
+  }
+  inner_.resize(law.shared.size());
+  inner_gradient_.resize(law.shared.size());
+  value_.resize(most);
+  slope_.resize(most_response_slots * most);
+  for (std::size_t e = 0; e < law.effects.size(); ++e) {
+    effect_[e].resize(most);
+    by_effect_[e].resize(most);
+    effect_at_[e] = effect_[e].data();
+    by_effect_at_[e] = by_effect_[e].data();
+  }
+}
+
+void UnitRows::move_to(const double* x) {
+  x_ = x;
+  population_ = population_at_(x);
+  for (std::size_t i = 0; i < inner_.size(); ++i) inner_[i] = x[law_.shared[i]];
+}
+
+// Runs of wanted units, in calls of as many rows as fit.
+template <class Visit>
+void UnitRows::visit(std::span<const std::uint8_t> wanted, const Visit& visit) {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const BoundColumn& column = columns_[c];
+    const bool paths = column.measured->program.has_paths();
+    const std::size_t units = law_.units.size();
+    for (std::size_t u = 0; u < units;) {
+      if (!wanted[u]) {
+        ++u;
+        continue;
+      }
+      std::size_t last = u + 1;
+      const std::size_t begin = column.begin[u];
+      while (last < units && wanted[last] &&
+             (!paths || column.begin[last + 1] - begin <= column.most_rows)) {
+        ++last;
+      }
+      const std::size_t end = column.begin[last];
+      for (std::size_t at = begin; at < end; at += column.most_rows) {
+        visit(Chunk{&column, c, at, std::min(end, at + column.most_rows)});
+      }
+      u = last;
+    }
+  }
+}
+
+void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool sloped) {
+  const BoundColumn& column = *chunk.column;
+  const std::size_t n = chunk.end - chunk.begin, d = law_.effects.size();
+  for (std::size_t e = 0; e < d; ++e) {
+    std::size_t last = law_.units.size();
+    double value = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t u = column.unit[chunk.begin + i];
+      if (u != last) value = held_ ? held_[e] : population_.value(law_, e, &z[u * d]);
+      last = u;
+      effect_[e][i] = value;
+    }
+  }
+  law::Workspace& workspace = workspaces_[chunk.index];
+  column.measured->program.forward(column.data, chunk.begin, chunk.end, {inner_, {effect_at_, d}},
+                                   workspace);
+  slots_.assign(most_response_slots, {&zero_, true});
+  const auto& outputs = column.measured->program.outputs();
+  for (std::size_t o = 0; o < outputs.size(); ++o) {
+    slots_[column.measured->slot[o]] = {workspace.values(o).data(), outputs[o].uniform};
+  }
+  log_responses(column.measured->form->family, column.responses, chunk.begin, slots_,
+                {value_.data(), n},
+                sloped ? std::span(slope_.data(), most_response_slots * n) : std::span<double>());
+}
+
+double UnitRows::weight_of(const Chunk& chunk, std::size_t i, const double* weight) const {
+  const double count = chunk.column->count[chunk.begin + i];
+  return weight ? count * weight[chunk.column->unit[chunk.begin + i]] : count;
+}
+
+// The derivative of the sum over rows of weight times log density by each output.
+void UnitRows::fill_adjoints(const Chunk& chunk, const double* weight) {
+  const Measured& measured = *chunk.column->measured;
+  const std::size_t n = chunk.end - chunk.begin;
+  law::Workspace& workspace = workspaces_[chunk.index];
+  for (std::size_t o = 0; o < measured.program.outputs().size(); ++o) {
+    const double* slope = slope_.data() + measured.slot[o] * n;
+    const std::span<double> adjoints = workspace.adjoints(o);
+    if (measured.program.outputs()[o].uniform) {
+      double sum = 0;
+      for (std::size_t i = 0; i < n; ++i) sum += weight_of(chunk, i, weight) * slope[i];
+      adjoints[0] = sum;
+    } else {
+      for (std::size_t i = 0; i < n; ++i) adjoints[i] = weight_of(chunk, i, weight) * slope[i];
+    }
+  }
+  for (std::size_t e = 0; e < law_.effects.size(); ++e) {
+    std::fill_n(by_effect_[e].begin(), n, 0.0);
+  }
+}
+
+void UnitRows::evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
+                        std::span<double> value, std::span<double> slope) {
+  const std::size_t d = law_.effects.size();
+  const bool sloped = !slope.empty();
+  for (std::size_t u = 0; u < law_.units.size(); ++u) {
+    if (!wanted[u]) continue;
+    value[u] = 0;
+    if (sloped) std::fill_n(slope.begin() + static_cast<std::ptrdiff_t>(u * d), d, 0.0);
+  }
+  visit(wanted, [&](const Chunk& chunk) {
+    forward(chunk, z, sloped);
+    const std::size_t n = chunk.end - chunk.begin;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double count = chunk.column->count[chunk.begin + i];
+      if (count > 0) value[chunk.column->unit[chunk.begin + i]] += count * value_[i];
+    }
+    if (!sloped) return;
+    fill_adjoints(chunk, nullptr);
+    chunk.column->measured->program.reverse(chunk.column->data, chunk.begin, chunk.end,
+                                            {inner_, {effect_at_, d}}, workspaces_[chunk.index],
+                                            inner_gradient_, {by_effect_at_, d});
+    const double r = population_.correlation, rest = std::sqrt(1 - r * r);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t u = chunk.column->unit[chunk.begin + i];
+      for (std::size_t e = 0; e < d; ++e) {
+        const double by_own = by_effect_[e][i] * population_.scatter[e] *
+                              (law_.effects[e].lognormal ? effect_[e][i] : 1);
+        if (e == 0) {
+          slope[u * d] += by_own;
+        } else {
+          slope[u * d] += by_own * r;
+          slope[u * d + 1] += by_own * rest;
+        }
+      }
+    }
+  });
+}
+
+void UnitRows::add_gradient(std::span<const double> z, std::span<const double> weight,
+                            std::span<double> gradient) {
+  const std::size_t d = law_.effects.size();
+  std::vector<std::uint8_t> wanted(law_.units.size());
+  for (std::size_t u = 0; u < wanted.size(); ++u) wanted[u] = weight[u] > 0;
+  std::fill(inner_gradient_.begin(), inner_gradient_.end(), 0.0);
+  Population by;
+  visit(wanted, [&](const Chunk& chunk) {
+    forward(chunk, z, true);
+    fill_adjoints(chunk, weight.data());
+    chunk.column->measured->program.reverse(chunk.column->data, chunk.begin, chunk.end,
+                                            {inner_, {effect_at_, d}}, workspaces_[chunk.index],
+                                            inner_gradient_, {by_effect_at_, d});
+    const double r = population_.correlation, rest = std::sqrt(1 - r * r);
+    for (std::size_t i = 0; i < chunk.end - chunk.begin; ++i) {
+      const double* own_z = &z[chunk.column->unit[chunk.begin + i] * d];
+      for (std::size_t e = 0; e < d; ++e) {
+        const double own = e == 0 ? own_z[0] : r * own_z[0] + rest * own_z[1];
+        const bool lognormal = law_.effects[e].lognormal;
+        const double adjoint = by_effect_[e][i], value = effect_[e][i];
+        by.middle[e] += adjoint * (lognormal ? value / population_.middle[e] : 1);
+        const double by_own = adjoint * (lognormal ? value : 1);
+        by.scatter[e] += by_own * own;
+        if (e == 1 && law_.correlated) {
+          by.correlation += by_own * population_.scatter[e] * (own_z[0] - r / rest * own_z[1]);
+        }
+      }
+    }
+  });
+  for (std::size_t i = 0; i < inner_.size(); ++i) gradient[law_.shared[i]] += inner_gradient_[i];
+  if (d > 0) population_at_.add_gradient(x_, by, gradient);
+}
+
+void UnitRows::means_at(const double* effects, std::size_t c, std::span<double> mean,
+                        std::span<double> sd) {
+  held_ = effects;
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    if (chunk.index != c) return;
+    forward(chunk, {}, false);
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      mean[i] = slots_[0][i - chunk.begin];
+      sd[i] = slots_[1][i - chunk.begin];
+    }
+  });
+  held_ = nullptr;
+}
+
+void UnitRows::add_mean_gradient(const double* effects, std::size_t c,
+                                 std::span<const double> by_mean, std::span<const double> by_sd,
+                                 std::span<double> gradient) {
+  held_ = effects;
+  std::fill(inner_gradient_.begin(), inner_gradient_.end(), 0.0);
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    if (chunk.index != c) return;
+    forward(chunk, {}, false);
+    const std::size_t n = chunk.end - chunk.begin;
+    std::fill_n(slope_.begin(), most_response_slots * n, 0.0);
+    std::copy_n(by_mean.begin() + static_cast<std::ptrdiff_t>(chunk.begin), n, slope_.begin());
+    if (!by_sd.empty()) {
+      std::copy_n(by_sd.begin() + static_cast<std::ptrdiff_t>(chunk.begin), n,
+                  slope_.begin() + static_cast<std::ptrdiff_t>(n));
+    }
+    fill_adjoints(chunk, nullptr);
+    chunk.column->measured->program.reverse(
+        chunk.column->data, chunk.begin, chunk.end, {inner_, {effect_at_, law_.effects.size()}},
+        workspaces_[chunk.index], inner_gradient_, {by_effect_at_, law_.effects.size()});
+  });
+  held_ = nullptr;
+  for (std::size_t i = 0; i < inner_.size(); ++i) gradient[law_.shared[i]] += inner_gradient_[i];
+}
+
+std::vector<std::vector<double>> UnitRows::each_term(std::span<const double> z) {
+  std::vector<std::vector<double>> all;
+  for (const BoundColumn& column : columns_) {
+    all.emplace_back(column.measured->observed.rows.size());
+  }
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    forward(chunk, z, false);
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      if (chunk.column->count[i] > 0) {
+        all[chunk.index][chunk.column->term[i]] = value_[i - chunk.begin];
+      }
+    }
+  });
+  return all;
+}
+
+std::vector<std::vector<double>> UnitRows::each_slot(std::span<const double> z) {
+  std::vector<std::vector<double>> all;
+  for (const BoundColumn& column : columns_) {
+    all.emplace_back(most_response_slots * column.measured->observed.rows.size());
+  }
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    forward(chunk, z, false);
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      if (!(chunk.column->count[i] > 0)) continue;
+      for (std::size_t s = 0; s < most_response_slots; ++s) {
+        all[chunk.index][chunk.column->term[i] * most_response_slots + s] =
+            slots_[s][i - chunk.begin];
+      }
+    }
+  });
+  return all;
+}
+
+namespace {
+
+class OwnLikelihood final : public LogDensity {
+ public:
+  explicit OwnLikelihood(std::shared_ptr<const OwnRows> rows)
+      : rows_(std::move(rows)),
+        law_(&rows_->law()),
+        all_(law_->units.size(), 1),
+        ones_(law_->units.size(), 1) {}
+
+  int dimension() const override { return static_cast<int>(law_->parameters.size()); }
+
+  double value(std::span<const double> x) const override {
+    if (law_->varies()) return number(rows_->integrate(x.data()).sum());
+    Scratch& scratch = mine();
+    scratch.rows.move_to(x.data());
+    scratch.value.resize(law_->units.size());
+    scratch.rows.evaluate({}, all_, scratch.value, {});
+    double sum = 0;
+    for (const double each : scratch.value) sum += each;
+    return number(sum);
+  }
+
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    Scratch& scratch = mine();
+    const double sum = value(x);
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    if (!(sum > -infinity)) return sum;
+    if (!law_->varies()) {
+      scratch.rows.add_gradient({}, ones_, gradient);
+      return sum;
+    }
+    if (scratch.linear) {
+      scratch.linear->add_gradient(scratch.integrals, gradient);
+      return sum;
+    }
+    // The derivative of a log integral is the mean of the integrand's under the unit's posterior.
+    constexpr double negligible = 1e-13;
+    for (latent::Sweep& sweep : scratch.integrals.sweeps) {
+      bool any = false;
+      for (double& weight : sweep.weight) {
+        if (!(weight > negligible)) weight = 0;
+        any |= weight > 0;
+      }
+      if (any) scratch.rows.add_gradient(sweep.z, sweep.weight, gradient);
+    }
+    return sum;
+  }
+
+  // Of units where they differ, else of observations, column by column.
+  std::vector<double> pointwise(std::span<const double> x) const override {
+    if (law_->varies()) return rows_->integrate(x.data()).log_likelihood;
+    Scratch& scratch = mine();
+    scratch.rows.move_to(x.data());
+    std::vector<double> all;
+    for (const auto& column : scratch.rows.each_term({})) {
+      all.insert(all.end(), column.begin(), column.end());
+    }
+    return all;
+  }
+
+  std::vector<int> pointwise_counts() const override {
+    std::vector<int> counts;
+    if (law_->varies()) return counts;
+    for (const Measured& each : law_->measured) {
+      counts.insert(counts.end(), each.observed.counts.begin(), each.observed.counts.end());
+    }
+    return counts;
+  }
+
+ private:
+  using Scratch = OwnRows::Scratch;
+
+  static double number(double value) { return value < infinity ? value : -infinity; }
+
+  Scratch& mine() const { return rows_->mine(); }
+
+  std::shared_ptr<const OwnRows> rows_;
+  const OwnLaw* law_;
+  std::vector<std::uint8_t> all_;
+  std::vector<double> ones_;
+};
+
+}  // namespace
+
+OwnRows::OwnRows(std::shared_ptr<const OwnLaw> law, std::size_t rows)
+    : law_(std::move(law)), columns_(bind_columns(*law_, rows)) {
+  linear_ = is_linear(*law_, columns_);
+}
+
+const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
+  Scratch& scratch = mine();
+  scratch.rows.move_to(x);
+  if (scratch.linear) {
+    scratch.linear->move();
+    latent::integrate(*scratch.linear, scratch.integrals);
+  } else {
+    latent::integrate(scratch.rows, scratch.integrals);
+  }
+  return scratch.integrals;
+}
+
+OwnRows::Scratch& OwnRows::mine() const {
+  std::unique_ptr<Scratch>& scratch = scratch_.local();
+  if (!scratch) {
+    scratch.reset(new Scratch{UnitRows(*law_, columns_), {}, {}, {}});
+    if (linear_) scratch->linear = std::make_unique<LinearUnits>(scratch->rows);
+  }
+  return *scratch;
+}
+
+std::shared_ptr<const LogDensity> own_likelihood(std::shared_ptr<const OwnRows> rows) {
+  return std::make_shared<OwnLikelihood>(std::move(rows));
+}
+
+}  // namespace wearwell::ownlaw

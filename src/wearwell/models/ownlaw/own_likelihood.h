@@ -1,0 +1,127 @@
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "wearwell/bayes/log_density.h"
+#include "wearwell/latent/unit_integral.h"
+#include "wearwell/models/ownlaw/own_law.h"
+#include "wearwell/models/ownlaw/own_linear.h"
+#include "wearwell/prob/response_block.h"
+
+namespace wearwell::ownlaw {
+
+/// Rows of one measured column, bound to its program, unit by unit. Immutable.
+struct BoundColumn {
+  const Measured* measured = nullptr;
+  law::Data data;
+  std::vector<std::size_t> unit;   ///< of each bound row
+  std::vector<std::size_t> begin;  ///< of each unit among them; one more entry at the end
+  ResponseColumn responses;        ///< of each bound row
+  std::vector<double> count;       ///< 0 where the row has no observation of this column
+  std::vector<std::size_t> term;   ///< which observation of `Observed` it is, where there is one
+  std::size_t most_rows = 0;       ///< of one call
+};
+
+/// All columns of the first `rows` rows of the table.
+std::vector<BoundColumn> bind_columns(const OwnLaw& law, std::size_t rows);
+
+/// The units' likelihood at one point of the parameters: one thread's.
+class UnitRows final : public latent::UnitTerms {
+ public:
+  UnitRows(const OwnLaw& law, const std::vector<BoundColumn>& columns);
+
+  /// All that follows is at these parameters, which must stay.
+  void move_to(const double* x);
+  const Population& population() const { return population_; }
+
+  std::size_t units() const override { return law_.units.size(); }
+  int effects() const override { return static_cast<int>(law_.effects.size()); }
+  void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
+                std::span<double> value, std::span<double> slope) override;
+
+  /// Adds to `gradient` the sum over units of weight times the derivative of the unit's log
+  /// likelihood at z by the study's parameters.
+  void add_gradient(std::span<const double> z, std::span<const double> weight,
+                    std::span<double> gradient);
+
+  /// Outputs of all rows of column c with every unit's effects at `effects`: the mean and the standard
+  /// deviation of a normal law, row by row.
+  void means_at(const double* effects, std::size_t c, std::span<double> mean, std::span<double> sd);
+  /// Adds to `gradient` the sum over the rows of column c of adjoint times derivative, of what
+  /// `means_at` gives, with the effects held.
+  void add_mean_gradient(const double* effects, std::size_t c, std::span<const double> by_mean,
+                         std::span<const double> by_sd, std::span<double> gradient);
+  const std::vector<BoundColumn>& columns() const { return columns_; }
+  const OwnLaw& law() const { return law_; }
+  /// Adds what derivatives by middles, scatters and the correlation come to.
+  void add_population_gradient(const Population& by, std::span<double> gradient) {
+    population_at_.add_gradient(x_, by, gradient);
+  }
+
+  /// log density of each observation at z, by column, in the order of `Observed`.
+  std::vector<std::vector<double>> each_term(std::span<const double> z);
+
+  /// The slots of each observation at z, three each, by column in the order of `Observed`.
+  std::vector<std::vector<double>> each_slot(std::span<const double> z);
+
+ private:
+  struct Chunk {
+    const BoundColumn* column;
+    std::size_t index, begin, end;  // of columns; of bound rows
+  };
+  template <class Visit>
+  void visit(std::span<const std::uint8_t> wanted, const Visit& visit);
+  void forward(const Chunk& chunk, std::span<const double> z, bool sloped);
+  void fill_adjoints(const Chunk& chunk, const double* weight);
+  double weight_of(const Chunk& chunk, std::size_t i, const double* weight) const;
+
+  const OwnLaw& law_;
+  const std::vector<BoundColumn>& columns_;
+  PopulationAt population_at_;
+  Population population_;
+  const double* x_ = nullptr;
+  std::vector<double> inner_;  // parameters of the rows' symbols
+  std::vector<double> inner_gradient_;
+  std::vector<law::Workspace> workspaces_;
+  std::vector<double> value_, slope_;
+  std::vector<double> effect_[2], by_effect_[2];  // of the rows of a chunk
+  const double* effect_at_[2] = {};
+  double* by_effect_at_[2] = {};
+  std::vector<SlotValues> slots_;
+  double zero_ = 0;
+  const double* held_ = nullptr;  // effects of all units, where they are held
+};
+
+/// The rows of a law, for any thread.
+class OwnRows {
+ public:
+  OwnRows(std::shared_ptr<const OwnLaw> law, std::size_t rows);
+
+  struct Scratch {
+    UnitRows rows;
+    std::unique_ptr<LinearUnits> linear;  ///< where means are straight in what differs
+    latent::UnitIntegrals integrals;
+    std::vector<double> value;
+  };
+  /// This thread's own.
+  Scratch& mine() const;
+  /// Of a law that varies: integrates effects out at x, into this thread's `integrals`.
+  const latent::UnitIntegrals& integrate(const double* x) const;
+  const OwnLaw& law() const { return *law_; }
+
+ private:
+  std::shared_ptr<const OwnLaw> law_;
+  std::vector<BoundColumn> columns_;
+  bool linear_ = false;
+  mutable tbb::enumerable_thread_specific<std::unique_ptr<Scratch>> scratch_;
+};
+
+/// The likelihood of a study's law; effects of units are integrated out (latent/unit_integral.h).
+std::shared_ptr<const LogDensity> own_likelihood(std::shared_ptr<const OwnRows> rows);
+
+}  // namespace wearwell::ownlaw

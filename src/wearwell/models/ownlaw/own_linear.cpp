@@ -1,0 +1,240 @@
+#include "wearwell/models/ownlaw/own_linear.h"
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+
+#include "wearwell/models/ownlaw/own_likelihood.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double half_log_two_pi = 0.91893853320467274178;
+
+bool has_cases(const OwnLaw& law) {
+  static const std::regex cases(R"(\b(where|min|max|abs)\b|[<>=])");
+  const auto found = [&](const std::string& text) { return std::regex_search(text, cases); };
+  return std::any_of(law.measured.begin(), law.measured.end(), [&](const Measured& measured) {
+    for (std::size_t o = 0; o < measured.program.outputs().size(); ++o) {
+      if (found(measured.program.text(o))) return true;
+    }
+    return measured.program.has_paths();
+  });
+}
+
+// Means of the rows at three places on a line through the effects: the middle one halfway?
+bool straight(UnitRows& rows, std::size_t c, const double* from, const double* to,
+              std::size_t effects) {
+  constexpr double shares[] = {0, 0.25, 0.5, 1, 1e-3};
+  const std::size_t n = rows.columns()[c].unit.size();
+  std::vector<double> mean[5], sd[5];
+  for (int k = 0; k < 5; ++k) {
+    double at[2] = {};
+    for (std::size_t e = 0; e < effects; ++e) at[e] = from[e] + shares[k] * (to[e] - from[e]);
+    mean[k].resize(n);
+    sd[k].resize(n);
+    rows.means_at(at, c, mean[k], sd[k]);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int k = 1; k < 5; ++k) {
+      const double expected = mean[0][i] + shares[k] * (mean[3][i] - mean[0][i]);
+      const double size = std::max(std::abs(mean[0][i]), std::abs(mean[3][i]));
+      if (!(std::abs(mean[k][i] - expected) <= 1e-12 * size) || sd[k][i] != sd[0][i]) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool is_linear(const OwnLaw& law, const std::vector<BoundColumn>& columns) {
+  if (!law.varies() || has_cases(law)) return false;
+  for (const BoundColumn& column : columns) {
+    const bool normal = column.measured->form->family == ResponseFamily::normal;
+    if (!normal || !column.responses.plain) return false;
+  }
+  UnitRows rows(law, columns);
+  const std::size_t d = law.effects.size();
+  for (const double factor : {1.0, 1.7, 0.3}) {
+    std::vector<double> x;
+    for (const Parameter& each : law.parameters) {
+      const double moved = each.start * factor;
+      const bool inside = each.prior.lower < moved && moved < each.prior.upper;
+      x.push_back(inside ? moved : each.start);
+    }
+    rows.move_to(x.data());
+    const Population& population = rows.population();
+    for (const double away : {0.5, 3.0, 200.0}) {
+      double from[2] = {}, to[2] = {}, other[2] = {};
+      for (std::size_t e = 0; e < d; ++e) {
+        const double middle = population.middle[e];
+        const double size = middle != 0 ? std::abs(middle) : std::abs(population.scatter[e]);
+        from[e] = middle;
+        to[e] = middle + away * size;
+        other[e] = middle - (law.effects[e].lognormal ? 0.999 : away) * size;
+      }
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (!straight(rows, c, from, to, d) || !straight(rows, c, from, other, d)) return false;
+        const double one[2] = {to[0], from[1]}, two[2] = {other[0], to[1]};
+        if (d > 1 && (!straight(rows, c, from, one, d) || !straight(rows, c, one, two, d))) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
+LinearUnits::LinearUnits(UnitRows& rows)
+    : rows_(rows),
+      law_(rows.law()),
+      effects_(law_.effects.size()),
+      parabola_(law_.units.size()),
+      moments_(law_.units.size()) {
+  std::size_t most = 0;
+  for (const BoundColumn& column : rows.columns()) {
+    for (auto& mean : mean_) mean.emplace_back(column.unit.size());
+    sd_.emplace_back(column.unit.size());
+    most = std::max(most, column.unit.size());
+  }
+  for (auto& each : by_mean_) each.resize(most);
+  by_sd_.resize(most);
+}
+
+std::size_t LinearUnits::units() const {
+  return law_.units.size();
+}
+
+void LinearUnits::move() {
+  const Population& population = rows_.population();
+  for (std::size_t e = 0; e < effects_; ++e) {
+    base_[e] = population.middle[e];
+    width_[e] = base_[e] != 0 ? std::abs(base_[e]) : population.scatter[e];
+  }
+  std::fill(parabola_.begin(), parabola_.end(), Parabola());
+  for (std::size_t c = 0; c < rows_.columns().size(); ++c) {
+    const BoundColumn& column = rows_.columns()[c];
+    for (std::size_t r = 0; r <= effects_; ++r) {
+      double at[2] = {base_[0], base_[1]};
+      if (r > 0) at[r - 1] += width_[r - 1];
+      rows_.means_at(at, c, mean_[r][c], sd_[c]);
+    }
+    for (std::size_t i = 0; i < column.unit.size(); ++i) {
+      const double count = column.count[i], sd = sd_[c][i], mean = mean_[0][c][i];
+      if (!(count > 0)) continue;
+      Parabola& p = parabola_[column.unit[i]];
+      if (!(sd > 0 && std::isfinite(sd) && std::isfinite(mean))) {
+        p.top = -infinity;
+        continue;
+      }
+      const double off = column.responses.at[i] - mean, weight = count / (sd * sd);
+      p.top -= count * (std::log(sd) + half_log_two_pi) + 0.5 * weight * off * off;
+      const double d0 = mean_[1][c][i] - mean;
+      p.slope[0] += weight * d0 * off;
+      p.bend[0] += weight * d0 * d0;
+      if (effects_ == 1) continue;
+      const double d1 = mean_[2][c][i] - mean;
+      p.slope[1] += weight * d1 * off;
+      p.bend[1] += weight * d0 * d1;
+      p.bend[2] += weight * d1 * d1;
+    }
+  }
+}
+
+void LinearUnits::steps(const double* z, double* step, double* effect) const {
+  for (std::size_t e = 0; e < effects_; ++e) {
+    effect[e] = rows_.population().value(law_, e, z);
+    step[e] = (effect[e] - base_[e]) / width_[e];
+  }
+}
+
+void LinearUnits::evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
+                           std::span<double> value, std::span<double> slope) {
+  const Population& population = rows_.population();
+  const double r = population.correlation, rest = std::sqrt(1 - r * r);
+  for (std::size_t u = 0; u < parabola_.size(); ++u) {
+    if (!wanted[u]) continue;
+    const Parabola& p = parabola_[u];
+    double s[2] = {}, effect[2] = {};
+    steps(&z[u * effects_], s, effect);
+    const double by0 = p.slope[0] - p.bend[0] * s[0] - p.bend[1] * s[1];
+    const double by1 = p.slope[1] - p.bend[1] * s[0] - p.bend[2] * s[1];
+    const double at = p.top + 0.5 * ((p.slope[0] + by0) * s[0] + (p.slope[1] + by1) * s[1]);
+    value[u] = std::isnan(at) ? -infinity : at;
+    if (slope.empty()) continue;
+    const auto by_own = [&](std::size_t e, double by) {
+      return by / width_[e] * population.scatter[e] * (law_.effects[e].lognormal ? effect[e] : 1);
+    };
+    slope[u * effects_] = by_own(0, by0);
+    if (effects_ == 1) continue;
+    slope[u * effects_] += r * by_own(1, by1);
+    slope[u * effects_ + 1] = rest * by_own(1, by1);
+  }
+}
+
+void LinearUnits::add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient) {
+  const Population& population = rows_.population();
+  const double r = population.correlation, rest = std::sqrt(1 - r * r);
+  std::fill(moments_.begin(), moments_.end(), Moments());
+  Population by;
+  for (const latent::Sweep& sweep : integrals.sweeps) {
+    for (std::size_t u = 0; u < parabola_.size(); ++u) {
+      const double weight = sweep.weight[u];
+      if (!(weight > 1e-14)) continue;
+      const double* z = &sweep.z[u * effects_];
+      double s[2] = {}, effect[2] = {};
+      steps(z, s, effect);
+      Moments& m = moments_[u];
+      m.first[0] += weight * s[0];
+      m.first[1] += weight * s[1];
+      m.second[0] += weight * s[0] * s[0];
+      m.second[1] += weight * s[0] * s[1];
+      m.second[2] += weight * s[1] * s[1];
+      const Parabola& p = parabola_[u];
+      const double slope[2] = {p.slope[0] - p.bend[0] * s[0] - p.bend[1] * s[1],
+                               p.slope[1] - p.bend[1] * s[0] - p.bend[2] * s[1]};
+      for (std::size_t e = 0; e < effects_; ++e) {
+        const bool lognormal = law_.effects[e].lognormal;
+        const double by_effect = weight * slope[e] / width_[e];
+        const double own = e == 0 ? z[0] : r * z[0] + rest * z[1];
+        by.middle[e] += by_effect * (lognormal ? effect[e] / base_[e] : 1);
+        const double by_own = by_effect * (lognormal ? effect[e] : 1);
+        by.scatter[e] += by_own * own;
+        if (e == 1 && law_.correlated) {
+          by.correlation += by_own * population.scatter[e] * (z[0] - r / rest * z[1]);
+        }
+      }
+    }
+  }
+  rows_.add_population_gradient(by, gradient);
+  for (std::size_t c = 0; c < rows_.columns().size(); ++c) {
+    const BoundColumn& column = rows_.columns()[c];
+    const std::size_t n = column.unit.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Moments& m = moments_[column.unit[i]];
+      const double sd = sd_[c][i], inverse = 1 / (sd * sd);
+      const double off = column.responses.at[i] - mean_[0][c][i];
+      const double d0 = mean_[1][c][i] - mean_[0][c][i];
+      const double d1 = effects_ > 1 ? mean_[2][c][i] - mean_[0][c][i] : 0;
+      // Of the residual, times one, each step, and itself.
+      const double rest_mean = off - d0 * m.first[0] - d1 * m.first[1];
+      const double by_one = off * m.first[0] - d0 * m.second[0] - d1 * m.second[1];
+      const double by_two = off * m.first[1] - d0 * m.second[1] - d1 * m.second[2];
+      const double square = off * rest_mean - d0 * by_one - d1 * by_two;
+      by_mean_[0][i] = (rest_mean - by_one - by_two) * inverse;
+      by_mean_[1][i] = by_one * inverse;
+      by_mean_[2][i] = by_two * inverse;
+      by_sd_[i] = square * inverse / sd - 1 / sd;
+    }
+    for (std::size_t e = 0; e <= effects_; ++e) {
+      double at[2] = {base_[0], base_[1]};
+      if (e > 0) at[e - 1] += width_[e - 1];
+      rows_.add_mean_gradient(
+          at, c, {by_mean_[e].data(), n},
+          e == 0 ? std::span<const double>(by_sd_.data(), n) : std::span<const double>(), gradient);
+    }
+  }
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wearwell/latent/unit_integral.h"
+#include "wearwell/models/ownlaw/own_law.h"
+
+namespace wearwell::ownlaw {
+
+class UnitRows;
+struct BoundColumn;
+
+/// Whether every column is normal and exact, its mean a straight line in what differs from unit to
+/// unit, and its standard deviation without it: depth = k work, y = a + b t. Tried with numbers, at
+/// several parameters and effects; laws with cases (where, min, max, abs, <) never are.
+bool is_linear(const OwnLaw& law, const std::vector<BoundColumn>& columns);
+
+/// The same likelihood as that of `UnitRows`, from one look at the rows for each effect and one more:
+/// the log likelihood of a unit is a parabola in its effects then, whatever the number of its rows.
+class LinearUnits final : public latent::UnitTerms {
+ public:
+  explicit LinearUnits(UnitRows& rows);
+
+  /// To where the rows have been moved.
+  void move();
+
+  std::size_t units() const override;
+  int effects() const override { return static_cast<int>(effects_); }
+  void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
+                std::span<double> value, std::span<double> slope) override;
+
+  /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
+  void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);
+
+ private:
+  // Effects are counted from the middle, in steps.
+  struct Parabola {
+    double top = 0, slope[2] = {}, bend[3] = {};  // 00, 01, 11
+  };
+  struct Moments {
+    double first[2] = {}, second[3] = {};
+  };
+  void steps(const double* z, double* step, double* effect) const;
+
+  UnitRows& rows_;
+  const OwnLaw& law_;
+  std::size_t effects_;
+  double base_[2] = {}, width_[2] = {};
+  std::vector<Parabola> parabola_;
+  std::vector<Moments> moments_;
+  std::vector<std::vector<double>> mean_[3], sd_;  // by column, then row
+  std::vector<double> by_mean_[3], by_sd_;
+};
+
+}  // namespace wearwell::ownlaw

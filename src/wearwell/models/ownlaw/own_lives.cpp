@@ -1,0 +1,241 @@
+#include "wearwell/models/ownlaw/own_lives.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "wearwell/bayes/normal_score.h"
+#include "wearwell/predict/prediction.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr std::size_t most_points = 4000;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The ends of cells of equal width that fill the standard normal law, up to 1e-16 of it.
+struct NormalCells {
+  std::vector<double> end, weight;
+
+  explicit NormalCells(double width) {
+    constexpr double farthest = 8.25;
+    for (double z = -farthest; z < farthest + 0.5 * width; z += width) end.push_back(z);
+    for (std::size_t i = 0; i + 1 < end.size(); ++i) {
+      weight.push_back(end[i] < 0 ? normal_cdf(end[i + 1]) - normal_cdf(end[i])
+                                  : normal_cdf(-end[i]) - normal_cdf(-end[i + 1]));
+    }
+  }
+};
+
+// One thread's part: some points of the posterior, one after the other.
+class Part {
+ public:
+  Part(const OwnRows& rows, const LimitedPath& path) : rows_(rows), path_(path) {
+    if (path.next) next_.emplace(*path.next, path.rising, path.begin, path.scale);
+    for (const LimitedPath::Seen& each : path.seen) {
+      ahead_.emplace_back(*each.ahead, path.rising, path.begin, path.scale);
+      behind_.push_back(each.behind ? std::make_unique<PathAt>(*each.behind) : nullptr);
+    }
+    lives.remaining.resize(path.seen.size());
+    lives.passed.assign(path.seen.size(), 0);
+  }
+
+  void add(const double* x, double weight) {
+    if (next_) add_next(x, weight);
+    if (!path_.seen.empty()) add_seen(x, weight);
+  }
+
+  LimitedLives lives;
+
+ private:
+  std::size_t effects() const { return rows_.law().effects.size(); }
+
+  // Lives of units at `z`, as many as `z` holds.
+  void solve(Crossing& crossing, const std::vector<double>& z, std::size_t count,
+             std::vector<double>& place) {
+    place.resize(count);
+    level_.assign(count, path_.limit);
+    for (std::size_t at = 0; at < count; at += Path::most) {
+      const std::size_t n = std::min(Path::most, count - at);
+      crossing.solve(n, z.empty() ? nullptr : &z[at * effects()], &level_[at], &place[at]);
+    }
+  }
+
+  void add_next(const double* x, double weight) {
+    next_->at().move_to(x);
+    if (effects() == 0) {
+      solve(*next_, {}, 1, place_);
+      lives.next.add(weight, place_[0], place_[0]);
+      return;
+    }
+    if (effects() == 1) {
+      static const NormalCells cells(0.25);
+      solve(*next_, cells.end, cells.end.size(), place_);
+      for (std::size_t i = 0; i < cells.weight.size(); ++i) {
+        lives.next.add(weight * cells.weight[i], place_[i], place_[i + 1]);
+      }
+      return;
+    }
+    // A cell of the plane spreads from corner to corner.
+    static const NormalCells cells(0.5);
+    const std::size_t n = cells.end.size();
+    if (grid_.empty()) {
+      for (const double a : cells.end) {
+        for (const double b : cells.end) {
+          grid_.push_back(a);
+          grid_.push_back(b);
+        }
+      }
+    }
+    solve(*next_, grid_, n * n, place_);
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+      for (std::size_t j = 0; j + 1 < n; ++j) {
+        const double w = weight * cells.weight[i] * cells.weight[j];
+        if (w < 1e-12 * weight) continue;
+        const double corner[] = {place_[i * n + j], place_[i * n + j + 1], place_[(i + 1) * n + j],
+                                 place_[(i + 1) * n + j + 1]};
+        lives.next.add(w, *std::min_element(corner, corner + 4),
+                       *std::max_element(corner, corner + 4));
+      }
+    }
+  }
+
+  void add_seen(const double* x, double weight) {
+    const std::size_t d = effects(), units = path_.seen.size();
+    if (d == 0) {
+      for (std::size_t u = 0; u < units; ++u) {
+        ahead_[u].at().move_to(x);
+        solve(ahead_[u], {}, 1, place_);
+        add_remaining(u, x, {}, weight, place_[0], place_[0]);
+      }
+      return;
+    }
+    const auto& sweeps = rows_.integrate(x).sweeps;
+    for (std::size_t u = 0; u < units; ++u) {
+      nodes_.clear();
+      for (const latent::Sweep& sweep : sweeps) {
+        if (!(sweep.weight[u] > 1e-9)) continue;
+        nodes_.push_back({sweep.weight[u], sweep.z[u * d], d > 1 ? sweep.z[u * d + 1] : 0});
+      }
+      std::sort(nodes_.begin(), nodes_.end(),
+                [](const Node& a, const Node& b) { return a.z0 < b.z0; });
+      z_.clear();
+      // Ends of the nodes' cells; of two effects the nodes themselves, which are many.
+      for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        if (d == 1) {
+          const double gap = nodes_.size() > 1 ? nodes_[1].z0 - nodes_[0].z0 : 0;
+          const double before = i > 0 ? nodes_[i].z0 - nodes_[i - 1].z0 : gap;
+          if (i == 0) z_.push_back(nodes_[0].z0 - 0.5 * before);
+          const double after = i + 1 < nodes_.size() ? nodes_[i + 1].z0 - nodes_[i].z0 : before;
+          z_.push_back(nodes_[i].z0 + 0.5 * after);
+        } else {
+          z_.push_back(nodes_[i].z0);
+          z_.push_back(nodes_[i].z1);
+        }
+      }
+      const std::size_t count = z_.size() / d;
+      if (nodes_.empty()) continue;
+      ahead_[u].at().move_to(x);
+      solve(ahead_[u], z_, count, place_);
+      for (std::size_t i = 0; i < nodes_.size(); ++i) {
+        const double z[2] = {nodes_[i].z0, nodes_[i].z1};
+        const std::size_t other = d == 1 ? i + 1 : i;
+        add_remaining(u, x, {z, d}, weight * nodes_[i].weight, place_[i], place_[other]);
+      }
+    }
+  }
+
+  // What lies beyond the unit's last row counts. Where conditions change, its path goes on from where
+  // it stands, wherever under the new ones that is.
+  void add_remaining(std::size_t u, const double* x, std::span<const double> z, double weight,
+                     double a, double b) {
+    const LimitedPath::Seen& seen = path_.seen[u];
+    double now = seen.now;
+    if (behind_[u]) {
+      behind_[u]->move_to(x);
+      behind_[u]->evaluate(1, z.empty() ? nullptr : z.data(), &seen.now);
+      const double level = behind_[u]->output(0, 0);
+      const bool there = path_.rising ? level >= path_.limit : level <= path_.limit;
+      if (there) {
+        lives.passed[u] += weight;
+        return;
+      }
+      ahead_[u].solve(1, z.empty() ? nullptr : z.data(), &level, &now);
+    }
+    CellMixture one;
+    one.add(weight, a, b);
+    const CellMixture rest = one.beyond(now);
+    lives.passed[u] += weight - rest.mass();
+    lives.remaining[u].add(rest);
+  }
+
+  struct Node {
+    double weight, z0, z1;
+  };
+  const OwnRows& rows_;
+  const LimitedPath& path_;
+  std::optional<Crossing> next_;
+  std::vector<Crossing> ahead_;
+  std::vector<std::unique_ptr<PathAt>> behind_;
+  std::vector<Node> nodes_;
+  std::vector<double> z_, place_, level_, grid_;
+};
+
+}  // namespace
+
+FewPoints::FewPoints(const WeightedDraws& draws, std::size_t most) {
+  const DominantDraws dominant(draws);
+  const std::size_t n = dominant.rows.size();
+  std::vector<std::size_t> chosen(n);
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  weights = dominant.weights;
+  if (n > most) {
+    // In the order in which the quadrature has them neighbours are alike.
+    std::sort(chosen.begin(), chosen.end(),
+              [&](std::size_t a, std::size_t b) { return dominant.rows[a] < dominant.rows[b]; });
+    std::vector<std::size_t> few;
+    double sum = 0;
+    const double share = 1 / static_cast<double>(most);
+    for (const std::size_t each : chosen) {
+      sum += dominant.weights[each];
+      while (few.size() < most && sum > (static_cast<double>(few.size()) + 0.5) * share) {
+        few.push_back(each);
+      }
+    }
+    chosen = few;
+    weights.assign(few.size(), 1 / static_cast<double>(few.size()));
+  }
+  values.resize(static_cast<Eigen::Index>(chosen.size()), draws.values.cols());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    values.row(static_cast<Eigen::Index>(i)) = draws.values.row(dominant.rows[chosen[i]]);
+  }
+}
+
+LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
+                           const WeightedDraws& draws) {
+  const FewPoints few(draws, most_points);
+  // Always the same parts, whatever the number of threads: sums keep their order.
+  constexpr std::size_t parts = 16;
+  std::vector<LimitedLives> each(parts);
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
+    Part part(rows, path);
+    const std::size_t n = few.weights.size();
+    for (std::size_t i = p * n / parts; i < (p + 1) * n / parts; ++i) {
+      part.add(few.values.row(static_cast<Eigen::Index>(i)).data(), few.weights[i]);
+    }
+    each[p] = std::move(part.lives);
+  });
+  LimitedLives all = std::move(each[0]);
+  for (std::size_t p = 1; p < parts; ++p) {
+    all.next.add(each[p].next);
+    for (std::size_t u = 0; u < path.seen.size(); ++u) {
+      all.remaining[u].add(each[p].remaining[u]);
+      all.passed[u] += each[p].passed[u];
+    }
+  }
+  return all;
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/models/ownlaw/own_likelihood.h"
+#include "wearwell/models/ownlaw/own_path.h"
+#include "wearwell/predict/cell_mixture.h"
+
+namespace wearwell::ownlaw {
+
+/// A posterior as few points, of even weights where they were many: evenly along the order of its
+/// nodes, which lie box by box.
+struct FewPoints {
+  FewPoints(const WeightedDraws& draws, std::size_t most);
+  Points values;
+  std::vector<double> weights;  ///< sum to 1
+};
+
+/// When a path reaches its limit.
+struct LimitedPath {
+  std::shared_ptr<const Path> next;  ///< of a unit not yet seen; null where it was not asked for
+  /// Of each unit: under the conditions to come, and under its own until now where these differ (else
+  /// null).
+  struct Seen {
+    std::shared_ptr<const Path> ahead, behind;
+    double now = 0;  ///< where its last row lies along the axis, SI
+  };
+  std::vector<Seen> seen;
+  double limit = 0;  ///< SI
+  bool rising = true;
+  double begin = 0;  ///< where the axis begins, SI
+  double scale = 1;  ///< of the axis, SI
+};
+
+/// Lives over a posterior: each mixed over the posterior of the population and, given that and all of
+/// its rows, that of the unit's own effects.
+struct LimitedLives {
+  CellMixture next;
+  std::vector<CellMixture>
+      remaining;               ///< of each unit, from its last row on, given that it is not there
+  std::vector<double> passed;  ///< the probability that it is there already
+};
+LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
+                           const WeightedDraws& draws);
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,606 @@
+#include "wearwell/models/ownlaw/own_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <regex>
+#include <set>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/input/prior.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+const std::vector<std::string> special_names = {"status", "lower", "upper", "entry", "count"};
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
+}
+
+struct Bounds {
+  double lower = -INFINITY, upper = INFINITY;
+
+  void take(double least, double most) {
+    lower = std::max(lower, least);
+    upper = std::min(upper, most);
+  }
+};
+
+// A likelihood as it is written, before anything is compiled.
+struct WrittenLikelihood {
+  std::string column;
+  const ResponseForm* form;
+  std::optional<std::string> trials;
+  std::vector<std::pair<std::size_t, std::string>> slots;  // of the form, and the expression
+};
+
+struct WrittenEffect {
+  std::string name, scatter;
+  bool lognormal;
+};
+
+class Reader {
+ public:
+  Reader(const TomlReader& root, const Source& source)
+      : root_(root), source_(source), law_(std::make_shared<OwnLaw>()) {}
+
+  std::shared_ptr<OwnLaw> read() {
+    read_texts();
+    law_->data = read_own_data(root_, source_, label_names());
+    read_along();
+    read_symbols();
+    read_parameters();
+    read_effects();
+    compile_population();
+    compile_measured();
+    order_rows();
+    require_failures();
+    return law_;
+  }
+
+ private:
+  // All that is written, since what a name stands for is seen by how it is used.
+  void read_texts() {
+    if (const auto lines = root_.table("law")) {
+      for (const std::string& name : lines->keys()) {
+        law_->lines.push_back({name, expression(*lines, name)});
+        texts_.push_back(law_->lines.back().text);
+      }
+    }
+    const TomlReader likelihoods = root_.required_table("likelihood");
+    for (const std::string& column : likelihoods.keys()) {
+      written_.push_back(read_likelihood(likelihoods.required_table(column), column));
+    }
+    if (written_.empty()) {
+      root_.fail("likelihood", "is empty; give one table for each measured column");
+    }
+    if (const auto varies = root_.table("varies")) {
+      const std::vector<std::string> labels = varies->keys();
+      if (labels.size() > 1) {
+        varies->fail(labels[1],
+                     "a second label that parameters vary with is more than is "
+                     "integrated out; one label may vary");
+      }
+      for (const std::string& label : labels) {
+        law_->label = label;
+        read_varies(varies->required_table(label));
+      }
+    }
+    if (const auto predict = root_.table("predict")) {
+      if (const auto quantities = predict->table("quantities")) {
+        for (const std::string& key : quantities->keys()) {
+          texts_.push_back(expression(*quantities, key));
+        }
+      }
+    }
+  }
+
+  WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column) {
+    std::vector<std::string> names;
+    for (const ResponseForm& form : response_forms()) {
+      if (names.empty() || names.back() != form.name) names.emplace_back(form.name);
+    }
+    const auto family = table.choice("family", names);
+    if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
+    const ResponseForm* form = nullptr;
+    std::vector<std::string> ways;
+    for (const ResponseForm& each : response_forms()) {
+      if (each.name != *family) continue;
+      std::vector<std::string> needed;
+      for (const SlotForm& slot : each.slots) {
+        if (!slot.optional) needed.emplace_back(slot.name);
+      }
+      ways.push_back(fmt::format("{}", fmt::join(needed, " and ")));
+      const bool given = std::all_of(needed.begin(), needed.end(),
+                                     [&](const std::string& name) { return table.has(name); });
+      if (given && !form) form = &each;
+    }
+    if (!form) {
+      table.fail("family", fmt::format("{} needs {}", *family, fmt::join(ways, ", or ")));
+    }
+    WrittenLikelihood result{column, form, {}, {}};
+    for (std::size_t s = 0; s < form->slots.size(); ++s) {
+      const std::string name(form->slots[s].name);
+      if (!table.has(name)) continue;
+      result.slots.emplace_back(s, expression(table, name));
+      texts_.push_back(result.slots.back().second);
+    }
+    if (form->family == ResponseFamily::binomial) result.trials = table.required_text("trials");
+    return result;
+  }
+
+  void read_varies(const TomlReader& table) {
+    for (const std::string& name : table.keys()) {
+      if (name == "correlation") continue;
+      const TomlReader effect = table.required_table(name);
+      const auto kind = effect.choice("law", {"lognormal", "normal"});
+      if (!kind) effect.fail("law", "is missing: \"lognormal\" or \"normal\"");
+      const bool lognormal = *kind == "lognormal";
+      const std::string key = lognormal ? "log_sd" : "sd";
+      if (!effect.has(key)) {
+        effect.fail(key,
+                    fmt::format("is missing: of a {} law it says how far units differ", *kind));
+      }
+      effects_.push_back({name, expression(effect, key), lognormal});
+      texts_.push_back(effects_.back().scatter);
+    }
+    if (effects_.empty()) table.fail("", "names no parameter that varies");
+    if (effects_.size() > latent_effects) {
+      table.fail(effects_[latent_effects].name,
+                 fmt::format("is one too many: at most {} parameters may vary", latent_effects));
+    }
+    if (table.has("correlation")) {
+      if (effects_.size() < 2) table.fail("correlation", "needs two parameters that vary");
+      correlation_ = expression(table, "correlation");
+      texts_.push_back(*correlation_);
+    }
+  }
+
+  std::vector<std::string> label_names() {
+    std::vector<std::string> names;
+    if (law_->label) names.push_back(*law_->label);
+    names.emplace_back("status");
+    static const std::regex indexed(R"(([A-Za-z_]\w*)\s*\[\s*([A-Za-z_]\w*)\s*\])");
+    static const std::regex compared(R"re(([A-Za-z_]\w*)\s*(==|!=)\s*")re");
+    static const std::regex compared_back(R"re("\s*(==|!=)\s*([A-Za-z_]\w*))re");
+    static const std::regex unit_before(R"([0-9.)]\s*$)");
+    for (const std::string& text : texts_) {
+      for (std::sregex_iterator it(text.begin(), text.end(), indexed), end; it != end; ++it) {
+        indexed_[(*it)[1]] = (*it)[2];
+        names.push_back((*it)[2]);
+      }
+      for (std::sregex_iterator it(text.begin(), text.end(), compared), end; it != end; ++it) {
+        names.push_back((*it)[1]);
+      }
+      for (std::sregex_iterator it(text.begin(), text.end(), compared_back), end; it != end; ++it) {
+        names.push_back((*it)[2]);
+      }
+    }
+    return names;
+  }
+
+  // The axis of wear and life; the rows of a unit lie along it.
+  void read_along() {
+    if (const auto predict = root_.table("predict")) law_->along = predict->text("along");
+    if (law_->along && !law_->data.number(*law_->along)) {
+      const std::vector<std::string> names = number_names();
+      root_.required_table("predict").fail(
+          "along", fmt::format("'{}' is no column of numbers under data.columns{}", *law_->along,
+                               names.empty() ? ""
+                                             : fmt::format(" (nearest: '{}')",
+                                                           nearest_name(*law_->along, names))));
+    }
+    if (law_->along) return;
+    static const std::regex rate(R"(d\(\s*\w+\s*\)\s*/\s*d\(\s*(\w+)\s*\))");
+    for (const law::Line& line : law_->lines) {
+      std::smatch match;
+      if (std::regex_match(line.name, match, rate) && law_->data.number(match[1])) {
+        law_->along = match[1];
+      }
+    }
+  }
+
+  std::vector<std::string> number_names() const {
+    std::vector<std::string> names;
+    for (const NumberColumn& each : law_->data.numbers) names.push_back(each.name);
+    return names;
+  }
+
+  bool is_measured(const std::string& name) const {
+    return std::any_of(written_.begin(), written_.end(),
+                       [&](const auto& each) { return each.column == name; });
+  }
+
+  void read_symbols() {
+    for (const NumberColumn& column : law_->data.numbers) {
+      const bool special =
+          std::find(special_names.begin(), special_names.end(), column.name) != special_names.end();
+      law_->symbols.columns.push_back(
+          {column.name, column.unit.powers, special || is_measured(column.name)});
+    }
+    for (const LabelColumn& label : law_->data.labels) {
+      if (label.name != "status") law_->symbols.labels.push_back({label.name, label.levels});
+    }
+    if (const auto constants = root_.table("constants")) {
+      for (const std::string& name : constants->keys()) {
+        if (!constants->is_text(name)) {
+          law_->symbols.constants.push_back(
+              {name, {}, constants->required_quantity(name, "1").si()});
+          continue;
+        }
+        try {
+          const law::AnyQuantity q = law::read_any_quantity(constants->required_text(name));
+          law_->symbols.constants.push_back({name, q.powers, q.quantity.si()});
+        } catch (const InputError& error) {
+          constants->fail(name, error.what());
+        }
+      }
+    }
+  }
+
+  // What the places where a parameter stands alone say of its sign.
+  std::map<std::string, Bounds> natural_bounds() const {
+    std::map<std::string, Bounds> bounds;
+    for (const WrittenLikelihood& each : written_) {
+      for (const auto& [slot, text] : each.slots) {
+        std::string name = trimmed(text);
+        name = trimmed(name.substr(0, name.find('[')));
+        const SlotKind kind = each.form->slots[slot].kind;
+        if (kind == SlotKind::probability) bounds[name].take(0, 1);
+        if (kind == SlotKind::size || kind == SlotKind::number) bounds[name].take(0, INFINITY);
+      }
+    }
+    for (const WrittenEffect& each : effects_) {
+      if (each.lognormal) bounds[each.name].take(0, INFINITY);
+      bounds[trimmed(each.scatter)].take(0, INFINITY);
+    }
+    if (correlation_) bounds[trimmed(*correlation_)].take(-1, 1);
+    return bounds;
+  }
+
+  law::Powers powers_of_prior(const TomlReader& priors, const std::string& key) const {
+    const TomlReader table = priors.required_table(key);
+    for (const char* each :
+         {"unit", "median", "mean", "location", "scale", "sd", "lower", "upper"}) {
+      if (!table.has(each) || !table.is_text(each)) continue;
+      try {
+        return each == std::string("unit")
+                   ? law::read_any_unit(table.required_text(each)).powers
+                   : law::read_any_quantity(table.required_text(each)).powers;
+      } catch (const InputError& error) {
+        table.fail(each, error.what());
+      }
+    }
+    return {};
+  }
+
+  Parameter read_one(const TomlReader& priors, const std::string& key, const std::string& name,
+                     const law::Powers& powers, const Bounds& bounds) const {
+    std::string si;
+    try {
+      si = law::si_text(powers);
+    } catch (const InputError& error) {
+      priors.fail(key, error.what());
+    }
+    Parameter parameter = read_prior(priors, {key, si, bounds.lower, bounds.upper, 1});
+    parameter.name = name;
+    if (parameter.prior.proper) {
+      parameter.start = quantile(parameter.prior, 0.5);
+    } else if (parameter.prior.lower < parameter.unit.scale &&
+               parameter.unit.scale < parameter.prior.upper) {
+      parameter.start = parameter.scale = parameter.unit.scale;
+    }
+    return parameter;
+  }
+
+  void read_parameters() {
+    const TomlReader priors = root_.required_table("prior");
+    const std::map<std::string, Bounds> natural = natural_bounds();
+    const auto bounds_of = [&](const std::string& name) {
+      const auto at = natural.find(name);
+      return at == natural.end() ? Bounds() : at->second;
+    };
+    std::set<std::string> done;
+    for (const std::string& key : priors.keys()) {
+      const std::string base = trimmed(key.substr(0, key.find('[')));
+      const auto at = indexed_.find(base);
+      if (at == indexed_.end()) {
+        if (base != key) {
+          priors.fail(key, fmt::format("no expression writes {}[...]; a parameter of each level is "
+                                       "written as {}[material] where 'material' is a label",
+                                       base, base));
+        }
+        const law::Powers powers = powers_of_prior(priors, key);
+        law_->parameters.push_back(read_one(priors, key, key, powers, bounds_of(key)));
+        law_->symbols.parameters.push_back({key, powers});
+        continue;
+      }
+      if (!done.insert(base).second) continue;
+      read_levels(priors, base, at->second, bounds_of(base));
+    }
+  }
+
+  // k[material]: one prior for all under `k` (or "k[material]"), or one each under "k[PTFE]".
+  void read_levels(const TomlReader& priors, const std::string& base, const std::string& label,
+                   const Bounds& bounds) {
+    const LabelColumn* column = law_->data.label(label);
+    if (!column) {
+      priors.fail(base, fmt::format("stands before [{}], and '{}' is no label under data.columns",
+                                    label, label));
+    }
+    std::optional<law::Powers> powers;
+    const std::string common = priors.has(base) ? base : fmt::format("{}[{}]", base, label);
+    for (const std::string& level : column->levels) {
+      const std::string name = fmt::format("{}[{}]", base, level);
+      const std::string key = priors.has(name) ? name : common;
+      if (!priors.has(key)) {
+        priors.fail("", fmt::format("no prior for {}; give one for all levels as {}, or one each",
+                                    name, base));
+      }
+      const law::Powers own = powers_of_prior(priors, key);
+      if (powers && *powers != own) {
+        priors.fail(key, fmt::format("is in {}, and of another level in {}", law::in_words(own),
+                                     law::in_words(*powers)));
+      }
+      powers = own;
+      law_->parameters.push_back(read_one(priors, key, name, own, bounds));
+    }
+    law_->symbols.parameters.push_back({base, *powers, law::Scope::per_level, label});
+  }
+
+  void read_effects() {
+    law_->row_symbols = law_->symbols;
+    if (!law_->label) {
+      law_->shared.resize(law_->parameters.size());
+      std::iota(law_->shared.begin(), law_->shared.end(), 0);
+      return;
+    }
+    const TomlReader varies = root_.required_table("varies");
+    const TomlReader table = varies.required_table(*law_->label);
+    if (!law_->data.label(*law_->label)) {
+      varies.fail(*law_->label,
+                  "is no column under data.columns; what varies does so from label "
+                  "to label");
+    }
+    const std::vector<std::size_t> begin = law::slots(law_->symbols);
+    std::set<std::size_t> own;
+    for (std::size_t s = 0; s < law_->symbols.parameters.size(); ++s) {
+      const law::ParameterSymbol& symbol = law_->symbols.parameters[s];
+      const auto effect = std::find_if(effects_.begin(), effects_.end(),
+                                       [&](const auto& each) { return each.name == symbol.name; });
+      if (effect == effects_.end()) continue;
+      if (symbol.scope != law::Scope::one) {
+        table.fail(symbol.name, "is one for each level of a label already; it cannot vary as well");
+      }
+      law_->effects.push_back({symbol.name, s, begin[s], effect->lognormal});
+      law_->row_symbols.parameters[s].scope = law::Scope::per_row;
+      own.insert(begin[s]);
+    }
+    for (const WrittenEffect& effect : effects_) {
+      const bool known = std::any_of(law_->effects.begin(), law_->effects.end(),
+                                     [&](const Effect& each) { return each.name == effect.name; });
+      if (!known) table.fail(effect.name, "is no parameter: it has no prior");
+    }
+    for (std::size_t i = 0; i < law_->parameters.size(); ++i) {
+      if (!own.count(i)) law_->shared.push_back(i);
+    }
+    law_->units = law_->data.label(*law_->label)->levels;
+    if (law_->units.size() < 2) {
+      varies.fail(*law_->label, fmt::format("all rows of {} are of one {}; how it varies needs at "
+                                            "least 2",
+                                            law_->data.table.source, *law_->label));
+    }
+  }
+
+  void compile_population() {
+    if (!law_->label) return;
+    const TomlReader table = root_.required_table("varies").required_table(*law_->label);
+    std::vector<law::Wanted> wanted;
+    for (const Effect& effect : law_->effects) {
+      const auto written =
+          std::find_if(effects_.begin(), effects_.end(),
+                       [&](const WrittenEffect& each) { return each.name == effect.name; });
+      const law::Powers powers =
+          effect.lognormal ? law::Powers() : law_->symbols.parameters[effect.symbol].powers;
+      wanted.push_back({fmt::format("[varies.{}] {} {}", *law_->label, effect.name,
+                                    effect.lognormal ? "log_sd" : "sd"),
+                        written->scatter, powers,
+                        effect.lognormal ? "a logarithm's scatter" : effect.name, true});
+    }
+    if (correlation_) {
+      wanted.push_back({fmt::format("[varies.{}] correlation", *law_->label), *correlation_,
+                        law::Powers(), "a correlation", true});
+      law_->correlated = true;
+    }
+    try {
+      law_->population = law::compile({}, wanted, law_->symbols);
+    } catch (const InputError& error) {
+      table.fail("", error.what());
+    }
+  }
+
+  SpecialColumns special_columns() const {
+    SpecialColumns special;
+    const auto take = [&](const char* name, std::optional<std::string>& to) {
+      if (law_->data.number(name) || law_->data.label(name)) to = name;
+    };
+    take("status", special.status);
+    take("lower", special.lower);
+    take("upper", special.upper);
+    take("entry", special.entry);
+    take("count", special.count);
+    if (written_.size() > 1 &&
+        (special.status || special.lower || special.upper || special.entry)) {
+      const TomlReader columns = root_.required_table("data").required_table("columns");
+      columns.fail(special.status  ? "status"
+                   : special.lower ? "lower"
+                   : special.upper ? "upper"
+                                   : "entry",
+                   "is not for a study of several measured columns: of which would it speak?");
+    }
+    return special;
+  }
+
+  void compile_measured() {
+    const TomlReader likelihoods = root_.required_table("likelihood");
+    const SpecialColumns special = special_columns();
+    for (const WrittenLikelihood& written : written_) {
+      const TomlReader table = likelihoods.required_table(written.column);
+      const NumberColumn* column = law_->data.number(written.column);
+      if (!column && special.lower) column = law_->data.number(*special.lower);
+      if (!column) {
+        std::vector<std::string> names = number_names();
+        likelihoods.fail(
+            written.column,
+            fmt::format("is no column of numbers under data.columns{}",
+                        names.empty() ? ""
+                                      : fmt::format(" (nearest: '{}')",
+                                                    nearest_name(written.column, names))));
+      }
+      Measured measured{written.column,
+                        column->unit.unit,
+                        column->unit.powers,
+                        written.form,
+                        written.trials,
+                        {},
+                        {},
+                        {},
+                        {}};
+      if (written.form->counted && !column->unit.powers.empty() && column->unit.unit.scale != 1) {
+        table.fail("family",
+                   fmt::format("{} is for counts; '{}' is measured in {}", written.form->name,
+                               written.column, column->unit.unit.text));
+      }
+      if (written.trials && !law_->data.number(*written.trials)) {
+        table.fail("trials", "must name a column of numbers under data.columns");
+      }
+      for (const auto& [slot, text] : written.slots) {
+        const SlotForm& form = written.form->slots[slot];
+        const bool dimensional = form.kind == SlotKind::place || form.kind == SlotKind::size;
+        measured.wanted.push_back({fmt::format("[likelihood.{}] {}", written.column, form.name),
+                                   text, dimensional ? column->unit.powers : law::Powers(),
+                                   dimensional ? fmt::format("the column '{}'", written.column)
+                                               : fmt::format("a {}", form.name)});
+        measured.slot.push_back(slot);
+      }
+      try {
+        measured.program = law::compile(law_->lines, measured.wanted, law_->row_symbols);
+      } catch (const InputError& error) {
+        table.fail("", error.what());
+      }
+      const bool may_lack = written_.size() > 1 || special.lower.has_value();
+      measured.observed = read_observed(law_->data, written.column, *written.form, special,
+                                        written.trials, may_lack);
+      law_->measured.push_back(std::move(measured));
+    }
+    for (std::size_t c = 0; c < law_->row_symbols.columns.size(); ++c) {
+      const bool used = std::any_of(law_->measured.begin(), law_->measured.end(),
+                                    [&](const Measured& m) { return m.program.uses_column(c); });
+      if (used) law_->data.require_complete(*law_->data.number(law_->row_symbols.columns[c].name));
+    }
+    require_used_parameters();
+  }
+
+  // A parameter that nothing depends on is a mistake: its posterior would be its prior.
+  void require_used_parameters() const {
+    const TomlReader priors = root_.required_table("prior");
+    for (std::size_t s = 0; s < law_->symbols.parameters.size(); ++s) {
+      const bool measured =
+          std::any_of(law_->measured.begin(), law_->measured.end(),
+                      [&](const Measured& m) { return m.program.uses_parameter(s); });
+      if (measured || (law_->label && law_->population.uses_parameter(s))) continue;
+      const std::string& name = law_->symbols.parameters[s].name;
+      priors.fail(name, "has no part in any likelihood: nothing would be learnt of it");
+    }
+  }
+
+  void order_rows() {
+    const bool paths = std::any_of(law_->measured.begin(), law_->measured.end(),
+                                   [](const Measured& m) { return m.program.has_paths(); });
+    const LabelColumn* label = law_->label ? law_->data.label(*law_->label) : nullptr;
+    if (!label && paths && law_->symbols.labels.size() == 1) {
+      label = law_->data.label(law_->symbols.labels.front().name);
+    } else if (!label && paths && law_->symbols.labels.size() > 1) {
+      root_.fail("law", "which rows follow each other? There are several labels, and none varies");
+    }
+    const std::size_t rows = law_->data.table.rows;
+    law_->unit_of_row.assign(rows, 0);
+    if (label) {
+      law_->units = label->levels;
+      law_->unit_of_row.assign(label->at.begin(), label->at.end());
+    } else {
+      law_->units = {""};
+    }
+    const NumberColumn* axis = law_->along ? law_->data.number(*law_->along) : nullptr;
+    if (paths && !axis) {
+      root_.required_table("predict").fail("along",
+                                           "is missing: the column along which a unit's "
+                                           "rows follow each other");
+    }
+    if (axis) law_->data.require_complete(*axis);
+    law_->order.resize(rows);
+    std::iota(law_->order.begin(), law_->order.end(), std::size_t{0});
+    std::stable_sort(law_->order.begin(), law_->order.end(), [&](std::size_t a, std::size_t b) {
+      if (law_->unit_of_row[a] != law_->unit_of_row[b]) {
+        return law_->unit_of_row[a] < law_->unit_of_row[b];
+      }
+      return paths && axis->values[a] < axis->values[b];
+    });
+  }
+
+  // Lives without one failure have no upper end but their prior's.
+  void require_failures() const {
+    for (const Measured& each : law_->measured) {
+      if (each.form->counted || each.observed.failures > 0) continue;
+      for (const Parameter& parameter : law_->parameters) {
+        if (parameter.prior.proper) continue;
+        throw InputError(
+            fmt::format("{}: no row of '{}' is a failure: then every parameter needs a proper "
+                        "prior, and that of "
+                        "{} is {}",
+                        law_->data.table.source, each.column, parameter.name, parameter.law));
+      }
+    }
+  }
+
+  static constexpr std::size_t latent_effects = 2;
+  const TomlReader& root_;
+  const Source& source_;
+  std::shared_ptr<OwnLaw> law_;
+  std::vector<std::string> texts_;
+  std::vector<WrittenLikelihood> written_;
+  std::vector<WrittenEffect> effects_;
+  std::optional<std::string> correlation_;
+  std::map<std::string, std::string> indexed_;  // parameter -> label
+};
+
+}  // namespace
+
+std::string expression(const TomlReader& table, const std::string& key) {
+  if (table.is_text(key)) return table.required_text(key);
+  return fmt::format("{}", table.required_quantity(key, "1").si());
+}
+
+law::Program compile_at(const TomlReader& table, const std::string& key,
+                        const std::vector<law::Line>& lines, const law::Wanted& wanted,
+                        const law::Symbols& symbols) {
+  try {
+    return law::compile(lines, {wanted}, symbols);
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
+  }
+}
+
+std::shared_ptr<OwnLaw> read_own_law(const TomlReader& root, const Source& source) {
+  return Reader(root, source).read();
+}
+
+}  // namespace wearwell::ownlaw

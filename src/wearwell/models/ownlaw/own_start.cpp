@@ -1,0 +1,143 @@
+#include "wearwell/models/ownlaw/own_start.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/bayes/posterior.h"
+#include "wearwell/infer/maximize.h"
+#include "wearwell/infer/mode.h"
+#include "wearwell/math/view.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The likelihood, seen from a posterior that does not own it.
+std::shared_ptr<const LogDensity> borrowed(const LogDensity& density) {
+  return {std::shared_ptr<const LogDensity>(), &density};
+}
+
+// Values of one parameter from u in (0, 1): quantiles of its prior, or where that is no distribution
+// any order of magnitude about one of its unit.
+class Spread {
+ public:
+  explicit Spread(const Parameter& parameter) : law_(parameter.prior), unit_(parameter.unit.scale) {
+    if (!law_.proper) return;
+    for (int i = 0; i < levels; ++i) table_.push_back(quantile(law_, (i + 0.5) / levels));
+  }
+
+  double operator()(double u) const {
+    if (law_.proper) return table_[static_cast<std::size_t>(u * levels)];
+    const bool low = std::isfinite(law_.lower), high = std::isfinite(law_.upper);
+    if (low && high) return law_.lower + u * (law_.upper - law_.lower);
+    constexpr double decades = 12;
+    const double size = unit_ * std::pow(10, decades * (u - 0.5));
+    if (low) return law_.lower + size;
+    if (high) return law_.upper - size;
+    const double v = 2 * u - 1;
+    return std::copysign(unit_ * std::pow(10, decades * (std::abs(v) - 0.5)), v);
+  }
+
+ private:
+  static constexpr int levels = 21;
+  const Law& law_;
+  double unit_;
+  std::vector<double> table_;
+};
+
+struct Candidate {
+  std::vector<double> x;
+  double log_density = 0;
+};
+
+double log_density_at(const LogDensity& likelihood, const std::vector<Parameter>& parameters,
+                      const std::vector<double>& x) {
+  double sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!(parameters[i].prior.lower < x[i] && x[i] < parameters[i].prior.upper)) return -infinity;
+    sum += log_density(parameters[i].prior, x[i]).value;
+  }
+  const double all = sum + likelihood.value(x);
+  return all < infinity ? all : -infinity;
+}
+
+std::vector<Candidate> candidates(const LogDensity& likelihood,
+                                  const std::vector<Parameter>& parameters) {
+  const std::size_t d = parameters.size();
+  std::vector<Candidate> all(1);
+  for (const Parameter& each : parameters) all[0].x.push_back(each.start);
+  std::vector<Spread> spreads(parameters.begin(), parameters.end());
+  // The additive sequence of Roberts: powers of the root of t^(d+1) = t + 1.
+  double root = 1.5;
+  for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1 / (static_cast<double>(d) + 1));
+  const std::size_t count = std::min<std::size_t>(60 * d, 400);
+  for (std::size_t n = 1; n <= count; ++n) {
+    Candidate next;
+    double alpha = 1;
+    for (std::size_t i = 0; i < d; ++i) {
+      alpha /= root;
+      double whole = 0;
+      next.x.push_back(spreads[i](std::modf(0.5 + static_cast<double>(n) * alpha, &whole)));
+    }
+    all.push_back(std::move(next));
+  }
+  for (Candidate& each : all) each.log_density = log_density_at(likelihood, parameters, each.x);
+  std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {
+    return a.log_density > b.log_density;
+  });
+  return all;
+}
+
+// With the size of what has no proper prior taken from where it is.
+std::vector<Parameter> started_at(std::vector<Parameter> parameters, const std::vector<double>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    Parameter& each = parameters[i];
+    each.start = x[i];
+    if (each.prior.proper) continue;
+    const double bound = std::isfinite(each.prior.lower)   ? each.prior.lower
+                         : std::isfinite(each.prior.upper) ? each.prior.upper
+                                                           : 0;
+    const double size = std::abs(x[i] - bound);
+    each.scale = size > 0 ? size : each.unit.scale;
+  }
+  return parameters;
+}
+
+}  // namespace
+
+void find_starts(const LogDensity& likelihood, std::vector<Parameter>& parameters) {
+  constexpr std::size_t climbs = 4;
+  const std::vector<Candidate> from = candidates(likelihood, parameters);
+  if (!(from.front().log_density > -infinity)) return;  // the posterior will say where
+  std::vector<Parameter> best = started_at(parameters, from.front().x);
+  double highest = -infinity;
+  const auto n = static_cast<Eigen::Index>(parameters.size());
+  const Box everywhere{Eigen::VectorXd::Constant(n, -infinity),
+                       Eigen::VectorXd::Constant(n, infinity)};
+  for (std::size_t c = 0; c < std::min(climbs, from.size()); ++c) {
+    if (!(from[c].log_density > -infinity)) break;
+    const std::vector<Parameter> here = started_at(parameters, from[c].x);
+    const Posterior posterior(here, borrowed(likelihood));
+    const Maximum summit =
+        maximize(posterior, posterior.start(), Eigen::VectorXd::Ones(n), everywhere, 1e-6);
+    if (!std::isfinite(summit.value) || !(summit.value > highest + 1e-3)) continue;
+    std::vector<double> x(parameters.size());
+    posterior.to_natural(view(summit.x), x);
+    if (!(log_density_at(likelihood, parameters, x) > -infinity)) continue;
+    highest = summit.value;
+    best = started_at(here, x);
+    // On the whole line a width is a better size than a distance from 0.
+    for (Eigen::Index i = 0; i < n; ++i) {
+      Parameter& each = best[static_cast<std::size_t>(i)];
+      const bool free = std::isinf(each.prior.lower) && std::isinf(each.prior.upper);
+      const double bend = summit.curvature(i, i);
+      if (each.prior.proper || !free || !(bend > 0)) continue;
+      const double width = here[static_cast<std::size_t>(i)].scale / std::sqrt(bend);
+      if (std::isfinite(width) && width > 0) each.scale = width;
+    }
+  }
+  parameters = std::move(best);
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,238 @@
+#include "wearwell/models/ownlaw/own_study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/bayes/posterior.h"
+#include "wearwell/models/ownlaw/identified.h"
+#include "wearwell/models/ownlaw/own_likelihood.h"
+#include "wearwell/models/ownlaw/own_predictions.h"
+#include "wearwell/models/ownlaw/own_reader.h"
+#include "wearwell/models/ownlaw/own_start.h"
+
+namespace wearwell {
+namespace {
+
+using ownlaw::Effect;
+using ownlaw::Measured;
+using ownlaw::OwnLaw;
+using ownlaw::OwnRows;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string in_words(const OwnLaw& law) {
+  std::vector<std::string> parts;
+  for (const Measured& each : law.measured) {
+    std::vector<std::string> slots;
+    for (std::size_t o = 0; o < each.wanted.size(); ++o) {
+      slots.push_back(
+          fmt::format("{} = {}", each.form->slots[each.slot[o]].name, each.program.text(o)));
+    }
+    parts.push_back(
+        fmt::format("{} is {} with {}", each.column, each.form->name, fmt::join(slots, ", ")));
+  }
+  for (std::size_t e = 0; e < law.effects.size(); ++e) {
+    const Effect& effect = law.effects[e];
+    parts.push_back(fmt::format("{} of each of {} {}s is {} about {} with {} {}", effect.name,
+                                law.units.size(), *law.label,
+                                effect.lognormal ? "lognormal" : "normal", effect.name,
+                                effect.lognormal ? "log_sd" : "sd", law.population.text(e)));
+  }
+  if (law.correlated) {
+    parts.push_back(
+        fmt::format("their correlation is {}", law.population.text(law.effects.size())));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::vector<std::string> meanings(const OwnLaw& law) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
+    const auto effect = std::find_if(law.effects.begin(), law.effects.end(),
+                                     [&](const Effect& each) { return each.parameter == i; });
+    all.push_back(
+        effect == law.effects.end()
+            ? "parameter of the law"
+            : fmt::format("of the {} {}", effect->lognormal ? "median" : "mean", *law.label));
+  }
+  return all;
+}
+
+std::vector<std::string> notes(const OwnLaw& law) {
+  static constexpr const char* words[] = {"exact", "censored to the right", "censored to the left",
+                                          "known to an interval"};
+  std::vector<std::string> all;
+  for (const Measured& each : law.measured) {
+    long long counts[4] = {}, sum = 0, truncated = 0;
+    for (std::size_t i = 0; i < each.observed.responses.size(); ++i) {
+      const Response& y = each.observed.responses[i];
+      counts[static_cast<int>(y.seen)] += each.observed.counts[i];
+      sum += each.observed.counts[i];
+      truncated += y.entry > -infinity ? each.observed.counts[i] : 0;
+    }
+    std::vector<std::string> parts;
+    for (int i = 0; i < 4; ++i) {
+      if (counts[i] > 0) parts.push_back(fmt::format("{} {}", counts[i], words[i]));
+    }
+    std::string note =
+        fmt::format("{}: {} observation{}{}", each.column, sum, sum == 1 ? "" : "s",
+                    counts[0] == sum ? "" : fmt::format(": {}", fmt::join(parts, ", ")));
+    if (truncated > 0) note += fmt::format("; {} seen only from an entry on", truncated);
+    all.push_back(note);
+    if (!each.form->counted && each.observed.failures == 0) {
+      all.push_back(
+          fmt::format("no row of {} is a failure: how long a life may be is said by the "
+                      "priors alone",
+                      each.column));
+    }
+  }
+  if (law.varies()) all.push_back(fmt::format("{} {}s", law.units.size(), *law.label));
+  return all;
+}
+
+// What the likelihood is a density of, and what it stands on.
+void tell_data(const OwnLaw& law, PosteriorStudy& study) {
+  std::vector<std::string> names;
+  for (const Measured& each : law.measured) {
+    names.push_back(each.column);
+    for (std::size_t i = 0; i < each.observed.responses.size(); ++i) {
+      const Response& y = each.observed.responses[i];
+      study.observed.push_back(y.at);
+      if (y.seen != Seen::exactly || each.observed.counts[i] != 1 || y.entry > -infinity) {
+        study.observed.insert(study.observed.end(), {static_cast<double>(y.seen), y.until,
+                                                     static_cast<double>(each.observed.counts[i]),
+                                                     y.entry > -infinity ? y.entry : 0});
+      }
+    }
+  }
+  study.quantity = fmt::format("{}", fmt::join(names, ", "));
+  for (const ownlaw::NumberColumn& column : law.data.numbers) {
+    const bool whole = std::all_of(column.values.begin(), column.values.end(),
+                                   [](double x) { return std::isfinite(x); });
+    const bool integers =
+        std::all_of(column.unit.powers.begin(), column.unit.powers.end(),
+                    [](const auto& power) { return power.second.denominator() == 1; });
+    if (!whole || !integers) continue;
+    study.data_columns.push_back(
+        {column.name, law::si_text(column.unit.powers), column.unit.unit, column.values});
+  }
+}
+
+// Places of observations in their laws; of a count those of its ends.
+NormalScore score(const Measured& measured, const Response& y, const double* slots) {
+  const ResponseFamily family = measured.form->family;
+  const auto at = [&](double value) {
+    return normal_score(log_cdf(family, value, slots, y.trials),
+                        log_survival(family, value, slots, y.trials));
+  };
+  if (measured.form->counted) {
+    const double high = y.trials > 0 && y.at >= y.trials ? infinity : at(y.at);
+    return {y.at > 0 ? at(y.at - 1) : -infinity, high};
+  }
+  switch (y.seen) {
+    case Seen::exactly: {
+      const double z = at(y.at);
+      return {z, z};
+    }
+    case Seen::above:
+      return {at(y.at), infinity};
+    case Seen::below:
+      return {-infinity, at(y.at)};
+    case Seen::between:
+      break;
+  }
+  return {at(y.at), at(y.until)};
+}
+
+std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
+  const OwnLaw& law = rows->law();
+  // Of units that differ each row would have to be seen in the light of those before it.
+  if (law.varies() || law.measured.size() > 1) return {};
+  const Measured& measured = law.measured.front();
+  for (const Response& each : measured.observed.responses) {
+    if (each.entry > -infinity) return {};
+  }
+  FitData data;
+  data.scores = [rows](const double* x) {
+    ownlaw::UnitRows& units = rows->mine().rows;
+    units.move_to(x);
+    const Measured& column = rows->law().measured.front();
+    const std::vector<double> slots = units.each_slot({}).front();
+    std::vector<NormalScore> scores;
+    for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
+      scores.push_back(
+          score(column, column.observed.responses[i], &slots[i * most_response_slots]));
+    }
+    return scores;
+  };
+  data.counts = measured.observed.counts;
+  for (std::size_t c = 0; c < law.row_symbols.columns.size(); ++c) {
+    const std::string& name = law.row_symbols.columns[c].name;
+    if (!measured.program.uses_column(c)) continue;
+    Driver driver{name, {}};
+    for (const std::size_t row : measured.observed.rows) {
+      driver.value.push_back(law.data.number(name)->values[row]);
+    }
+    data.drivers.push_back(std::move(driver));
+  }
+  return data;
+}
+
+// The first expression that is no number where the search starts, with its row: a clearer word than that
+// the posterior is not finite there.
+void require_numbers(const OwnLaw& law) {
+  if (law.varies()) return;
+  std::vector<double> x;
+  for (const std::size_t i : law.shared) x.push_back(law.parameters[i].start);
+  for (const ownlaw::BoundColumn& bound : ownlaw::bind_columns(law, law.data.table.rows)) {
+    const auto fault =
+        bound.measured->program.first_fault(bound.data, 0, bound.data.rows(), {x, {}});
+    if (!fault) continue;
+    const std::size_t row = bound.measured->observed.rows[bound.term[fault->row]];
+    throw InputError(
+        fmt::format("{}{}: {} in '{}' ({}), at values of the parameters where the search starts",
+                    law.data.table.source, fault->uniform ? "" : fmt::format(", row {}", row + 1),
+                    fault->why, fault->expression, fault->where));
+  }
+}
+
+}  // namespace
+
+void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
+  const std::shared_ptr<OwnLaw> law = ownlaw::read_own_law(root, source);
+  if (study.stages) {
+    root.required_table("update").fail(
+        "stages",
+        "is not for model \"law\"; fit the first rows as a study of their own (data.sql "
+        "= \"select ... limit 6\")");
+  }
+  study.data_rows = law->data.table.rows;
+  const auto rows = std::make_shared<const OwnRows>(law, study.data_rows);
+  const auto likelihood = ownlaw::own_likelihood(rows);
+  ownlaw::find_starts(*likelihood, law->parameters);
+  std::vector<double> start;
+  for (const Parameter& each : law->parameters) start.push_back(each.start);
+  if (!(likelihood->value(start) > -infinity)) require_numbers(*law);
+
+  study.parameters = law->parameters;
+  study.equation = in_words(*law);
+  study.meanings = meanings(*law);
+  study.data_notes = notes(*law);
+  tell_data(*law, study);
+  if (law->varies()) study.observation = *law->label;
+  study.likelihood = [law, rows, likelihood](std::size_t count) {
+    if (count == law->data.table.rows) return likelihood;
+    return ownlaw::own_likelihood(std::make_shared<const OwnRows>(law, count));
+  };
+  study.fit_data = fit_data(rows);
+  study.checks = [rows](const Fit& fit) {
+    return std::vector<Check>{ownlaw::identified(*rows, rows->law().parameters, fit)};
+  };
+  ownlaw::read_own_predictions(root, law, rows, study);
+}
+
+}  // namespace wearwell

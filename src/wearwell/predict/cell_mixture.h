@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+namespace wearwell {
+
+/// The distribution of a number as cells, each with a weight spread evenly from its low to its high
+/// end; ends may be infinite, and what lies in such a cell is reached never.
+class CellMixture {
+ public:
+  void reserve(std::size_t cells) { cells_.reserve(cells); }
+  /// `a` and `b` in any order; NaN makes all that is asked NaN.
+  void add(double weight, double a, double b);
+  void add(const CellMixture& other);
+
+  double mass() const;  ///< the sum of the weights
+  /// The share of the mass up to x.
+  double cdf(double x) const;
+  /// The x with cdf(x) = p, 0 < p < 1; infinity where so much is never reached.
+  double quantile(double p) const;
+
+  /// Only what lies beyond x, as a distance from x.
+  CellMixture beyond(double x) const;
+
+ private:
+  struct Cell {
+    double weight, low, high;
+  };
+  std::vector<Cell> cells_;
+};
+
+}  // namespace wearwell

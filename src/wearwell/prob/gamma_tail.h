@@ -1,0 +1,95 @@
+#pragma once
+
+#include <boost/math/special_functions/digamma.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+
+#include "wearwell/math/dual.h"
+
+namespace wearwell {
+
+/// log Gamma(x), x > 0, for a formula's scalar.
+template <class T>
+T log_gamma(const T& x) {
+  return chained(x, boost::math::lgamma(scalar(x)), boost::math::digamma(scalar(x)));
+}
+
+namespace detail {
+
+inline bool settled(double change, double sum) {
+  return std::abs(change) <= 1e-17 * std::abs(sum);
+}
+template <int N>
+bool settled(const Dual<N>& change, const Dual<N>& sum) {
+  return settled(change.a, sum.a) &&
+         change.v.cwiseAbs().maxCoeff() <= 1e-15 * (std::abs(sum.a) + sum.v.cwiseAbs().maxCoeff());
+}
+
+inline constexpr int most_gamma_terms = 100'000;
+
+// log of x^a e^-x / Gamma(a).
+template <class T>
+T log_gamma_kernel(const T& a, const T& x) {
+  using std::log;
+  return a * log(x) - x - log_gamma(a);
+}
+
+// log P(a, x) by its series, for x < a + 1 (Abramowitz and Stegun 6.5.29).
+template <class T>
+T log_lower_by_series(const T& a, const T& x) {
+  using std::log;
+  T term = 1.0 / a, sum = term;
+  for (int n = 1; n < most_gamma_terms; ++n) {
+    term = term * x / (a + static_cast<double>(n));
+    sum = sum + term;
+    if (settled(term, sum)) break;
+  }
+  return log_gamma_kernel(a, x) + log(sum);
+}
+
+// log Q(a, x) by its continued fraction, for x >= a + 1 (Abramowitz and Stegun 6.5.31, by Lentz's
+// method).
+template <class T>
+T log_upper_by_fraction(const T& a, const T& x) {
+  using std::log;
+  constexpr double tiny = 1e-300;
+  T b = x + 1.0 - a, c = T(1 / tiny), d = 1.0 / b, h = d;
+  for (int n = 1; n < most_gamma_terms; ++n) {
+    const T numerator = static_cast<double>(-n) * (static_cast<double>(n) - a);
+    b = b + 2.0;
+    d = numerator * d + b;
+    if (std::abs(scalar(d)) < tiny) d = T(tiny);
+    c = b + numerator / c;
+    if (std::abs(scalar(c)) < tiny) c = T(tiny);
+    d = 1.0 / d;
+    const T before = h;
+    h = h * (d * c);
+    if (settled(T(h - before), T(10.0 * h))) break;
+  }
+  return log_gamma_kernel(a, x) + log(h);
+}
+
+template <class T>
+T log_rest(const T& log_p) {  // log(1 - exp(log_p))
+  const double p = std::exp(scalar(log_p));
+  return chained(log_p,
+                 scalar(log_p) > -0.7 ? std::log(-std::expm1(scalar(log_p))) : std::log1p(-p),
+                 -p / -std::expm1(scalar(log_p)));
+}
+
+}  // namespace detail
+
+/// Logarithms of the regularized incomplete gamma functions P(a, x) and Q(a, x), a > 0, x > 0: each
+/// keeps all digits where it is small, however small.
+template <class T>
+T log_gamma_lower(const T& a, const T& x) {
+  return scalar(x) < scalar(a) + 1 ? detail::log_lower_by_series(a, x)
+                                   : detail::log_rest(detail::log_upper_by_fraction(a, x));
+}
+template <class T>
+T log_gamma_upper(const T& a, const T& x) {
+  return scalar(x) < scalar(a) + 1 ? detail::log_rest(detail::log_lower_by_series(a, x))
+                                   : detail::log_upper_by_fraction(a, x);
+}
+
+}  // namespace wearwell

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "wearwell/prob/response.h"
+
+namespace wearwell {
+
+/// A slot's values over rows: one for each, or one for all.
+struct SlotValues {
+  const double* at = nullptr;
+  bool uniform = false;
+
+  double operator[](std::size_t i) const { return uniform ? *at : at[i]; }
+};
+
+/// Observations that are evaluated together, again and again.
+struct ResponseColumn {
+  std::vector<Response> rows;
+  /// All are exact and nothing is cut off: families with a formula run over the plain numbers.
+  bool plain = false;
+  std::vector<double> at, log_at;  ///< of plain ones; log_at only of positive ones
+
+  explicit ResponseColumn(std::vector<Response> responses = {});
+};
+
+/// `log_response` of rows begin .. begin + value.size() - 1 under the slots of these rows; with
+/// `slope` its derivatives, `slope[s * value.size() + i]` of slot s. The first three slots count;
+/// one that is not given is 0.
+void log_responses(ResponseFamily family, const ResponseColumn& column, std::size_t begin,
+                   std::span<const SlotValues> slots, std::span<double> value,
+                   std::span<double> slope);
+
+}  // namespace wearwell

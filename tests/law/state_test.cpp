@@ -1,0 +1,129 @@
+// A state by its rate, against closed forms; its gradient against theirs or differences.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "law/laboratory.h"
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
+
+namespace wearwell::law {
+namespace {
+
+double total(const Laboratory& laboratory, const std::string& text,
+             const std::vector<double>& weight) {
+  const auto values = laboratory.values(text);
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += weight[i] * values[i];
+  return sum;
+}
+
+void expect_slopes(Laboratory laboratory, const std::string& text, double close) {
+  const std::vector<double> weight = {1, -0.5, 2};
+  const auto found = laboratory.slopes(text, weight).parameters;
+  for (std::size_t p = 0; p < found.size(); ++p) {
+    double& parameter = laboratory.parameters[p];
+    const double centre = parameter, h = 1e-4 * std::abs(centre);
+    const auto at = [&](double value) {
+      parameter = value;
+      return total(laboratory, text, weight);
+    };
+    // Of the fourth order.
+    const double quotient =
+        (8 * (at(centre + h) - at(centre - h)) - (at(centre + 2 * h) - at(centre - 2 * h))) /
+        (12 * h);
+    parameter = centre;
+    EXPECT_NEAR(found[p], quotient, close * std::abs(quotient) + 1e-300) << "parameter " << p;
+  }
+}
+
+// Run-in: depth = h0 (1 - exp(-k cum(force step)/h0)), whose k force is in m per m.
+TEST(State, OfRunInIsItsClosedForm) {
+  Laboratory laboratory;
+  laboratory.parameters[3] = 5e-12;  // m^2/N: rates of 1e-6 .. 3e-6
+  laboratory.law = {{"d(depth)/d(distance)", "k * force/area * (1 - depth/h0)"}};
+  const double k = 5e-12 / 50e-6, h0 = 5e-6;
+  const double work[] = {10 * 1, 10 * 1 + 20 * 1, 10 * 1 + 20 * 1 + 30 * 2};
+  const auto depth = laboratory.values("depth");
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(depth[i] / (-h0 * std::expm1(-k * work[i] / h0)), 1, 1e-9);
+  expect_slopes(laboratory, "depth", 1e-7);
+  expect_slopes(laboratory, "a*depth + depth*log(b)", 1e-7);
+}
+
+TEST(State, WhoseRateIsKnownIsASum) {
+  Laboratory laboratory;
+  laboratory.law = {
+      {"drive", "k * force / area"}, {"d(depth)/d(distance)", "drive"}, {"depth(0)", "a * 1 [um]"}};
+  const auto depth = laboratory.values("depth");
+  const double work[] = {10, 30, 90};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(depth[i], 0.7e-6 + 1e-12 / 50e-6 * work[i]);
+  expect_slopes(laboratory, "depth", 1e-9);
+  EXPECT_EQ(laboratory.program({"depth"}).text(0),
+            "a * 1e-06 [m] + cum(k * force / 5e-05 [m^2] * step(distance))");
+}
+
+// Paris: da/dn = C a^(m/2) in numbers, a = (a0^(1 - m/2) + (1 - m/2) C n)^(1/(1 - m/2)).
+TEST(State, OfCrackGrowthIsItsClosedFormAndInfiniteBeyondFailure) {
+  Laboratory laboratory;
+  laboratory.parameters[0] = 1e-3;  // C
+  laboratory.parameters[1] = 3;     // m
+  laboratory.law = {{"d(size)/d(n)", "a/1 [cycle] * size^(b/2)"}, {"size(0)", "0.8"}};
+  const auto closed = [](double n) { return std::pow(std::pow(0.8, -0.5) - 0.5 * 1e-3 * n, -2); };
+  auto size = laboratory.values("size");
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(size[i] / closed(laboratory.columns[4][i]), 1, 1e-9);
+  expect_slopes(laboratory, "size", 1e-7);
+  laboratory.columns[4] = {100, 2000, 4000};  // fails at 2236
+  size = laboratory.values("size");
+  EXPECT_NEAR(size[1] / closed(2000), 1, 1e-8);
+  EXPECT_EQ(size[2], INFINITY);
+}
+
+// dy/dx = -b (y - cos x): the axis in the rate is where the state is, not the row's value.
+TEST(State, WhoseRateKnowsWhereItIs) {
+  Laboratory laboratory;
+  laboratory.law = {{"d(state)/d(phi)", "-b/1 [rad] * (state - cos(phi))"}, {"state(0)", "0 * a"}};
+  laboratory.columns[5] = {0.5, 3, 8};
+  const double b = 1.9;
+  const auto state = laboratory.values("state");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = laboratory.columns[5][i];
+    const double wanted = b / (b * b + 1) * (b * std::cos(x) + std::sin(x) - b * std::exp(-b * x));
+    EXPECT_NEAR(state[i], wanted, 1e-9);
+  }
+  expect_slopes(laboratory, "state", 1e-6);
+  laboratory.law = {{"d(state)/d(phi)", "b * phi/1 [rad^2]"}, {"state(0)", "c"}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = laboratory.columns[5][i];
+    EXPECT_NEAR(laboratory.values("state")[i], -0.3 + b * x * x / 2, 1e-12);
+  }
+}
+
+TEST(State, BeginsWhereItIsSaid) {
+  Laboratory laboratory;
+  laboratory.law = {{"d(growth)/d(distance)", "growth/1 [m]"}, {"growth(first)", "a"}};
+  EXPECT_NEAR(laboratory.values("growth")[0], 0.7, 1e-12);
+  EXPECT_NEAR(laboratory.values("growth")[2], 0.7 * std::exp(3.0), 1e-9);
+  laboratory.paths = {0, 2};
+  EXPECT_NEAR(laboratory.values("growth")[1], 0.7 * std::exp(1.0), 1e-9);
+  EXPECT_NEAR(laboratory.values("growth")[2], 0.7, 1e-12);
+  laboratory.law[1].name = "growth(50 cm)";
+  EXPECT_NEAR(laboratory.values("growth")[1], 0.7 * std::exp(1.5), 1e-9);
+  EXPECT_NEAR(laboratory.values("growth")[2], 0.7 * std::exp(3.5), 1e-8);
+  expect_slopes(laboratory, "growth", 1e-8);
+}
+
+TEST(State, AsksForSortedRows) {
+  Laboratory laboratory;
+  laboratory.law = {{"d(growth)/d(distance)", "growth/1 [m]"}, {"growth(0)", "a"}};
+  laboratory.columns[3] = {1, 4, 2};
+  EXPECT_THAT(message_of<InputError>([&] { laboratory.values("growth"); }),
+              testing::HasSubstr("'distance' goes back at row 3, from 4 to 2"));
+  laboratory.columns[3] = {-1, 2, 4};
+  EXPECT_THAT(message_of<InputError>([&] { laboratory.values("growth"); }),
+              testing::HasSubstr("'distance' is -1 in SI at row 1, before the state begins at 0"));
+}
+
+}  // namespace
+}  // namespace wearwell::law
