@@ -1,8 +1,7 @@
 #include "wearwell/cli/check.h"
 
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>

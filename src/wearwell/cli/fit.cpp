@@ -1,9 +1,8 @@
 #include "wearwell/cli/fit.h"
 
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>

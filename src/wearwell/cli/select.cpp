@@ -1,10 +1,9 @@
 #include "wearwell/cli/select.h"
 
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
 
 #include <array>
 #include <atomic>

@@ -1,8 +1,7 @@
 #include "wearwell/models/bearing/chart_command.h"
 
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <boost/algorithm/string/classification.hpp>
 #include <boost/algorithm/string/split.hpp>

@@ -1,8 +1,7 @@
 #include "wearwell/models/bearing/commands.h"
 
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>

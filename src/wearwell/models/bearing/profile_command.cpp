@@ -1,8 +1,7 @@
 #include "wearwell/models/bearing/profile_command.h"
 
-#include <CLI/CLI.hpp>
-
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <cstdio>

@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include "wearwell/models/clutch/life.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>

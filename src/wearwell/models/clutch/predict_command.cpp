@@ -1,7 +1,7 @@
-#include <CLI/CLI.hpp>
 #include "wearwell/models/clutch/clutch_predict.h"
 
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <filesystem>
