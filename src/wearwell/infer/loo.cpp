@@ -73,10 +73,8 @@ bool Loo::doubtful(const LooTerm& term) const {
 
 Check loo_check(const Loo& loo, const std::string& noun, int parameters) {
   Findings findings("leave-one-out");
-  // As many as there are, and what few observations may add by chance (docs/checks.md).
-  const double most = 2 * parameters + 2;
-  if (!(loo.p_loo() <= most)) {
-    findings.add(Verdict::fail,
+  if (!(loo.p_loo() <= p_loo_warns_above(parameters))) {
+    findings.add(loo.p_loo() <= p_loo_fails_above(parameters) ? Verdict::warn : Verdict::fail,
                  fmt::format("the effective number of parameters, {:.4g}, goes far beyond the {} "
                              "that there are",
                              loo.p_loo(), parameters),

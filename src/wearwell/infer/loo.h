@@ -41,6 +41,15 @@ struct Loo {
   bool doubtful(const LooTerm& term) const;
 };
 
+/// Beyond as many parameters as there are and what few observations may add by chance; and beyond
+/// what chance may add (tests/calibration/fit_check_test.cpp).
+constexpr double p_loo_warns_above(int parameters) {
+  return 2 * parameters + 2;
+}
+constexpr double p_loo_fails_above(int parameters) {
+  return 10 * parameters + 10;
+}
+
 /// Says which observations have a k-hat above the threshold, and whether the effective number of
 /// parameters goes beyond the `parameters` there are; `noun` is what observations are ("row").
 Check loo_check(const Loo& loo, const std::string& noun, int parameters);
