@@ -12,6 +12,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/same_file.h"
+#include "wearwell/cli/selection_header.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/present/result_folder.h"
 #include "wearwell/selection/data.h"
@@ -19,6 +20,7 @@
 #include "wearwell/selection/report.h"
 #include "wearwell/selection/search_line.h"
 #include "wearwell/selection/text.h"
+#include "wearwell/study/header_json.h"
 
 namespace wearwell {
 namespace {
@@ -99,7 +101,9 @@ int run_select(const SelectOptions& options) {
   }
 
   const bool found = !result.selection.search.models.empty();
-  const std::string summary = to_json(result).dump(2) + "\n";
+  nlohmann::ordered_json json = to_json(selection_header(result));
+  json.update(to_json(result), true);
+  const std::string summary = json.dump(2) + "\n";
   if (writes) write_folder(options.output, result, summary, draws && found);
   if (options.json) {
     fmt::print("{}", summary);
