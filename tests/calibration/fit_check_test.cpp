@@ -10,6 +10,7 @@
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/fit_check.h"
 #include "wearwell/infer/prior_checks.h"
+#include "wearwell/infer/psis_loo.h"
 #include "wearwell/models/bearing/wear_scores.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/models/fatigue/sn_scores.h"

@@ -24,20 +24,21 @@ std::string equation_of(const SelectionResult& result) {
 }
 
 Check search_check(const SearchResult& search) {
-  if (search.certified) return {"search", Verdict::pass, "no other model of these terms is better"};
+  if (search.certified)
+    return {"search", Verdict::pass, "no other model of these terms is better", ""};
   return {"search", Verdict::fail, "stopped before the best model was proven to be the best",
           "Give it more time, or fewer terms."};
 }
 
 Check nested_check(const Nested& nested) {
   constexpr const char* name = "nested search";
-  if (nested.folds == 0) return {name, Verdict::pass, "not asked for"};
+  if (nested.folds == 0) return {name, Verdict::pass, "not asked for", ""};
   if (!nested.problem.empty())
     return {name, Verdict::warn, nested.problem,
             "Nobody knows how well unseen rows are predicted."};
   const std::string detail = fmt::format(
       "R2 of rows left out of the whole search: {:.3f} +- {:.3f}", nested.r2, nested.r2_error);
-  if (nested.r2 > 0) return {name, Verdict::pass, detail};
+  if (nested.r2 > 0) return {name, Verdict::pass, detail, ""};
   return {name, Verdict::warn, detail + ", no better than their mean",
           "These terms predict nothing that was not seen."};
 }
