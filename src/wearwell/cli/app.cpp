@@ -17,9 +17,6 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
       "wearwell");
   app->require_subcommand(1);
   app->set_version_flag("--version", WEARWELL_VERSION, "Print the version and exit");
-  app->footer(
-      "wearwell help COMMAND says more of each; wearwell new JOB DIR writes a study to start "
-      "from.");
   add_fit_command(*app, models, exit_code);
   for (const Model& model : models) {
     if (model.add_commands) model.add_commands(*app, exit_code);
@@ -32,6 +29,10 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   add_help_command(*app, exit_code);
   add_version_command(*app, exit_code);
   add_generate_command(*app, exit_code);
+  // Now: commands would inherit it.
+  app->footer(
+      "wearwell help COMMAND says more of each; wearwell new JOB DIR writes a study to start "
+      "from.");
   return app;
 }
 

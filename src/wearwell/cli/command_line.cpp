@@ -19,7 +19,7 @@ std::vector<std::string> names_of(const std::vector<const CLI::App*>& commands) 
 
 std::vector<std::string> long_options(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : command.get_options()) {
+  for (const CLI::Option* option : options_of(command)) {
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
@@ -37,7 +37,7 @@ void check_option(const CLI::App& command, const std::string& argument) {
   const std::string name = argument.substr(0, argument.find('='));
   const std::vector<std::string> all = long_options(command);
   const auto known = [&](const std::string& each) {
-    return std::find(all.begin(), all.end(), each) != all.end();
+    return command.get_option_no_throw(each) != nullptr;
   };
   if (!name.starts_with("--")) {
     // "-output out" would be -o with the value "utput".
@@ -91,6 +91,11 @@ std::string full_name(const CLI::App& command) {
 std::vector<const CLI::App*> commands_of(const CLI::App& parent) {
   return parent.get_subcommands(
       [](const CLI::App* command) { return !command->get_group().empty(); });
+}
+
+std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+  return command.get_options(
+      [](const CLI::Option* option) { return !option->get_group().empty(); });
 }
 
 const CLI::App& command_named(const CLI::App& parent, const std::string& name) {

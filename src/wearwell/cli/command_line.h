@@ -12,6 +12,9 @@ std::string full_name(const CLI::App& command);
 /// The commands of `parent` that are shown, in the order in which they were added.
 std::vector<const CLI::App*> commands_of(const CLI::App& parent);
 
+/// The options and arguments of a command that its help shows.
+std::vector<const CLI::Option*> options_of(const CLI::App& command);
+
 /// Throws InputError with the nearest name and all there are.
 const CLI::App& command_named(const CLI::App& parent, const std::string& name);
 

@@ -83,11 +83,11 @@ std::string zsh_function(const CLI::App& command) {
   std::string text = function_name(command) + "() {\n";
   if (commands.empty()) {
     text += "  _arguments -s";
-    for (const CLI::Option* option : command.get_options()) text += " \\\n" + zsh_option(*option);
+    for (const CLI::Option* option : options_of(command)) text += " \\\n" + zsh_option(*option);
     return text + "\n}\n\n";
   }
   text += "  local context state line\n  local -a commands\n  _arguments -C";
-  for (const CLI::Option* option : command.get_options()) text += " \\\n" + zsh_option(*option);
+  for (const CLI::Option* option : options_of(command)) text += " \\\n" + zsh_option(*option);
   text +=
       " \\\n    '1: :->command' \\\n    '*:: :->arguments'\n  case $state in\n  command)\n    "
       "commands=(\n";
@@ -107,7 +107,7 @@ std::string bash_completion(const CLI::App& app) {
     const std::string name = full_name(command);
     std::vector<std::string> subcommands, names;
     for (const CLI::App* each : commands_of(command)) subcommands.push_back(each->get_name());
-    for (const CLI::Option* option : command.get_options()) {
+    for (const CLI::Option* option : options_of(command)) {
       const std::vector<std::string> spelled = names_of(*option), words = words_of(*option);
       names.insert(names.end(), spelled.begin(), spelled.end());
       // What stands behind an option; "" is a positional.
@@ -139,7 +139,7 @@ _wearwell_values() {{
 }}
 _wearwell() {{
   local current=${{COMP_WORDS[COMP_CWORD]}} previous=${{COMP_WORDS[COMP_CWORD-1]}}
-  local command=wearwell words takes i
+  local command=wearwell words= takes= i
   for ((i = 1; i < COMP_CWORD; ++i)); do
     _wearwell_commands "$command"
     case " $words " in *" ${{COMP_WORDS[i]}} "*) command+=" ${{COMP_WORDS[i]}}" ;; esac

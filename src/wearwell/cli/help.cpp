@@ -15,9 +15,8 @@ void add_help_command(CLI::App& app, int& exit_code) {
   help->callback([words, &app, &exit_code] {
     const CLI::App* command = &app;
     for (const std::string& word : *words) command = &command_named(*command, word);
-    const CLI::App* parent = command->get_parent();
-    // App::help would speak of the command that runs, which is this one.
-    fmt::print("{}", command->get_formatter()->make_help(command, parent ? full_name(*parent) : "",
+    // App::help would tell of the command that runs, which is this one.
+    fmt::print("{}", command->get_formatter()->make_help(command, full_name(*command),
                                                          CLI::AppFormatMode::Normal));
     exit_code = 0;
   });

@@ -38,7 +38,7 @@ std::string signature(const CLI::Option& option) {
 
 std::string synopsis(const CLI::App& command) {
   std::string text = full_name(command);
-  for (const CLI::Option* option : command.get_options()) {
+  for (const CLI::Option* option : options_of(command)) {
     if (!option->get_positional()) continue;
     const bool many = option->get_items_expected_max() > 1;
     const std::string name = option->get_name() + (many ? " ..." : "");
@@ -48,7 +48,7 @@ std::string synopsis(const CLI::App& command) {
 }
 
 void add_options(const CLI::App& command, std::string& page) {
-  for (const CLI::Option* option : command.get_options()) {
+  for (const CLI::Option* option : options_of(command)) {
     if (option == command.get_help_ptr()) continue;
     std::string text = option->get_description();
     if (!option->get_default_str().empty()) text += fmt::format(" [{}]", option->get_default_str());
