@@ -295,7 +295,7 @@ Program compile(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
     body->outputs.push_back({wanted[i].name, powers, !node.rows, node.parametric, node.by_path});
   }
   Graph best;
-  const std::vector<int> roots = regrouped(graph, body->roots, best);
+  const std::vector<int> roots = regrouped(graph, body->roots, body->start.axis, best);
   body->tape = make_tape(best, roots, body->symbols, body->start);
   Program program;
   program.body_ = std::move(body);

@@ -17,6 +17,20 @@ inline double sign_of(double x) {
 }
 
 // Functions of one argument: value, and slope by argument and value.
+// expm1(x)/x and its slope, by their series where these would cancel.
+inline double growth(double x) {
+  return x == 0 ? 1 : std::expm1(x) / x;
+}
+inline double growth_slope(double x, double y) {
+  if (std::abs(x) >= 0.5) return (y * x + 1 - y) / x;
+  double sum = 0, factorial = 355687428096000;  // 17!
+  for (int k = 15; k >= 0; --k) {               // of (k + 1) x^k / (k + 2)!
+    sum = sum * x + (k + 1) / factorial;
+    factorial /= k + 2;
+  }
+  return sum;
+}
+
 #define WEARWELL_UNARY(Name, VALUE, SLOPE)                                                   \
   struct Name {                                                                              \
     static double f([[maybe_unused]] double a) { return VALUE; }                             \
@@ -35,6 +49,7 @@ WEARWELL_UNARY(Cos, std::cos(a), -std::sin(a))
 WEARWELL_UNARY(Atan, std::atan(a), 1 / (1 + a * a))
 WEARWELL_UNARY(Log1p, std::log1p(a), 1 / (1 + a))
 WEARWELL_UNARY(Expm1, std::expm1(a), 1 + y)
+WEARWELL_UNARY(Growth, growth(a), growth_slope(a, y))
 WEARWELL_UNARY(Opposite, a != 0 ? 0.0 : 1.0, 0)
 #undef WEARWELL_UNARY
 
@@ -304,6 +319,8 @@ Kernels ternary(unsigned uniform) {
       return unary<Log1p>(uniform);
     case Op::expm1:
       return unary<Expm1>(uniform);
+    case Op::growth:
+      return unary<Growth>(uniform);
     case Op::less:
       return binary<Less>(uniform);
     case Op::less_equal:
