@@ -140,6 +140,20 @@ TEST(State, BeginsWhereItIsSaid) {
   expect_slopes(laboratory, "growth", 1e-8);
 }
 
+TEST(State, IsToldAsItWasUnderstood) {
+  Laboratory laboratory;
+  EXPECT_EQ(laboratory.program({"x"}).state_text(), "");
+  laboratory.law = {{"drive", "k*force/area"}, {"d(depth)/d(distance)", "drive*(1 - depth/h0)"}};
+  EXPECT_EQ(laboratory.program({"x"}).state_text(),
+            "d(depth)/d(distance) = k * force / 5e-05 [m^2] * (1 - depth / h0), depth(0) = 0");
+  laboratory.law.push_back({"depth(2 mm)", "h0/2"});
+  const Program program = laboratory.program({"depth/h0"});
+  EXPECT_THAT(program.state_text(), testing::EndsWith(", depth(0.002 m) = h0 / 2"));
+  EXPECT_EQ(program.text(0), "depth / h0");
+  EXPECT_TRUE(program.outputs()[0].by_path);
+  EXPECT_TRUE(program.has_paths());
+}
+
 TEST(State, AsksForSortedRows) {
   Laboratory laboratory;
   laboratory.law = {{"d(growth)/d(distance)", "growth/1 [m]"}, {"growth(0)", "a"}};

@@ -1,5 +1,7 @@
 #include "wearwell/law/program.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -231,6 +233,19 @@ void Program::reverse(const Data& data, std::size_t begin, std::size_t, const In
 
 std::string Program::text(std::size_t output) const {
   return text_of(body_->graph, body_->roots[output], body_->symbols);
+}
+
+std::string Program::state_text() const {
+  if (body_->rate < 0) return {};
+  const ColumnSymbol& axis = body_->symbols.columns[static_cast<std::size_t>(body_->start.axis)];
+  const std::string& name = body_->graph.state_name();
+  const std::string place = body_->start.at_first_row ? "first"
+                            : body_->start.at == 0
+                                ? "0"
+                                : fmt::format("{:.6g} {}", body_->start.at, in_words(axis.powers));
+  return fmt::format("d({})/d({}) = {}, {}({}) = {}", name, axis.name,
+                     text_of(body_->graph, body_->rate, body_->symbols), name, place,
+                     text_of(body_->graph, body_->beginning, body_->symbols));
 }
 
 }  // namespace wearwell::law
