@@ -1,5 +1,5 @@
 // Gradients per second of two log-likelihoods written in the language of laws, beside the same by hand in C++. The peer is
-// peers/law.R (rstan's grad_log_prob of the same models and data). Counter `gradients` is what is compared; `cost` in the names:
+// peers/law.R (rstan's grad_log_prob of the same models). The counter `gradients` is what is compared:
 //   weibull: 1000 rows, t ~ Weibull(shape m, scale exp(b0 + b1 x1 + b2 x2)), four parameters
 //   hierarchy: 50 machines x 20 readings, y ~ normal(exp(mu + tau z[machine]) x, sigma), 53 parameters
 #include <benchmark/benchmark.h>
@@ -9,6 +9,7 @@
 
 #include "wearwell/base/rng.h"
 #include "wearwell/law/program.h"
+#include "wearwell/models/fatigue/sn_likelihood.h"
 
 namespace wearwell::law {
 namespace {
@@ -224,6 +225,51 @@ void run_in_state(benchmark::State& state) {
   run(state, program, at, {0.1, 3});
 }
 BENCHMARK(run_in_state);
+
+// What the language costs: Basquin's law with Goodman's correction of 1000 tests, in it and as the S-N trade has it.
+struct Springs {
+  std::vector<double> amplitude, mean, life;
+  fatigue::LifeTests tests;
+  std::vector<double> parameters = {9.3, -0.09, 9.25, 0.2};
+
+  Springs() {
+    for (std::size_t i = 0; i < rows; ++i) {
+      fatigue::LifeTest test;
+      test.stress.alternating = 3e8 + 2e5 * static_cast<double>(i);
+      test.stress.mean = 5e8 - 2e5 * static_cast<double>(i);
+      test.life = std::pow(10, 6 - 0.001 * static_cast<double>(i));
+      tests.push_back(test);
+      amplitude.push_back(test.stress.alternating);
+      mean.push_back(test.stress.mean);
+      life.push_back(test.life);
+    }
+  }
+};
+
+void springs_language(benchmark::State& state) {
+  const Springs all;
+  const Powers pascal = read_any_unit("Pa").powers;
+  Symbols symbols;
+  symbols.columns = {{"amplitude", pascal}, {"mean", pascal}, {"life", {}}};
+  symbols.parameters = {{"log10_a", {}}, {"b", {}}, {"log10_sut", {}}, {"sigma", {}}};
+  const Program program = compile(
+      {{"reversed", "amplitude/(1 - mean/(10^log10_sut * 1 [Pa]))"},
+       {"z", "(log10(life) - (log10(reversed/1 [Pa]) - log10_a)/b)/sigma"}},
+      {{"log-likelihood", "-log(life*log(10)) - 0.5*z^2 - log(sigma) - 0.5*log(2*pi)"}}, symbols);
+  Rows at;
+  at.count = rows;
+  at.columns = {all.amplitude, all.mean, all.life};
+  run(state, program, at, all.parameters);
+}
+BENCHMARK(springs_language);
+
+void springs_built_in(benchmark::State& state) {
+  const Springs all;
+  const auto likelihood = fatigue::sn_likelihood(fatigue::SnLaw(), all.tests, rows);
+  run_hand(state, all.parameters,
+           [&](const auto& p, auto& g) { return likelihood->value_and_gradient(p, g); });
+}
+BENCHMARK(springs_built_in);
 
 }  // namespace
 }  // namespace wearwell::law

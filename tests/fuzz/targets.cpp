@@ -6,13 +6,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/input/labelled.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/law/program.h"
 #include "wearwell/models/bearing/uncertain.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/registry.h"
@@ -184,9 +187,56 @@ void report(std::string_view bytes) {
   result("report.json", bytes);
 }
 
+// Lines "name := expression" are of [law], any other is an output.
+void laws(std::string_view bytes) {
+  const law::Powers metre = {{"meter", 1}}, newton = law::read_any_unit("N").powers;
+  const law::Symbols symbols = {
+      {{"x", {}}, {"force", newton}, {"distance", metre}, {"depth", metre, true}},
+      {{"material", {"PTFE", "PEEK"}}},
+      {{"a", {}},
+       {"b", {}},
+       {"q", {}, law::Scope::per_level, "material"},
+       {"u", {}, law::Scope::per_row}},
+      {{"g", law::read_any_unit("m/s^2").powers, 9.81}}};
+  std::vector<law::Line> lines;
+  std::vector<law::Wanted> wanted;
+  for (std::size_t from = 0; from < bytes.size();) {
+    const std::size_t end = std::min(bytes.find('\n', from), bytes.size());
+    const std::string line(bytes.substr(from, end - from));
+    from = end + 1;
+    if (const std::size_t at = line.find(" := "); at != line.npos)
+      lines.push_back({line.substr(0, at), line.substr(at + 4)});
+    else
+      wanted.push_back({"output", line});
+  }
+  read_or_refuse([&] {
+    const law::Program program = law::compile(lines, wanted, symbols);
+    const std::vector<double> x = {0.5, 2, -1}, force = {10, 20, 5}, distance = {0, 1, 1},
+                              u = {1, 0, -1};
+    const std::vector<int> material = {0, 1, 0};
+    const law::Data data =
+        program.bind({3, {x, force, distance, std::span<const double>()}, {material}, {0}});
+    law::Workspace work = program.workspace(3);
+    const std::vector<double> parameters = {0.7, 1.3, 2, -0.5};
+    const double* by_row[] = {u.data()};
+    program.forward(data, 0, 3, {parameters, by_row}, work);
+    bool finite = true;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      for (const double each : work.values(i)) finite = finite && std::isfinite(each);
+      for (double& each : work.adjoints(i)) each = 1;
+      demand(!program.text(i).empty(), "an output can be shown");
+    }
+    std::vector<double> gradient(4);
+    program.reverse(data, 0, 3, {parameters, by_row}, work, gradient);
+    const auto fault = program.first_fault(data, 0, 3, {parameters, by_row});
+    demand(fault.has_value() != finite, "what is not finite has a first cause");
+  });
+}
+
 constexpr Target all[] = {{"unit", unit},   {"heading", heading}, {"toml", toml},
                           {"table", table}, {"study", study},     {"model", model},
-                          {"state", state}, {"summary", summary}, {"report", report}};
+                          {"state", state}, {"summary", summary}, {"report", report},
+                          {"law", laws}};
 
 }  // namespace
 

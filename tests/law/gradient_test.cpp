@@ -195,6 +195,16 @@ RC_GTEST_PROP(Gradient, OfRandomExpressionsIsThatOfJets, ()) {
     RC_ASSERT(std::abs(slopes.parameters[i] - sum[i]) <= 1e-9 * (1 + std::abs(sum[i])));
 }
 
+RC_GTEST_PROP(Text, IsReadAgainWithTheSameValues, ()) {
+  const Laboratory laboratory;
+  const Tree tree = random_tree(*rc::gen::inRange(1, 5));
+  const std::string text = laboratory.program({text_of(tree)}).text(0);
+  RC_LOG() << text_of(tree) << "\n" << text << "\n";
+  const auto wanted = laboratory.values(text_of(tree)), found = laboratory.values(text);
+  for (std::size_t r = 0; r < wanted.size(); ++r)  // constants are written with six digits
+    RC_ASSERT(std::abs(found[r] - wanted[r]) <= 1e-3 * (1 + std::abs(wanted[r])));
+}
+
 // By differences, of whatever Jets do not know.
 void expect_slopes(Laboratory laboratory, const std::string& text, double close = 1e-6) {
   const std::vector<double> weight = {1, -0.5, 2};

@@ -63,6 +63,32 @@ TEST(State, WhoseRateIsKnownIsASum) {
             "a * 1e-06 [m] + cum(k * force / 5e-05 [m^2] * step(distance))");
 }
 
+// What is linear has a closed form from row to row; the same rate, written so that it does not look linear, is integrated.
+TEST(State, LinearRatesAgreeWithTheirIntegration) {
+  Laboratory laboratory;
+  laboratory.parameters[3] = 5e-12;
+  laboratory.paths = {0, 1};
+  const std::pair<const char*, const char*> both[] = {
+      {"k*force/area*(1 - depth/h0)", "k*force/area*(1 - min(depth, 1 [m])/h0)"},
+      {"k*force/area*x - depth*b/1 [m]", "k*force/area*x - max(depth, -1 [m])*b/1 [m]"},
+      {"(depth + h0)/1 [m]*q[material]*0.1", "(max(depth, -1 [m]) + h0)/1 [m]*q[material]*0.1"},
+      {"-(depth - h0)*1e-9/1 [m]", "-(min(depth, 1 [m]) - h0)*1e-9/1 [m]"},
+      {"depth/1 [m]", "min(depth, 1 [m])/1 [m]"}};
+  for (const auto& [linear, other] : both) {
+    SCOPED_TRACE(linear);
+    laboratory.law = {{"d(depth)/d(distance)", linear}, {"depth(0)", "h0*a*0.1"}};
+    Laboratory integrated = laboratory;
+    integrated.law[0].text = other;
+    const auto exact = laboratory.values("depth"), steps = integrated.values("depth");
+    const auto by = laboratory.slopes("depth", {1, 2, -0.5}).parameters,
+               by_steps = integrated.slopes("depth", {1, 2, -0.5}).parameters;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(exact[i] / steps[i], 1, 1e-9);
+    for (std::size_t p = 0; p < by.size(); ++p)
+      EXPECT_NEAR(by[p], by_steps[p], 1e-8 * std::abs(by_steps[p]) + 1e-300) << p;
+    expect_slopes(laboratory, "depth", 1e-7);
+  }
+}
+
 // Paris: da/dn = C a^(m/2) in numbers, a = (a0^(1 - m/2) + (1 - m/2) C n)^(1/(1 - m/2)).
 TEST(State, OfCrackGrowthIsItsClosedFormAndInfiniteBeyondFailure) {
   Laboratory laboratory;
@@ -112,6 +138,20 @@ TEST(State, BeginsWhereItIsSaid) {
   EXPECT_NEAR(laboratory.values("growth")[1], 0.7 * std::exp(1.5), 1e-9);
   EXPECT_NEAR(laboratory.values("growth")[2], 0.7 * std::exp(3.5), 1e-8);
   expect_slopes(laboratory, "growth", 1e-8);
+}
+
+TEST(State, IsToldAsItWasUnderstood) {
+  Laboratory laboratory;
+  EXPECT_EQ(laboratory.program({"x"}).state_text(), "");
+  laboratory.law = {{"drive", "k*force/area"}, {"d(depth)/d(distance)", "drive*(1 - depth/h0)"}};
+  EXPECT_EQ(laboratory.program({"x"}).state_text(),
+            "d(depth)/d(distance) = k * force / 5e-05 [m^2] * (1 - depth / h0), depth(0) = 0");
+  laboratory.law.push_back({"depth(2 mm)", "h0/2"});
+  const Program program = laboratory.program({"depth/h0"});
+  EXPECT_THAT(program.state_text(), testing::EndsWith(", depth(0.002 m) = h0 / 2"));
+  EXPECT_EQ(program.text(0), "depth / h0");
+  EXPECT_TRUE(program.outputs()[0].by_path);
+  EXPECT_TRUE(program.has_paths());
 }
 
 TEST(State, AsksForSortedRows) {

@@ -6,6 +6,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/law/program_body.h"
+#include "wearwell/law/recurrence.h"
 #include "wearwell/law/running_sum.h"
 
 namespace wearwell::law {
@@ -137,6 +138,11 @@ void Program::bind(const Rows& rows, Data& data) const {
     if (step.op == Op::cum) {
       running_sum(argument(step.a), tape.cells[static_cast<std::size_t>(step.a)].uniform(),
                   body.starts.data(), out, rows.count);
+    } else if (step.op == Op::recurrence) {
+      Recurrence{argument(step.a),   argument(step.c),
+                 argument(step.b),   tape.cells[static_cast<std::size_t>(step.b)].uniform(),
+                 body.starts.data(), rows.count}
+          .forward(out);
     } else {
       step.kernels.forward(argument(step.a), argument(step.b), argument(step.c), out, rows.count,
                            step.extra);

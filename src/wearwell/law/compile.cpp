@@ -53,7 +53,8 @@ class Compiler {
     return roots;
   }
 
-  std::vector<Text> texts;  ///< origins
+  std::vector<Text> texts;        ///< origins
+  int rate = -1, beginning = -1;  ///< nodes of the state
   const Lines& lines() const { return lines_; }
 
  private:
@@ -70,18 +71,18 @@ class Compiler {
 
   std::vector<int> needs(int item) const {
     std::vector<int> found;
-    const bool rate = within(item) || item == state_item();
+    const bool moving = within(item) || item == state_item();
     if (item == state_item()) found.push_back(beginning_item());
     for (const Token& token : written(item).tokens) {
       if (token.kind != Token::name) continue;
       if (token.text == lines_.state) {
         if (item == beginning_item()) continue;  // refused where it is read
-        found.push_back(rate ? beginning_item() : state_item());
+        found.push_back(moving ? beginning_item() : state_item());
         continue;
       }
       for (int i = 0; i < line_count(); ++i) {
         if (lines_.named[static_cast<std::size_t>(i)].name == token.text)
-          found.push_back(rate ? i + line_count() : i);
+          found.push_back(moving ? i + line_count() : i);
       }
     }
     return found;
@@ -160,8 +161,8 @@ class Compiler {
     if (lines_.has_beginning) {
       Names names = outside_;
       names.state_node = -1;
-      beginning_ = read(lines_.beginning, names);
-      const Node& node = graph_[beginning_];
+      beginning = read(lines_.beginning, names);
+      const Node& node = graph_[beginning];
       if (!node.any && column != nullptr && node.powers != state_powers_)
         complain(lines_.beginning.text, 0,
                  fmt::format("the state begins as {}, and the column '{}' is {}",
@@ -172,7 +173,7 @@ class Compiler {
     } else {
       Node zero;
       zero.any = true;
-      beginning_ = graph_.add(zero);
+      beginning = graph_.add(zero);
     }
     if (state_powers_ < 0) return;
     Node now;
@@ -183,7 +184,7 @@ class Compiler {
 
   void read_state() {
     const Text& text = lines_.rate.text;
-    const int rate = read(lines_.rate, inside_);
+    rate = read(lines_.rate, inside_);
     const ColumnSymbol& axis = symbols_.columns[static_cast<std::size_t>(lines_.start.axis)];
     const Node& node = graph_[rate];
     if (state_powers_ < 0)
@@ -197,20 +198,20 @@ class Compiler {
                difference(graph_.dimension(node.powers), demanded));
     }
     outside_.state_node =
-        node.moving ? graph_.make(Op::state, state_powers_, beginning_, rate) : closed_form(rate);
+        node.moving ? graph_.make(Op::state, state_powers_, beginning, rate) : closed_form();
   }
 
   // A rate that knows nothing of the state nor of where it is: each row adds its step.
-  int closed_form(int rate) {
+  int closed_form() {
     Node step;
     step.op = Op::step;
     step.index = lines_.start.axis;
     step.powers = graph_.intern(symbols_.columns[static_cast<std::size_t>(step.index)].powers);
     const int gain = graph_.make(Op::multiply, state_powers_, rate, graph_.add(step));
     const int sum = graph_.make(Op::cum, state_powers_, gain);
-    const Node& begin = graph_[beginning_];
+    const Node& begin = graph_[beginning];
     if (begin.op == Op::constant && begin.value == 0) return sum;
-    return graph_.make(Op::add, state_powers_, beginning_, sum);
+    return graph_.make(Op::add, state_powers_, beginning, sum);
   }
 
   void check(const Wanted& wanted, const Written& written, int root) const {
@@ -258,7 +259,7 @@ class Compiler {
   std::vector<std::string> names_;
   std::vector<Written> wanted_;
   std::vector<char> done_;
-  int beginning_ = -1, state_powers_ = -1;
+  int state_powers_ = -1;
 };
 
 }  // namespace
@@ -272,6 +273,8 @@ Program compile(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
   body->roots = compiler.run(wanted);
   body->texts = std::move(compiler.texts);
   body->start = compiler.lines().start;
+  body->rate = compiler.rate;
+  body->beginning = compiler.beginning;
   const Graph& graph = body->graph;
   body->parameters.resize(symbols.parameters.size());
   body->columns.resize(symbols.columns.size());
@@ -295,7 +298,7 @@ Program compile(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
     body->outputs.push_back({wanted[i].name, powers, !node.rows, node.parametric, node.by_path});
   }
   Graph best;
-  const std::vector<int> roots = regrouped(graph, body->roots, best);
+  const std::vector<int> roots = regrouped(graph, body->roots, body->start.axis, best);
   body->tape = make_tape(best, roots, body->symbols, body->start);
   Program program;
   program.body_ = std::move(body);

@@ -191,7 +191,7 @@ std::optional<Fault> Program::first_fault(const Data& data, std::size_t begin, s
           case Op::pick:
             return pick(node, out);
           case Op::state: {
-            const double* state = work.body_->at[index(tape.states.front().out)];
+            const double* state = work.body_->at[index(tape.state)];
             std::copy_n(state, out.size(), out.begin());
             return;
           }

@@ -61,6 +61,7 @@ void Graph::derive(Node& node) const {
       node.moving = node.rows = true;
       break;
     case Op::cum:
+    case Op::recurrence:
       node.rows = node.by_path = true;
       break;
     case Op::state:
@@ -100,7 +101,7 @@ int Graph::folded(const Node& node) {
 
 int Graph::add(Node node) {
   const bool leaf = node.a < 0;
-  if (!leaf && node.op != Op::cum && node.op != Op::state) {
+  if (!leaf && node.op != Op::cum && node.op != Op::state && node.op != Op::recurrence) {
     if (const int constant = folded(node); constant >= 0) return constant;
   }
   if (const auto at = known_.find(node); at != known_.end()) return at->second;

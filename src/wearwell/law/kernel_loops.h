@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "wearwell/law/kernels.h"
 #include "wearwell/law/vector_math.h"
@@ -17,6 +18,20 @@ inline double sign_of(double x) {
 }
 
 // Functions of one argument: value, and slope by argument and value.
+// expm1(x)/x and its slope, by their series where these would cancel.
+inline double growth(double x) {
+  return x == 0 ? 1 : std::expm1(x) / x;
+}
+inline double growth_slope(double x, double y) {
+  if (std::abs(x) >= 0.5) return (y * x + 1 - y) / x;
+  double sum = 0, factorial = 355687428096000;  // 17!
+  for (int k = 15; k >= 0; --k) {               // of (k + 1) x^k / (k + 2)!
+    sum = sum * x + (k + 1) / factorial;
+    factorial /= k + 2;
+  }
+  return sum;
+}
+
 #define WEARWELL_UNARY(Name, VALUE, SLOPE)                                                   \
   struct Name {                                                                              \
     static double f([[maybe_unused]] double a) { return VALUE; }                             \
@@ -35,6 +50,7 @@ WEARWELL_UNARY(Cos, std::cos(a), -std::sin(a))
 WEARWELL_UNARY(Atan, std::atan(a), 1 / (1 + a * a))
 WEARWELL_UNARY(Log1p, std::log1p(a), 1 / (1 + a))
 WEARWELL_UNARY(Expm1, std::expm1(a), 1 + y)
+WEARWELL_UNARY(Growth, growth(a), growth_slope(a, y))
 WEARWELL_UNARY(Opposite, a != 0 ? 0.0 : 1.0, 0)
 #undef WEARWELL_UNARY
 
@@ -65,10 +81,10 @@ WEARWELL_BINARY(Both, (a != 0 && b != 0) ? 1.0 : 0.0, 0, 0)
 WEARWELL_BINARY(Either, (a != 0 || b != 0) ? 1.0 : 0.0, 0, 0)
 #undef WEARWELL_BINARY
 
-// a^b of a >= 0, given log a. NaN for a < 0: the exponent is no fixed whole number.
-inline double powered(double a, double b, double log_a) {
+// a^b of a >= 0, given log a. NaN for a < 0, but for b = 0: the exponent is no fixed whole number.
+inline double powered(double b, double log_a) {
   const double y = vector_exp(b * log_a);
-  return b == 0 ? (a < 0 ? log_a : 1) : y;
+  return b == 0 ? 1 : y;
 }
 inline double power_by_base(double a, double b, double y) {
   const double at_zero = b == 1 ? 1 : b > 1 || b == 0 ? 0 : std::numeric_limits<double>::infinity();
@@ -79,7 +95,7 @@ inline double power_by_exponent(double b, double y, double log_a) {
 }
 
 struct Power {
-  static double f(double a, double b) { return powered(a, b, vector_log(a)); }
+  static double f(double a, double b) { return powered(b, vector_log(a)); }
   static double da(double a, double b, double y) { return power_by_base(a, b, y); }
   static double db(double a, double b, double y) { return power_by_exponent(b, y, vector_log(a)); }
 };
@@ -150,7 +166,7 @@ struct BinaryLoop {
   }
 };
 
-// a^extra by squaring.
+// a^extra by squaring. Small exponents are known while compiling, so that their loops are vector code.
 template <bool A>
 struct WholePowerLoop {
   static double raise(double a, unsigned n) {
@@ -159,33 +175,50 @@ struct WholePowerLoop {
       if (n & 1u) result *= a;
     return result;
   }
-  static double f(double a, double extra) {
-    const double y = raise(a, static_cast<unsigned>(std::abs(extra)));
-    return extra < 0 ? 1 / y : y;
+  static double f(double a, int n) {
+    const double y = raise(a, static_cast<unsigned>(n < 0 ? -n : n));
+    return n < 0 ? 1 / y : y;
   }
-  static void forward(const double* a, const double*, const double*, double* __restrict y,
-                      std::size_t n, double extra) {
-    if (extra == 2)
-      for (std::size_t i = 0; i < n; ++i) y[i] = get<A>(a, i) * get<A>(a, i);
-    else
-      for (std::size_t i = 0; i < n; ++i) y[i] = f(get<A>(a, i), extra);
+  template <class Loop>
+  static void with_exponent(double extra, const Loop& loop) {
+    const int n = static_cast<int>(extra);
+    switch (n) {
+      case -2:
+        return loop(std::integral_constant<int, -2>());
+      case -1:
+        return loop(std::integral_constant<int, -1>());
+      case 2:
+        return loop(std::integral_constant<int, 2>());
+      case 3:
+        return loop(std::integral_constant<int, 3>());
+      case 4:
+        return loop(std::integral_constant<int, 4>());
+      default:
+        return loop(n);
+    }
+  }
+  static void forward(const double* __restrict a, const double*, const double*,
+                      double* __restrict y, std::size_t n, double extra) {
+    with_exponent(extra, [=](auto exponent) {
+      for (std::size_t i = 0; i < n; ++i) y[i] = f(get<A>(a, i), exponent);
+    });
   }
   static void reverse(const double* a, const double*, const double*, const double*, const double* g,
                       double* ga, double*, double*, std::size_t n, double extra, unsigned first) {
-    if (extra == 2)
-      give<A>(ga, g, n, first & 1u, [=](std::size_t i) { return 2 * get<A>(a, i); });
-    else
-      give<A>(ga, g, n, first & 1u,
-              [=](std::size_t i) { return extra * f(get<A>(a, i), extra - 1); });
+    with_exponent(extra, [=](auto exponent) {
+      give<A>(ga, g, n, first & 1u, [=](std::size_t i) {
+        return static_cast<double>(exponent) * f(get<A>(a, i), exponent - 1);
+      });
+    });
   }
 };
 
 // a^b where c = log a is known; a and c depend on no parameter.
 template <bool A, bool B, bool C>
 struct PowerLogLoop {
-  static void forward(const double* a, const double* b, const double* c, double* __restrict y,
-                      std::size_t n, double) {
-    for (std::size_t i = 0; i < n; ++i) y[i] = powered(get<A>(a, i), get<B>(b, i), get<C>(c, i));
+  static void forward(const double*, const double* __restrict b, const double* __restrict c,
+                      double* __restrict y, std::size_t n, double) {
+    for (std::size_t i = 0; i < n; ++i) y[i] = powered(get<B>(b, i), get<C>(c, i));
   }
   static void reverse(const double*, const double* b, const double* c, const double* y,
                       const double* g, double*, double* gb, double*, std::size_t n, double,
@@ -304,6 +337,8 @@ Kernels ternary(unsigned uniform) {
       return unary<Log1p>(uniform);
     case Op::expm1:
       return unary<Expm1>(uniform);
+    case Op::growth:
+      return unary<Growth>(uniform);
     case Op::less:
       return binary<Less>(uniform);
     case Op::less_equal:

@@ -1,9 +1,12 @@
 #include "wearwell/law/program.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
 #include "wearwell/law/program_body.h"
+#include "wearwell/law/recurrence.h"
 #include "wearwell/law/running_sum.h"
 
 namespace wearwell::law {
@@ -65,6 +68,23 @@ void prepare_state(const Tape& tape, Workspace::Body& work, const Data::Body& da
 
 }  // namespace
 
+namespace {
+
+Recurrence recurrence(const Tape& tape, const Workspace::Body& work, const Data::Body& data,
+                      std::size_t begin, const Step& step) {
+  const auto at = [&](int cell) {
+    return cell < 0 ? nullptr : work.at[static_cast<std::size_t>(cell)];
+  };
+  return {at(step.a),
+          at(step.c),
+          at(step.b),
+          tape.cells[static_cast<std::size_t>(step.b)].uniform(),
+          data.starts.data() + begin,
+          work.rows};
+}
+
+}  // namespace
+
 void Program::forward(const Data& data, std::size_t begin, std::size_t end, const Inputs& inputs,
                       Workspace& workspace) const {
   const Tape& tape = body_->tape;
@@ -106,6 +126,8 @@ void Program::forward(const Data& data, std::size_t begin, std::size_t end, cons
     } else if (step.op == Op::cum) {
       running_sum(at(step.a), tape.cells[static_cast<std::size_t>(step.a)].uniform(),
                   rows.starts.data() + begin, out, n);
+    } else if (step.op == Op::recurrence) {
+      recurrence(tape, work, rows, begin, step).forward(out);
     } else {
       prepare_state(tape, work, rows, begin);
       work.solver->forward(work.state_rows, out);
@@ -189,6 +211,15 @@ void Program::reverse(const Data& data, std::size_t begin, std::size_t, const In
       if (double* sum = to(step, step.a, 0); sum != nullptr)
         running_sum_reverse(given, tape.cells[static_cast<std::size_t>(step.a)].uniform(),
                             rows.starts.data() + begin, sum, work.rows, (step.first & 1u) != 0);
+    } else if (step.op == Op::recurrence) {
+      const auto place = [&](int cell, unsigned bit) {
+        return emptied(tape, work, cell, (step.gives >> bit & 1u) != 0,
+                       (step.first >> bit & 1u) != 0);
+      };
+      double* growth = place(step.a, 0);
+      double* gain = place(step.c, 2);
+      recurrence(tape, work, rows, begin, step)
+          .reverse(at(step.out), given, growth, gain, place(step.b, 1));
     } else {
       reverse_state(tape, work, rows, begin, step);
     }
@@ -202,6 +233,19 @@ void Program::reverse(const Data& data, std::size_t begin, std::size_t, const In
 
 std::string Program::text(std::size_t output) const {
   return text_of(body_->graph, body_->roots[output], body_->symbols);
+}
+
+std::string Program::state_text() const {
+  if (body_->rate < 0) return {};
+  const ColumnSymbol& axis = body_->symbols.columns[static_cast<std::size_t>(body_->start.axis)];
+  const std::string& name = body_->graph.state_name();
+  const std::string place = body_->start.at_first_row ? "first"
+                            : body_->start.at == 0
+                                ? "0"
+                                : fmt::format("{:.6g} {}", body_->start.at, in_words(axis.powers));
+  return fmt::format("d({})/d({}) = {}, {}({}) = {}", name, axis.name,
+                     text_of(body_->graph, body_->rate, body_->symbols), name, place,
+                     text_of(body_->graph, body_->beginning, body_->symbols));
 }
 
 }  // namespace wearwell::law

@@ -144,6 +144,10 @@ class Program {
   /// The output as it was understood, names of [law] written out: "k * (force * distance) / area".
   std::string text(std::size_t output) const;
 
+  /// The state as it was understood: "d(depth)/d(distance) = k * force * (1 - depth / h0), depth(0) = 0";
+  /// empty without one.
+  std::string state_text() const;
+
  private:
   friend Program compile(const std::vector<Line>&, const std::vector<Wanted>&, const Symbols&);
   struct Body;

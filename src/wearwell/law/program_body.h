@@ -20,6 +20,7 @@ struct Program::Body {
   std::vector<Text> texts;  ///< that a node's origin is an index of
   std::vector<Output> outputs;
   StateStart start;
+  int rate = -1, beginning = -1;                  ///< nodes of the state, if there is one
   std::vector<bool> parameters, columns, labels;  ///< whether an output uses them
   Tape tape;
 };

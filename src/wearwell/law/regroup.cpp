@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "wearwell/law/linear_rate.h"
+
 namespace wearwell::law {
 namespace {
 
@@ -13,9 +15,10 @@ enum Class { known, of_data, of_parameters, of_rows, of_state, classes };
 
 class Regrouping {
  public:
-  Regrouping(const Graph& from, const std::vector<int>& roots, Graph& to)
+  Regrouping(const Graph& from, const std::vector<int>& roots, int axis, Graph& to)
       : from_(from),
         to_(to),
+        axis_(axis),
         image_(static_cast<std::size_t>(from.size()), -1),
         uses_(static_cast<std::size_t>(from.size())) {
     needed_ = reachable(from, roots);
@@ -62,7 +65,24 @@ class Regrouping {
       copy.op = Op::power_log;
       copy.c = to_.make(Op::log, 0, copy.a);
     }
+    if (node.op == Op::state) {
+      if (const auto linear = linear_rate(to_, copy.b)) return recurrence(*linear, copy.a);
+    }
     return to_.add(copy);
+  }
+
+  // Between two rows y' = A + B y with constant A and B: y grows by exp(B h) and gains A h growth(B h).
+  int recurrence(const LinearRate& rate, int beginning) {
+    Node step;
+    step.op = Op::step;
+    step.index = axis_;
+    const int h = to_.add(step);
+    const int exponent = to_.make(Op::multiply, 0, rate.slope, h);
+    int gain = -1;
+    if (rate.constant >= 0)
+      gain = to_.make(Op::multiply, 0, to_.make(Op::multiply, 0, rate.constant, h),
+                      to_.make(Op::growth, 0, exponent));
+    return to_.make(Op::recurrence, 0, to_.make(Op::exp, 0, exponent), beginning, gain);
   }
 
   // Factors above (0) and below (1) the line, by class.
@@ -131,14 +151,15 @@ class Regrouping {
 
   const Graph& from_;
   Graph& to_;
+  int axis_;
   std::vector<int> image_, uses_;
   std::vector<bool> needed_;
 };
 
 }  // namespace
 
-std::vector<int> regrouped(const Graph& from, const std::vector<int>& roots, Graph& to) {
-  Regrouping regrouping(from, roots, to);
+std::vector<int> regrouped(const Graph& from, const std::vector<int>& roots, int axis, Graph& to) {
+  Regrouping regrouping(from, roots, axis, to);
   regrouping.run();
   std::vector<int> images;
   images.reserve(roots.size());

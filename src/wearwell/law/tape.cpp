@@ -34,7 +34,8 @@ class Maker {
     needed_ = reachable(graph_, roots_);
     for (int i = 0; i < graph_.size(); ++i) {
       if (!needed_[static_cast<std::size_t>(i)]) continue;
-      tape_.has_paths |= graph_[i].op == Op::cum || graph_[i].op == Op::state;
+      tape_.has_paths |=
+          graph_[i].op == Op::cum || graph_[i].op == Op::state || graph_[i].op == Op::recurrence;
     }
   }
 
@@ -86,6 +87,7 @@ class Maker {
       step.label = label_index(symbols_.parameters[parameter].label);
     }
     if (node.op == Op::state) tape_.states.back().out = at;
+    if (node.op == Op::state || node.op == Op::recurrence) tape_.state = at;
     (where == Cell::number ? tape_.number_steps
      : where == Cell::data ? tape_.bind_steps
                            : tape_.row_steps)

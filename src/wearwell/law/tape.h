@@ -77,6 +77,7 @@ struct Tape {
   std::vector<Step> bind_steps, number_steps, row_steps;
   std::vector<OutputCell> outputs;
   std::vector<StatePlan> states;  ///< one or none; Op::state among the row steps runs it
+  int state = -1;                 ///< the cell of the state, however it is computed; -1 without one
   bool has_paths = false;
 };
 

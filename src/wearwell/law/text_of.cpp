@@ -157,6 +157,11 @@ class Printer {
   }
 
   void number(const Node& node, Binding least) {
+    if (node.truth) {  // decided already
+      const bool within = least > compared;
+      out += fmt::format("{}1 == {}{}", within ? "(" : "", node.value, within ? ")" : "");
+      return;
+    }
     const bool brackets = std::signbit(node.value) && least > sum;
     const Powers& powers = graph_.dimension(node.powers);
     out += fmt::format("{}{:.6g}{}{}", brackets ? "(" : "", node.value,

@@ -43,6 +43,7 @@ enum class Op : unsigned char {
   atan,
   log1p,
   expm1,
+  growth,  ///< expm1(a)/a, 1 at 0
   less,
   less_equal,
   equal,
@@ -52,7 +53,8 @@ enum class Op : unsigned char {
   opposite,
   where,
   cum,
-  state,
+  state,       ///< by its rate
+  recurrence,  ///< a state with a linear rate: a its growth from row to row, b its beginning, c its gain
 };
 
 /// What a function asks of its arguments and gives.
