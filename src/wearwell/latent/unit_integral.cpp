@@ -13,7 +13,8 @@ constexpr double log_sqrt_two_pi = 0.91893853320467274178;
 constexpr double negligible = -36;        // of log f below its highest
 constexpr double farthest = 1000;         // of z: beyond there is nothing
 constexpr double most_difference = 3e-6;  // between a rule and every second node of it
-constexpr int most_halvings = 6, most_steps = 40;
+constexpr double most_difference_of_colours = 3e-5;
+constexpr int most_halvings = 5, most_steps = 40;
 
 // A pair of numbers for each unit, of which the first counts alone where there is one effect.
 using Pair = std::array<double, 2>;
@@ -21,7 +22,7 @@ using Pair = std::array<double, 2>;
 // Where the integrand of a unit is highest, about, and how wide it is there.
 struct Bell {
   Pair center{};
-  // Columns of the lattice: z = center + step (i across[0] + j across[1]).
+  // Columns of the lattice: z = center + sinh(s) across[0] + sinh(t) across[1].
   std::array<Pair, 2> across{{{1, 0}, {0, 1}}};
 };
 
@@ -78,7 +79,7 @@ class Search {
   std::vector<Bell> along_line() {
     std::vector<Pair> at(units_), slope(units_), next(units_), next_slope(units_);
     std::vector<double> log_f(units_, -infinity), next_f(units_, -infinity);
-    std::vector<double> curvature(units_, 1), low(units_, -farthest), high(units_, farthest);
+    std::vector<double> curvature(units_, 1), low(units_, -infinity), high(units_, infinity);
     begin(at, log_f, slope);
     constexpr double probe = 0.02, close = 0.1;
     bool first = true;
@@ -89,10 +90,12 @@ class Search {
         if (!wanted_[u]) continue;
         any = true;
         const double g = slope[u][0];
-        (g > 0 ? low : high)[u] = at[u][0];
+        if (g > 0) low[u] = at[u][0];
+        if (g < 0) high[u] = at[u][0];
         double move = first ? std::copysign(probe, g) : std::clamp(g / curvature[u], -3.0, 3.0);
         double to = at[u][0] + move;
-        if (!(to > low[u] && to < high[u])) to = 0.5 * (low[u] + high[u]);
+        if (!(to > low[u] && to < high[u]) && !first) to = 0.5 * (low[u] + high[u]);
+        to = std::clamp(to, -farthest, farthest);
         next[u][0] = to;
       }
       if (!any) break;
@@ -236,7 +239,7 @@ class Lattice {
   }
 
  private:
-  // Nodes at step (i, j) of each wanted unit; `weight` keeps the log of the area of a cell.
+  // Nodes (i, j) widths from the mode of each wanted unit; `weight` keeps the log of the area of a cell.
   Sweep& sweep(double i, double j, double log_cell) {
     if (used_ == result_.sweeps.size()) result_.sweeps.emplace_back();
     Sweep& s = result_.sweeps[used_++];
@@ -271,23 +274,24 @@ class Lattice {
 
   // One effect. With `offset` the nodes between those of a coarser lattice of the units in `whose`.
   void walk(const std::vector<std::uint8_t>& whose, double step, bool between) {
-    constexpr int most = 4000;
+    constexpr int most = 2000;
     for (const int sign : {1, -1}) {
       std::copy(whose.begin(), whose.end(), wanted_.begin());
       for (int n = sign > 0 || between ? 0 : 1; n < most && any_wanted(); ++n) {
-        const double i = sign * (between ? 2 * n + 1 : n) * step;
-        const Sweep& s = sweep(i, 0, std::log(step));
+        const double t = sign * (between ? 2 * n + 1 : n) * step, stretch = std::log(std::cosh(t));
+        const Sweep& s = sweep(std::sinh(t), 0, std::log(step) + stretch);
         for (std::size_t u = 0; u < units_; ++u) {
           if (!wanted_[u]) continue;
-          sums_[u].add(s.log_f[u], between || n % 2 == 1);
-          if (s.log_f[u] < sums_[u].highest + negligible) wanted_[u] = 0;
+          const double log_f = s.log_f[u] + stretch;
+          sums_[u].add(log_f, between || n % 2 == 1);
+          if (log_f < sums_[u].highest + negligible) wanted_[u] = 0;
         }
       }
     }
   }
 
   void line() {
-    double step = 0.5;
+    double step = 0.2;
     std::vector<std::uint8_t> whose(units_, 1);
     walk(whose, step, false);
     for (int halving = 0;; ++halving) {
@@ -327,7 +331,7 @@ class Lattice {
   // Two effects: rings about the mode, until one adds nothing; with a smaller step where the nodes of
   // one colour of the chessboard and those of the other do not agree.
   void plane() {
-    double step = 0.7;
+    double step = 0.24;
     std::vector<std::uint8_t> whose(units_, 1);
     for (int attempt = 0;; ++attempt) {
       std::copy(whose.begin(), whose.end(), wanted_.begin());
@@ -336,13 +340,14 @@ class Lattice {
         sums_[u] = {};
         for (std::size_t n = 0; n < used_; ++n) result_.sweeps[n].log_f[u] = -infinity;
       }
-      const int most = static_cast<int>(40 / step);
+      const int most = static_cast<int>(12 / step);
       for (int ring = 0; ring <= most && any_wanted(); ++ring) walk_ring(ring, step);
       bool again = false;
       for (std::size_t u = 0; u < units_; ++u) {
         if (!whose[u]) continue;
         finish(u, step);
-        whose[u] = sums_[u].highest > -infinity && sums_[u].difference() > most_difference;
+        whose[u] =
+            sums_[u].highest > -infinity && sums_[u].difference() > most_difference_of_colours;
         again |= whose[u] != 0;
       }
       if (!again) return;
@@ -360,11 +365,14 @@ class Lattice {
       for (int j = -ring; j <= ring; ++j) {
         if (std::max(std::abs(i), std::abs(j)) != ring) continue;
         std::copy(before.begin(), before.end(), wanted_.begin());
-        const Sweep& s = sweep(i * step, j * step, 2 * std::log(step));
+        const double stretch = std::log(std::cosh(i * step) * std::cosh(j * step));
+        const Sweep& s =
+            sweep(std::sinh(i * step), std::sinh(j * step), 2 * std::log(step) + stretch);
         for (std::size_t u = 0; u < units_; ++u) {
           if (!before[u]) continue;
-          sums_[u].add(s.log_f[u], (i + j) % 2 != 0);
-          more[u] |= s.log_f[u] > sums_[u].highest + negligible + 8;
+          const double log_f = s.log_f[u] + stretch;
+          sums_[u].add(log_f, (i + j) % 2 != 0);
+          more[u] |= log_f > sums_[u].highest + negligible + 8;
         }
       }
     }
