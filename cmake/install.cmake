@@ -40,5 +40,6 @@ include(CMakePackageConfigHelpers)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/wearwellConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES
   ${PROJECT_SOURCE_DIR}/cmake/wearwellConfig.cmake ${PROJECT_BINARY_DIR}/wearwellConfigVersion.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindDuckDB.cmake ${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindDuckDB.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLibZip.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake
   DESTINATION ${package})

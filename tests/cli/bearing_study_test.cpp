@@ -357,7 +357,8 @@ TEST(BearingProfile, RefusesByOption) {
     return run.err;
   };
   const std::string radius = " --radius '10 mm' ";
-  EXPECT_THAT(refused(profiles + radius), HasSubstr("--position-unit is missing"));
+  EXPECT_THAT(refused(profiles + radius + " --position-unit um "),
+              HasSubstr("is in mm by its heading, and um is given as its unit"));
   EXPECT_THAT(refused(profiles + units), HasSubstr("--radius is missing"));
   EXPECT_THAT(refused(units + radius), HasSubstr("--before is missing"));
   EXPECT_THAT(refused(profiles + units + radius + "--pressure '1 MPa'"),

@@ -333,6 +333,46 @@ TEST_F(Clutch, PredictReadsEveryUnit) {
   }
 }
 
+// A fleet: plates have names, and the state goes on with them.
+TEST_F(Clutch, PlatesThatHaveNames) {
+  const std::string predict = "clutch predict " + model();
+  write("n.csv",
+        heading + "1,1,1500,50,170,2,9000\n2,1,1500,50,170,2,8000\n1,2,1500,50,170,2,9000\n");
+  write("v.csv",
+        heading +
+            "VIN-7,1,1500,50,170,2,9000\n\"B, 2\",1,1500,50,170,2,8000\nVIN-7,2,1500,50,170,2,"
+            "9000\n");
+  const CommandResult numbers = here(predict + "n.csv --json"),
+                      named = here(predict + "v.csv --json --state s.json --trace t.csv");
+  ASSERT_EQ(named.exit_code, 0) << named.err;
+  const json a = json::parse(numbers.out)["plates"], b = json::parse(named.out)["plates"];
+  EXPECT_EQ(b[0]["plate"], "VIN-7");
+  EXPECT_EQ(b[1]["plate"], "B, 2");
+  for (const int i : {0, 1}) EXPECT_EQ(a[i]["volume"], b[i]["volume"]);
+  EXPECT_THAT(lines(read(folder() / "t.csv"))[2], testing::StartsWith("\"B, 2\",1,"));
+  // As a logger writes it: semicolons, decimal commas, a row of units.
+  write("u.csv",
+        "plate;cycle;slip_speed;torque;temperature;closing_time;energy\n;;1/min;Nm;\xC2\xB0"
+        "C;s;kJ\n"
+        "VIN-7;1;1500;50;170;2,0;9,0\nB, 2;1;1500;50;170;2,0;8,0\nVIN-7;2;1500;50;170;2,0;9,0\n");
+  const CommandResult logged = here(predict + "u.csv --json");
+  ASSERT_EQ(logged.exit_code, 0) << logged.err;
+  EXPECT_NEAR(double(json::parse(logged.out)["plates"][1]["volume"]) / double(b[1]["volume"]), 1,
+              1e-12);
+  write("w.csv", heading + "\"B, 2\",2,1500,50,170,2,8000\nVIN-9,1,1500,50,170,2,9000\n");
+  const CommandResult on = here(predict + "w.csv --json --state s.json");
+  ASSERT_EQ(on.exit_code, 0) << on.err;
+  const json c = json::parse(on.out)["plates"];
+  ASSERT_EQ(c.size(), 3u);
+  EXPECT_EQ(c[1]["plate"], "B, 2");
+  EXPECT_EQ(c[1]["cycles"], 2);
+  EXPECT_EQ(c[2]["plate"], "VIN-9");
+  EXPECT_THAT(here(predict + "n.csv --state s.json").err,
+              HasSubstr("n.csv: its plates are numbers, and those of the state are names"));
+  EXPECT_THAT(here(predict + "w.csv --state s.json").err,
+              HasSubstr("row 1: plate B, 2, cycle 2 follows cycle 2; cycles must ascend"));
+}
+
 TEST_F(Clutch, PredictRefusesBadCycles) {
   const std::string good = "1,1,1700,50,170,2,9000\n";
   EXPECT_THAT(predict_refusal(heading + good + "1,3,1700,50,170,2,9000\n1,2,1700,50,170,2,9000\n"),

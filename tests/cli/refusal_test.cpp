@@ -90,11 +90,17 @@ TEST_F(Refusal, FilesAreNamedWhereTheStudyNamesThem) {
   data("cycles,volume\n1,4.44\n100,5,1\n");
   EXPECT_THAT(refused("check " + study()),
               HasSubstr("runs.csv, line 3: 3 values where the heading has 2: '100,5,1'"));
-  data("load;volume;cycles\n2,5;1;35.000\n2,6;2;60.000\n");
+  data("load;volume;cycles\n2;1;35.000\n3;2;60.000\n");
   EXPECT_THAT(
       refused("fit " + study()),
       HasSubstr("runs.csv, row 1, column 'cycles': '35.000' can mean 35 or, with a mark for "
                 "thousands, 35000"));
+  // Another column shows that commas are the decimal marks of this file.
+  data("load;volume;cycles\n2,5;1;35.000\n2,6;2;60.000\n");
+  const CommandResult read =
+      run_command("cd '" + folder().string() + "' && '" WEARWELL_BINARY "' check " + study());
+  EXPECT_EQ(read.exit_code, 0) << read.err;
+  EXPECT_THAT(read.out, AllOf(HasSubstr("decimal comma, thousands point"), HasSubstr("60000")));
   EXPECT_THAT(refused("check /dev/null"), HasSubstr("a pipe or a device"));
   const CommandResult piped = run_command("cat '" + (folder() / study()).string() +
                                           "' | '" WEARWELL_BINARY "' check /dev/stdin");

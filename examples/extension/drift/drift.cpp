@@ -47,8 +47,8 @@ std::vector<double> first(const std::vector<double>& all, std::size_t count) {
 void read(const TomlReader& root, const Source& source, PosteriorStudy& study) {
   const TomlReader data = root.required_table("data"), columns = data.required_table("columns");
   const Table table = read_table(data, source);
-  const ColumnChoice time = required_column(columns, "time", "s");
-  const ColumnChoice depth = required_column(columns, "depth", "m");
+  const ColumnChoice time = required_column(columns, "time", "s", table);
+  const ColumnChoice depth = required_column(columns, "depth", "m", table);
   const std::vector<double> t = si_numbers(table, time), y = si_numbers(table, depth);
   for (std::size_t i = 0; i < t.size(); ++i) require(t[i] > 0, table, time, i, "positive");
 

@@ -2,39 +2,113 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "wearwell/base/error.h"
-#include "wearwell/base/printable.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/heading.h"
 
 namespace wearwell {
 
-std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::string& name,
-                                        const std::string& si) {
-  if (!columns.has(name)) return {};
-  if (columns.is_text(name)) {
-    if (!may_be_plain(si)) {
-      columns.fail(name, fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}",
-                                     name, *columns.text(name), si));
-    }
-    return ColumnChoice{*columns.text(name), Unit{"1", 1, 0}};
+namespace {
+
+constexpr double most_repeated = 1e6;  // rows
+
+/// What a table says of the unit of a column.
+struct WrittenUnit {
+  std::string text = {};      ///< empty where there is none
+  bool may_be_index = false;  ///< "radius_m" may be the mean radius
+};
+
+WrittenUnit written_unit(const Column& column, const std::string& si) {
+  if (!column.unit.empty()) return {bare_unit(column.unit)};
+  const Heading heading = read_heading(column.name, si);
+  return {heading.unit, heading.suffix && heading.unit.size() == 1};
+}
+
+bool same(const Unit& a, const Unit& b) {
+  const auto near = [](double x, double y) {
+    return std::abs(x - y) <= 1e-12 * std::max(std::abs(x), std::abs(y));
+  };
+  return near(a.scale, b.scale) && near(a.offset, b.offset);
+}
+
+bool is_any_unit(const std::string& text) {
+  return parse_unit(text).has_value();
+}
+
+Unit read_written(const Table& table, const Column& column, const std::string& text,
+                  const std::string& si) {
+  try {
+    return read_unit(text, si);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}, column '{}': {}", table.source, column.name, error.what()));
   }
+}
+
+/// The heading that the study names, and the unit if it names one.
+struct NamedColumn {
+  std::string column;
+  std::optional<Unit> unit;
+};
+
+std::optional<NamedColumn> read_name(const TomlReader& columns, const std::string& name,
+                                     const std::string& si) {
+  if (!columns.has(name)) return {};
+  if (columns.is_text(name)) return NamedColumn{*columns.text(name), {}};
   const TomlReader table = columns.required_table(name);
-  ColumnChoice choice{table.required_text("column"), Unit{"1", 1, 0}};
-  const auto unit = table.text("unit");
-  if (!unit && !may_be_plain(si))
-    table.fail("unit", fmt::format("is missing (one like \"{}\")", si));
-  if (unit) {
+  NamedColumn named{table.required_text("column"), {}};
+  if (const auto unit = table.text("unit")) {
     try {
-      choice.unit = read_unit(*unit, si);
+      named.unit = read_unit(*unit, si);
     } catch (const InputError& error) {
       table.fail("unit", error.what());
     }
   }
-  return choice;
+  return named;
+}
+
+}  // namespace
+
+Unit column_unit(const Table& table, const Column& column, const std::string& si,
+                 const std::optional<Unit>& given) {
+  const WrittenUnit written = written_unit(column, si);
+  if (!given) {
+    if (written.text.empty()) return Unit{"1", 1, 0};
+    return read_written(table, column, written.text, si);
+  }
+  // In brackets there may stand what is no unit: "volume [corrected]".
+  if (written.text.empty() || !is_any_unit(written.text)) return *given;
+  if (written.may_be_index) return *given;
+  const Unit read = read_written(table, column, written.text, si);
+  if (!same(read, *given))
+    throw InputError(fmt::format(
+        "{0}, column '{1}' is in {2} by its {3}, and {4} is given as its unit (1 {2} is {5:.6g} "
+        "{4}); "
+        "which is right? Keep one, or write both alike",
+        table.source, column.name, written.text, column.unit.empty() ? "heading" : "row of units",
+        given->text, read.scale / given->scale));
+  return *given;
+}
+
+std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::string& name,
+                                        const std::string& si, const Table& table) {
+  const auto named = read_name(columns, name, si);
+  if (!named) return {};
+  const Column& column = table.column(named->column);
+  const WrittenUnit written = written_unit(column, si);
+  if (!named->unit && written.text.empty() && !may_be_plain(si)) {
+    columns.fail(name, fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}, or "
+                                   "'{} [{}]' as the heading in {}",
+                                   name, column.name, si, column.name, si, table.source));
+  }
+  return ColumnChoice{column.name, column_unit(table, column, si, named->unit)};
 }
 
 ColumnChoice required_column(const TomlReader& columns, const std::string& name,
-                             const std::string& si) {
-  const auto choice = read_column(columns, name, si);
+                             const std::string& si, const Table& table) {
+  const auto choice = read_column(columns, name, si, table);
   if (!choice) {
     columns.fail(name, may_be_plain(si)
                            ? "is missing: which column holds it?"
@@ -44,14 +118,52 @@ ColumnChoice required_column(const TomlReader& columns, const std::string& name,
   return *choice;
 }
 
+std::optional<ColumnChoice> read_word_column(const TomlReader& columns, const std::string& name,
+                                             const Table& table) {
+  const auto named = read_name(columns, name, "1");
+  if (!named) return {};
+  return ColumnChoice{table.column(named->column).name, Unit{"1", 1, 0}};
+}
+
+std::string cell_word(const Column& column, std::size_t row) {
+  if (!column.is_number) return column.text[row];
+  return std::isnan(column.numbers[row]) ? "" : fmt::format("{}", column.numbers[row]);
+}
+
+Table with_counts(const TomlReader& columns, Table table) {
+  const auto count = read_column(columns, "count", "1", table);
+  if (!count) return table;
+  const std::vector<double> counts = si_numbers(table, *count);
+  double sum = 0;
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    require(
+        counts[i] >= 1 && counts[i] == std::floor(counts[i]) && (sum += counts[i]) <= most_repeated,
+        table, *count, i, "a whole number from 1, and all of them together at most 1000000");
+    rows.insert(rows.end(), static_cast<std::size_t>(counts[i]), i);
+  }
+  for (Column& column : table.columns) {
+    const Column once = column;
+    column.numbers.clear();
+    column.text.clear();
+    for (const std::size_t i : rows) {
+      if (once.is_number) {
+        column.numbers.push_back(once.numbers[i]);
+      } else {
+        column.text.push_back(once.text[i]);
+      }
+    }
+  }
+  table.rows = rows.size();
+  for (const std::size_t i : rows) table.origins.push_back(i + 1);
+  return table;
+}
+
 void require(bool good, const Table& table, const ColumnChoice& choice, std::size_t row,
              const char* allowed) {
   if (good) return;
-  const Column& column = table.column(choice.column);
-  const std::string value =
-      column.is_number ? fmt::format("{}", column.numbers[row]) : column.text[row];
-  throw InputError(
-      fmt::format("{}: {} must be {}", place(table, choice.column, row), value, allowed));
+  throw InputError(fmt::format("{}: {} must be {}", place(table, choice.column, row),
+                               cell_word(table.column(choice.column), row), allowed));
 }
 
 }  // namespace wearwell

@@ -12,15 +12,33 @@ namespace wearwell {
 
 /// A column that a study names: NAME = "column", or { column = "...", unit = "..." }.
 struct ColumnChoice {
-  std::string column;
+  std::string column;  ///< its heading
   Unit unit;
 };
 
-/// Reads the choice for `name` from a [columns] table; a dimension other than a number or a count needs a unit.
+/// The column of numbers that a [columns] table has for `name`; nothing where it has none. Its unit
+/// is what the study says or else what the table says: in the heading, "volume [mm³]", or in a row of
+/// units. Throws InputError where there is no unit and one is needed, and where the two contradict.
 std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::string& name,
-                                        const std::string& si);
+                                        const std::string& si, const Table& table);
 ColumnChoice required_column(const TomlReader& columns, const std::string& name,
-                             const std::string& si);
+                             const std::string& si, const Table& table);
+
+/// The same of a column of words; units in its heading mean nothing.
+std::optional<ColumnChoice> read_word_column(const TomlReader& columns, const std::string& name,
+                                             const Table& table);
+
+/// The unit of a column: `given`, or what the table says, or a plain number. Throws InputError where
+/// these contradict.
+Unit column_unit(const Table& table, const Column& column, const std::string& si,
+                 const std::optional<Unit>& given);
+
+/// A cell as a word: a number is written as short as it can be, and empty where there is none.
+std::string cell_word(const Column& column, std::size_t row);
+
+/// The table with each row as often as the column says that `count` names in `columns`; the table
+/// itself where there is no such key. Throws InputError.
+Table with_counts(const TomlReader& columns, Table table);
 
 /// The chosen column's values, SI.
 inline std::vector<double> si_numbers(const Table& table, const ColumnChoice& choice) {

@@ -2,6 +2,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/column_stream.h"
@@ -10,14 +13,37 @@
 
 namespace wearwell {
 
+namespace {
+
+const std::vector<TextColumn> no_columns;
+
+void refuse_doubt(const std::string& source, const std::string& doubt) {
+  if (!doubt.empty()) throw InputError(fmt::format("{}, {}", source, doubt));
+}
+
+/// What a text says of its column.
+void describe(const DuckdbSession& session, Column& column) {
+  const TextColumn* const known = session.column(column.name);
+  if (!known) return;
+  column.unit = known->unit;
+  column.marks = known->marks;
+  column.doubt = known->doubt;
+}
+
+}  // namespace
+
 Table read_table(const std::filesystem::path& path, const std::optional<std::string>& sql,
-                 const QueryLimits& limits) {
+                 const QueryLimits& limits, const TableSettings& settings) {
   const TableFile file(path);
-  const DuckdbSession session(file);
+  DuckdbSession session(file, settings);
   Table table;
   table.source = file.source();
+  table.layout = session.layout_in_words();
   if (sql) {
     table.source += " (through sql)";
+    for (const TextColumn& column : session.layout() ? session.layout()->columns : no_columns) {
+      if (column.is_number) refuse_doubt(file.source(), column.doubt);
+    }
     run_query(session, *sql, limits);
   } else {
     DuckdbResult(session, "create temp table result as select * from data");
@@ -29,6 +55,7 @@ Table read_table(const std::filesystem::path& path, const std::optional<std::str
     DuckdbResult header(session, "select * from result limit 0");
     for (idx_t c = 0; c < header.columns(); ++c) {
       table.columns.push_back({header.name(c), is_number(header.type(c)), {}, {}});
+      if (!sql) describe(session, table.columns.back());
       selected.push_back(fmt::format("cast({} as {})", quoted(header.name(c), '"'),
                                      table.columns.back().is_number ? "double" : "varchar"));
     }
@@ -49,6 +76,7 @@ Table read_table(const std::filesystem::path& path, const std::optional<std::str
     duckdb_destroy_data_chunk(&chunk);
   }
   if (table.rows == 0) throw InputError(fmt::format("{} has no rows", table.source));
+  if (!sql) table.lines = std::move(session.lines());
   return table;
 }
 
@@ -61,17 +89,28 @@ struct ColumnStream::State {
   duckdb_prepared_statement statement = nullptr;
   duckdb_result result{};
   bool running = false;
+  // Of the column that holds words, where there is one.
+  std::optional<std::size_t> named;
+  std::vector<std::string> words;
+  std::unordered_map<std::string, double> place_of_word;
+
+  double place(const std::string& word) {
+    const auto [at, fresh] = place_of_word.try_emplace(word, static_cast<double>(words.size() + 1));
+    if (fresh) words.push_back(word);
+    return at->second;
+  }
   std::size_t rows_seen = 0;
 
-  explicit State(const std::filesystem::path& path) : file(path), session(file) {}
+  State(const std::filesystem::path& path, const TableSettings& settings)
+      : file(path), session(file, settings) {}
   ~State() {
     if (running) duckdb_destroy_result(&result);
     if (statement) duckdb_destroy_prepare(&statement);
   }
 };
 
-ColumnStream::ColumnStream(const std::filesystem::path& file)
-    : state_(std::make_unique<State>(file)) {
+ColumnStream::ColumnStream(const std::filesystem::path& file, const TableSettings& settings)
+    : state_(std::make_unique<State>(file, settings)) {
   DuckdbResult header(state_->session, "select * from data limit 0");
   for (idx_t c = 0; c < header.columns(); ++c) {
     state_->headings.push_back(header.name(c));
@@ -88,10 +127,39 @@ const std::vector<std::string>& ColumnStream::headings() const {
   return state_->headings;
 }
 
-void ColumnStream::select(const std::vector<std::string>& columns) {
+Table ColumnStream::columns() const {
+  Table table;
+  table.source = source();
+  for (std::size_t c = 0; c < state_->headings.size(); ++c) {
+    table.columns.push_back({state_->headings[c], state_->is_numeric[c], {}, {}});
+    describe(state_->session, table.columns.back());
+  }
+  return table;
+}
+
+bool ColumnStream::has_words() const {
+  return state_->named.has_value();
+}
+const std::vector<std::string>& ColumnStream::words() const {
+  return state_->words;
+}
+
+void ColumnStream::select(const std::vector<std::string>& columns, const std::string& named,
+                          std::vector<std::string> known) {
   std::vector<std::string> selected;
   for (const std::string& column : columns) {
+    if (const TextColumn* const text = state_->session.column(column))
+      refuse_doubt(source(), text->doubt);
     const auto at = std::find(state_->headings.begin(), state_->headings.end(), column);
+    const bool is_text =
+        at != state_->headings.end() &&
+        !state_->is_numeric[static_cast<std::size_t>(at - state_->headings.begin())];
+    if (column == named && is_text) {
+      state_->named = selected.size();
+      for (const std::string& word : known) state_->place(word);
+      selected.push_back(fmt::format("cast({} as varchar)", quoted(column, '"')));
+      continue;
+    }
     if (at == state_->headings.end() ||
         !state_->is_numeric[static_cast<std::size_t>(at - state_->headings.begin())]) {
       // Without rows there is nothing to tell numbers by.
@@ -129,6 +197,13 @@ bool ColumnStream::next(Batch& batch) {
   batch.columns.resize(duckdb_data_chunk_get_column_count(chunk));
   for (idx_t c = 0; c < batch.columns.size(); ++c) {
     batch.columns[c].clear();
+    if (state_->named == c) {
+      std::vector<std::string> words;
+      append_text(duckdb_data_chunk_get_vector(chunk, c), batch.rows, words);
+      for (const std::string& word : words)
+        batch.columns[c].push_back(word.empty() ? NAN : state_->place(word));
+      continue;
+    }
     append_numbers(duckdb_data_chunk_get_vector(chunk, c), batch.rows, batch.columns[c]);
   }
   state_->rows_seen += batch.rows;

@@ -16,13 +16,16 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/duckdb_message.h"
-#include "wearwell/input/thousands.h"
+#include "wearwell/input/text_lines.h"
+#include "wearwell/input/text_rewrite.h"
+#include "wearwell/input/workbook.h"
 
 namespace wearwell {
 namespace {
 
-// Without BOOLEAN: a column of the letter F alone (failures) would be read as false.
-constexpr const char* csv_types = "['BIGINT', 'DOUBLE', 'TIME', 'DATE', 'TIMESTAMP', 'VARCHAR']";
+// Without BOOLEAN: a column of the letter F alone (failures) would be read as false. Without BIGINT:
+// where the first thousands of cells are whole numbers, 2.5 would be read as 3.
+constexpr const char* csv_types = "['DOUBLE', 'TIME', 'DATE', 'TIMESTAMP', 'VARCHAR']";
 
 /// Half of the machine's memory, in MB; what a table may take within DuckDB.
 long memory_limit() {
@@ -57,27 +60,29 @@ class Deadline {
   std::thread thread_;
 };
 
-/// The text that makes DuckDB read the file. Nothing is left to guessing that could drop or join
-/// lines: comments, leading lines, ragged lines, patterns in names, columns out of folders.
-std::string reader(const TableFile& file, const std::optional<CsvHeading>& heading, bool as_text) {
-  const std::string path = quoted(file.path(), '\'');
-  const char* packed = file.gzip() ? "gzip" : "uncompressed";
-  switch (file.format()) {
-    case TableFormat::csv:
-      return fmt::format(
-          "read_csv({}, compression = '{}', delim = {}, quote = '\"', escape = '\"', header = "
-          "true, skip = 0, comment = '', strict_mode = true, null_padding = false, ignore_errors = "
-          "false, hive_partitioning = false, {})",
-          path, file.gzip() ? "gzip" : "none", quoted(std::string(1, heading->delimiter), '\''),
-          as_text ? "all_varchar = true" : fmt::format("auto_type_candidates = {}", csv_types));
-    case TableFormat::json:
-      return fmt::format(
-          "read_json({}, compression = '{}', ignore_errors = false, hive_partitioning = false)",
-          path, packed);
-    case TableFormat::parquet:
-      break;
+/// What a study may say of this kind of table, and what a sheet says itself. Throws InputError.
+TableSettings settings_for(const TableFile& file, TableSettings settings) {
+  const bool workbook = file.format() == TableFormat::workbook;
+  if (!workbook && (settings.sheet || settings.range))
+    throw InputError(
+        fmt::format("{} is no workbook: sheet and range are keys for .xlsx", file.source()));
+  if (file.format() != TableFormat::text &&
+      (settings.decimal || settings.thousands || settings.delimiter || settings.encoding))
+    throw InputError(fmt::format(
+        "{}: its numbers need no marks: decimal, thousands, delimiter and encoding are keys for "
+        "tables of text (.csv, .txt)",
+        file.source()));
+  if (file.format() != TableFormat::text && !workbook &&
+      (settings.header_row || settings.units_row || settings.comment))
+    throw InputError(fmt::format(
+        "{}: header_row, units_row and comment are keys for .csv, .txt and .xlsx", file.source()));
+  if (workbook) {
+    settings.decimal = '.';
+    settings.thousands = 0;
+    settings.delimiter = ',';
+    settings.encoding = Encoding::utf8;
   }
-  return fmt::format("read_parquet({}, hive_partitioning = false)", path);
+  return settings;
 }
 
 }  // namespace
@@ -139,8 +144,17 @@ DuckdbResult::DuckdbResult(const DuckdbSession& session, const std::string& quer
   session.fail(message);
 }
 
-DuckdbSession::DuckdbSession(const TableFile& file) : file_(file) {
-  if (file.format() == TableFormat::csv) heading_ = read_csv_heading(file);
+DuckdbSession::DuckdbSession(const TableFile& file, const TableSettings& settings)
+    : file_(file), settings_(settings_for(file, settings)) {
+  if (file.format() == TableFormat::workbook) {
+    SheetText sheet = sheet_text(file, settings);
+    sheet_ = std::move(sheet.text);
+    sheet_name_ = std::move(sheet.name);
+  }
+  if (file.format() == TableFormat::text || sheet_) {
+    layout_ = find_layout(read(), settings_);
+    if (!layout_->plain) rewritten_ = rewritten(read(), *layout_, lines_);
+  }
   if (duckdb_open(nullptr, &database_) != DuckDBSuccess ||
       duckdb_connect(database_, &connection_) != DuckDBSuccess)
     throw MachineError("cannot start DuckDB");
@@ -150,9 +164,8 @@ DuckdbSession::DuckdbSession(const TableFile& file) : file_(file) {
                            "autoload_known_extensions = false; set allowed_paths = [{}]; set "
                            "memory_limit = '{}MiB'; set enable_external_access = false; set "
                            "lock_configuration = true",
-                           quoted(file.path(), '\''), memory_limit()));
-    open_view();
-    if (heading_) refuse_thousands_marks();
+                           quoted(read().path(), '\''), memory_limit()));
+    DuckdbResult(*this, "create view data as select * from " + reader());
   } catch (...) {
     close();
     throw;
@@ -187,83 +200,63 @@ void DuckdbSession::fail(const std::string& message) const {
   if (message.starts_with("Out of Memory"))
     throw MachineError(fmt::format("{} does not fit into the {} MB that a table may take here",
                                    file_.source(), memory_limit()));
-  if (heading_) {
-    if (const std::string fault = csv_fault(file_, *heading_); !fault.empty())
-      throw InputError(fmt::format("{}, {}", file_.source(), fault));
+  if (layout_ && !rewritten_) {
+    // Far below what was looked at there may be a line that is none.
+    const TextLayout whole = find_layout(read(), settings_, true);
+    if (whole.encoding != layout_->encoding)
+      throw InputError(fmt::format("{} is not UTF-8 in all lines; say encoding = \"{}\" in [data]",
+                                   file_.source(), encoding_name(whole.encoding)));
   }
-  std::string sentence = duckdb_sentence(message);
-  boost::algorithm::replace_all(sentence, file_.path(), file_.source());
+  const std::string what = sentence(message);
   throw InputError(
-      fmt::format("{}{}{}", file_.source(), sentence.starts_with("line ") ? ", " : ": ", sentence));
+      fmt::format("{}{}{}", file_.source(), what.starts_with("line ") ? ", " : ": ", what));
 }
 
-void DuckdbSession::open_view() {
-  DuckdbResult(*this, "create view data as select * from " + reader(file_, heading_, false));
+std::string DuckdbSession::sentence(const std::string& message) const {
+  std::string text = duckdb_sentence(message);
+  boost::algorithm::replace_all(text, read().path(), file_.source());
+  return text;
 }
 
-/// The first row of a query for texts; empty where there is none.
-std::vector<std::string> DuckdbSession::first_row(const std::string& query) const {
-  DuckdbResult rows(*this, query);
-  std::vector<std::string> cells;
-  duckdb_data_chunk chunk = rows.next();
-  for (idx_t c = 0; chunk && c < rows.columns() && duckdb_data_chunk_get_size(chunk) > 0; ++c)
-    append_text(duckdb_data_chunk_get_vector(chunk, c), 1, cells);
-  if (chunk) duckdb_destroy_data_chunk(&chunk);
-  return cells;
+std::string DuckdbSession::layout_in_words() const {
+  return layout_ ? in_words(*layout_, sheet_name_) : "";
 }
 
-/// A column that holds dots, each of which may be a mark for thousands, is refused where the file
-/// shows commas as decimal marks; and where the commas do not separate the columns (as they do
-/// where the dot is the decimal mark) and no other column has a dot that must be a decimal mark.
-void DuckdbSession::refuse_thousands_marks() {
-  std::vector<std::string> numbers, texts;
-  {
-    DuckdbResult header(*this, "select * from data limit 0");
-    for (idx_t c = 0; c < header.columns(); ++c) {
-      const duckdb_type type = header.type(c);
-      if (type == DUCKDB_TYPE_DOUBLE) numbers.push_back(header.name(c));
-      if (type == DUCKDB_TYPE_VARCHAR) texts.push_back(header.name(c));
+const TextColumn* DuckdbSession::column(const std::string& name) const {
+  if (!layout_) return nullptr;
+  const auto found = std::find_if(layout_->columns.begin(), layout_->columns.end(),
+                                  [&](const TextColumn& each) { return each.name == name; });
+  return found == layout_->columns.end() ? nullptr : &*found;
+}
+
+/// The text that makes DuckDB read the file. Nothing is left to guessing that could drop or join
+/// lines: comments, leading lines, ragged lines, patterns in names, columns out of folders.
+std::string DuckdbSession::reader() const {
+  const std::string path = quoted(read().path(), '\'');
+  const char* packed = file_.gzip() ? "gzip" : "uncompressed";
+  if (layout_) {
+    std::vector<std::string> names, types;
+    for (const TextColumn& each : layout_->columns) {
+      names.push_back(quoted(each.name, '\''));
+      types.push_back(fmt::format("{}: '{}'", names.back(),
+                                  each.is_number && each.doubt.empty() ? "DOUBLE" : "VARCHAR"));
     }
+    return fmt::format(
+        "read_csv({}, compression = '{}', delim = {}, quote = '\"', escape = '\"', header = true, "
+        "skip = 0, comment = '', strict_mode = true, null_padding = false, ignore_errors = false, "
+        "hive_partitioning = false, {})",
+        path, read().gzip() ? "gzip" : "none",
+        quoted(std::string(1, rewritten_ ? ',' : layout_->delimiter), '\''),
+        rewritten_ ? fmt::format("auto_detect = false, columns = {{{}}}", fmt::join(types, ", "))
+                   : fmt::format("names = [{}], auto_type_candidates = {}", fmt::join(names, ", "),
+                                 csv_types));
   }
-  if (numbers.empty()) return;
-  // The cells as they are written. Where dots are decimal marks, the first rows show it.
-  const std::string cells = reader(file_, heading_, true);
-  const auto cell = [](const std::string& name) {
-    return fmt::format("trim({})", quoted(name, '"'));
-  };
-  std::vector<std::string> is_decimal, doubtful;
-  for (const std::string& name : numbers)
-    is_decimal.push_back(fmt::format("(contains({0}, '.') and not regexp_full_match({0}, '{1}'))",
-                                     cell(name), thousands_pattern));
-  std::vector<std::string> early;
-  for (const std::string& each : is_decimal)
-    early.push_back(fmt::format("cast(bool_or({}) as varchar)", each));
-  early = first_row(
-      fmt::format("select {} from (select * from {} limit 2048)", fmt::join(early, ", "), cells));
-  for (std::size_t c = 0; c < numbers.size(); ++c) {
-    if (c < early.size() && early[c] == "true") continue;
-    if (first_row(fmt::format("select 'here' from {} where {} limit 1", cells, is_decimal[c]))
-            .empty())
-      doubtful.push_back(numbers[c]);
-  }
-  const bool dots_are_decimal = heading_->delimiter == ',' || doubtful.size() < numbers.size();
-  for (const std::string& name : doubtful) {
-    const auto found =
-        first_row(fmt::format("select cast(row as varchar), cell from (select row_number() over () "
-                              "as row, {} as cell from "
-                              "{}) where regexp_full_match(cell, '{}') limit 1",
-                              cell(name), cells, thousands_pattern));
-    if (found.empty()) continue;
-    std::vector<std::string> comma;
-    for (std::size_t t = 0; t < texts.size() && comma.empty(); ++t)
-      comma =
-          first_row(fmt::format("select {0} from {1} where regexp_full_match({0}, '{2}') limit 1",
-                                cell(texts[t]), cells, decimal_comma_pattern));
-    if (comma.empty() && dots_are_decimal) continue;
-    throw InputError(fmt::format(
-        "{}, row {}, column '{}': {}{}", file_.source(), found[0], name, two_readings(found[1]),
-        comma.empty() ? "" : fmt::format(" (the file has '{}', with a decimal comma)", comma[0])));
-  }
+  if (file_.format() == TableFormat::json)
+    return fmt::format(
+        "read_json({}, compression = '{}', ignore_errors = false, hive_partitioning = false, "
+        "sample_size = -1)",
+        path, packed);
+  return fmt::format("read_parquet({}, hive_partitioning = false)", path);
 }
 
 void run_query(const DuckdbSession& session, const std::string& query, const QueryLimits& limits) {
@@ -272,9 +265,7 @@ void run_query(const DuckdbSession& session, const std::string& query, const Que
     throw QueryError(fmt::format("{}: {}", source, reason));
   };
   const auto describe = [&](const char* message) {
-    std::string sentence = duckdb_sentence(message ? message : "");
-    boost::algorithm::replace_all(sentence, session.file().path(), session.file().source());
-    return sentence;
+    return session.sentence(message ? message : "");
   };
   duckdb_extracted_statements statements = nullptr;
   const idx_t count = duckdb_extract_statements(session.connection(), query.c_str(), &statements);

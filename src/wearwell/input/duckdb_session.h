@@ -2,12 +2,14 @@
 
 #include <duckdb.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "wearwell/input/table.h"
 #include "wearwell/input/table_file.h"
+#include "wearwell/input/text_layout.h"
 
 namespace wearwell {
 
@@ -15,26 +17,38 @@ namespace wearwell {
 /// extension, no file of its own; its configuration is locked. The file is its view `data`.
 class DuckdbSession {
  public:
-  /// Throws InputError: the file cannot be read as a table, or a cell has two readings.
-  explicit DuckdbSession(const TableFile& file);
+  /// Throws InputError: the file cannot be read as a table.
+  DuckdbSession(const TableFile& file, const TableSettings& settings);
   ~DuckdbSession();
   DuckdbSession(const DuckdbSession&) = delete;
   DuckdbSession& operator=(const DuckdbSession&) = delete;
 
   duckdb_connection connection() const { return connection_; }
   const TableFile& file() const { return file_; }
+  /// Of a text or a sheet.
+  const std::optional<TextLayout>& layout() const { return layout_; }
+  std::string layout_in_words() const;  ///< empty of other files
+  const TextColumn* column(const std::string& name) const;
+  /// Where each row stands, where that is not in the line behind the row before it.
+  std::vector<std::size_t>& lines() { return lines_; }
+
+  /// A message of DuckDB in the words of the user's file.
+  std::string sentence(const std::string& message) const;
 
   /// Throws InputError that says what is wrong with the file, MachineError without memory.
   [[noreturn]] void fail(const std::string& message) const;
 
  private:
   void close();
-  void open_view();
-  void refuse_thousands_marks();
-  std::vector<std::string> first_row(const std::string& query) const;
+  std::string reader() const;
+  const TableFile& read() const { return rewritten_ ? *rewritten_ : sheet_ ? *sheet_ : file_; }
 
   const TableFile& file_;
-  std::optional<CsvHeading> heading_;  // of a CSV
+  const TableSettings settings_;
+  std::unique_ptr<TableFile> sheet_, rewritten_;
+  std::optional<TextLayout> layout_;
+  std::vector<std::size_t> lines_;
+  std::string sheet_name_;
   duckdb_database database_ = nullptr;
   duckdb_connection connection_ = nullptr;
 };

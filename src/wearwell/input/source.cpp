@@ -57,16 +57,63 @@ std::filesystem::path required_file(const TomlReader& section, const std::string
   return file;
 }
 
+namespace {
+
+std::optional<char> one_sign(const TomlReader& section, const char* key,
+                             const std::vector<std::string>& allowed) {
+  const auto sign = section.choice(key, allowed);
+  if (!sign) return {};
+  if (*sign == "none") return '\0';
+  return *sign == "tab" ? '\t' : sign->front();
+}
+
+}  // namespace
+
+TableSettings read_table_settings(const TomlReader& section) {
+  TableSettings settings;
+  settings.decimal = one_sign(section, "decimal", {".", ","});
+  settings.thousands = one_sign(section, "thousands", {".", ",", "'", " ", "none"});
+  if (settings.decimal && settings.thousands == settings.decimal)
+    section.fail("thousands", "is the decimal mark as well");
+  settings.delimiter = one_sign(section, "delimiter", {",", ";", "\t", "tab", "|"});
+  if (const auto encoding = section.choice(
+          "encoding", {"utf-8", "utf-16", "cp1252", "latin-1", "iso-8859-1", "windows-1252"})) {
+    // Latin-1 has no characters where cp1252 has them, and files that claim it mean those.
+    settings.encoding = *encoding == "utf-8"    ? Encoding::utf8
+                        : *encoding == "utf-16" ? Encoding::utf16_le
+                                                : Encoding::cp1252;
+  }
+  constexpr long long most_lines = 1'000'000;
+  if (const auto row = section.integer("header_row", 1, most_lines))
+    settings.header_row = static_cast<std::size_t>(*row);
+  if (const auto units = section.choice("units_row", {"below", "none"}))
+    settings.units_row = *units == "below";
+  settings.comment = section.text("comment");
+  if (settings.comment && settings.comment->empty())
+    section.fail("comment", "is empty: with what do comment lines begin?");
+  if (section.has("sheet"))
+    settings.sheet = section.is_text("sheet")
+                         ? *section.text("sheet")
+                         : fmt::format("{}", *section.integer("sheet", 1, 10'000));
+  settings.range = section.text("range");
+  return settings;
+}
+
 Table read_table(const TomlReader& section, const Source& source) {
   const auto in_memory = source.tables.find(section.required_text("file"));
   const auto sql = section.text("sql");
+  const TableSettings settings = read_table_settings(section);
   if (in_memory != source.tables.end()) {
     if (sql) section.fail("sql", "cannot be asked of a table in memory: hand over its result");
+    for (const char* key : {"decimal", "thousands", "delimiter", "encoding", "header_row",
+                            "units_row", "comment", "sheet", "range"}) {
+      if (section.has(key)) section.fail(key, "is for tables in files");
+    }
     return in_memory->second;
   }
   const std::filesystem::path file = required_file(section, "file", source.folder());
   try {
-    return read_table(file, sql);
+    return read_table(file, sql, {}, settings);
   } catch (const QueryError& error) {
     section.fail("sql", error.what());
   }

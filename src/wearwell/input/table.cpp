@@ -7,31 +7,71 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
-#include "wearwell/input/thousands.h"
+#include "wearwell/input/heading.h"
+#include "wearwell/input/number_text.h"
 
 namespace wearwell {
 
 const Column& Table::column(std::string_view name) const {
   std::vector<std::string> names;
+  const Column* of_name = nullptr;
+  bool unique = true;
   for (const Column& each : columns) {
     if (each.name == name) return each;
     names.push_back(each.name);
+    if (read_heading(each.name, "").name != name) continue;
+    unique = of_name == nullptr;
+    of_name = &each;
   }
+  if (of_name && unique) return *of_name;
   throw InputError(fmt::format("{} has no column '{}' (nearest: '{}')", source, name,
                                nearest_name(name, names)));
 }
 
-std::string place(const Table& table, std::string_view column, std::size_t index) {
-  return fmt::format("{}, row {}, column '{}'", table.source, index + 1, column);
+std::string row_name(std::size_t row, std::size_t line) {
+  if (line == 0 || line == row + 1) return fmt::format("row {}", row);
+  return fmt::format("row {} (line {})", row, line);
 }
 
+std::string place(const Table& table, std::string_view column, std::size_t index) {
+  const std::size_t row = table.origins.empty() ? index : table.origins[index] - 1;
+  return fmt::format("{}, {}, column '{}'", table.source,
+                     row_name(row + 1, table.lines.empty() ? 0 : table.lines[row]), column);
+}
+
+namespace {
+
+double c_number(std::string_view text) {
+  double value = NAN;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+[[noreturn]] void refuse_cell(const Table& table, const Column& column, std::size_t index) {
+  const std::string& text = column.text[index];
+  const bool other_marks = column.marks && number_form(text).kind == NumberForm::Kind::number;
+  throw InputError(fmt::format("{}: {}", place(table, column.name, index),
+                               other_marks ? fmt::format("'{}' is no number with a decimal {}",
+                                                         text, mark_name(column.marks->decimal))
+                                           : not_a_number(text)));
+}
+
+}  // namespace
+
 double cell_number(const Table& table, const Column& column, std::size_t index) {
+  if (!column.doubt.empty()) throw InputError(fmt::format("{}, {}", table.source, column.doubt));
   if (column.is_number) return column.numbers[index];
   const std::string& text = column.text[index];
+  if (text.empty()) return NAN;
+  if (column.marks) {
+    const auto plain = plain_number(text, *column.marks);
+    if (!plain) refuse_cell(table, column, index);
+    return c_number(*plain);
+  }
   double value = NAN;
   const auto [rest, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (!text.empty() && (failure != std::errc{} || rest != text.data() + text.size()))
-    throw InputError(fmt::format("{}: {}", place(table, column.name, index), not_a_number(text)));
+  if (failure != std::errc{} || rest != text.data() + text.size())
+    refuse_cell(table, column, index);
   return value;
 }
 
@@ -44,7 +84,7 @@ void refuse_thousands_marks(const Table& table, const Column& column) {
   for (std::size_t i = 0; i < table.rows; ++i) {
     const std::string& text = column.text[i];
     if (text.find('.') == text.npos) continue;
-    if (!may_have_thousands_mark(text)) return;  // a dot that is a decimal mark
+    if (number_form(text).doubtful != '.') return;  // a dot that is a decimal mark
     if (!doubtful) doubtful = i;
   }
   if (doubtful)
@@ -59,7 +99,7 @@ std::vector<double> si_numbers(const Table& table, std::string_view name, const 
   std::vector<double> values;
   values.reserve(table.rows);
   for (std::size_t i = 0; i < table.rows; ++i) values.push_back(cell_number(table, column, i));
-  if (!column.is_number) refuse_thousands_marks(table, column);
+  if (!column.is_number && !column.marks) refuse_thousands_marks(table, column);
   for (std::size_t i = 0; i < table.rows; ++i) {
     if (!std::isfinite(values[i])) {
       throw InputError(

@@ -8,6 +8,8 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
+#include "wearwell/input/number_text.h"
+#include "wearwell/input/table_settings.h"
 
 namespace wearwell {
 
@@ -18,6 +20,9 @@ struct Column {
   bool is_number = false;
   std::vector<double> numbers;
   std::vector<std::string> text;
+  std::string unit = {};                  ///< from a row of units; the heading may have one too
+  std::optional<NumberMarks> marks = {};  ///< of the numbers in a text
+  std::string doubt = {};                 ///< "row 1, ...": why these cannot be read
 };
 
 /// Named columns of equal length, in the units of the file. Row 1 is the first row of data.
@@ -25,8 +30,11 @@ struct Table {
   std::string source;  ///< the file, for messages
   std::vector<Column> columns;
   std::size_t rows = 0;
+  std::string layout = {};  ///< how the file holds them, for people: "commas, decimal point"
+  std::vector<std::size_t> lines = {};    ///< of the file, for each row, where that is not row + 1
+  std::vector<std::size_t> origins = {};  ///< the row of the file, where rows were repeated; from 1
 
-  /// Throws InputError naming the column and the nearest one there is.
+  /// The column of this heading, or else the only one of this name before its unit. Throws InputError naming the column and the nearest one there is.
   const Column& column(std::string_view name) const;
 };
 
@@ -40,13 +48,13 @@ struct QueryError : InputError {
   using InputError::InputError;
 };
 
-/// Reads exactly this file, by its ending: .csv, .tsv or .txt with headings in the first line,
-/// .json, .ndjson, .jsonl (each also with .gz behind), .parquet. `sql`, when given, is one SELECT
-/// over the table `data`; it can read nothing else. Throws InputError: no such file, no regular
-/// file, unreadable, empty, cut off, no rows, two columns of one name, malformed, not UTF-8, dots
-/// that may be marks for thousands; and QueryError.
+/// Reads exactly this file, by its ending: text (.csv, .tsv, .txt, .dat, .asc), .json, .ndjson,
+/// .jsonl (each also with .gz behind), .parquet, .xlsx (docs/tables.md). `sql`, when given, is one
+/// SELECT over the table `data`; it can read nothing else. Throws InputError: no such file, no
+/// regular file, unreadable, empty, cut off, no rows, two columns of one name, malformed; and
+/// QueryError.
 Table read_table(const std::filesystem::path& file, const std::optional<std::string>& sql = {},
-                 const QueryLimits& limits = {});
+                 const QueryLimits& limits = {}, const TableSettings& settings = {});
 
 /// A column's values in SI. Throws InputError naming file, row, column and value where one is
 /// missing, not a number, has two readings, or is not finite.
@@ -55,6 +63,9 @@ std::vector<double> si_numbers(const Table& table, std::string_view column, cons
 /// The number in a cell, NaN where it is empty. Throws InputError that names file, row, column and
 /// value where it is no number.
 double cell_number(const Table& table, const Column& column, std::size_t index);
+
+/// "row 3", or "row 3 (line 9)" where lines were left out; both from 1, a line of 0 is not known.
+std::string row_name(std::size_t row, std::size_t line);
 
 /// "FILE, row 3, column 'volume'": where a value stands; `index` is 0-based.
 std::string place(const Table& table, std::string_view column, std::size_t index);

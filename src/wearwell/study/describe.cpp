@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/study/data_in_words.h"
 #include "wearwell/study/run_study.h"
 
 namespace wearwell {
@@ -66,6 +67,8 @@ std::string study_in_words(const PosteriorStudy& study) {
   std::string out =
       fmt::format("{}\n  {}\n\nData\n  {}: {} data sets of {}\n", printable(study.title),
                   study.equation, study.data_file, study.data_rows, study.quantity);
+  if (!study.data_layout.empty()) out += fmt::format("  {}\n", study.data_layout);
+  out += columns_in_words(study.data_columns);
   for (const std::string& note : study.data_notes) out += fmt::format("  {}\n", note);
   out += "\nUnknowns\n";
   std::size_t width = 0;

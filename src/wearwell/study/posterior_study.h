@@ -102,6 +102,7 @@ struct PosteriorStudy : Study {
   /// What was observed, row by row in SI: what the likelihood is a density of.
   std::vector<double> observed;
   std::vector<DataColumn> data_columns;  ///< what was read, to find mistaken units
+  std::string data_layout;               ///< how the table is written, in words
   std::string observation = "row";       ///< what the likelihood's factors are of: "row", "bearing"
   std::vector<Parameter> parameters;
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;

@@ -31,13 +31,13 @@ class Inputs {
       : data_(root.required_table("data")),
         columns_(data_.required_table("columns")),
         conditions_(root.table("conditions")),
-        table_(read_table(data_, source)) {}
+        table_(with_counts(columns_, read_table(data_, source))) {}
 
   const Table& table() const { return table_; }
   const TomlReader& columns() const { return columns_; }
 
   std::optional<Series> optional(const std::string& name, const std::string& si) {
-    const auto column = read_column(columns_, name, si);
+    const auto column = read_column(columns_, name, si, table_);
     const auto constant = conditions_ ? positive_quantity(*conditions_, name, si) : std::nullopt;
     refuse_both(name);
     if (constant) {
@@ -79,7 +79,7 @@ class Inputs {
   }
 
   std::vector<Contact> contacts() const {
-    const auto choice = read_column(columns_, "contact", "1");
+    const auto choice = read_word_column(columns_, "contact", table_);
     const auto constant = contact_in(conditions_);
     refuse_both("contact");
     if (constant) return std::vector<Contact>(table_.rows, *constant);
@@ -91,8 +91,7 @@ class Inputs {
     const Column& column = table_.column(choice->column);
     std::vector<Contact> contacts;
     for (std::size_t i = 0; i < table_.rows; ++i) {
-      const std::string word =
-          column.is_number ? fmt::format("{}", column.numbers[i]) : column.text[i];
+      const std::string word = cell_word(column, i);
       const auto contact = bearing::contact_named(word);
       if (!contact) {
         throw InputError(fmt::format("{}: '{}' is no contact; it is one of {} (nearest: '{}')",
@@ -108,15 +107,12 @@ class Inputs {
   // Which bearing each row belongs to; without a column each is one of its own.
   std::vector<std::size_t> bearings() const {
     std::vector<std::size_t> numbers(table_.rows);
-    const auto choice = read_column(columns_, "bearing", "1");
+    const auto choice = read_word_column(columns_, "bearing", table_);
     std::map<std::string, std::size_t> known;
     for (std::size_t i = 0; i < table_.rows; ++i) {
       std::string name = fmt::format("row {}", i + 1);
       if (choice) {
-        const Column& column = table_.column(choice->column);
-        name = !column.is_number               ? column.text[i]
-               : std::isnan(column.numbers[i]) ? ""
-                                               : fmt::format("{}", column.numbers[i]);
+        name = cell_word(table_.column(choice->column), i);
         if (name.empty()) {
           throw InputError(
               fmt::format("{}: no bearing is named", place(table_, choice->column, i)));
@@ -168,6 +164,7 @@ BearingData read_bearing_data(const TomlReader& root, const Source& source,
   const std::vector<Contact> contacts = inputs.contacts();
   BearingData data;
   data.source = table.source;
+  data.layout = table.layout;
   data.pressure_unit = read_unit("MPa", "Pa");
   std::vector<double> pressures, revolutions;
   if (inputs.first_of("pressure", "force", "length")) {
@@ -198,7 +195,7 @@ BearingData read_bearing_data(const TomlReader& root, const Source& source,
   data.common.radius = radius.constant;
   data.common.clearance = clearance.constant;
 
-  const ColumnChoice depth = required_column(inputs.columns(), "depth", "m");
+  const ColumnChoice depth = required_column(inputs.columns(), "depth", "m", table);
   data.depth_unit = depth.unit;
   data.inspections.depth = si_numbers(table, depth);
   data.columns = inputs.read();

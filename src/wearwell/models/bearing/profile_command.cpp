@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "wearwell/base/error.h"
+#include "wearwell/input/columns.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/table.h"
 #include "wearwell/models/bearing/options.h"
@@ -28,22 +29,29 @@ struct ProfileOptions {
   bool json = false;
 };
 
-Unit read_length_unit(const char* flag, const std::string& text) {
-  if (text.empty()) throw InputError(fmt::format("{} is missing, for example {} um", flag, flag));
+/// A column of lengths, in the unit that the option gives, or else the heading.
+std::vector<double> read_lengths(const Table& table, const std::string& name, const char* flag,
+                                 const std::string& text) {
+  std::optional<Unit> given;
   try {
-    return read_unit(text, "m");
+    if (!text.empty()) given = read_unit(text, "m");
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", flag, error.what()));
   }
+  const Column& column = table.column(name);
+  const Unit unit = column_unit(table, column, "m", given);
+  if (unit.text == "1")
+    throw InputError(
+        fmt::format("{0} is missing, for example {0} um (the heading '{1}' of {2} has no unit)",
+                    flag, column.name, table.source));
+  return si_numbers(table, column.name, unit);
 }
 
 Profile read_profile(const char* flag, const std::string& file, const ProfileOptions& options) {
   if (file.empty()) throw InputError(fmt::format("{} is missing: a file of two columns", flag));
   const Table table = read_table(file);
-  return {
-      si_numbers(table, options.position,
-                 read_length_unit("--position-unit", options.position_unit)),
-      si_numbers(table, options.height, read_length_unit("--height-unit", options.height_unit))};
+  return {read_lengths(table, options.position, "--position-unit", options.position_unit),
+          read_lengths(table, options.height, "--height-unit", options.height_unit)};
 }
 
 std::optional<double> read_flank(const std::string& text) {
@@ -191,9 +199,12 @@ void add_profile_command(CLI::App& bearing) {
   sub->add_option("--height", options->height, "column of heights, upward out of the material")
       ->type_name("COLUMN")
       ->capture_default_str();
-  sub->add_option("--position-unit", options->position_unit, "unit of the positions")
+  sub->add_option("--position-unit", options->position_unit,
+                  "unit of the positions, unless the heading has it")
       ->type_name("UNIT");
-  sub->add_option("--height-unit", options->height_unit, "unit of the heights")->type_name("UNIT");
+  sub->add_option("--height-unit", options->height_unit,
+                  "unit of the heights, unless the heading has it")
+      ->type_name("UNIT");
   sub->add_option("--flank", options->flank,
                   "length at either end that is not worn (default: a fifth of the profile)")
       ->type_name("'NUMBER m'");

@@ -37,6 +37,13 @@ struct Campaign {
   double balance_sd = 0;            ///< standard deviation of one weighing, kg
   /// Where cycles and weighings come from, row by row, for messages.
   std::string cycles_source = "cycles", weighings_source = "weighings";
+  std::vector<std::string> plate_names = {};  ///< of plate 1, 2, ...; empty where they are numbers
+  std::vector<std::string> filled = {};       ///< what was filled in, a sentence for each plate
+
+  std::string plate_name(int plate) const {
+    return plate_names.empty() ? std::to_string(plate)
+                               : plate_names.at(static_cast<std::size_t>(plate - 1));
+  }
 };
 
 /// One sample of a raw trace.

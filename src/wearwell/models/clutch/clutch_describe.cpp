@@ -7,6 +7,7 @@
 
 #include "wearwell/base/printable.h"
 #include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/study/data_in_words.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -16,7 +17,7 @@ std::string point_in_words(const OperatingPoint& at) {
                      at.torque, at.temperature, at.closing_time);
 }
 
-std::string data_in_words(const ClutchStudy& study) {
+std::string data_in_words(const ClutchStudy& study, const ClutchResult& prepared) {
   const Campaign& campaign = study.campaign;
   int points[3] = {};
   for (const DesignPoint& point : campaign.design) ++points[static_cast<int>(point.role)];
@@ -27,7 +28,11 @@ std::string data_in_words(const ClutchStudy& study) {
                         : "\nData\n";
   std::vector<std::string> files;
   for (const auto& file : study.files) files.push_back(file.filename().string());
-  out += fmt::format("  {}\n", fmt::join(files, ", "));
+  if (study.layouts.empty()) out += fmt::format("  {}\n", fmt::join(files, ", "));
+  for (std::size_t i = 0; i < study.layouts.size(); ++i)
+    out += fmt::format("  {}: {}\n", files[i], study.layouts[i]);
+  out +=
+      columns_in_words(study.data_columns.empty() ? cycle_columns(campaign) : study.data_columns);
   out += fmt::format("  {} points of the factorial, {} beyond it, {} held out\n", points[0],
                      points[1], points[2]);
   out += fmt::format("  {} cycles of {} plates, {} weighings, {} samples of raw traces\n",
@@ -36,6 +41,8 @@ std::string data_in_words(const ClutchStudy& study) {
   out +=
       fmt::format("  lining of {:.6g} kg/m^3, worn out at {:.6g} mm^3; balance good to {:.6g} mg\n",
                   campaign.density, study.worn_out / mm3, campaign.balance_sd * 1e6);
+  for (const std::string& each : campaign.filled) out += fmt::format("  {}\n", each);
+  for (const std::string& flag : prepared.blocks.flags) out += fmt::format("  {}\n", flag);
   return out;
 }
 
@@ -52,7 +59,7 @@ std::string study_in_words(const ClutchStudy& study) {
       "{}\n  volume of one cycle = g(Ec) w E, with g(Ec) = 1 + w1/w0 exp(-Ec/eps1) + w2/w0 "
       "exp(-Ec/eps2)\n  w = a cubic in ds = omega0^r t2^q, Td and Mz, or any part of it\n",
       study.title);
-  out += data_in_words(study);
+  out += data_in_words(study, prepare_campaign(study));
   out += "\nUnknowns\n";
   out += fmt::format(
       "  w0, w1, w2 [mm^3/MJ], eps1, eps2 [MJ]  run-in of {} plates together, a factor for each\n",

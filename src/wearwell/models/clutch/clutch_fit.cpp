@@ -221,8 +221,9 @@ Check sequence_check(const std::vector<SequenceResult>& sequences) {
                                            : fmt::format("{}", fmt::join(good, "; ")));
 }
 
-/// What was read of the cycles, to find mistaken units.
-std::vector<DataColumn> columns_of(const Campaign& campaign) {
+}  // namespace
+
+std::vector<DataColumn> cycle_columns(const Campaign& campaign) {
   std::vector<DataColumn> columns;
   for (const Input& input : inputs) {
     const bool celsius = input.value == &OperatingPoint::temperature;
@@ -232,6 +233,8 @@ std::vector<DataColumn> columns_of(const Campaign& campaign) {
   }
   return columns;
 }
+
+namespace {
 
 Check data_check(const Campaign& campaign, const ClutchResult& r) {
   Findings findings("data");
@@ -245,14 +248,17 @@ Check data_check(const Campaign& campaign, const ClutchResult& r) {
     findings.add(Verdict::warn,
                  fmt::format("points {} of the design were not run", fmt::join(missing, ", ")),
                  "The map knows less there; run them, or strike them from the design.");
+  for (const std::string& each : campaign.filled)
+    findings.add(Verdict::warn, each, "docs/clutch.md says what that does to the result.");
   for (const std::string& flag : r.blocks.flags)
     findings.add(Verdict::warn, flag, "Look at the rows named; weigh longer blocks.");
   for (const Closing& closing : r.closings) {
     if (!closing.flag.empty())
-      findings.add(Verdict::warn,
-                   fmt::format("trace of plate {}, closing {}: {}", closing.cycle.plate,
-                               closing.cycle.number, closing.flag),
-                   "Look at the trace.");
+      findings.add(
+          Verdict::warn,
+          fmt::format("trace of plate {}, closing {}: {}", campaign.plate_name(closing.cycle.plate),
+                      closing.cycle.number, closing.flag),
+          "Look at the trace.");
   }
   return findings.result(
       fmt::format("{} blocks weighed, none gained mass", r.blocks.blocks.size()));
@@ -271,7 +277,7 @@ WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& b
     const auto role = roles.find(block.point);
     if (role == roles.end())
       throw InputError(fmt::format("plate {}: point {} was run but is not in the design",
-                                   block.plate, block.point));
+                                   campaign.plate_name(block.plate), block.point));
     if ((role->second == Role::validation) != held_out) continue;
     double factor = run_in.run_in.mean(block.energy_before, block.energy_before + block.energy);
     for (const PlateFactor& plate : run_in.plates) {
@@ -297,9 +303,9 @@ WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& b
   return points;
 }
 
-ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* progress) {
-  const auto start = std::chrono::steady_clock::now();
+ClutchResult prepare_campaign(const ClutchStudy& study) {
   ClutchResult r;
+  r.plate_names = study.campaign.plate_names;
   r.version = WEARWELL_VERSION;
   r.closings = find_closings(study.traces);
   r.blocks = worn_blocks(study.campaign);
@@ -310,6 +316,12 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* p
   if (r.points.size() < least_points)
     throw InputError(fmt::format("{} points to model with; at least {} are needed", r.points.size(),
                                  least_points));
+  return r;
+}
+
+ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* progress) {
+  const auto start = std::chrono::steady_clock::now();
+  ClutchResult r = prepare_campaign(study);
   r.correlations = correlations(r.points);
   r.search =
       search_exponents(r.points, Surrogate::distance, study.exponents, threads, false, progress);
@@ -343,7 +355,7 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* p
   r.checks = {data_check(study.campaign, r),           run_in_check(r.run_in),
               map_check(r.maps, r.nested, r.held_out), scatter_check(r.scatter_fit()),
               validation_check(r.validation),          sequence_check(r.sequences)};
-  if (const auto units = units_check(columns_of(study.campaign))) r.checks.push_back(*units);
+  if (const auto units = units_check(cycle_columns(study.campaign))) r.checks.push_back(*units);
   for (const Check& check : r.checks) r.trusted = r.trusted && check.verdict != Verdict::fail;
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return r;

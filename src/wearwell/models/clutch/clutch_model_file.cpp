@@ -140,6 +140,7 @@ PlateWear read_plate(const JsonReader& json, std::size_t replicates) {
   PlateWear p;
   p.plate = static_cast<int>(
       json.at("plate").integer(std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+  if (const auto name = json.find("name")) p.name = name->text();
   p.cycles = json.at("cycles").integer(0);
   p.last_number = json.at("last_cycle").integer(0);
   p.energy = json.at("energy").number(0);
@@ -257,6 +258,7 @@ std::string state_text(const std::vector<PlateWear>& plates, const std::string& 
                     {"clamped", p.clamped},
                     {"skipped", p.skipped},
                     {"replicates", std::vector<double>(p.replicates.begin(), p.replicates.end())}});
+    if (!p.name.empty()) list.back()["name"] = p.name;
   }
   const Json json = {{"format", state_format},
                      {"version", state_version},

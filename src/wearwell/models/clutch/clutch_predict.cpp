@@ -9,6 +9,8 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/column_stream.h"
+#include "wearwell/input/csv_reader.h"
+#include "wearwell/input/labelled.h"
 #include "wearwell/models/clutch/clutch_tables.h"
 
 namespace wearwell::clutch {
@@ -25,6 +27,8 @@ struct Batch {
   std::vector<std::vector<double>> raw;  ///< by column of the file
   CycleColumns cycles;
   CycleSum::Rates rates;
+  std::shared_ptr<const std::vector<std::string>>
+      names;  ///< of all plates so far, where they have any
 };
 
 enum Place { plate, number, slip_speed, torque, temperature, closing_time, energy, places };
@@ -34,14 +38,26 @@ constexpr const char* dimensions[places] = {"1", "cycle", "rad/s", "N m", "K", "
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : stream_(file) {
+  /// `known`: the plates that an earlier file named.
+  Reader(const std::filesystem::path& file, const std::vector<PlateWear>& known) : stream_(file) {
     std::vector<std::string> headings;
+    const Table all = stream_.columns();
     for (int c = 0; c < places; ++c) {
-      columns_.push_back(
-          find_labelled(stream_.headings(), names[c], dimensions[c], stream_.source()));
+      columns_.push_back(find_labelled(all, names[c], dimensions[c]));
       headings.push_back(columns_.back().heading);
     }
-    stream_.select(headings);
+    std::vector<std::string> known_names(known.size());
+    bool named = false;
+    for (const PlateWear& p : known) {
+      named = named || !p.name.empty();
+      if (!p.name.empty() && p.plate >= 1 && p.plate <= std::ssize(known))
+        known_names[static_cast<std::size_t>(p.plate - 1)] = p.name;
+    }
+    stream_.select(headings, headings[plate], named ? known_names : std::vector<std::string>());
+    if (!known.empty() && named != stream_.has_words())
+      throw InputError(fmt::format("{}: its plates are {}, and those of the state are {}",
+                                   stream_.source(), named ? "numbers" : "names",
+                                   named ? "names" : "numbers"));
   }
 
   bool next(Batch& batch) {
@@ -55,6 +71,9 @@ class Reader {
         column.insert(column.end(), chunk_.columns[c].begin(), chunk_.columns[c].end());
       }
     }
+    if (stream_.has_words() && (!names_ || names_->size() != stream_.words().size()))
+      names_ = std::make_shared<const std::vector<std::string>>(stream_.words());
+    batch.names = names_;
     return !first;
   }
 
@@ -114,6 +133,7 @@ class Reader {
   ColumnStream stream_;
   std::vector<LabelledColumn> columns_;
   ColumnStream::Batch chunk_;
+  std::shared_ptr<const std::vector<std::string>> names_;
 };
 
 std::string trace_lines(std::size_t every, const Batch& batch, const CycleSum::Trace& trace) {
@@ -125,7 +145,10 @@ std::string trace_lines(std::size_t every, const Batch& batch, const CycleSum::T
     const std::string flags =
         trace.skipped[i] ? "skipped"
                          : names_of_inputs(bits) + (bits & CycleSum::negative ? " negative" : "");
-    fmt::format_to(end, "{},{},{:.9g},{:.9g},{}\n", batch.cycles.plate[i], batch.cycles.number[i],
+    const std::string plate =
+        batch.names ? csv_cell((*batch.names)[static_cast<std::size_t>(batch.cycles.plate[i]) - 1])
+                    : fmt::format("{}", batch.cycles.plate[i]);
+    fmt::format_to(end, "{},{},{:.9g},{:.9g},{}\n", plate, batch.cycles.number[i],
                    trace.volume[i] / mm3, trace.sd[i] / mm3, flags);
   }
   return text;
@@ -155,7 +178,7 @@ CycleColumns columns_of(const std::vector<Cycle>& cycles, std::size_t first, std
 std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum,
                        const std::function<void(std::string_view)>& trace, std::size_t every,
                        int threads) {
-  Reader reader(file);
+  Reader reader(file, sum.plates());
   std::size_t rows = 0;
   if (trace) trace("plate,cycle,volume [mm^3],sd [mm^3],outside\n");
   using BatchPointer = std::shared_ptr<Batch>;
@@ -172,8 +195,11 @@ std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum,
     sum.rates(batch->cycles, batch->rates);
     return batch;
   };
+  std::shared_ptr<const std::vector<std::string>> named;
   const auto add = [&](const BatchPointer& batch) {
     CycleSum::Trace steps;
+    if (batch->names && batch->names != named) sum.name_plates(*batch->names);
+    named = batch->names;
     try {
       sum.add(batch->cycles, batch->rates, batch->first_row, trace ? &steps : nullptr);
     } catch (const InputError& error) {

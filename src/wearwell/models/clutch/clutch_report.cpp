@@ -78,6 +78,12 @@ Table life_table(const ClutchResult& r) {
   return table;
 }
 
+/// A plate by its number or its name.
+present::Cell plate_cell(const ClutchResult& r, int plate) {
+  if (r.plate_names.empty()) return static_cast<double>(plate);
+  return r.plate_name(plate);
+}
+
 Table sequence_table(const ClutchResult& r) {
   Table table{"sequences",
               "Worn volume along the sequences",
@@ -91,7 +97,7 @@ Table sequence_table(const ClutchResult& r) {
                {"Sd by all", "mm^3", digits(3)}}};
   for (const SequenceResult& s : r.sequences) {
     for (const auto& w : s.weighings)
-      table.rows.push_back({s.name, static_cast<double>(s.plate), static_cast<double>(w.cycle),
+      table.rows.push_back({s.name, plate_cell(r, s.plate), static_cast<double>(w.cycle),
                             w.energy / MJ, w.measured / mm3, w.predicted / mm3, w.sd / mm3,
                             w.full_sd / mm3});
   }
@@ -227,7 +233,7 @@ Section run_in_section(const ClutchResult& r) {
                 {"Factor used", "1", fixed(3)}}};
   for (const PlateFactor& p : r.run_in.plates)
     plates.rows.push_back(
-        {static_cast<double>(p.plate), std::exp(p.log_factor), 100 * p.standard_error, p.factor()});
+        {plate_cell(r, p.plate), std::exp(p.log_factor), 100 * p.standard_error, p.factor()});
   section.add(std::move(constants));
   section.add(std::move(plates));
   return section;
@@ -250,7 +256,7 @@ Section scatter_section(const ClutchResult& r) {
   return section;
 }
 
-Table closing_table(const std::vector<Closing>& closings) {
+Table closing_table(const ClutchResult& r) {
   Table table{"closings",
               "Closings found in the raw traces",
               {{"Plate", "1", given},
@@ -261,8 +267,8 @@ Table closing_table(const std::vector<Closing>& closings) {
                {"T", "°C"},
                {"E", "kJ"},
                {"Flag"}}};
-  for (const Closing& c : closings)
-    table.rows.push_back({static_cast<double>(c.cycle.plate), static_cast<double>(c.cycle.number),
+  for (const Closing& c : r.closings)
+    table.rows.push_back({plate_cell(r, c.cycle.plate), static_cast<double>(c.cycle.number),
                           c.cycle.at.slip_speed / rpm, c.cycle.at.closing_time, c.cycle.at.torque,
                           c.cycle.at.temperature, c.cycle.energy / 1e3, c.flag});
   return table;
@@ -284,7 +290,7 @@ Section method_section(const ClutchStudy& study, const ClutchResult& r) {
   for (std::size_t i = 0; i < study.files.size(); ++i)
     facts.facts.emplace_back(study.files[i].filename().string(), "SHA-1 " + study.sha1s.at(i));
   section.add(std::move(facts));
-  if (!r.closings.empty()) section.add(closing_table(r.closings));
+  if (!r.closings.empty()) section.add(closing_table(r));
   section.add(present::Details{"Study file", {{present::Verbatim{study.file_text}}}});
   return section;
 }

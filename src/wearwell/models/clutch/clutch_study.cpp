@@ -12,6 +12,7 @@
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/models/clutch/clutch_truth.h"
+#include "wearwell/models/clutch/missing_cycles.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -38,20 +39,70 @@ void read_simulation(const TomlReader& table, ClutchStudy& study) {
   for (const ReadFile& file : read) study.sha1s.push_back(file.sha1());
 }
 
-void read_data(const TomlReader& root, const TomlReader& table, ClutchStudy& study) {
-  const fs::path folder = study.file.parent_path();
-  study.files = {required_file(table, "design", folder), required_file(table, "cycles", folder),
-                 required_file(table, "weighings", folder)};
-  const bool traces = table.has("traces");
-  if (traces) study.files.push_back(required_file(table, "traces", folder));
-  const std::vector<ReadFile> read(study.files.begin(), study.files.end());
-  study.campaign.design = read_design(study.files[0]);
-  study.campaign.cycles = read_cycles(study.files[1]);
-  study.campaign.weighings = read_weighings(study.files[2]);
-  study.campaign.cycles_source = study.files[1].string();
-  study.campaign.weighings_source = study.files[2].string();
-  if (traces) study.traces = read_traces(study.files.back());
-  for (const ReadFile& file : read) study.sha1s.push_back(file.sha1());
+/// One table of [data]: KEY = "file", or a table [data.KEY] with file, sql, columns and the rest.
+CampaignTable open_table(const TomlReader& data, const char* key, const Source& source,
+                         ClutchStudy& study) {
+  const bool is_name = data.has(key) && data.is_text(key);
+  const TomlReader section = is_name ? data : data.required_table(key);
+  const char* const file_key = is_name ? key : "file";
+  const std::string name = section.required_text(file_key);
+  const auto in_memory = source.tables.find(name);
+  study.files.push_back(in_memory == source.tables.end()
+                            ? required_file(section, file_key, source.folder())
+                            : fs::path(name));
+  const ReadFile read(study.files.back());
+  CampaignTable table{is_name
+                          ? in_memory != source.tables.end()
+                                ? in_memory->second
+                                : read_table(study.files.back(), {}, {}, read_table_settings(data))
+                          : read_table(section, source),
+                      is_name ? std::nullopt : section.table("columns")};
+  study.sha1s.push_back(in_memory == source.tables.end() ? read.sha1() : "");
+  study.layouts.push_back(table.table.layout);
+  return table;
+}
+
+/// Keeps what was read of some columns of numbers, for people.
+void keep_columns(const CampaignTable& from, const char* key,
+                  const std::vector<std::pair<const char*, const char*>>& columns,
+                  ClutchStudy& study) {
+  for (const auto& [name, si] : columns) {
+    const ColumnChoice choice = from.numbers(name, si);
+    study.data_columns.push_back(
+        {fmt::format("{}.{}", key, name), si, choice.unit, si_numbers(from.table, choice)});
+  }
+}
+
+void read_data(const TomlReader& root, const TomlReader& data, const Source& source,
+               ClutchStudy& study) {
+  Campaign& campaign = study.campaign;
+  const CampaignTable design = open_table(data, "design", source, study),
+                      cycles = open_table(data, "cycles", source, study),
+                      weighings = open_table(data, "weighings", source, study);
+  std::optional<CampaignTable> traces;
+  if (data.has("traces")) traces.emplace(open_table(data, "traces", source, study));
+  std::vector<const CampaignTable*> with_plates = {&cycles, &weighings};
+  if (traces) with_plates.push_back(&*traces);
+  campaign.plate_names = plate_names(with_plates);
+  campaign.design = read_design(design);
+  campaign.cycles = read_cycles(cycles, campaign.plate_names);
+  campaign.weighings = read_weighings(weighings, campaign.plate_names);
+  campaign.cycles_source = cycles.table.source;
+  campaign.weighings_source = weighings.table.source;
+  if (traces) study.traces = read_traces(*traces, campaign.plate_names);
+  using Columns = std::vector<std::pair<const char*, const char*>>;
+  Columns conditions;
+  for (const Input& input : inputs) conditions.emplace_back(input.name, input.si);
+  keep_columns(design, "design", conditions, study);
+  keep_columns(cycles, "cycles", {{"cycle", "cycle"}}, study);
+  keep_columns(cycles, "cycles", conditions, study);
+  keep_columns(cycles, "cycles", {{"energy", "J"}}, study);
+  keep_columns(weighings, "weighings", {{"cycle", "cycle"}, {"mass", "kg"}}, study);
+  if (traces) {
+    keep_columns(*traces, "traces", {{"time", "s"}}, study);
+    keep_columns(*traces, "traces", {conditions.begin(), conditions.begin() + 3}, study);
+  }
+  if (data.choice("missing_cycles", {"refuse", "fill"}) == "fill") fill_missing_cycles(campaign);
   const Lining lining = read_lining(root);
   study.campaign.density = lining.density;
   study.campaign.balance_sd = lining.balance_sd;
@@ -98,12 +149,13 @@ void read_life(const TomlReader& root, ClutchStudy& study) {
 ClutchStudy read_clutch_study(const fs::path& file) {
   const TextFile text = read_text_file(file);
   const TomlReader root = TomlReader::parse(text);
-  ClutchStudy study = read_clutch_study(root, text);
+  ClutchStudy study = read_clutch_study(root, Source{text});
   root.finish();
   return study;
 }
 
-ClutchStudy read_clutch_study(const TomlReader& root, const TextFile& text) {
+ClutchStudy read_clutch_study(const TomlReader& root, const Source& source) {
+  const TextFile& text = source.study;
   const fs::path& file = text.path;
   ClutchStudy study;
   study.file = file;
@@ -119,7 +171,7 @@ ClutchStudy read_clutch_study(const TomlReader& root, const TextFile& text) {
   if (simulation) {
     read_simulation(*simulation, study);
   } else {
-    read_data(root, *data, study);
+    read_data(root, *data, source, study);
   }
   study.exponents = paper_exponents();
   if (const auto search = root.table("search")) study.exponents = read_exponents(*search);

@@ -9,7 +9,7 @@
 
 #include "wearwell/base/progress.h"
 #include "wearwell/infer/check.h"
-#include "wearwell/input/text_file.h"
+#include "wearwell/input/source.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/models/clutch/closing.h"
 #include "wearwell/models/clutch/cycle_sum.h"
@@ -17,6 +17,7 @@
 #include "wearwell/models/clutch/tribometer.h"
 #include "wearwell/models/clutch/wear_model.h"
 #include "wearwell/regress/nested.h"
+#include "wearwell/study/units_check.h"
 
 namespace wearwell::clutch {
 
@@ -28,8 +29,10 @@ struct ClutchStudy {
   /// Where the campaign comes from: a rig's files or a simulation.
   std::vector<std::filesystem::path> files;  ///< that were read
   std::vector<std::string> sha1s;            ///< of each, when it was read
+  std::vector<std::string> layouts;          ///< how each is written, in words; of a rig only
   bool simulated = false;
-  std::optional<Truth> truth;  ///< of a simulated campaign
+  std::optional<Truth> truth;            ///< of a simulated campaign
+  std::vector<DataColumn> data_columns;  ///< of a rig's tables, as they were read
   Campaign campaign;
   std::vector<Realized> realized;  ///< likewise
   std::vector<double> plate_factors;
@@ -43,7 +46,7 @@ struct ClutchStudy {
 };
 
 /// Throws InputError.
-ClutchStudy read_clutch_study(const TomlReader& root, const TextFile& file);
+ClutchStudy read_clutch_study(const TomlReader& root, const Source& source);
 ClutchStudy read_clutch_study(const std::filesystem::path& file);
 
 /// A sequence of changing conditions, predicted and weighed.
@@ -80,6 +83,7 @@ struct NamedLife {
 
 struct ClutchResult {
   std::string version;
+  std::vector<std::string> plate_names;  ///< as in Campaign
   std::vector<Closing> closings;
   WornBlocks blocks;
   RunInFit run_in;
@@ -99,8 +103,18 @@ struct ClutchResult {
   bool trusted = true;
   double seconds = 0;
 
+  std::string plate_name(int plate) const {
+    return plate_names.empty() ? std::to_string(plate)
+                               : plate_names.at(static_cast<std::size_t>(plate - 1));
+  }
   const ScatterFit& scatter_fit() const { return scatter.candidates[scatter.best]; }
 };
+
+/// Everything before the search: closings, blocks, run-in and points. Throws InputError where the
+/// campaign is not one that can be fitted.
+ClutchResult prepare_campaign(const ClutchStudy& study);
+/// What was read of the cycles, to find mistaken units.
+std::vector<DataColumn> cycle_columns(const Campaign& campaign);
 
 /// Weighed blocks of design points, of the given use, compensated for run-in and plate.
 WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& blocks,

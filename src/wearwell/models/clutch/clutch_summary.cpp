@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/input/csv_reader.h"
 #include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/trust_blocks.h"
@@ -73,7 +74,13 @@ Json to_json(const ScatterSearch& scatter) {
           {"candidates", std::move(candidates)}};
 }
 
-Json to_json(const SequenceResult& sequence) {
+/// A plate by its number or its name.
+Json plate_json(const ClutchResult& r, int plate) {
+  if (r.plate_names.empty()) return plate;
+  return r.plate_name(plate);
+}
+
+Json to_json(const SequenceResult& sequence, const ClutchResult& r) {
   Json rows = Json::array();
   for (const auto& w : sequence.weighings) {
     Json row = {{"cycle", w.cycle},
@@ -86,7 +93,7 @@ Json to_json(const SequenceResult& sequence) {
     rows.push_back(std::move(row));
   }
   return {{"name", sequence.name},
-          {"plate", sequence.plate},
+          {"plate", plate_json(r, sequence.plate)},
           {"final_error", sequence.final_error()},
           {"weighings", std::move(rows)}};
 }
@@ -133,7 +140,7 @@ Json summary_body(const ClutchStudy& study, const ClutchResult& r) {
   run_in["starts"] = r.run_in.starts;
   run_in["agreeing"] = r.run_in.agreeing;
   for (const PlateFactor& p : r.run_in.plates)
-    run_in["plates"].push_back({{"plate", p.plate},
+    run_in["plates"].push_back({{"plate", plate_json(r, p.plate)},
                                 {"factor", std::exp(p.log_factor)},
                                 {"log_error", p.standard_error},
                                 {"used", p.factor()}});
@@ -165,7 +172,7 @@ Json summary_body(const ClutchStudy& study, const ClutchResult& r) {
   for (const double change : r.averaging.change) largest = std::max(largest, std::abs(change));
   json["averaging"] = {{"total", r.averaging.total}, {"largest", largest}};
   json["sequences"] = Json::array();
-  for (const SequenceResult& s : r.sequences) json["sequences"].push_back(to_json(s));
+  for (const SequenceResult& s : r.sequences) json["sequences"].push_back(to_json(s, r));
   json["life"] = Json::array();
   for (const NamedLife& each : r.lives) json["life"].push_back(to_json(each));
   return json;
@@ -178,8 +185,8 @@ std::string sequences_csv(const ClutchResult& r) {
   for (const SequenceResult& s : r.sequences) {
     for (const auto& w : s.weighings)
       fmt::format_to(std::back_inserter(csv), "{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
-                     s.name, s.plate, w.cycle, w.energy / MJ, w.measured / mm3, w.predicted / mm3,
-                     w.sd / mm3, w.full_sd / mm3);
+                     csv_cell(s.name), csv_cell(r.plate_name(s.plate)), w.cycle, w.energy / MJ,
+                     w.measured / mm3, w.predicted / mm3, w.sd / mm3, w.full_sd / mm3);
   }
   return csv;
 }

@@ -6,30 +6,39 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "wearwell/base/error.h"
+#include "wearwell/input/labelled.h"
 
 namespace wearwell::clutch {
 namespace {
 
 /// A column in SI, temperatures in degrees Celsius.
-std::vector<double> column(const Table& table, const Input& input) {
-  std::vector<double> values = labelled_numbers(table, input.name, input.si);
-  if (input.value == &OperatingPoint::temperature) {
-    for (double& value : values) value -= celsius_zero;
+std::vector<double> column(const CampaignTable& from, const Input& input) {
+  const ColumnChoice choice = from.numbers(input.name, input.si);
+  std::vector<double> values = si_numbers(from.table, choice);
+  if (input.value != &OperatingPoint::temperature) return values;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] < 0)
+      throw InputError(fmt::format("{}: {:.6g} is below absolute zero",
+                                   place(from.table, choice.column, i),
+                                   from_si(choice.unit, values[i])));
+    values[i] -= celsius_zero;
   }
   return values;
 }
 
-std::vector<OperatingPoint> operating_points(const Table& table) {
-  std::vector<OperatingPoint> points(table.rows);
+std::vector<OperatingPoint> operating_points(const CampaignTable& from) {
+  std::vector<OperatingPoint> points(from.table.rows);
   for (const Input& input : inputs) {
-    const std::vector<double> values = column(table, input);
+    const std::vector<double> values = column(from, input);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (input.value != &OperatingPoint::temperature && !(values[i] > 0))
         throw InputError(
             fmt::format("{}: must be positive",
-                        place(table, find_labelled(table, input.name, input.si).heading, i)));
+                        place(from.table, from.numbers(input.name, input.si).column, i)));
       points[i].*input.value = values[i];
     }
   }
@@ -39,14 +48,15 @@ std::vector<OperatingPoint> operating_points(const Table& table) {
 /// What an int holds, and what a double tells apart.
 constexpr double most_plates = 2e9, most_cycles = 9e15;
 
-std::vector<long long> whole_numbers(const Table& table, std::string_view name, long long least,
-                                     double most) {
+std::vector<long long> whole_numbers(const CampaignTable& from, const std::string& name,
+                                     long long least, double most) {
   std::vector<long long> whole;
-  const std::vector<double> values = labelled_numbers(table, name, name == "cycle" ? "cycle" : "1");
+  const ColumnChoice choice = from.numbers(name, name == "cycle" ? "cycle" : "1");
+  const std::vector<double> values = si_numbers(from.table, choice);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto refuse = [&](const std::string& reason) {
-      const std::string heading = find_labelled(table, name, "1").heading;
-      throw InputError(fmt::format("{}: {} {}", place(table, heading, i), values[i], reason));
+      throw InputError(
+          fmt::format("{}: {} {}", place(from.table, choice.column, i), values[i], reason));
     };
     if (values[i] != std::round(values[i]) || values[i] < static_cast<double>(least))
       refuse(fmt::format("must be a whole number of at least {}", least));
@@ -56,10 +66,23 @@ std::vector<long long> whole_numbers(const Table& table, std::string_view name, 
   return whole;
 }
 
-const std::vector<std::string>& texts(const Table& table, std::string_view name) {
-  const Column& found = table.column(name);
+/// Numbers of plates, or their places among `names`, from 1.
+std::vector<long long> plates_of(const CampaignTable& from, const std::vector<std::string>& names) {
+  if (names.empty()) return whole_numbers(from, "plate", 1, most_plates);
+  std::unordered_map<std::string_view, long long> places;
+  for (const std::string& name : names) places.emplace(name, std::ssize(places) + 1);
+  const Column& words = from.words("plate");
+  std::vector<long long> plates;
+  for (std::size_t i = 0; i < from.table.rows; ++i)
+    plates.push_back(places.at(cell_word(words, i)));
+  return plates;
+}
+
+const std::vector<std::string>& texts(const CampaignTable& from, const std::string& name) {
+  const Column& found = from.words(name);
   if (found.is_number)
-    throw InputError(fmt::format("{}, column '{}' holds numbers, not words", table.source, name));
+    throw InputError(
+        fmt::format("{}, column '{}' holds numbers, not words", from.table.source, found.name));
   return found.text;
 }
 
@@ -114,70 +137,121 @@ constexpr const char* point_headings =
 
 }  // namespace
 
-std::vector<DesignPoint> read_design(const std::filesystem::path& file) {
-  const Table table = read_table(file);
-  const std::vector<long long> numbers = whole_numbers(table, "point", 1, most_plates);
-  const std::vector<std::string>& roles = texts(table, "role");
-  const std::vector<OperatingPoint> at = operating_points(table);
+ColumnChoice CampaignTable::numbers(const std::string& name, const std::string& si) const {
+  if (columns) {
+    if (const auto choice = read_column(*columns, name, si, table)) return *choice;
+  }
+  const LabelledColumn found = find_labelled(table, name, si);
+  return {found.heading, found.unit};
+}
+
+const Column& CampaignTable::words(const std::string& name) const {
+  if (columns) {
+    if (const auto choice = read_word_column(*columns, name, table))
+      return table.column(choice->column);
+  }
+  return table.column(name);
+}
+
+std::vector<std::string> plate_names(const std::vector<const CampaignTable*>& tables) {
+  bool numbers = true;
+  for (const CampaignTable* each : tables) numbers = numbers && each->words("plate").is_number;
+  if (numbers) return {};
+  std::vector<std::string> names;
+  std::unordered_set<std::string> seen;
+  for (const CampaignTable* each : tables) {
+    const Column& column = each->words("plate");
+    for (std::size_t i = 0; i < each->table.rows; ++i) {
+      const std::string name = cell_word(column, i);
+      if (name.empty())
+        throw InputError(fmt::format("{}: no plate is named", place(each->table, column.name, i)));
+      if (seen.insert(name).second) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::vector<DesignPoint> read_design(const CampaignTable& from) {
+  const std::vector<long long> numbers = whole_numbers(from, "point", 1, most_plates);
+  const std::vector<std::string>& roles = texts(from, "role");
+  const std::vector<OperatingPoint> at = operating_points(from);
   std::vector<DesignPoint> design;
   std::set<long long> seen;
-  for (std::size_t i = 0; i < table.rows; ++i) {
+  for (std::size_t i = 0; i < from.table.rows; ++i) {
     if (!seen.insert(numbers[i]).second)
-      throw InputError(
-          fmt::format("{}: point {} is planned twice", place(table, "point", i), numbers[i]));
+      throw InputError(fmt::format("{}: point {} is planned twice",
+                                   place(from.table, from.numbers("point", "1").column, i),
+                                   numbers[i]));
     try {
       design.push_back({static_cast<int>(numbers[i]), read_role(roles[i]), at[i]});
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", place(table, "role", i), error.what()));
+      throw InputError(
+          fmt::format("{}: {}", place(from.table, from.words("role").name, i), error.what()));
     }
   }
   return design;
 }
 
-std::vector<Cycle> read_cycles(const std::filesystem::path& file) {
-  const Table table = read_table(file);
-  const std::vector<long long> plates = whole_numbers(table, "plate", 1, most_plates);
-  const std::vector<long long> numbers = whole_numbers(table, "cycle", 1, most_cycles);
-  const std::vector<OperatingPoint> at = operating_points(table);
-  const std::vector<double> energy = labelled_numbers(table, "energy", "J");
+std::vector<Cycle> read_cycles(const CampaignTable& from, const std::vector<std::string>& names) {
+  const std::vector<long long> plates = plates_of(from, names);
+  const std::vector<long long> numbers = whole_numbers(from, "cycle", 1, most_cycles);
+  const std::vector<OperatingPoint> at = operating_points(from);
+  const std::vector<double> energy = si_numbers(from.table, from.numbers("energy", "J"));
   std::vector<Cycle> cycles;
-  for (std::size_t i = 0; i < table.rows; ++i)
+  for (std::size_t i = 0; i < from.table.rows; ++i)
     cycles.push_back({static_cast<int>(plates[i]), numbers[i], at[i], energy[i]});
   return cycles;
 }
 
-std::vector<Weighing> read_weighings(const std::filesystem::path& file) {
-  const Table table = read_table(file);
-  const std::vector<long long> plates = whole_numbers(table, "plate", 1, most_plates);
-  const std::vector<long long> numbers = whole_numbers(table, "cycle", 0, most_cycles);
-  const std::vector<double> mass = labelled_numbers(table, "mass", "kg");
-  const std::vector<std::string>& blocks = texts(table, "block");
+std::vector<Weighing> read_weighings(const CampaignTable& from,
+                                     const std::vector<std::string>& names) {
+  const std::vector<long long> plates = plates_of(from, names);
+  const std::vector<long long> numbers = whole_numbers(from, "cycle", 0, most_cycles);
+  const ColumnChoice mass_column = from.numbers("mass", "kg");
+  const std::vector<double> mass = si_numbers(from.table, mass_column);
+  const std::vector<std::string>& blocks = texts(from, "block");
   std::vector<Weighing> weighings;
-  for (std::size_t i = 0; i < table.rows; ++i) {
+  for (std::size_t i = 0; i < from.table.rows; ++i) {
     Weighing weighing{static_cast<int>(plates[i]), numbers[i], mass[i], Block::start, 0, {}};
     if (!(mass[i] > 0))
-      throw InputError(fmt::format("{}: a mass must be positive",
-                                   place(table, find_labelled(table, "mass", "kg").heading, i)));
+      throw InputError(
+          fmt::format("{}: a mass must be positive", place(from.table, mass_column.column, i)));
     try {
       read_block(blocks[i], weighing);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}", place(table, "block", i), error.what()));
+      throw InputError(
+          fmt::format("{}: {}", place(from.table, from.words("block").name, i), error.what()));
     }
     weighings.push_back(std::move(weighing));
   }
   return weighings;
 }
 
-std::vector<Sample> read_traces(const std::filesystem::path& file) {
-  const Table table = read_table(file);
-  const std::vector<long long> plates = whole_numbers(table, "plate", 1, most_plates);
-  const std::vector<double> time = labelled_numbers(table, "time", "s");
-  const std::vector<double> speed = column(table, inputs[0]), torque = column(table, inputs[1]),
-                            temperature = column(table, inputs[2]);
+std::vector<Sample> read_traces(const CampaignTable& from, const std::vector<std::string>& names) {
+  const std::vector<long long> plates = plates_of(from, names);
+  const std::vector<double> time = si_numbers(from.table, from.numbers("time", "s"));
+  const std::vector<double> speed = column(from, inputs[0]), torque = column(from, inputs[1]),
+                            temperature = column(from, inputs[2]);
   std::vector<Sample> samples;
-  for (std::size_t i = 0; i < table.rows; ++i)
+  for (std::size_t i = 0; i < from.table.rows; ++i)
     samples.push_back({static_cast<int>(plates[i]), time[i], speed[i], torque[i], temperature[i]});
   return samples;
+}
+
+std::vector<DesignPoint> read_design(const std::filesystem::path& file) {
+  return read_design(CampaignTable{read_table(file)});
+}
+std::vector<Cycle> read_cycles(const std::filesystem::path& file) {
+  const CampaignTable table{read_table(file)};
+  return read_cycles(table, plate_names({&table}));
+}
+std::vector<Weighing> read_weighings(const std::filesystem::path& file) {
+  const CampaignTable table{read_table(file)};
+  return read_weighings(table, plate_names({&table}));
+}
+std::vector<Sample> read_traces(const std::filesystem::path& file) {
+  const CampaignTable table{read_table(file)};
+  return read_traces(table, plate_names({&table}));
 }
 
 std::string design_csv(const std::vector<DesignPoint>& design) {

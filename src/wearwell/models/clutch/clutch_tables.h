@@ -1,25 +1,50 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "wearwell/input/labelled.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/toml_reader.h"
 #include "wearwell/models/clutch/campaign.h"
 #include "wearwell/models/clutch/closing.h"
 #include "wearwell/models/clutch/tribometer.h"
 
-/// Files of a campaign. Headings carry units, "torque [N m]" (table/labelled.h); any unit of the
+/// Files of a campaign. Headings carry units, "torque [N m]" (docs/tables.md); any unit of the
 /// right dimension will do. All readers throw InputError naming file, row, column and value.
 namespace wearwell::clutch {
 
+/// A table of a campaign. Its columns have the names below unless the study names others.
+struct CampaignTable {
+  Table table;
+  std::optional<TomlReader> columns = {};  ///< of the study
+
+  /// The column of numbers for `name`. Throws InputError.
+  ColumnChoice numbers(const std::string& name, const std::string& si) const;
+  /// The column of words or of plates.
+  const Column& words(const std::string& name) const;
+};
+
+/// The names of the plates in all tables, in the order in which they come; empty where every plate is a
+/// number. Throws InputError where a plate has no name.
+std::vector<std::string> plate_names(const std::vector<const CampaignTable*>& tables);
+
 /// point, role, slip_speed, torque, temperature, closing_time.
-std::vector<DesignPoint> read_design(const std::filesystem::path& file);
-/// plate, cycle, slip_speed, torque, temperature, closing_time, energy.
-std::vector<Cycle> read_cycles(const std::filesystem::path& file);
+std::vector<DesignPoint> read_design(const CampaignTable& table);
+/// plate, cycle, slip_speed, torque, temperature, closing_time, energy. A plate is its place among `names`,
+/// from 1.
+std::vector<Cycle> read_cycles(const CampaignTable& table, const std::vector<std::string>& names);
 /// plate, cycle, mass, block ("start", "run-in", "point 17", "run-out", "sequence NAME").
-std::vector<Weighing> read_weighings(const std::filesystem::path& file);
+std::vector<Weighing> read_weighings(const CampaignTable& table,
+                                     const std::vector<std::string>& names);
 /// plate, time, slip_speed, torque, temperature.
+std::vector<Sample> read_traces(const CampaignTable& table, const std::vector<std::string>& names);
+
+/// Of files that stand alone.
+std::vector<DesignPoint> read_design(const std::filesystem::path& file);
+std::vector<Cycle> read_cycles(const std::filesystem::path& file);
+std::vector<Weighing> read_weighings(const std::filesystem::path& file);
 std::vector<Sample> read_traces(const std::filesystem::path& file);
 
 std::string design_csv(const std::vector<DesignPoint>& design);

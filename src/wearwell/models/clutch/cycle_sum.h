@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct CycleColumns {
 /// What is known of a plate after its cycles so far.
 struct PlateWear {
   int plate = 0;
+  std::string name = {};  ///< where plates have names; else empty
   long long cycles = 0, last_number = 0;
   double energy = 0;                   ///< Ec, J
   double volume = 0;                   ///< V, m^3
@@ -29,6 +31,7 @@ struct PlateWear {
   long long skipped = 0;      ///< cycles without a finite number: left out (NotFinite::skip)
   Eigen::ArrayXd replicates;  ///< V of each replicate; empty when not asked for
 
+  std::string in_words() const { return name.empty() ? std::to_string(plate) : name; }
   double sd() const { return std::sqrt(variance); }
   /// With the uncertainty of coefficients, exponents, terms, run-in (mean square of the replicates
   /// about V) and of the plate's factor.
@@ -48,6 +51,9 @@ class CycleSum {
  public:
   /// Without replicates it is about ten times as fast, and full_sd lacks their part.
   CycleSum(const WearModel& model, bool with_replicates, NotFinite not_finite = NotFinite::refuse);
+
+  /// The names of plate 1, 2, ... as far as they are known, where plates have names.
+  void name_plates(std::vector<std::string> names) { names_ = std::move(names); }
 
   struct Rates {
     Eigen::ArrayXd w, sigma;        ///< m^3/J
@@ -85,6 +91,7 @@ class CycleSum {
   std::vector<PlateWear> plates_;
   std::unordered_map<int, std::size_t> place_;  ///< in plates_
   std::size_t current_ = 0;
+  std::vector<std::string> names_;
 };
 
 }  // namespace wearwell::clutch

@@ -48,7 +48,7 @@ Model model() {
           .trade = "clutch",
           .example = example,
           .read = [](const TomlReader& root, const Source& source) -> std::unique_ptr<const Study> {
-            return std::make_unique<CampaignStudy>(read_clutch_study(root, source.study));
+            return std::make_unique<CampaignStudy>(read_clutch_study(root, source));
           },
           .add_commands = add_clutch_command,
           .keys = study_keys};

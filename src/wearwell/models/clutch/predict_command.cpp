@@ -49,7 +49,7 @@ void print_table(const WearModel& model, const CycleSum& sum, bool full) {
     const auto half = [&](double sd) {
       return fmt::format("+- {:.4g} ({:.1f} %)", 2 * sd / mm3, 200 * sd / p.volume);
     };
-    rows.push_back({fmt::format("{}", p.plate), fmt::format("{}", p.cycles),
+    rows.push_back({p.in_words(), fmt::format("{}", p.cycles),
                     fmt::format("{:.5g}", p.energy * 1e-6), fmt::format("{:.5g}", p.volume / mm3),
                     half(p.sd())});
     if (full) rows.back().push_back(half(p.full_sd(model.plate_sd)));
@@ -62,9 +62,13 @@ void print_table(const WearModel& model, const CycleSum& sum, bool full) {
 void print_json(const WearModel& model, const CycleSum& sum, bool full) {
   nlohmann::ordered_json plates = nlohmann::ordered_json::array();
   for (const PlateWear& p : sum.plates()) {
-    nlohmann::ordered_json each = {
-        {"plate", p.plate},   {"cycles", p.cycles},       {"last_cycle", p.last_number},
-        {"energy", p.energy}, {"volume", p.volume / mm3}, {"sd_scatter", p.sd() / mm3}};
+    nlohmann::ordered_json each = {{"plate", p.name.empty() ? nlohmann::ordered_json(p.plate)
+                                                            : nlohmann::ordered_json(p.name)},
+                                   {"cycles", p.cycles},
+                                   {"last_cycle", p.last_number},
+                                   {"energy", p.energy},
+                                   {"volume", p.volume / mm3},
+                                   {"sd_scatter", p.sd() / mm3}};
     if (full) each["sd_full"] = p.full_sd(model.plate_sd) / mm3;
     each["worn"] = p.volume / model.worn_out;
     nlohmann::ordered_json outside;
@@ -86,7 +90,7 @@ std::string checked_state(const CycleSum& sum, const std::string& fingerprint) {
     if (!std::isfinite(p.volume) || !std::isfinite(p.variance) || !std::isfinite(p.energy) ||
         !p.replicates.isFinite().all())
       throw InputError(
-          fmt::format("plate {} has no finite wear; its state is not written", p.plate));
+          fmt::format("plate {} has no finite wear; its state is not written", p.in_words()));
   }
   return state_text(sum.plates(), fingerprint);
 }

@@ -14,8 +14,9 @@ namespace {
 constexpr double most_gain = 4;  // standard deviations of the difference of two weighings
 
 /// "cycles.csv, row 12: plate 3"
-std::string place(const std::string& source, std::size_t index, int plate) {
-  return fmt::format("{}, row {}: plate {}", source, index + 1, plate);
+std::string place(const Campaign& campaign, const std::string& source, std::size_t index,
+                  int plate) {
+  return fmt::format("{}, row {}: plate {}", source, index + 1, campaign.plate_name(plate));
 }
 
 /// Number of cycles by plate.
@@ -23,7 +24,7 @@ std::map<int, long long> checked_cycles(const Campaign& campaign) {
   std::map<int, long long> count;
   for (std::size_t i = 0; i < campaign.cycles.size(); ++i) {
     const Cycle& cycle = campaign.cycles[i];
-    const auto here = [&] { return place(campaign.cycles_source, i, cycle.plate); };
+    const auto here = [&] { return place(campaign, campaign.cycles_source, i, cycle.plate); };
     if (!(cycle.energy > 0))
       throw InputError(fmt::format("{}, cycle {}: the energy is {} J; it must be positive", here(),
                                    cycle.number, cycle.energy));
@@ -39,6 +40,10 @@ std::map<int, long long> checked_cycles(const Campaign& campaign) {
 
 }  // namespace
 
+void require_ordered_cycles(const Campaign& campaign) {
+  checked_cycles(campaign);
+}
+
 WornBlocks worn_blocks(const Campaign& campaign) {
   const auto& cycles = campaign.cycles;
   std::map<int, long long> unweighed = checked_cycles(campaign);
@@ -48,7 +53,7 @@ WornBlocks worn_blocks(const Campaign& campaign) {
   double energy_before = 0;
   for (std::size_t i = 0; i < campaign.weighings.size(); ++i) {
     const Weighing& after = campaign.weighings[i];
-    const std::string here = place(campaign.weighings_source, i, after.plate);
+    const std::string here = place(campaign, campaign.weighings_source, i, after.plate);
     if (i == 0 || campaign.weighings[i - 1].plate != after.plate) {
       if (!seen.insert(after.plate).second)
         throw InputError(fmt::format("{}: its weighings are not together", here));
@@ -81,8 +86,11 @@ WornBlocks worn_blocks(const Campaign& campaign) {
     block.last = next;
     if (block.cycles() != static_cast<double>(after.cycle - before.cycle))
       throw InputError(
-          fmt::format("{}: {} cycles are logged between the weighings at {} and {}, where {} ran",
-                      here, block.cycles(), before.cycle, after.cycle, after.cycle - before.cycle));
+          fmt::format("{}: {} cycles are logged between the weighings at {} and {}, where {} ran{}",
+                      here, block.cycles(), before.cycle, after.cycle, after.cycle - before.cycle,
+                      block.cycles() < static_cast<double>(after.cycle - before.cycle)
+                          ? "; where a log loses a few, write missing_cycles = \"fill\" into [data]"
+                          : ""));
     for (const Input& input : inputs) block.mean.*input.value /= block.cycles();
     const double loss = before.mass - after.mass;
     const double error = std::numbers::sqrt2 * campaign.balance_sd;
@@ -104,7 +112,8 @@ WornBlocks worn_blocks(const Campaign& campaign) {
   for (const auto& [plate, count] : unweighed) {
     if (count > 0)
       result.flags.push_back(fmt::format("{}: no weighing of plate {} follows {} of its cycles",
-                                         campaign.cycles_source, plate, count));
+                                         campaign.cycles_source, campaign.plate_name(plate),
+                                         count));
   }
   return result;
 }

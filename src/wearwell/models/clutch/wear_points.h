@@ -36,4 +36,7 @@ struct WornBlocks {
 /// gain is flagged and kept; cycles that no weighing follows are flagged.
 WornBlocks worn_blocks(const Campaign& campaign);
 
+/// Throws InputError as worn_blocks does for the cycles alone.
+void require_ordered_cycles(const Campaign& campaign);
+
 }  // namespace wearwell::clutch

@@ -34,7 +34,7 @@ class Inputs {
   };
 
   Series read(const std::string& name, const std::string& si) const {
-    const auto column = read_column(columns_, name, si);
+    const auto column = read_column(columns_, name, si, table_);
     const auto constant = conditions_ ? conditions_->quantity(name, si) : std::nullopt;
     if (column && constant) {
       conditions_->fail(name, fmt::format("is given here and as data.columns.{}; keep one", name));
@@ -107,6 +107,7 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
     }
     data.mean_stress_column = mean.column ? mean.column->column : "";
     data.columns.push_back({"displacement_amplitude", "m", amplitude.unit, amplitude.values, true});
+    if (mean.column) data.columns.push_back({"displacement_mean", "m", mean.unit, mean.values});
     return stresses;
   }
   if (extremes) {
@@ -120,6 +121,7 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
     }
     data.mean_stress_column = high.column ? high.column->column : "";
     data.columns.push_back({"max_stress", "Pa", high.unit, high.values, true});
+    if (low.column) data.columns.push_back({"min_stress", "Pa", low.unit, low.values});
     return stresses;
   }
   const auto alternating = inputs.read("alternating_stress", "Pa");
@@ -141,16 +143,14 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
       stresses[i].mean = stresses[i].alternating * (1 + r) / (1 - r);
     }
     data.mean_stress_column = ratios.column ? ratios.column->column : "";
+    if (ratios.column) data.columns.push_back({"stress_ratio", "1", ratios.unit, ratios.values});
   } else if (inputs.has("mean_stress") || correction != MeanStress::none) {
     const auto mean = inputs.read("mean_stress", "Pa");
     for (std::size_t i = 0; i < table.rows; ++i) stresses[i].mean = mean.values[i];
     data.mean_stress_column = mean.column ? mean.column->column : "";
+    if (mean.column) data.columns.push_back({"mean_stress", "Pa", mean.unit, mean.values});
   }
   return stresses;
-}
-
-std::string cell(const Column& column, std::size_t row) {
-  return column.is_number ? fmt::format("{}", column.numbers[row]) : column.text[row];
 }
 
 Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t row) {
@@ -159,7 +159,7 @@ Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t
       {"runout", Outcome::runout},     {"S", Outcome::runout},  {"1", Outcome::runout},
       {"run-out", Outcome::runout},    {"left", Outcome::left}, {"-1", Outcome::left},
       {"interval", Outcome::interval}, {"2", Outcome::interval}};
-  const std::string word = cell(table.column(choice.column), row);
+  const std::string word = cell_word(table.column(choice.column), row);
   for (const auto& [name, outcome] : words) {
     if (word == name) return outcome;
   }
@@ -238,18 +238,20 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   const Table table = read_table(section, source);
   SnData data;
   data.source = table.source;
+  data.layout = table.layout;
   const std::vector<Stress> stresses = read_stresses(columns, conditions, table, correction, data);
 
-  ColumnChoice life = required_column(columns, "life", "cycle");
+  ColumnChoice life = required_column(columns, "life", "cycle", table);
   data.life_unit = life.unit = life_unit(life.unit);
-  auto until = read_column(columns, "life_until", "cycle");
+  auto until = read_column(columns, "life_until", "cycle", table);
   if (until) until->unit = life_unit(until->unit);
-  const auto status = read_column(columns, "status", "1");
-  const auto count = read_column(columns, "count", "1");
-  const auto label = read_column(columns, "label", "1");
+  const auto status = read_word_column(columns, "status", table);
+  const auto count = read_column(columns, "count", "1", table);
+  const auto label = read_word_column(columns, "label", table);
   const std::vector<double> lives = si_numbers(table, life);
   data.columns.push_back({"life", "cycle", life.unit, lives});
   const std::vector<double> counts = count ? si_numbers(table, *count) : std::vector<double>();
+  if (count) data.columns.push_back({"count", "1", count->unit, counts});
   const bool without_tension_harmless =
       correction == MeanStress::swt || correction == MeanStress::walker;
   bool any_broke = false;
@@ -286,7 +288,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
     }
     any_broke = any_broke || test.outcome != Outcome::runout;
     data.tests.push_back(test);
-    data.labels.push_back(label ? cell(table.column(label->column), i) : "");
+    data.labels.push_back(label ? cell_word(table.column(label->column), i) : "");
   }
   if (!any_broke) {
     throw InputError(fmt::format(

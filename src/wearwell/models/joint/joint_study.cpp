@@ -25,6 +25,7 @@ struct JointData {
   std::string work_in_words;
   std::optional<PointwiseTable> pointwise;
   std::vector<DataColumn> columns;
+  std::string layout;  // of the table, in words
 };
 
 // A profile of force and slip over one cycle: work per cycle.
@@ -32,9 +33,9 @@ double read_profile(const TomlReader& profile, const Source& source) {
   const auto rule = profile.choice("rule", {"rectangle", "trapezoid"});
   if (!rule) profile.fail("rule", "is missing: \"rectangle\" (sum of F_i ds_i) or \"trapezoid\"");
   const TomlReader columns = profile.required_table("columns");
-  const ColumnChoice force = required_column(columns, "force", "N");
-  const ColumnChoice slip = required_column(columns, "slip_increment", "m");
   const Table table = read_table(profile, source);
+  const ColumnChoice force = required_column(columns, "force", "N", table);
+  const ColumnChoice slip = required_column(columns, "slip_increment", "m", table);
   try {
     return joint::work_per_cycle(
         si_numbers(table, force), si_numbers(table, slip),
@@ -73,9 +74,9 @@ void read_work(const TomlReader& root, const TomlReader& columns, const Source& 
   const auto constant =
       conditions ? conditions->quantity("work_per_cycle", "N m/cycle") : std::nullopt;
   const auto profile = conditions ? conditions->table("profile") : std::nullopt;
-  const auto work = read_column(columns, "work", "N m");
-  const auto force = read_column(columns, "force", "N");
-  const auto slip = read_column(columns, "slip", "m");
+  const auto work = read_column(columns, "work", "N m", table);
+  const auto force = read_column(columns, "force", "N", table);
+  const auto slip = read_column(columns, "slip", "m", table);
   if (force.has_value() != slip.has_value()) {
     columns.fail(force ? "slip" : "force", "is missing: force and slip go together");
   }
@@ -98,19 +99,21 @@ void read_work(const TomlReader& root, const TomlReader& columns, const Source& 
     for (std::size_t i = 0; i < table.rows; ++i) {
       require(data.inspections.work[i] >= 0, table, *work, i, "0 or more");
     }
+    data.columns.push_back({"work", "N m", work->unit, data.inspections.work});
   } else if (force) {
     data.work_in_words = fmt::format("'{}' x '{}'", force->column, slip->column);
     const auto f = si_numbers(table, *force), s = si_numbers(table, *slip);
     for (std::size_t i = 0; i < table.rows; ++i) data.inspections.work.push_back(f[i] * s[i]);
     data.columns.push_back({"force", "N", force->unit, f, true});
+    data.columns.push_back({"slip", "m", slip->unit, s});
   } else {
     root.fail("conditions",
               "the friction work is missing; give conditions.work_per_cycle, conditions.profile, "
               "data.columns.work, or data.columns.force and slip");
   }
   if (force && data.inspections.volume.size() == table.rows) {
-    data.pointwise =
-        pointwise_table(table, data.cycles, *read_column(columns, "volume", "m^3"), *force, *slip);
+    data.pointwise = pointwise_table(table, data.cycles,
+                                     *read_column(columns, "volume", "m^3", table), *force, *slip);
   }
 }
 
@@ -122,8 +125,8 @@ void read_pin_positions(const TomlReader& root, const TomlReader& columns, const
                  "pin positions (dx, dy) have many rows an inspection; give "
                  "conditions.work_per_cycle or profile");
   }
-  const ColumnChoice dx = required_column(columns, "dx", "m"),
-                     dy = required_column(columns, "dy", "m");
+  const ColumnChoice dx = required_column(columns, "dx", "m", table),
+                     dy = required_column(columns, "dy", "m", table);
   const TomlReader conditions = root.required_table("conditions");
   const Quantity pin = conditions.required_quantity("pin_radius", "m");
   const Quantity bushing = conditions.required_quantity("bushing_radius", "m");
@@ -133,8 +136,11 @@ void read_pin_positions(const TomlReader& root, const TomlReader& columns, const
   }
   if (!(length.si() > 0)) conditions.fail("length", "must be positive");
   data.volume_unit = read_unit("mm^3", "m^3");
-  joint::WornVolume worn = joint::worn_volume({pin.si(), bushing.si(), length.si()}, data.cycles,
-                                              si_numbers(table, dx), si_numbers(table, dy));
+  data.columns.push_back({"dx", "m", dx.unit, si_numbers(table, dx)});
+  data.columns.push_back({"dy", "m", dy.unit, si_numbers(table, dy)});
+  joint::WornVolume worn =
+      joint::worn_volume({pin.si(), bushing.si(), length.si()}, data.cycles,
+                         (data.columns.end() - 2)->values, data.columns.back().values);
   data.cycles = std::move(worn.cycles);
   data.inspections.volume = std::move(worn.volume);
 }
@@ -142,14 +148,15 @@ void read_pin_positions(const TomlReader& root, const TomlReader& columns, const
 JointData read_data(const TomlReader& root, const Source& source, ObservationFamily family) {
   const TomlReader data_table = root.required_table("data");
   const TomlReader columns = data_table.required_table("columns");
-  const ColumnChoice cycles = required_column(columns, "cycles", "cycle");
   const bool positions = columns.has("dx") || columns.has("dy");
   if (positions && columns.has("volume")) {
     columns.fail("volume", "is given beside pin positions (dx, dy); keep one of the two");
   }
 
-  const Table table = read_table(data_table, source);
+  const Table table = with_counts(columns, read_table(data_table, source));
+  const ColumnChoice cycles = required_column(columns, "cycles", "cycle", table);
   JointData data;
+  data.layout = table.layout;
   data.cycles = si_numbers(table, cycles);
   for (std::size_t i = 0; i < table.rows; ++i) {
     require(data.cycles[i] >= 0, table, cycles, i, "0 or more");
@@ -158,7 +165,7 @@ JointData read_data(const TomlReader& root, const Source& source, ObservationFam
   if (positions) {
     read_pin_positions(root, columns, table, data);
   } else {
-    const ColumnChoice volume = required_column(columns, "volume", "m^3");
+    const ColumnChoice volume = required_column(columns, "volume", "m^3", table);
     data.volume_unit = volume.unit;
     data.inspections.volume = si_numbers(table, volume);
     data.columns.push_back({"volume", "m^3", volume.unit, data.inspections.volume});
@@ -248,6 +255,7 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   study.quantity = "worn volume";
   study.observed = data.inspections.volume;
   study.data_columns = data.columns;
+  study.data_layout = data.layout;
   study.meanings = {"wear coefficient", "scatter of one measurement"};
   if (law.has_constant) study.meanings.push_back("volume before any work");
   if (law.has_exponent) study.meanings.push_back("exponent of the work");

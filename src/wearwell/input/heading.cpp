@@ -1,0 +1,106 @@
+#include "wearwell/input/heading.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/algorithm/string/trim.hpp>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/unit_system.h"
+
+namespace wearwell {
+namespace {
+
+std::string trimmed(std::string_view text) {
+  return boost::algorithm::trim_copy(std::string(text));
+}
+
+/// A factor that people write for a unit, 1000 or 10^6; not the number of a column.
+bool is_power_of_ten(const std::string& text) {
+  const auto unit = parse_unit(text);
+  if (!unit || !unit->dimension.empty() || !(unit->scale > 1)) return false;
+  const double power = std::log10(unit->scale);
+  return std::abs(power - std::round(power)) < 1e-9;
+}
+
+bool is_unit(const std::string& text, std::string_view si, bool suffix = false) {
+  if (text.empty()) return false;
+  const bool number = text.front() >= '0' && text.front() <= '9' && text.find('/') == text.npos &&
+                      text.find(' ') == text.npos;
+  if (number && !si.empty() && (suffix || !is_power_of_ten(text))) return false;
+  try {
+    if (si.empty()) return parse_unit(text).has_value();
+    read_unit(text, si);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// The bracket that the last one closes.
+std::size_t opening(std::string_view text, char open, char close) {
+  int depth = 0;
+  for (std::size_t i = text.size(); i-- > 0;) {
+    depth += text[i] == close;
+    depth -= text[i] == open;
+    if (depth == 0) return i;
+  }
+  return text.npos;
+}
+
+std::optional<Heading> in_brackets(std::string_view text, char open, char close) {
+  if (!text.ends_with(close)) return {};
+  const std::size_t at = opening(text, open, close);
+  if (at == text.npos) return {};
+  return Heading{trimmed(text.substr(0, at)), trimmed(text.substr(at + 1, text.size() - at - 2)),
+                 false};
+}
+
+}  // namespace
+
+Heading read_heading(std::string_view heading, std::string_view si) {
+  const std::string text = trimmed(heading);
+  if (auto found = in_brackets(text, '[', ']')) {
+    found->unit = bare_unit(found->unit);
+    found->certain = true;
+    return *found;
+  }
+  if (auto found = in_brackets(text, '(', ')'); found && !found->name.empty()) {
+    found->unit = bare_unit(found->unit);
+    if (found->name.ends_with('/'))
+      found->name = trimmed(found->name.substr(0, found->name.size() - 1));
+    if (is_unit(found->unit, si)) return *found;
+  }
+  // The longest unit first: "speed in 1/min" is no "speed in 1" in minutes.
+  constexpr std::array<std::string_view, 4> separators = {" / ", " in ", ", ", "/"};
+  for (const std::string_view separator : separators) {
+    const std::size_t at = text.find(separator);
+    if (at == text.npos || at == 0) continue;
+    const Heading found{trimmed(text.substr(0, at)), bare_unit(text.substr(at + separator.size())),
+                        false};
+    if (is_unit(found.unit, si)) return found;
+  }
+  for (std::size_t at = text.find('_'); at != text.npos && at > 0; at = text.find('_', at + 1)) {
+    const Heading found{text.substr(0, at), text.substr(at + 1), false, true};
+    if (is_unit(found.unit, si, true)) return found;
+  }
+  return {text, "", false};
+}
+
+std::string bare_unit(std::string_view text) {
+  std::string unit = trimmed(text);
+  for (const auto& [open, close] : {std::pair{'[', ']'}, {'(', ')'}}) {
+    if (unit.size() > 1 && unit.front() == open && opening(unit, open, close) == 0)
+      unit = trimmed(unit.substr(1, unit.size() - 2));
+  }
+  return unit == "-" || unit == "\u2013" ? "1" : unit;
+}
+
+bool is_unit_cell(std::string_view cell) {
+  const std::string text = trimmed(cell);
+  if (text.empty()) return false;
+  if (text.front() == '[' && text.back() == ']') return true;
+  return is_unit(bare_unit(text), "");
+}
+
+}  // namespace wearwell

@@ -1,0 +1,187 @@
+#include "wearwell/input/text_heading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/trim.hpp>
+#include <map>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/number_text.h"
+#include "wearwell/input/text_records.h"
+
+namespace wearwell {
+namespace {
+
+constexpr std::size_t sampled_records = 1000;
+constexpr std::size_t farthest_heading = 200;  // records of a preamble
+
+// In the order in which they are tried.
+constexpr char delimiters[] = {'\t', ';', '|', ','};
+
+struct Record {
+  std::vector<std::string> cells;
+  std::size_t line = 0;
+};
+
+bool has_number(const Record& record) {
+  return std::any_of(record.cells.begin(), record.cells.end(), [](const std::string& cell) {
+    return number_form(cell).kind == NumberForm::Kind::number;
+  });
+}
+
+std::string trimmed(std::string_view cell) {
+  return boost::algorithm::trim_copy(std::string(cell));
+}
+
+/// Values of a record without those of a comma too many at its end.
+std::size_t filled(const Record& record) {
+  std::size_t count = record.cells.size();
+  while (count > 0 && record.cells[count - 1].empty()) --count;
+  return count;
+}
+
+/// Words in every place, as headings are and rows of data are not.
+bool looks_like_heading(const Record& record) {
+  return !has_number(record) && std::none_of(record.cells.begin(), record.cells.end(),
+                                             [](const std::string& cell) { return cell.empty(); });
+}
+
+/// One way to cut the text.
+struct Cut {
+  char delimiter = ',';
+  std::vector<Record> records;
+  std::size_t heading = 0;  ///< among them
+  bool even = false;        ///< as many values in every record from the heading on
+};
+
+std::vector<Record> sample(const TableFile& file, Encoding encoding, const TableSettings& settings,
+                           char delimiter) {
+  TextLines lines(file.path(), file.source(), encoding);
+  TextRecords records(lines, delimiter, settings.comment.value_or(""),
+                      settings.header_row.value_or(1));
+  std::vector<Record> sampled;
+  while (sampled.size() < sampled_records) {
+    try {
+      if (!records.next()) break;
+    } catch (const OpenQuote&) {
+      break;  // a quote that never ends is told of when the delimiter is known
+    }
+    sampled.push_back({{}, records.line()});
+    for (const std::string_view cell : records.cells())
+      sampled.back().cells.push_back(trimmed(cell));
+  }
+  return sampled;
+}
+
+/// How many values most records have.
+std::size_t usual_count(const std::vector<Record>& records) {
+  std::map<std::size_t, std::size_t> seen;
+  for (const Record& record : records) ++seen[record.cells.size()];
+  // Of equal ones the larger: words above a table are shorter than its lines.
+  return std::max_element(seen.rbegin(), seen.rend(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+/// The first record that has words where those below have values; what stands above it must be no
+/// part of a table. The first of all where there is none such.
+std::size_t find_heading(const std::vector<Record>& records, std::size_t count) {
+  if (count < 2) return 0;
+  for (std::size_t i = 0; i < std::min(records.size(), farthest_heading); ++i) {
+    const Record& record = records[i];
+    if (record.cells.size() == count && looks_like_heading(record)) {
+      if (i == 0) return 0;
+      const bool numbers_below = std::any_of(records.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                             records.end(), has_number);
+      return numbers_below ? i : 0;
+    }
+    if (filled(record) == count) return 0;  // a row of data above any heading
+  }
+  return 0;
+}
+
+Cut cut_by(char delimiter, const TableFile& file, const TableSettings& settings,
+           Encoding encoding) {
+  Cut cut{delimiter, sample(file, encoding, settings, delimiter)};
+  if (cut.records.empty()) return cut;
+  if (!settings.header_row) cut.heading = find_heading(cut.records, usual_count(cut.records));
+  const std::size_t count = cut.records[cut.heading].cells.size();
+  cut.even =
+      count > 1 && std::all_of(cut.records.begin() + static_cast<std::ptrdiff_t>(cut.heading),
+                               cut.records.end(), [&](const Record& record) {
+                                 return record.cells.size() == count ||
+                                        (record.cells.size() > count && filled(record) <= count);
+                               });
+  return cut;
+}
+
+std::string delimiter_name(char delimiter) {
+  return delimiter == '\t' ? "tab" : std::string(1, delimiter);
+}
+
+Cut find_cut(const TableFile& file, const TableSettings& settings, Encoding encoding) {
+  if (settings.delimiter) return cut_by(*settings.delimiter, file, settings, encoding);
+  std::vector<Cut> candidates;
+  for (const char each : delimiters) {
+    Cut cut = cut_by(each, file, settings, encoding);
+    if (!cut.records.empty() && cut.records[cut.heading].cells.size() > 1)
+      candidates.push_back(std::move(cut));
+  }
+  if (candidates.empty()) return cut_by(',', file, settings, encoding);
+  const auto even = std::stable_partition(candidates.begin(), candidates.end(),
+                                          [](const Cut& cut) { return cut.even; });
+  if (even - candidates.begin() > 1)
+    throw InputError(fmt::format(
+        "{}: its columns can be separated by '{}' and by '{}'; say which in [data], as in "
+        "delimiter = \"{}\", or put cells with the other sign in double quotes",
+        file.source(), delimiter_name(candidates[0].delimiter),
+        delimiter_name(candidates[1].delimiter), delimiter_name(candidates[0].delimiter)));
+  return std::move(candidates.front());
+}
+
+void refuse_equal_names(const std::vector<std::string>& names, const std::string& source) {
+  std::map<std::string, std::string> seen;
+  for (const std::string& name : names) {
+    if (name.empty()) continue;
+    const auto [other, fresh] = seen.emplace(boost::algorithm::to_lower_copy(name), name);
+    if (fresh) continue;
+    if (other->second == name)
+      throw InputError(fmt::format("{} has two columns named '{}'", source, name));
+    throw InputError(
+        fmt::format("{} has two columns, '{}' and '{}', that differ by capital "
+                    "letters only; rename one",
+                    source, other->second, name));
+  }
+}
+
+}  // namespace
+
+TextHeading find_heading(const TableFile& file, const TableSettings& settings, Encoding encoding) {
+  Cut cut = find_cut(file, settings, encoding);
+  if (cut.records.empty())
+    throw InputError(settings.header_row
+                         ? fmt::format("{} has no line {}, where its headings should be",
+                                       file.source(), *settings.header_row)
+                         : fmt::format("{} holds no line with headings", file.source()));
+  Record& heading = cut.records[cut.heading];
+  if (settings.header_row && heading.line != *settings.header_row)
+    throw InputError(fmt::format("{}, line {}: it is empty; it must hold the headings (header_row)",
+                                 file.source(), *settings.header_row));
+  for (const std::string& name : heading.cells) {
+    if (name.find('\0') != name.npos)
+      throw InputError(
+          fmt::format("{} is no text: it has zero bytes in line {}", file.source(), heading.line));
+    if (name.find('\r') != name.npos)
+      throw InputError(
+          fmt::format("{}: its lines end with carriage returns alone; save it with usual line ends",
+                      file.source()));
+  }
+  refuse_equal_names(heading.cells, file.source());
+  return {cut.delimiter, heading.line, std::move(heading.cells)};
+}
+
+}  // namespace wearwell

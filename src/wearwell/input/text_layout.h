@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wearwell/input/number_text.h"
+#include "wearwell/input/table_file.h"
+#include "wearwell/input/table_settings.h"
+
+namespace wearwell {
+
+/// One column of a text, after all of it was seen.
+struct TextColumn {
+  std::string name;       ///< its heading; "column3" where there is none
+  std::string unit;       ///< from a row of units
+  bool is_number = true;  ///< every cell that is not empty is one
+  NumberMarks marks;
+  std::string doubt;  ///< "row 1, column 'life': ...": why its numbers cannot be read
+};
+
+/// How a text holds a table: as a study says, or as the text itself shows.
+struct TextLayout {
+  Encoding encoding = Encoding::utf8;
+  char delimiter = ',';
+  std::string comment;           ///< with which lines begin that are left out
+  std::size_t heading_line = 1;  ///< where the record of the headings begins
+  bool units_row = false;
+  std::vector<TextColumn> columns;
+  /// Whether DuckDB can read the file as it stands.
+  bool plain = true;
+  // What was left out, for people.
+  std::size_t comments = 0, empty_rows = 0;
+  std::string decimal_marks;    ///< that numbers have: "", ".", "," or both
+  std::string thousands_marks;  ///< likewise
+};
+
+/// Finds it out. Throws InputError naming the line: no text, no heading, two columns of one name, columns
+/// that can be separated in two ways, a line with more or fewer values than the heading. `whole`:
+/// looks at every line; else stops where nothing that comes could change what was found.
+TextLayout find_layout(const TableFile& file, const TableSettings& settings, bool whole = false);
+
+/// "semicolons, decimal comma, thousands point, cp1252, headings in line 5"; of a sheet its name.
+std::string in_words(const TextLayout& layout, const std::string& sheet);
+
+}  // namespace wearwell

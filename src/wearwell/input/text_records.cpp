@@ -1,0 +1,115 @@
+#include "wearwell/input/text_records.h"
+
+#include <algorithm>
+
+namespace wearwell {
+namespace {
+
+/// Whether quotes that opened in front of `text`, or not, are open behind it. A quote opens where a
+/// cell begins, or behind blanks there.
+bool open_behind(std::string_view text, char delimiter, bool open) {
+  bool at_start = !open;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (open) {
+      if (c != '"') continue;
+      if (i + 1 < text.size() && text[i + 1] == '"') {
+        ++i;
+      } else {
+        open = false;
+      }
+    } else if (c == delimiter) {
+      at_start = true;
+      continue;
+    } else if (c == '"' && at_start) {
+      open = true;
+    }
+    at_start = at_start && c == ' ';
+  }
+  return open;
+}
+
+}  // namespace
+
+TextRecords::TextRecords(TextLines& lines, char delimiter, std::string comment,
+                         std::size_t first_line)
+    : lines_(lines), delimiter_(delimiter), comment_(std::move(comment)), first_line_(first_line) {}
+
+/// Cells of `line_` where it has quotes.
+void TextRecords::split_quoted() {
+  // Views into `unquoted_`, which must not move.
+  unquoted_.clear();
+  unquoted_.reserve(line_.size());
+  std::size_t begin = 0;
+  bool open = false, at_start = true;
+  const auto end_cell = [&] {
+    cells_.push_back(std::string_view(unquoted_).substr(begin));
+    begin = unquoted_.size();
+    at_start = true;
+  };
+  for (std::size_t i = 0; i < line_.size(); ++i) {
+    const char c = line_[i];
+    if (open) {
+      if (c == '"' && i + 1 < line_.size() && line_[i + 1] == '"') {
+        unquoted_ += c;
+        ++i;
+      } else if (c == '"') {
+        open = false;
+      } else {
+        unquoted_ += c;
+      }
+      continue;
+    }
+    if (c == delimiter_) {
+      end_cell();
+      continue;
+    }
+    if (c == '"' && at_start) {
+      open = true;
+      blank_before_quote_ = blank_before_quote_ || unquoted_.size() > begin;
+      unquoted_.resize(begin);
+    } else {
+      unquoted_ += c;
+    }
+    at_start = at_start && c == ' ' && !open;
+  }
+  end_cell();
+}
+
+bool TextRecords::next() {
+  for (;;) {
+    if (!lines_.next(line_)) return false;
+    if (line_.empty() || lines_.number < first_line_) continue;
+    if (!comment_.empty() && line_.starts_with(comment_)) {
+      ++comments_;
+      continue;
+    }
+    break;
+  }
+  line_number_ = lines_.number;
+  cells_.clear();
+  if (line_.find('"') == line_.npos) {
+    for (std::size_t from = 0;;) {
+      const std::size_t end = line_.find(delimiter_, from);
+      cells_.push_back(line_.substr(from, end - from));
+      if (end == line_.npos) return true;
+      from = end + 1;
+    }
+  }
+  bool open = open_behind(line_, delimiter_, false);
+  if (open) {
+    joined_ = line_;
+    for (std::string_view more; open;) {
+      if (joined_.size() > longest_line || !lines_.next(more))
+        lines_.refuse_open_quote(line_number_);
+      joined_ += '\n';
+      joined_ += more;
+      open = open_behind(more, delimiter_, true);
+    }
+    line_ = joined_;
+  }
+  split_quoted();
+  return true;
+}
+
+}  // namespace wearwell

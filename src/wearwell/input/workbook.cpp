@@ -1,0 +1,350 @@
+#include "wearwell/input/workbook.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/input/csv_reader.h"
+#include "wearwell/input/memory_text.h"
+#include "wearwell/input/spreadsheet_cell.h"
+#include "wearwell/input/zip_xml.h"
+
+namespace wearwell {
+namespace {
+
+constexpr std::size_t most_sheet = std::size_t(512) << 20, most_parts = 64 << 20;  // bytes
+constexpr std::size_t most_columns = 16'384, most_rows = 1'048'576;                // of a sheet
+constexpr std::size_t most_text = 1 << 16;      // of a cell; Excel has half of it
+constexpr std::size_t most_cells = 50'000'000;  // of what is used, empty ones too
+
+struct SheetName {
+  std::string name, part;
+  bool hidden = false;
+};
+
+/// The cells that are read, both ends included.
+struct Range {
+  CellName first{1, 1}, last{most_columns, most_rows};
+};
+
+int whole(std::string_view text) {
+  int value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+std::string attribute(const XmlHandler::Attributes& attributes, std::string_view name) {
+  const auto found = attributes.find(name);
+  return found == attributes.end() ? "" : found->second;
+}
+
+/// What an .xlsx holds beside its sheets.
+class Workbook {
+ public:
+  explicit Workbook(const TableFile& file) : source_(file.source()), zip_(file) {
+    read_sheet_names();
+    if (zip_.has("xl/sharedStrings.xml")) read_strings();
+    if (zip_.has("xl/styles.xml")) read_styles();
+  }
+
+  const std::string& source() const { return source_; }
+  const std::vector<SheetName>& sheets() const { return sheets_; }
+
+  /// Calls `row` with the number of each row that holds something, and its cells with their columns.
+  using Cells = std::vector<std::pair<std::size_t, std::string>>;
+  void read_rows(const SheetName& sheet, const Range& range,
+                 const std::function<void(std::size_t row, const Cells& cells)>& row) const;
+
+ private:
+  void read_sheet_names() {
+    std::map<std::string, std::string> parts;  // of each relation
+    const auto nothing = [](std::string_view) {};
+    const char* const relations = "xl/_rels/workbook.xml.rels";
+    if (!zip_.has("xl/workbook.xml") || !zip_.has(relations))
+      throw InputError(
+          fmt::format("{} is no workbook of Excel (.xlsx): it has no xl/workbook.xml", source_));
+    zip_.read(
+        relations,
+        {[&](std::string_view name, const auto& attributes) {
+           if (name != "Relationship" || !attribute(attributes, "Type").ends_with("/worksheet"))
+             return;
+           const std::string target = attribute(attributes, "Target");
+           parts[attribute(attributes, "Id")] =
+               target.starts_with("/") ? target.substr(1) : "xl/" + target;
+         },
+         nothing},
+        most_parts);
+    zip_.read("xl/workbook.xml",
+              {[&](std::string_view name, const auto& attributes) {
+                 if (name == "workbookPr") {
+                   const std::string from = attribute(attributes, "date1904");
+                   from_1904_ = from == "1" || from == "true";
+                 }
+                 if (name != "sheet") return;
+                 const auto part = parts.find(attribute(attributes, "id"));
+                 if (part == parts.end()) return;  // a chart
+                 sheets_.push_back({attribute(attributes, "name"), part->second,
+                                    attribute(attributes, "state").ends_with("idden")});
+               },
+               nothing},
+              most_parts);
+    if (sheets_.empty()) throw InputError(fmt::format("{} has no sheet with cells", source_));
+  }
+
+  void read_strings() {
+    bool in_text = false, in_reading = false;
+    zip_.read("xl/sharedStrings.xml",
+              {[&](std::string_view name, const auto&) {
+                 if (name == "si") strings_.emplace_back();
+                 if (name == "rPh") in_reading = true;  // how it is pronounced
+                 in_text = name == "t" && !in_reading;
+               },
+               [&](std::string_view name) {
+                 if (name == "rPh") in_reading = false;
+                 in_text = false;
+               },
+               [&](std::string_view text) {
+                 if (in_text && !strings_.empty()) strings_.back() += text;
+               }},
+              most_parts);
+  }
+
+  void read_styles() {
+    std::map<int, CellFormat> own;
+    bool in_cells = false;
+    zip_.read("xl/styles.xml",
+              {[&](std::string_view name, const auto& attributes) {
+                 const int number = whole(attribute(attributes, "numFmtId"));
+                 if (name == "numFmt")
+                   own[number] = format_of_code(attribute(attributes, "formatCode"));
+                 if (name == "cellXfs") in_cells = true;
+                 if (name != "xf" || !in_cells) return;
+                 const auto found = own.find(number);
+                 formats_.push_back(found == own.end() ? built_in_format(number) : found->second);
+               },
+               [&](std::string_view name) {
+                 if (name == "cellXfs") in_cells = false;
+               }},
+              most_parts);
+  }
+
+  std::string source_;
+  ZipXml zip_;
+  std::vector<SheetName> sheets_;
+  std::vector<std::string> strings_;
+  std::vector<CellFormat> formats_;
+  bool from_1904_ = false;
+
+  friend class SheetParser;
+};
+
+/// Goes through the XML of a sheet.
+class SheetParser {
+ public:
+  SheetParser(const Workbook& book, const SheetName& sheet, const Range& range,
+              const std::function<void(std::size_t, const Workbook::Cells&)>& row)
+      : book_(book), sheet_(sheet), range_(range), give_(row) {}
+
+  void start(std::string_view name, const XmlHandler::Attributes& attributes) {
+    if (name == "row") {
+      const std::string number = attribute(attributes, "r");
+      row_ = number.empty() ? row_ + 1 : static_cast<std::size_t>(std::max(whole(number), 0));
+      column_ = 0;
+      cells_.clear();
+    } else if (name == "c") {
+      at_ = {column_ + 1, row_};
+      if (const std::string cell = attribute(attributes, "r"); !cell.empty()) {
+        std::string_view rest;
+        at_ = read_cell_name(cell, rest);
+      }
+      if (at_.row == 0 || at_.row > most_rows || at_.column <= column_ || at_.column > most_columns)
+        throw InputError(
+            fmt::format("sheet '{}' has no cell {}", sheet_.name, attribute(attributes, "r")));
+      column_ = at_.column;
+      type_ = attribute(attributes, "t");
+      style_ = static_cast<std::size_t>(std::max(whole(attribute(attributes, "s")), 0));
+      value_.clear();
+      has_value_ = has_formula_ = false;
+    } else if (name == "v" || name == "t") {
+      in_value_ = !in_reading_;
+      has_value_ = true;
+    } else if (name == "f") {
+      has_formula_ = true;
+    } else if (name == "rPh") {
+      in_reading_ = true;
+    }
+  }
+
+  void text(std::string_view piece) {
+    if (!in_value_) return;
+    value_ += piece;
+    if (value_.size() > most_text)
+      throw InputError(fmt::format("cell {} holds more text than a cell can", here()));
+  }
+
+  void end(std::string_view name) {
+    if (name == "v" || name == "t") in_value_ = false;
+    if (name == "rPh") in_reading_ = false;
+    if (name == "c") end_cell();
+    if (name == "row" && !cells_.empty()) give_(row_, cells_);
+  }
+
+ private:
+  std::string here() const {
+    return fmt::format("{}{} of sheet '{}'", column_letters(at_.column), at_.row, sheet_.name);
+  }
+
+  void end_cell() {
+    if (at_.row < range_.first.row || at_.row > range_.last.row ||
+        at_.column < range_.first.column || at_.column > range_.last.column)
+      return;
+    if (has_formula_ && !has_value_ && type_ != "str")
+      throw InputError(
+          fmt::format("cell {} holds a formula and not its value; open the file in Excel or "
+                      "LibreOffice, and save it there",
+                      here()));
+    std::string text = value_;
+    if (type_ == "s") {
+      const auto index = static_cast<std::size_t>(std::max(whole(value_), 0));
+      if (index >= book_.strings_.size())
+        throw InputError(fmt::format("cell {} names a text that the file has not", here()));
+      text = book_.strings_[index];
+    } else if (type_ == "b") {
+      text = value_ == "1" ? "true" : "false";
+    } else if ((type_.empty() || type_ == "n") && style_ < book_.formats_.size()) {
+      text = formatted(value_, book_.formats_[style_], book_.from_1904_);
+    }
+    for (char& c : text) {
+      if (c == '\n' || c == '\r') c = ' ';
+    }
+    if (!text.empty()) cells_.emplace_back(at_.column, std::move(text));
+  }
+
+  const Workbook& book_;
+  const SheetName& sheet_;
+  const Range& range_;
+  const std::function<void(std::size_t, const Workbook::Cells&)>& give_;
+  Workbook::Cells cells_;
+  std::size_t row_ = 0, column_ = 0, style_ = 0;
+  CellName at_;
+  std::string type_, value_;
+  bool in_value_ = false, in_reading_ = false, has_value_ = false, has_formula_ = false;
+};
+
+void Workbook::read_rows(
+    const SheetName& sheet, const Range& range,
+    const std::function<void(std::size_t row, const Cells& cells)>& row) const {
+  SheetParser parser(*this, sheet, range, row);
+  zip_.read(sheet.part,
+            {[&](std::string_view name, const auto& attributes) { parser.start(name, attributes); },
+             [&](std::string_view name) { parser.end(name); },
+             [&](std::string_view text) { parser.text(text); }},
+            most_sheet);
+}
+
+/// "B3:F20", "B:F".
+Range read_range(const std::string& text, const std::string& source) {
+  std::string_view rest;
+  Range range{read_cell_name(text, rest), {}};
+  if (rest.starts_with(':')) range.last = read_cell_name(rest.substr(1), rest);
+  const auto or_all = [](std::size_t& value, std::size_t all) { value = value ? value : all; };
+  const bool has_columns = range.first.column > 0 && range.last.column > 0;
+  or_all(range.first.row, 1);
+  or_all(range.last.row, most_rows);
+  if (!rest.empty() || !has_columns || range.last.column > most_columns ||
+      range.last.row > most_rows || range.first.column > range.last.column ||
+      range.first.row > range.last.row)
+    throw InputError(
+        fmt::format("{}: '{}' is no range of a sheet; write one like B3:F20 or B:F", source, text));
+  return range;
+}
+
+/// The columns that a sheet uses, and its last row; 0 where it is empty.
+struct Used {
+  std::size_t first = most_columns + 1, last = 0, last_row = 0;
+};
+Used used_by(const Workbook& book, const SheetName& sheet, const Range& range) {
+  Used used;
+  book.read_rows(sheet, range, [&](std::size_t row, const Workbook::Cells& cells) {
+    used.first = std::min(used.first, cells.front().first);
+    used.last = std::max(used.last, cells.back().first);
+    used.last_row = std::max(used.last_row, row);
+  });
+  return used;
+}
+
+const SheetName& named_sheet(const Workbook& book, const std::string& wanted) {
+  std::vector<std::string> names;
+  for (const SheetName& each : book.sheets()) {
+    if (each.name == wanted) return each;
+    names.push_back(each.name);
+  }
+  const auto number = static_cast<std::size_t>(std::max(whole(wanted), 0));
+  const bool is_number = !wanted.empty() && wanted.find_first_not_of("0123456789") == wanted.npos;
+  if (is_number && number >= 1 && number <= names.size()) return book.sheets()[number - 1];
+  throw InputError(fmt::format("{} has no sheet '{}'; it has {} (nearest: '{}')", book.source(),
+                               wanted, fmt::join(names, ", "), nearest_name(wanted, names)));
+}
+
+}  // namespace
+
+SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
+  const Workbook book(file);
+  const Range range = settings.range ? read_range(*settings.range, file.source()) : Range{};
+  const SheetName* sheet = nullptr;
+  Used used;
+  if (settings.sheet) {
+    sheet = &named_sheet(book, *settings.sheet);
+    used = used_by(book, *sheet, range);
+  } else {
+    std::vector<std::string> full;
+    for (const SheetName& each : book.sheets()) {
+      if (each.hidden) continue;
+      const Used here = used_by(book, each, range);
+      if (here.last == 0) continue;
+      full.push_back(each.name);
+      if (!sheet) used = here;
+      if (!sheet) sheet = &each;
+    }
+    if (full.size() > 1)
+      throw InputError(
+          fmt::format("{} has several sheets; say which in [data], as in sheet = "
+                      "\"{}\" (there are {})",
+                      file.source(), full.front(), fmt::join(full, ", ")));
+  }
+  if (!sheet || used.last == 0)
+    throw InputError(fmt::format("{} holds nothing{}", file.source(),
+                                 settings.range ? " in the range " + *settings.range : ""));
+  const std::size_t width = used.last - used.first + 1;
+  if (width * used.last_row > most_cells)
+    throw InputError(
+        fmt::format("{}: sheet '{}' uses {} columns and {} rows, which is no table; give its range",
+                    file.source(), sheet->name, width, used.last_row));
+  MemoryText out;
+  std::size_t next_row = 1;
+  std::string line;
+  book.read_rows(*sheet, range, [&](std::size_t row, const Workbook::Cells& cells) {
+    if (row < next_row)
+      throw InputError(fmt::format("row {} of sheet '{}' stands out of order", row, sheet->name));
+    for (; next_row < row; ++next_row) out.add_line("");
+    line.clear();
+    std::size_t column = used.first;
+    for (const auto& [at, text] : cells) {
+      for (; column < at; ++column) line += ',';
+      line += csv_cell(text);
+    }
+    for (; column < used.last; ++column) line += ',';
+    out.add_line(line);
+    ++next_row;
+  });
+  return {out.table(file.source()), sheet->name};
+}
+
+}  // namespace wearwell

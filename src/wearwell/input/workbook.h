@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "wearwell/input/table_file.h"
+#include "wearwell/input/table_settings.h"
+
+namespace wearwell {
+
+/// A sheet of an .xlsx as a text.
+struct SheetText {
+  std::unique_ptr<TableFile> text;
+  std::string name;
+};
+
+/// One sheet of an .xlsx as a CSV in memory, whose line n is row n of the sheet: the sheet that `settings`
+/// name, or else the only one that holds anything; of it the range that they name, or else all. Formulas are
+/// the values that were saved with them, dates are written 2024-03-01. Throws InputError: damaged, too
+/// large, no such sheet or range, several sheets and none named, a formula without its value.
+SheetText sheet_text(const TableFile& book, const TableSettings& settings);
+
+}  // namespace wearwell

@@ -1,0 +1,53 @@
+#include "wearwell/study/data_in_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wearwell/present/text_table.h"
+
+namespace wearwell {
+namespace {
+
+std::string unit_name(const DataColumn& column) {
+  return column.unit.text == "1" ? column.si : column.unit.text;
+}
+
+/// "1 mm^3 = 1e-09 m^3"; of a temperature its zero, "0 degC = 273.15 K".
+std::string one_unit(const DataColumn& column) {
+  const std::string unit = unit_name(column);
+  if (column.unit.offset != 0)
+    return fmt::format("0 {} = {:.6g} {}", unit, column.unit.offset, column.si);
+  // "1000 = 1000 rev", where the unit is a number itself.
+  const char* const one = unit.front() >= '0' && unit.front() <= '9' ? "" : "1 ";
+  if (column.si == "1") return fmt::format("{}{} = {:.6g}", one, unit, column.unit.scale);
+  return fmt::format("{}{} = {:.6g} {}", one, unit, column.unit.scale, column.si);
+}
+
+/// The middle value, or the mean of the two in the middle.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const double upper = *middle;
+  if (values.size() % 2 == 1) return upper;
+  return (*std::max_element(values.begin(), middle) + upper) / 2;
+}
+
+}  // namespace
+
+std::string columns_in_words(const std::vector<DataColumn>& columns) {
+  std::vector<std::vector<std::string>> rows = {
+      {"column", "rows", "smallest", "median", "largest", "unit", "one unit"}};
+  for (const DataColumn& column : columns) {
+    if (column.values.empty()) continue;
+    const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
+    const auto shown = [&](double si) { return fmt::format("{:.6g}", from_si(column.unit, si)); };
+    rows.push_back({column.name, fmt::format("{}", column.values.size()), shown(*low),
+                    shown(median(column.values)), shown(*high), unit_name(column),
+                    one_unit(column)});
+  }
+  if (rows.size() == 1) return "";
+  return text_table(rows, true);
+}
+
+}  // namespace wearwell

@@ -1,0 +1,201 @@
+// Tables of text as spreadsheets and loggers of many countries write them: found out, said, settable.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
+#include "wearwell/input/column_stream.h"
+#include "wearwell/input/table.h"
+
+namespace wearwell {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+using namespace std::string_literals;
+
+class TextLayoutTest : public ScratchTest {
+ protected:
+  Table read(const std::string& content, const TableSettings& settings = {},
+             const std::optional<std::string>& sql = {}) const {
+    return read_table(write("a.csv", content), sql, {}, settings);
+  }
+  std::vector<double> numbers(const std::string& content, const char* column,
+                              const TableSettings& settings = {}) const {
+    return si_numbers(read(content, settings), column, Unit{});
+  }
+  std::string refused(const std::string& content, const char* column,
+                      const TableSettings& settings = {}) const {
+    return message_of<InputError>([&] { numbers(content, column, settings); });
+  }
+
+  /// As UTF-16, of characters below U+0100.
+  static std::string utf16(const std::string& latin, bool little) {
+    std::string text = little ? "\xFF\xFE" : "\xFE\xFF";
+    for (const char c : latin) text += little ? std::string{c, '\0'} : std::string{'\0', c};
+    return text;
+  }
+};
+
+// Excel in Germany: semicolons, decimal commas, points for thousands, CRLF, Windows-1252, rows of
+// nothing at the end.
+TEST_F(TextLayoutTest, GermanExcel) {
+  const std::string body =
+      "Lastwechsel;Volumen [mm\xB3];Gr\xF6\xDF"
+      "e\r\n1.000;0,35;klein\r\n10.000;1,2;\r\n250.000;12,75;gro\xDF\r\n;;\r\n";
+  const Table table = read(body);
+  EXPECT_EQ(table.layout,
+            "semicolons, decimal comma, thousands point, cp1252, 1 empty row left out");
+  EXPECT_THAT(si_numbers(table, "Lastwechsel", Unit{}), ElementsAre(1000, 10000, 250000));
+  EXPECT_THAT(si_numbers(table, "Volumen [mm\u00B3]", Unit{}), ElementsAre(0.35, 1.2, 12.75));
+  EXPECT_THAT(si_numbers(table, "Volumen", Unit{}), SizeIs(3)) << "by its name without the unit";
+  EXPECT_THAT(table
+                  .column("Gr\u00F6\u00DF"
+                          "e")
+                  .text,
+              ElementsAre("klein", "", "gro\u00DF"));
+  // The same as "Unicode text", and from a machine with the other order of bytes.
+  for (const bool little : {true, false}) {
+    const Table wide = read(utf16(body, little));
+    EXPECT_THAT(si_numbers(wide, "Volumen", Unit{}), ElementsAre(0.35, 1.2, 12.75));
+    EXPECT_THAT(wide.layout, HasSubstr("UTF-16"));
+  }
+}
+
+TEST_F(TextLayoutTest, FrenchSwissAndItalian) {
+  EXPECT_THAT(numbers("charge\tcycles\n250,5\t35\u202F000\n240,5\t1\u202F060\u202F000\n", "cycles"),
+              ElementsAre(35000, 1060000));
+  EXPECT_THAT(numbers("charge;cycles\n250,5;35 000\n240,5;900\n", "cycles"),
+              ElementsAre(35000, 900));
+  EXPECT_THAT(numbers("Last,Zyklen\n250.5,35'000\n240.5,1'060'000\n", "Zyklen"),
+              ElementsAre(35000, 1060000));
+  EXPECT_THAT(numbers("\xEF\xBB\xBF"
+                      "carico;cicli\r\n\"250,5\";\"35.000\"\r\n",
+                      "cicli"),
+              ElementsAre(35000));
+  EXPECT_EQ(read("charge;cycles\n250,5;35 000\n").layout,
+            "semicolons, decimal comma, thousands blank");
+}
+
+TEST_F(TextLayoutTest, WhatAStudySaysGoesFirst) {
+  const char* const text = "load;life\n250;35.000\n240;60.000\n";
+  EXPECT_THAT(refused(text, "life"), HasSubstr("'35.000' can mean 35 or"));
+  EXPECT_THAT(numbers(text, "life", {.decimal = ','}), ElementsAre(35000, 60000));
+  EXPECT_THAT(numbers(text, "life", {.decimal = '.'}), ElementsAre(35, 60));
+  EXPECT_THAT(numbers(text, "life", {.thousands = '.'}), ElementsAre(35000, 60000));
+  EXPECT_THAT(numbers("x;y\n1.5;2\n", "x", {.decimal = '.'}), ElementsAre(1.5));
+  EXPECT_THAT(refused("x;y\n1.5;2\n", "x", {.decimal = ','}),
+              HasSubstr("row 1, column 'x': '1.5' is no number with a decimal comma"));
+  EXPECT_THAT(refused("x;y\n1 500;2\n", "x", {.decimal = ',', .thousands = '.'}),
+              HasSubstr("'1 500' is no number with a decimal comma"));
+  EXPECT_THAT(refused("x;y\n1.500;2\n", "x", {.decimal = ',', .thousands = '\0'}),
+              HasSubstr("'1.500' is no number"));
+  EXPECT_THAT(numbers("a;b,c\n1;2,3\n4;5,6\n", "a", {.delimiter = ';'}), ElementsAre(1, 4));
+  EXPECT_THAT(numbers("a;b,c\n1;2,3\n4;5,6\n", "c", {.delimiter = ','}), ElementsAre(3, 6));
+  EXPECT_THAT(message_of<InputError>([&] { read("a;b,c\n1;2,3\n4;5,6\n"); }),
+              HasSubstr("say which in [data], as in delimiter = \";\""));
+  EXPECT_EQ(read("x,note\n1,\xC3\xA4\n", {.encoding = Encoding::cp1252}).columns[1].text[0],
+            "\u00C3\u00A4");
+  EXPECT_THAT(
+      message_of<InputError>([&] { read("x,note\n1,\xE4\n", {.encoding = Encoding::utf8}); }),
+      HasSubstr("line 2: "));
+}
+
+TEST_F(TextLayoutTest, LinesAboveTheHeadings) {
+  const std::string preamble =
+      "Pr\u00FCfstand 7\nPr\u00FCfer;M\u00FCller, Hans\n# 12 Proben\n\nZeit;Kraft;Weg\n";
+  const Table table = read(preamble + "0,5;1,5;2,5\n1,5;2,5;3,5\n");
+  EXPECT_EQ(table.layout, "semicolons, decimal comma, headings in line 5");
+  EXPECT_THAT(si_numbers(table, "Kraft", Unit{}), ElementsAre(1.5, 2.5));
+  // As Excel writes them, with all the semicolons.
+  EXPECT_THAT(numbers("Bericht;;\nvom 3.4.2024;;\n;;\nZeit;Kraft;Weg\n1;2;3\n", "Weg"),
+              ElementsAre(3));
+  EXPECT_THAT(numbers("\nx,y\n1,2\n", "y"), ElementsAre(2));
+  // A line may be named, and what stands in a wrong one is told by its line.
+  EXPECT_THAT(numbers("a;b\nx;y\n1;2\n", "y", {.header_row = 2}), ElementsAre(2));
+  EXPECT_THAT(message_of<InputError>([&] { read("a;b\n1;2\n", {.header_row = 9}); }),
+              HasSubstr("has no line 9"));
+  EXPECT_THAT(message_of<InputError>([&] { read("a;b\n\n1;2\n", {.header_row = 2}); }),
+              HasSubstr("line 2: it is empty"));
+  EXPECT_THAT(refused(preamble + "0,5;1,5;2,5\n1,5;kaputt;3,5\n", "Kraft"),
+              HasSubstr("row 2 (line 7), column 'Kraft': 'kaputt' is not a number"));
+  EXPECT_THAT(message_of<InputError>([&] { read(preamble + "0,5;1,5;2,5\n1;2\n"); }),
+              HasSubstr("line 7: 2 values where the heading has 3"));
+  // Rows of data above what looks like headings are none that may be dropped.
+  EXPECT_THAT(refused("1;2\nx;y\n3;4\n", "1"), HasSubstr("'x' is not a number"));
+}
+
+TEST_F(TextLayoutTest, CommentsAndCommasTooMany) {
+  const char* const text = "x;y\n# warm\n1;2\n# cold; -5 degC\n3;4;\n";
+  const Table table = read(text, {.comment = "#"});
+  EXPECT_THAT(si_numbers(table, "y", Unit{}), ElementsAre(2, 4));
+  EXPECT_EQ(table.layout, "semicolons, 2 comment lines left out");
+  EXPECT_THAT(refused(text, "x"), HasSubstr("write comment = \"#\" into [data]"));
+  EXPECT_THAT(numbers("x;y;\n1;2;\n3;4;\n", "y"), ElementsAre(2, 4));
+  EXPECT_THAT(numbers("x;y\n1;2;;\n3;4;;\n", "y"), ElementsAre(2, 4));
+  EXPECT_THAT(refused("x,y\n1,5,2\n", "x"),
+              HasSubstr("line 2: 3 values where the heading has 2: '1,5,2' (a number with a "
+                        "decimal comma needs quotes"));
+}
+
+TEST_F(TextLayoutTest, ARowOfUnits) {
+  const Table table = read("Zeit;Moment;Temp;Bemerkung\ns;Nm;\u00B0C;\n0,5;12,5;80;an\n1;13;81;\n");
+  EXPECT_EQ(table.rows, 2u);
+  EXPECT_EQ(table.column("Moment").unit, "Nm");
+  EXPECT_EQ(table.column("Temp").unit, "\u00B0C");
+  EXPECT_EQ(table.layout, "semicolons, decimal comma, units in the row below the headings");
+  EXPECT_EQ(read("t,x\n[s],[mm]\n1,2\n").column("x").unit, "[mm]");
+  EXPECT_EQ(read("t,x\n(s),-\n1,2\n").column("x").unit, "-");
+  // Rows of data stay rows of data.
+  EXPECT_EQ(read("status,label\nF,A\nS,A\n").rows, 2u);
+  EXPECT_EQ(read("life,status\n100,F\n200,S\n").rows, 2u);
+  EXPECT_EQ(read("status,label\nF,A\n1,2\n", {.units_row = false}).rows, 2u);
+  EXPECT_EQ(read("x,y\nfurlong per lunar month,?\n1,2\n", {.units_row = true}).rows, 1u);
+}
+
+TEST_F(TextLayoutTest, SqlSeesTheNumbers) {
+  const Table table = read("Last;Zyklen\n250,5;35.000\n240,5;60.000\n", {},
+                           "select sum(Zyklen) as n, min(Last) as low from data");
+  EXPECT_THAT(table.column("n").numbers, ElementsAre(95000));
+  EXPECT_THAT(table.column("low").numbers, ElementsAre(240.5));
+  EXPECT_THAT(message_of<InputError>([&] {
+                read("Last;Zyklen\n250;35.000\n", {}, "select Zyklen::double from data");
+              }),
+              HasSubstr("'35.000' can mean 35 or"));
+}
+
+TEST_F(TextLayoutTest, BrokenOnes) {
+  EXPECT_THAT(message_of<InputError>([&] { read("\n\n\n"); }), HasSubstr("holds no line"));
+  EXPECT_THAT(message_of<InputError>([&] { read("\xEF\xBB\xBF"); }), HasSubstr("holds no line"));
+  EXPECT_THAT(message_of<InputError>([&] { read(";;;\n;;;\n"); }), HasSubstr("headings"));
+  EXPECT_THAT(message_of<InputError>([&] { read("a;b\n"); }), HasSubstr("has no rows"));
+  EXPECT_THAT(message_of<InputError>([&] { read("a;b\n;\n"); }), HasSubstr("has no rows"));
+  EXPECT_THAT(message_of<InputError>([&] { read("a;b\n1;\"2\n3;4\n"); }),
+              HasSubstr("line 2: a quote is opened and never closed"));
+  EXPECT_THAT(numbers("a;b\n1;2,5\n", "b"), ElementsAre(2.5));
+  EXPECT_THAT(numbers("a\n2.5\n", "a"), ElementsAre(2.5));
+  EXPECT_EQ(read("a, b, c\n1, \"x, y\", 2.5\n").column("b").text[0], "x, y");
+  EXPECT_THAT(numbers("a, b, c\n1, \"x, y\", 2.5\n", "c"), ElementsAre(2.5));
+  const Table quoted = read("\"a;1\";\"b\"\"2\"\n\"x\ny\";1,5\n");
+  EXPECT_EQ(quoted.column("a;1").text[0], "x\ny");
+  EXPECT_THAT(si_numbers(quoted, "b\"2", Unit{}), ElementsAre(1.5));
+}
+
+// Far below what a first look sees.
+TEST_F(TextLayoutTest, SignsFarDown) {
+  std::string content = "n;v\n";
+  for (int i = 0; i < 30'000; ++i) content += fmt::format("{};{}\n", i, i % 7);
+  EXPECT_THAT(numbers(content + "1;2,5\n", "v").back(), 2.5);
+  EXPECT_THAT(refused(content + "1;2.500\n", "v"), HasSubstr("row 30001, column 'v'"));
+  // Whole numbers in the first lines are no reason to round those that follow.
+  EXPECT_EQ(numbers(content + "1;0.125\n2;2.500\n", "v").back(), 2.5);
+  std::string json;
+  for (int i = 0; i < 30'000; ++i) json += "{\"v\": 1}\n";
+  const Table table = read_table(write("a.ndjson", json + "{\"v\": 2.5}\n"));
+  EXPECT_EQ(si_numbers(table, "v", Unit{}).back(), 2.5);
+}
+
+}  // namespace
+}  // namespace wearwell
