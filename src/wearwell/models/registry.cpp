@@ -10,11 +10,7 @@ namespace wearwell {
 
 Models all_models() {
   static const Model models[] = {
-      joint::model(),
-      bearing::model(),
-      clutch::model(),
-      fatigue::model(),
-      ownlaw::model(),
+      joint::model(), bearing::model(), clutch::model(), fatigue::model(), ownlaw::model(),
   };
   return models;
 }
