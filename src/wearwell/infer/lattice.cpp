@@ -4,6 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <unordered_map>
@@ -33,16 +34,89 @@ std::uint64_t key(const Index& index) {
   return packed;
 }
 
-// The lattice stands askew in the coordinates u of a RidgeMap: along an axis whole layers of cells
-// would share one value of a parameter, and its distribution would have steps.
-const Eigen::Matrix4d& askew() {
-  static const Eigen::Matrix4d reflection = [] {
+// Coordinates in which the posterior is to be round and of unit size: lines run along the last one.
+class Chart {
+ public:
+  virtual ~Chart() = default;
+  /// On the real line; returns the log of the volume of z by that of u, less log_scale().
+  virtual double to_real(const Eigen::Vector4d& u, Z& z) const = 0;
+  virtual double log_scale() const = 0;
+};
+
+// Lines along the parameter that the others hold closest, so that they follow a narrow ridge in it
+// that bends; the others by their covariance.
+class Straight final : public Chart {
+ public:
+  explicit Straight(const Whitening& whitening) {
+    const Eigen::Matrix4d covariance = whitening.scale * whitening.scale.transpose();
+    const Eigen::Matrix4d precision = covariance.inverse();
+    // The smallest share of its variance that is left when the others are known.
+    double least = INFINITY;
+    for (int i = 0; i < d; ++i) {
+      const double share = 1 / (precision(i, i) * covariance(i, i));
+      if (share < least * (1 - 1e-9)) {
+        least = share;
+        line_ = i;
+      }
+    }
+    for (int i = 0, at = 0; i < d; ++i) {
+      if (i != line_) rest_[static_cast<std::size_t>(at++)] = i;
+    }
+    Eigen::Matrix3d block;
+    for (int i = 0; i < outer; ++i) {
+      center_[i] = whitening.center[rest_[static_cast<std::size_t>(i)]];
+      for (int j = 0; j < outer; ++j)
+        block(i, j) =
+            covariance(rest_[static_cast<std::size_t>(i)], rest_[static_cast<std::size_t>(j)]);
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(block);
+    scale_ = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().asDiagonal();
+    line_center_ = whitening.center[line_];
+    line_scale_ = 1 / std::sqrt(precision(line_, line_));
+  }
+
+  double to_real(const Eigen::Vector4d& u, Z& z) const override {
+    const Eigen::Vector3d three = center_ + scale_ * u.head<outer>();
+    for (int i = 0; i < outer; ++i)
+      z[static_cast<std::size_t>(rest_[static_cast<std::size_t>(i)])] = three[i];
+    z[static_cast<std::size_t>(line_)] = line_center_ + line_scale_ * u[outer];
+    return 0;
+  }
+  double log_scale() const override {
+    return std::log(std::abs(scale_.determinant()) * line_scale_);
+  }
+
+ private:
+  int line_ = 0;
+  std::array<int, outer> rest_{};
+  Eigen::Vector3d center_;
+  Eigen::Matrix3d scale_;
+  double line_center_ = 0, line_scale_ = 1;
+};
+
+// Along the ridge of a funnel. The lattice stands askew in the coordinates of the map: along an axis
+// whole layers of cells would share one value of a parameter, whose distribution would have steps.
+class AlongRidge final : public Chart {
+ public:
+  explicit AlongRidge(const RidgeMap& map) : map_(map) {
     const Eigen::Vector4d v =
         Eigen::Vector4d(1, std::sqrt(2), std::sqrt(3), std::sqrt(5)) / std::sqrt(11);
-    return Eigen::Matrix4d(Eigen::Matrix4d::Identity() - 2 * v * v.transpose());
-  }();
-  return reflection;
-}
+    askew_ = Eigen::Matrix4d::Identity() - 2 * v * v.transpose();
+  }
+
+  double to_real(const Eigen::Vector4d& u, Z& z) const override {
+    RidgeMap::Coordinates turned;
+    Eigen::Map<Eigen::Vector4d>(turned.data()).noalias() = askew_ * u;
+    const RidgeMap::Frame frame = map_.at(turned[static_cast<std::size_t>(map_.axis())]);
+    map_.to_real(frame, turned, z);
+    return frame.log_jacobian;
+  }
+  double log_scale() const override { return map_.log_scale(); }
+
+ private:
+  const RidgeMap& map_;
+  Eigen::Matrix4d askew_;
+};
 
 // One line: the fourth coordinate is middle + width t at t = 0, +-step, +-2 step, ...
 struct Line {
@@ -88,13 +162,13 @@ class CellShape {
 
 class Lattice {
  public:
-  Lattice(const Posterior& posterior, const RidgeMap& map, double step, double line_step)
-      : posterior_(posterior), map_(map), step_(step), line_step_(line_step) {
+  Lattice(const Posterior& posterior, const Chart& chart, double step, double line_step)
+      : posterior_(posterior), chart_(chart), step_(step), line_step_(line_step) {
     reference_ = density(place({}, -1, 0, 0));
   }
 
   // Empty, or why it stopped.
-  std::string fill() {
+  std::string fill(long most) {
     std::vector<Line> ring(1);
     known_.emplace(key(ring.front().index), 0);
     while (!ring.empty()) {
@@ -128,7 +202,7 @@ class Lattice {
           }
         }
       }
-      if (nodes_ > most_nodes) return fmt::format("no convergence in {} evaluations", nodes_);
+      if (nodes_ > most) return fmt::format("no convergence in {} evaluations", nodes_);
     }
     return {};
   }
@@ -236,7 +310,7 @@ class Lattice {
     for (const Parameter& parameter : posterior_.parameters()) proper &= parameter.prior.proper;
     if (proper) {
       exact.log_evidence =
-          reference_ + std::log(mass * line_step_) + outer * std::log(step_) + map_.log_scale();
+          reference_ + std::log(mass * line_step_) + outer * std::log(step_) + chart_.log_scale();
     }
     return exact;
   }
@@ -253,12 +327,8 @@ class Lattice {
     for (int i = 0; i < outer; ++i)
       along[i] = step_ * (index[static_cast<std::size_t>(i)] + (i == axis ? shift : 0));
     along[outer] = on_line;
-    RidgeMap::Coordinates u;
-    Eigen::Map<Eigen::Vector4d>(u.data()).noalias() = askew() * along;
-    const RidgeMap::Frame frame = map_.at(u[static_cast<std::size_t>(map_.axis())]);
     Place place;
-    map_.to_real(frame, u, place.z);
-    place.log_jacobian = frame.log_jacobian;
+    place.log_jacobian = chart_.to_real(along, place.z);
     return place;
   }
   Place at(const Line& line, double t) const {
@@ -355,7 +425,7 @@ class Lattice {
   }
 
   const Posterior& posterior_;
-  const RidgeMap& map_;
+  const Chart& chart_;
   double step_, line_step_;
   double reference_;
   double highest_ = -INFINITY;
@@ -365,17 +435,31 @@ class Lattice {
   std::unordered_map<std::uint64_t, std::size_t> known_;
 };
 
+// Infinite where the lattice does not end soon.
+double coarse_error(const Posterior& posterior, const Chart& chart, const ExactSettings& settings) {
+  constexpr double step = 0.7;
+  constexpr long most = 400'000;
+  Lattice lattice(posterior, chart, step, step);
+  return lattice.fill(most).empty() ? lattice.error(settings.second_moments) : INFINITY;
+}
+
 }  // namespace
 
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
                                     const ExactSettings& settings) {
   const RidgeMap map(posterior, whitening);
+  const Straight straight(whitening);
+  const AlongRidge along(map);
+  // Each is round where the other is not; a coarse lattice tells.
+  const bool ridge = !map.affine() && coarse_error(posterior, along, settings) <
+                                          coarse_error(posterior, straight, settings);
+  const Chart& chart = ridge ? static_cast<const Chart&>(along) : straight;
   ExactPosterior exact;
   long evaluations = 0;
   for (double step = 1; evaluations < settings.max_evaluations; step /= std::sqrt(2.0)) {
     if (settings.stop.stop_requested()) throw Cancelled();
-    Lattice lattice(posterior, map, step, std::min(step, 0.8));
-    const std::string failure = lattice.fill();
+    Lattice lattice(posterior, chart, step, std::min(step, 0.8));
+    const std::string failure = lattice.fill(most_nodes);
     evaluations += lattice.nodes();
     if (!failure.empty()) {
       exact.failure = failure;
