@@ -7,9 +7,10 @@ namespace wearwell {
 /// The posterior of four parameters on a lattice: the trapezoidal rule, which converges
 /// exponentially for a smooth density that falls off on the whole space (Trefethen and Weideman
 /// 2014). It stands in the coordinates of a RidgeMap, in which a funnel is round, but askew: no layer
-/// of cells shares the value of a parameter. One of its directions is integrated out along lines
-/// about their own modes; the lattice of the other three is filled outward from the mode as long as
-/// there is density, and refined until its two half lattices agree to `tolerance`. Cells hold the
+/// of cells shares the value of a parameter; or in those of the covariance, with lines along the
+/// parameter that the others hold closest: whichever a coarse lattice finds rounder. One direction is
+/// integrated out along lines about their own modes; the lattice of the other three is filled
+/// outward from the mode as long as there is density, and refined until its two half lattices agree to `tolerance`. Cells hold the
 /// parabola through their neighbours.
 ///
 /// Limits: density and moments converge exponentially, cells by a power of the step, so that
