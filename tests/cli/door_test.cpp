@@ -249,7 +249,7 @@ TEST_F(Door, SlipsInACommandLine) {
        "\"joint_wear.csv\""},
       {"check joint/study.toml --json", "wearwell check has no option --json (options: --help; "},
       {"new jiont x",
-       "TRADE: 'jiont' is not possible; it is one of joint, bearing, clutch, fatigue; did you mean "
+       "TRADE: 'jiont' is not possible; it is one of joint, bearing, clutch, fatigue, law; did you mean "
        "'joint'?"},
       {"new joint", "wearwell new: DIR is missing"},
       {"new joint joint", "joint is not empty"},

@@ -72,7 +72,7 @@ TEST_F(ClutchModelFile, RefusesByWhatIsWrong) {
   EXPECT_THAT(message_of<InputError>([&] { read_model(write("model.json", "{")); }),
               HasSubstr("model.json"));
   EXPECT_THAT(message_of<InputError>([&] { read_model(folder() / "none.json"); }),
-              HasSubstr("cannot read"));
+              HasSubstr("no such file"));
 }
 
 // Whatever is changed in a file: it is read with finite numbers, or refused by file and key.
