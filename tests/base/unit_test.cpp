@@ -23,6 +23,13 @@ std::string quantity_refusal(const char* text, const char* si) {
   return message_of<InputError>([&] { read_quantity(text, si); });
 }
 
+// UDUNITS-2 reads "N/m^0.3" as N/m^0 times .3.
+TEST(Unit, PowersAreWhole) {
+  for (const char* text : {"N m^0.3", "N m**0.3", "N m^-0.5", "N m^1/2", "N (m^0.5)^2"})
+    EXPECT_THAT(refusal(text, "N m"), HasSubstr("power of a unit is a whole number")) << text;
+  EXPECT_DOUBLE_EQ(read_unit("N mm^2/m", "N m").scale, 1e-6);
+}
+
 TEST(Unit, ConvertsToSi) {
   EXPECT_DOUBLE_EQ(read_unit("mm^3", "m^3").scale, 1e-9);
   EXPECT_DOUBLE_EQ(read_unit("mm^3/(N m)", "m^3/(N m)").scale, 1e-9);

@@ -147,6 +147,22 @@ void refuse_number_behind(const std::string& written) {
   }
 }
 
+// "m^0.5": UDUNITS-2 takes m^0 and multiplies by .5.
+void refuse_broken_power(const std::string& written) {
+  const auto is_digit = [&](std::size_t at) {
+    return at < written.size() && std::isdigit(static_cast<unsigned char>(written[at])) != 0;
+  };
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    if (written[i] != '^' && written.compare(i, 2, "**") != 0) continue;
+    std::size_t at = i + (written[i] == '^' ? 1 : 2);
+    if (at < written.size() && (written[at] == '-' || written[at] == '+')) ++at;
+    while (is_digit(at)) ++at;
+    if (at + 1 < written.size() &&
+        std::string_view(".,/").find(written[at]) != std::string_view::npos && is_digit(at + 1))
+      throw InputError(fmt::format("'{}': the power of a unit is a whole number", written));
+  }
+}
+
 bool starts_with_number(std::string_view text) {
   const std::size_t sign = !text.empty() && std::string_view("+-.,").find(text[0]) != text.npos;
   return text.size() > sign && std::isdigit(static_cast<unsigned char>(text[sign]));
@@ -169,6 +185,7 @@ Unit read_linear(const std::string& written, std::string_view si, double value) 
                     written, si));
   }
   refuse_number_behind(written);
+  refuse_broken_power(written);
   if (!std::isnormal(unit->scale) || unit->scale < 0 || !std::isfinite(unit->offset)) {
     throw InputError(
         fmt::format("'{}' is {} in '{}'; a unit is above 0", written, unit->scale, si));
