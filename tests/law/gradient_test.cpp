@@ -231,12 +231,28 @@ void expect_slopes(Laboratory laboratory, const std::string& text, double close 
 
 TEST(Gradient, OfPathsAndLabelsIsTheDifferenceQuotient) {
   const Laboratory laboratory;
-  for (const char* text :
-       {"q[material] * x + q[\"PEEK\"]", "cum(a * x) * b", "cum(b)*x", "log10(b) * x",
-        "sin(a * phi) + cos(b * 1 [rad])", "abs(c) * x", "log1p(a*x) + expm1(c*x)",
-        "x^a + (x + 1)^-3 * b", "b^x", "exp(q[material])/b", "where(a > 0.5, x^b, log(-a))",
-        "k*force*distance/area/1 [m]", "cum(q[material] * force)/1 [N]", "(a + b)/(x*b)",
-        "-(a*x)/-b", "b*x*b*y", "tanh(a*x)^2*b^2"})
+  for (const char* text : {"q[material] * x + q[\"PEEK\"]",
+                           "cum(a * x) * b",
+                           "cum(b)*x",
+                           "log10(b) * x",
+                           "sin(a * phi) + cos(b * 1 [rad])",
+                           "abs(c) * x",
+                           "log1p(a*x) + expm1(c*x)",
+                           "x^a + (x + 1)^-3 * b",
+                           "b^x",
+                           "exp(q[material])/b",
+                           "exp(a*q[material])*x + exp(a*q[material])",
+                           "q[material]",
+                           "q[material]^2*b",
+                           "log(q[material]^2 + b)*force/1 [N]",
+                           "where(q[material] > 0, q[material]*b, a)*q[material]",
+                           "where(a > 0.5, x^b, log(-a))",
+                           "k*force*distance/area/1 [m]",
+                           "cum(q[material] * force)/1 [N]",
+                           "(a + b)/(x*b)",
+                           "-(a*x)/-b",
+                           "b*x*b*y",
+                           "tanh(a*x)^2*b^2"})
     expect_slopes(laboratory, text);
 }
 

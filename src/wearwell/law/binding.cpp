@@ -22,13 +22,19 @@ Workspace Program::workspace(std::size_t most_rows) const {
   work.number_adjoints.assign(tape.numbers.size(), 0);
   work.values.assign(static_cast<std::size_t>(tape.rows) * work.most, 0);
   work.adjoints.assign(work.values.size(), 0);
+  work.level_values.assign(static_cast<std::size_t>(tape.levels), 0);
+  work.level_adjoints.assign(work.level_values.size(), 0);
   work.at.resize(tape.cells.size());
   work.adjoint_at.resize(tape.cells.size());
   for (std::size_t i = 0; i < tape.cells.size(); ++i) {
+    if (tape.cells[i].slot < 0) continue;  // the parameters themselves
     const auto slot = static_cast<std::size_t>(tape.cells[i].slot);
     if (tape.cells[i].home == Cell::number) {
       work.at[i] = &work.numbers[slot];
       work.adjoint_at[i] = &work.number_adjoints[slot];
+    } else if (tape.cells[i].home == Cell::level) {
+      work.at[i] = &work.level_values[slot];
+      work.adjoint_at[i] = &work.level_adjoints[slot];
     } else if (tape.cells[i].home == Cell::row) {
       work.at[i] = &work.values[slot * work.most];
       work.adjoint_at[i] = &work.adjoints[slot * work.most];
@@ -121,7 +127,7 @@ void Program::bind(const Rows& rows, Data& data) const {
     steps_along(body_->start, axis, body.starts, to);
   }
   for (const Step& step : tape.row_steps) {
-    if (step.op != Op::pick) continue;
+    if (step.op != Op::expand) continue;
     const auto label = static_cast<std::size_t>(step.label);
     if (rows.labels.size() <= label || rows.labels[label].size() != rows.count)
       throw std::logic_error("bind: rows without the label '" + symbols.labels[label].name + "'");

@@ -70,15 +70,22 @@ void Graph::derive(Node& node) const {
     default:
       break;
   }
+  node.by_label = node.op == Op::pick ? node.level : -1;
+  bool other_rows = node.op == Op::cum || node.op == Op::state || node.op == Op::recurrence;
   for (const int argument : {node.a, node.b, node.c}) {
     if (argument < 0) continue;
     const Node& from = (*this)[argument];
+    if (from.rows) {
+      other_rows |= from.by_label < 0 || (node.by_label >= 0 && node.by_label != from.by_label);
+      node.by_label = from.by_label;
+    }
     node.rows |= from.rows;
     node.parametric |= from.parametric;
     node.by_path |= from.by_path;
     node.moving |= from.moving;
     node.depth = std::max(node.depth, from.depth + 1);
   }
+  if (other_rows) node.by_label = -1;
   if (node.op == Op::state) node.moving = false;
 }
 

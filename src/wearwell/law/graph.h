@@ -18,7 +18,7 @@ struct Node {
   Op op = Op::constant;
   int a = -1, b = -1, c = -1;  ///< the nodes it works on, all before it; -1 for none
   int index = -1;              ///< of a column, label, slot, or parameter by row
-  int level = -1;              ///< label_is: the level
+  int level = -1;              ///< label_is, parameter: the level; pick: the label
   double value = 0;            ///< of a constant; the exponent of whole_power
   int powers = 0;              ///< its dimension: index into Graph::dimension
   bool truth = false;          ///< true or false, as 1 or 0
@@ -28,6 +28,7 @@ struct Node {
   bool parametric = false;  ///< depends on parameters
   bool by_path = false;     ///< depends on rows before its own
   bool moving = false;      ///< within a rate: depends on the state or the axis
+  int by_label = -1;        ///< the label whose texts alone tell its rows apart; -1 for none
   int depth = 0;
   int origin = -1;  ///< the text in which it was first met
 };

@@ -121,7 +121,11 @@ Term Naming::parameter(std::size_t i, const Token& token) {
         fmt::format("'{}' differs by '{}', not by '{}'", token.text, symbol.label, inside.text),
         fmt::format("write {}[{}]", token.text, symbol.label));
   }
-  return leaf(Op::pick, i, symbol.powers, token.at);
+  const auto& labels = names_.symbols.labels;
+  const auto label = std::find_if(labels.begin(), labels.end(), [&](const LabelSymbol& each) {
+    return each.name == symbol.label;
+  });
+  return leaf(Op::pick, i, symbol.powers, token.at, static_cast<int>(label - labels.begin()));
 }
 
 int Naming::level_of(const std::string& label, const Token& level) {

@@ -105,6 +105,8 @@ void Program::forward(const Data& data, std::size_t begin, std::size_t end, cons
         static_cast<std::size_t>(tape.cells[static_cast<std::size_t>(leaf.cell)].slot);
     work.numbers[slot] = inputs.parameters[static_cast<std::size_t>(leaf.slot)];
   }
+  for (const ParameterLeaf& leaf : tape.by_level)
+    work.at[static_cast<std::size_t>(leaf.cell)] = inputs.parameters.data() + leaf.slot;
   const auto at = [&](int cell) {
     return cell < 0 ? nullptr : work.at[static_cast<std::size_t>(cell)];
   };
@@ -113,16 +115,22 @@ void Program::forward(const Data& data, std::size_t begin, std::size_t end, cons
         tape.cells[static_cast<std::size_t>(step.out)].slot)];
     step.kernels.forward(at(step.a), at(step.b), at(step.c), out, 1, step.extra);
   }
+  for (const Step& step : tape.level_steps) {
+    double* out = &work.level_values[static_cast<std::size_t>(
+        tape.cells[static_cast<std::size_t>(step.out)].slot)];
+    step.kernels.forward(at(step.a), at(step.b), at(step.c), out,
+                         static_cast<std::size_t>(step.levels), step.extra);
+  }
   for (const Step& step : tape.row_steps) {
     double* out =
         &work.values[static_cast<std::size_t>(tape.cells[static_cast<std::size_t>(step.out)].slot) *
                      work.most];
     if (step.kernels.forward != nullptr) {
       step.kernels.forward(at(step.a), at(step.b), at(step.c), out, n, step.extra);
-    } else if (step.op == Op::pick) {
+    } else if (step.op == Op::expand) {
       const int* label = rows.labels[static_cast<std::size_t>(step.label)].data() + begin;
-      const double* first = inputs.parameters.data() + step.index;
-      for (std::size_t i = 0; i < n; ++i) out[i] = first[label[i]];
+      const double* known = at(step.a);
+      for (std::size_t i = 0; i < n; ++i) out[i] = known[label[i]];
     } else if (step.op == Op::cum) {
       running_sum(at(step.a), tape.cells[static_cast<std::size_t>(step.a)].uniform(),
                   rows.starts.data() + begin, out, n);
@@ -159,6 +167,17 @@ void reverse_state(const Tape& tape, Workspace::Body& work, const Data::Body& da
                        work.adjoint_at[static_cast<std::size_t>(step.out)], work.state_adjoints);
 }
 
+// Adds to the sum of each label; rows of one label mostly stand together, and are summed in four
+// lanes.
+void sum_by_label(const int* label, const double* x, std::size_t n, double* sums) {
+  for (std::size_t i = 0; i < n;) {
+    const int here = label[i];
+    double lane[4] = {};
+    for (std::size_t j = 0; i < n && label[i] == here; ++i, j = (j + 1) % 4) lane[j] += x[i];
+    sums[here] += (lane[0] + lane[2]) + (lane[1] + lane[3]);
+  }
+}
+
 // What the caller gave to outputs that do not own the adjoints of their cell.
 void collect_outputs(const Tape& tape, Workspace::Body& work) {
   for (std::size_t i = 0; i < tape.outputs.size(); ++i) {
@@ -184,6 +203,8 @@ void Program::reverse(const Data& data, std::size_t begin, std::size_t, const In
     work.adjoint_at[static_cast<std::size_t>(leaf.cell)] =
         slot < by_row.size() ? by_row[slot] : nullptr;
   }
+  for (const ParameterLeaf& leaf : tape.by_level)
+    work.adjoint_at[static_cast<std::size_t>(leaf.cell)] = gradient.data() + leaf.slot;
   collect_outputs(tape, work);
   const auto at = [&](int cell) {
     return cell < 0 ? nullptr : work.at[static_cast<std::size_t>(cell)];
@@ -203,10 +224,12 @@ void Program::reverse(const Data& data, std::size_t begin, std::size_t, const In
     const double* given = work.adjoint_at[static_cast<std::size_t>(step.out)];
     if (step.kernels.reverse != nullptr) {
       run(step, work.rows);
-    } else if (step.op == Op::pick) {
-      const int* label = rows.labels[static_cast<std::size_t>(step.label)].data() + begin;
-      double* first = gradient.data() + step.index;
-      for (std::size_t j = 0; j < work.rows; ++j) first[label[j]] += given[j];
+    } else if (step.op == Op::expand) {
+      if (double* sums = to(step, step.a, 0); sums != nullptr) {
+        if ((step.first & 1u) != 0) std::fill(sums, sums + step.levels, 0.0);
+        sum_by_label(rows.labels[static_cast<std::size_t>(step.label)].data() + begin, given,
+                     work.rows, sums);
+      }
     } else if (step.op == Op::cum) {
       if (double* sum = to(step, step.a, 0); sum != nullptr)
         running_sum_reverse(given, tape.cells[static_cast<std::size_t>(step.a)].uniform(),
@@ -223,6 +246,10 @@ void Program::reverse(const Data& data, std::size_t begin, std::size_t, const In
     } else {
       reverse_state(tape, work, rows, begin, step);
     }
+  }
+  for (std::size_t i = tape.level_steps.size(); i-- > 0;) {
+    const Step& step = tape.level_steps[i];
+    if (step.gives != 8) run(step, static_cast<std::size_t>(step.levels));
   }
   for (std::size_t i = tape.number_steps.size(); i-- > 0;)
     if (tape.number_steps[i].gives != 8) run(tape.number_steps[i], 1);

@@ -35,9 +35,10 @@ struct Data::Body {
 struct Workspace::Body {
   std::size_t rows = 0, most = 0;
   std::vector<double> numbers, number_adjoints;
-  std::vector<double> values, adjoints;  ///< by slot of Cell::row, `most` rows each
-  std::vector<const double*> at;         ///< by cell
-  std::vector<double*> adjoint_at;       ///< by cell; null where there are none
+  std::vector<double> level_values, level_adjoints;  ///< by slot of Cell::level
+  std::vector<double> values, adjoints;              ///< by slot of Cell::row, `most` rows each
+  std::vector<const double*> at;                     ///< by cell
+  std::vector<double*> adjoint_at;                   ///< by cell; null where there are none
   std::vector<std::vector<double>> output_adjoints;
   std::vector<int> output_cells;
   std::vector<bool> output_uniform;

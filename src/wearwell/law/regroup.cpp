@@ -9,9 +9,10 @@
 namespace wearwell::law {
 namespace {
 
-// What a factor costs: it is known, is computed once for all data, once a call, once a row, or
+// What a factor costs: it is known, is computed once for all data, once a call, once for each
+// text of a label, once a row, or
 // within a path.
-enum Class { known, of_data, of_parameters, of_rows, of_state, classes };
+enum Class { known, of_data, of_parameters, of_labels, of_rows, of_state, classes };
 
 class Regrouping {
  public:
@@ -47,7 +48,8 @@ class Regrouping {
     if (each.op == Op::constant) return known;
     if (each.moving) return of_state;
     if (!each.parametric) return of_data;
-    return each.rows ? of_rows : of_parameters;
+    if (!each.rows) return of_parameters;
+    return each.by_label >= 0 ? of_labels : of_rows;
   }
 
   int image_of(int i) {
@@ -133,14 +135,13 @@ class Regrouping {
       if (below >= 0) above = to_.make(Op::divide, 0, above < 0 ? to_.constant(1) : above, below);
       result = times(result, above);
     };
-    const bool parameters =
-        !factors[0][of_parameters].empty() || !factors[1][of_parameters].empty();
-    if (parameters) {
-      join({known, of_parameters});
-      join({of_data});
-    } else {
-      join({known, of_data});
-    }
+    const auto any = [&](Class each) {
+      return !factors[0][each].empty() || !factors[1][each].empty();
+    };
+    const Class first = any(of_parameters) ? of_parameters : any(of_labels) ? of_labels : of_data;
+    join({known, first});
+    for (const Class each : {of_labels, of_data})
+      if (each != first) join({each});
     for (const Class each : {of_rows, of_state}) {
       result = times(result, product_of(factors[0][each]));
       if (const int below = product_of(factors[1][each]); below >= 0)

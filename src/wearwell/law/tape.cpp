@@ -1,6 +1,7 @@
 #include "wearwell/law/tape.h"
 
 #include <algorithm>
+#include <map>
 
 namespace wearwell::law {
 namespace {
@@ -20,7 +21,7 @@ class Maker {
     mark();
     for (int i = 0; i < graph_.size(); ++i)
       if (needed_[static_cast<std::size_t>(i)] && !graph_[i].moving) place(i);
-    for (const int root : roots_) tape_.outputs.push_back({cell(root), false, false});
+    for (const int root : roots_) tape_.outputs.push_back({row_cell(root), false, false});
     activate();
     return std::move(tape_);
   }
@@ -39,7 +40,34 @@ class Maker {
     }
   }
 
-  int new_cell(Cell::Home home) {
+  int levels_of(int label) const {
+    return label < 0
+               ? 0
+               : static_cast<int>(symbols_.labels[static_cast<std::size_t>(label)].levels.size());
+  }
+
+  // The cell of a node where rows are computed: what is known by label is laid out over the rows.
+  int row_cell(int node) {
+    const int at = cell(node);
+    if (at < 0 || home(at).home != Cell::level) return at;
+    const auto [known, is_new] = expanded_.emplace(node, -1);
+    if (!is_new) return known->second;
+    Step step;
+    step.op = Op::expand;
+    step.a = at;
+    step.out = known->second = new_cell(Cell::row);
+    step.label = graph_[node].by_label;
+    step.levels = levels_of(step.label);
+    tape_.row_steps.push_back(step);
+    return step.out;
+  }
+
+  void expand_arguments(const Node& node) {
+    for (const int argument : {node.a, node.b, node.c})
+      if (argument >= 0 && !graph_[argument].moving) row_cell(argument);
+  }
+
+  int new_cell(Cell::Home home, int levels = 0) {
     Cell each{home, 0};
     if (home == Cell::number) {
       each.slot = static_cast<int>(tape_.numbers.size());
@@ -48,6 +76,9 @@ class Maker {
       each.slot = tape_.data++;
     } else if (home == Cell::row) {
       each.slot = tape_.rows++;
+    } else if (home == Cell::level) {
+      each.slot = tape_.levels;
+      tape_.levels += levels;
     } else {
       each.slot = static_cast<int>(tape_.by_row.size());
     }
@@ -60,7 +91,9 @@ class Maker {
     Cell::Home where = !node.rows ? Cell::number : node.parametric ? Cell::row : Cell::data;
     if (node.op == Op::by_row) where = Cell::by_row;
     if (node.op == Op::state) prepare_state(node);
-    const int at = cell_[static_cast<std::size_t>(i)] = new_cell(where);
+    if (node.by_label >= 0 && node.parametric) where = Cell::level;
+    if (where == Cell::row) expand_arguments(node);
+    const int at = cell_[static_cast<std::size_t>(i)] = new_cell(where, levels_of(node.by_label));
     const auto parameter = static_cast<std::size_t>(std::max(node.index, 0));
     switch (node.op) {
       case Op::constant:
@@ -69,6 +102,10 @@ class Maker {
       case Op::parameter:
         tape_.parameters.push_back(
             {at, static_cast<int>(slots_[parameter]) + std::max(node.level, 0)});
+        return;
+      case Op::pick:
+        home(at).slot = -1;
+        tape_.by_level.push_back({at, static_cast<int>(slots_[parameter])});
         return;
       case Op::by_row:
         tape_.by_row.push_back({at, by_row_index(node.index)});
@@ -82,15 +119,13 @@ class Maker {
         break;
     }
     Step step = step_of(node, at);
-    if (node.op == Op::pick) {
-      step.index = static_cast<int>(slots_[parameter]);
-      step.label = label_index(symbols_.parameters[parameter].label);
-    }
+    step.levels = levels_of(node.by_label);
     if (node.op == Op::state) tape_.states.back().out = at;
     if (node.op == Op::state || node.op == Op::recurrence) tape_.state = at;
-    (where == Cell::number ? tape_.number_steps
-     : where == Cell::data ? tape_.bind_steps
-                           : tape_.row_steps)
+    (where == Cell::number  ? tape_.number_steps
+     : where == Cell::data  ? tape_.bind_steps
+     : where == Cell::level ? tape_.level_steps
+                            : tape_.row_steps)
         .push_back(step);
   }
 
@@ -101,21 +136,16 @@ class Maker {
     return count;
   }
 
-  int label_index(const std::string& name) const {
-    const auto at = std::find_if(symbols_.labels.begin(), symbols_.labels.end(),
-                                 [&](const LabelSymbol& label) { return label.name == name; });
-    return static_cast<int>(at - symbols_.labels.begin());
-  }
-
   Step step_of(const Node& node, int out) {
     Step step;
     step.op = node.op;
     step.out = out;
     step.extra = node.value;
     if (node.op == Op::state) return step;
-    step.a = cell(node.a);
-    step.b = cell(node.b);
-    step.c = cell(node.c);
+    const bool by_label = home(out).home == Cell::level;
+    step.a = by_label ? cell(node.a) : row_cell(node.a);
+    step.b = by_label ? cell(node.b) : row_cell(node.b);
+    step.c = by_label ? cell(node.c) : row_cell(node.c);
     unsigned uniform = 0;
     const int arguments[] = {step.a, step.b, step.c};
     for (unsigned i = 0; i < 3; ++i)
@@ -127,7 +157,7 @@ class Maker {
   // The steps of the rate: what moves, by numbers; all else are its inputs.
   void prepare_state(const Node& node) {
     StatePlan plan;
-    plan.beginning = cell(node.a);
+    plan.beginning = row_cell(node.a);
     plan.axis = axis_cell();
     const std::vector<bool> within = reachable(graph_, {node.b});
     std::vector<int> number(static_cast<std::size_t>(graph_.size()), -1), moving;
@@ -148,7 +178,7 @@ class Maker {
     inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
     plan.first_input = 0;
     for (const int each : inputs) {
-      plan.inputs.push_back(cell(each));
+      plan.inputs.push_back(row_cell(each));
       new_number(each);
     }
     plan.gives.resize(inputs.size());
@@ -197,7 +227,6 @@ class Maker {
       case Op::both:
       case Op::either:
       case Op::opposite:
-      case Op::pick:
       case Op::state:
         return 0;
       case Op::where:
@@ -214,6 +243,8 @@ class Maker {
     std::vector<bool> parametric(tape_.cells.size()), takes(tape_.cells.size());
     for (int i = 0; i < graph_.size(); ++i)
       if (cell(i) >= 0) parametric[static_cast<std::size_t>(cell(i))] = graph_[i].parametric;
+    for (const auto& [node, expanded] : expanded_)
+      parametric[static_cast<std::size_t>(expanded)] = true;
     for (OutputCell& output : tape_.outputs) {
       const auto at = static_cast<std::size_t>(output.cell);
       output.active = parametric[at];
@@ -223,7 +254,9 @@ class Maker {
     const auto offer = [&](int to, bool& gives, bool& first) {
       const auto at = static_cast<std::size_t>(to);
       gives = parametric[at];
-      first = gives && !takes[at] && tape_.cells[at].home == Cell::row;
+      const Cell& taker = tape_.cells[at];
+      const bool own = taker.home == Cell::row || (taker.home == Cell::level && taker.slot >= 0);
+      first = gives && !takes[at] && own;
       if (gives) takes[at] = true;
     };
     const auto walk = [&](std::vector<Step>& steps) {
@@ -256,6 +289,7 @@ class Maker {
       }
     };
     walk(tape_.row_steps);
+    walk(tape_.level_steps);
     walk(tape_.number_steps);
   }
 
@@ -265,6 +299,7 @@ class Maker {
   StateStart start_;
   std::vector<std::size_t> slots_;
   std::vector<int> cell_;
+  std::map<int, int> expanded_;  ///< node known by label, and its cell over the rows
   std::vector<bool> needed_;
   Tape tape_;
 };

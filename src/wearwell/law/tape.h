@@ -11,9 +11,9 @@ namespace wearwell::law {
 
 /// Where the values of a node live.
 struct Cell {
-  enum Home : unsigned char { number, data, row, by_row };
+  enum Home : unsigned char { number, data, row, by_row, level };
   Home home = number;
-  int slot = 0;  ///< within its home
+  int slot = 0;  ///< within its home; of a level its first place, -1 for slots of the parameters
   bool uniform() const { return home == number; }
 };
 
@@ -23,8 +23,8 @@ struct Step {
   Kernels kernels;
   int out = -1, a = -1, b = -1, c = -1;  ///< cells
   double extra = 0;
-  int index = -1;      ///< pick: the first slot
-  int label = -1;      ///< pick
+  int label = -1;      ///< expand
+  int levels = 0;      ///< of the label: expand, and steps by label
   unsigned gives = 0;  ///< bit i: argument i takes an adjoint
   unsigned first = 0;  ///< bit i: and is the first to take one, walking backwards
 };
@@ -70,11 +70,11 @@ struct OutputCell {
 /// numbers once a call, those of rows on all rows of a call.
 struct Tape {
   std::vector<Cell> cells;
-  std::vector<double> numbers;  ///< initial values: the constants
-  int data = 0, rows = 0;       ///< how many slots
-  std::vector<ParameterLeaf> parameters, by_row;
+  std::vector<double> numbers;         ///< initial values: the constants
+  int data = 0, rows = 0, levels = 0;  ///< how many slots
+  std::vector<ParameterLeaf> parameters, by_row, by_level;
   std::vector<DataLeaf> leaves;
-  std::vector<Step> bind_steps, number_steps, row_steps;
+  std::vector<Step> bind_steps, number_steps, level_steps, row_steps;
   std::vector<OutputCell> outputs;
   std::vector<StatePlan> states;  ///< one or none; Op::state among the row steps runs it
   int state = -1;                 ///< the cell of the state, however it is computed; -1 without one

@@ -53,7 +53,8 @@ enum class Op : unsigned char {
   opposite,
   where,
   cum,
-  state,       ///< by its rate
+  state,   ///< by its rate
+  expand,  ///< numbers by label to the rows that have it
   recurrence,  ///< a state with a linear rate: a its growth from row to row, b its beginning, c its gain
 };
 
