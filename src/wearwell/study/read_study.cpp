@@ -10,7 +10,9 @@ namespace wearwell {
 std::unique_ptr<const Study> read_study(const Source& source, Models models) {
   const TomlReader root = TomlReader::parse(source.study);
   std::vector<std::string> keys;
-  for (const Model& model : models) keys.emplace_back(model.key);
+  for (const Model& model : models) {  // one may have several examples
+    if (std::find(keys.begin(), keys.end(), model.key) == keys.end()) keys.emplace_back(model.key);
+  }
   const auto key = root.choice("model", keys);
   if (!key) root.fail("model", fmt::format("is missing: it is one of {}", fmt::join(keys, ", ")));
   const auto model = std::find_if(models.begin(), models.end(),

@@ -1,0 +1,111 @@
+// The likelihood of a law in the user's own words.
+#include "wearwell/models/ownlaw/own_likelihood.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scratch.h"
+#include "wearwell/models/ownlaw/own_reader.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+class OwnLikelihoodTest : public ScratchTest {
+ protected:
+  std::shared_ptr<const LogDensity> likelihood(const std::string& mean,
+                                               const std::string& varies) const {
+    write(
+        "d.csv",
+        "m,t,y\na,1,1.2\na,2,2.6\na,3,3.4\nb,1,0.7\nb,2,1.1\nc,1,2.1\nc,2,4.4\nc,3,6.0\nc,4,8.8\n");
+    const auto file = write("study.toml", R"(
+model = "law"
+[data]
+file = "d.csv"
+[data.columns]
+y = { column = "y", unit = "um" }
+t = { column = "t", unit = "h" }
+m = "m"
+[likelihood.y]
+family = "normal"
+mean = ")" + mean + R"("
+sd = "sigma"
+[prior]
+a = { law = "flat", unit = "um" }
+b = { law = "flat", unit = "um/h" }
+sigma = { law = "flat", unit = "um" }
+s = { law = "flat" }
+r = { law = "flat", unit = "um" }
+rho = { law = "flat" }
+[varies.m]
+)" + varies);
+    const Source source = source_of(file);
+    const TomlReader root = TomlReader::parse(source.study);
+    return own_likelihood(std::make_shared<const OwnRows>(read_own_law(root, source), 9));
+  }
+};
+
+constexpr double um = 1e-6, h = 3600;
+
+void expect_gradient(const LogDensity& density, std::vector<double> x) {
+  std::vector<double> gradient(x.size());
+  const double value = density.value_and_gradient(x, gradient);
+  EXPECT_NEAR(value, density.value(x), 1e-8 * std::abs(value));
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double at = x[i], step = 1e-5 * std::abs(at);
+    x[i] = at + step;
+    const double above = density.value(x);
+    x[i] = at - step;
+    const double slope = (above - density.value(x)) / (2 * step);
+    x[i] = at;
+    EXPECT_NEAR(gradient[i], slope, 1e-5 * std::abs(slope) + 1e-6 / std::abs(at)) << i;
+  }
+}
+
+// One lognormal effect: as a parabola, and where a case that is never met hides that, row by row.
+TEST_F(OwnLikelihoodTest, AParabolaIsTheSameAsRowByRow) {
+  const std::string effect = "b = { law = \"lognormal\", log_sd = \"s + 0*rho + 0*r/a\" }\n";
+  const auto parabola = likelihood("a + b * t", effect);
+  const auto by_rows = likelihood("where(t > 0, a + b * t, a)", effect);
+  for (const double scatter : {0.05, 0.6, 2.5}) {
+    const std::vector<double> x = {0.3 * um, 1.4 * um / h, 0.2 * um, scatter, 1 * um, 0.1};
+    EXPECT_NEAR(parabola->value(x), by_rows->value(x), 1e-7);
+    expect_gradient(*parabola, x);
+    expect_gradient(*by_rows, x);
+  }
+}
+
+// Normal effects: the rows of a unit are jointly normal (dense covariance, by hand).
+TEST_F(OwnLikelihoodTest, TwoCorrelatedEffectsAreAJointNormalLaw) {
+  const auto density = likelihood("a + b * t",
+                                  "a = { law = \"normal\", sd = \"r\" }\n"
+                                  "b = { law = \"normal\", sd = \"s * b\" }\n"
+                                  "correlation = \"rho\"\n");
+  const double a = 0.3, b = 1.4, sigma = 0.2, s = 0.5, r = 0.4, rho = -0.6;
+  const std::vector<std::vector<double>> units = {
+      {1.2, 2.6, 3.4}, {0.7, 1.1}, {2.1, 4.4, 6.0, 8.8}};
+  double expected = 0;
+  for (const auto& y : units) {
+    const auto n = static_cast<Eigen::Index>(y.size());
+    Eigen::MatrixXd z(n, 2);
+    Eigen::VectorXd off(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      z(i, 0) = 1;
+      z(i, 1) = static_cast<double>(i + 1);
+      off[i] = y[static_cast<std::size_t>(i)] - a - b * z(i, 1);
+    }
+    Eigen::Matrix2d population;
+    population << r * r, rho * r * s * b, rho * r * s * b, s * b * s * b;
+    const Eigen::MatrixXd covariance =
+        sigma * sigma * Eigen::MatrixXd::Identity(n, n) + z * population * z.transpose();
+    expected -= 0.5 * (static_cast<double>(n) * std::log(2 * M_PI) +
+                       std::log(covariance.determinant()) + off.dot(covariance.ldlt().solve(off)));
+    expected -= static_cast<double>(n) * std::log(um);
+  }
+  const std::vector<double> x = {a * um, b * um / h, sigma * um, s, r * um, rho};
+  EXPECT_NEAR(density->value(x), expected, 1e-6);
+  expect_gradient(*density, x);
+}
+
+}  // namespace
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,159 @@
+// Studies of laws in the user's own words, from file to answer.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/posterior_study.h"
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
+#include "wearwell/study/run_study.h"
+
+namespace wearwell {
+namespace {
+
+const std::string examples = PROJECT_SOURCE_DIR "/examples/";
+
+class OwnStudy : public ScratchTest {
+ protected:
+  PosteriorSummary run(const std::string& text) const {
+    return run_study(wearwell::read_posterior_study(write("study.toml", text)),
+                     {Method::exact, 1, {}, 50, {}}, {}, false);
+  }
+  std::string refusal(const std::string& text) const {
+    return message_of<InputError>(
+        [&] { wearwell::read_posterior_study(write("study.toml", text)).in_words(); });
+  }
+  void copy(const std::string& file) const {
+    std::filesystem::copy_file(examples + file, folder() / std::filesystem::path(file).filename());
+  }
+};
+
+const char* const bearings = R"(
+model = "law"
+[data]
+file = "bearings.csv"
+[data.columns]
+life = "million_revolutions"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+)";
+
+// Lieblein and Zelen (1956); Lawless (2003), Statistical Models and Methods for Lifetime Data: 2.1021,
+// 81.88, -113.691. R's survreg gives 2.102059, 81.878334, -113.6913 (tests/golden/own_law.R).
+TEST_F(OwnStudy, WeibullLivesOfBallBearingsAreThePublishedOnes) {
+  copy("life/bearings.csv");
+  const PosteriorSummary result =
+      run(std::string(bearings) + "[prior]\neta = { law = \"flat\" }\nbeta = { law = \"flat\" }\n");
+  ASSERT_EQ(result.mode->problem, "");
+  EXPECT_NEAR(result.mode->parameters[0].value, 81.878334, 2e-6);
+  EXPECT_NEAR(result.mode->parameters[1].value, 2.102059, 1e-6);
+  EXPECT_NEAR(result.mode->log_likelihood, -113.6913, 5e-5);
+  EXPECT_TRUE(result.mode->maximum_likelihood);
+}
+
+// Meeker and Escobar (1998), table 19.1: -13.469 (2.887), 0.6279 (0.08287), 0.9778 (0.1326), -321.7.
+TEST_F(OwnStudy, ArrheniusLivesWithManyRunoutsAreThePublishedOnes) {
+  copy("accelerated/device_a.csv");
+  const PosteriorSummary result = run(R"toml(
+model = "law"
+[data]
+file = "device_a.csv"
+[data.columns]
+life = "hours"
+temperature = { column = "temperature_C", unit = "degC" }
+status = "status"
+count = "count"
+[law]
+mu = "b0 + b1 * 11605 [K] / temperature"
+[likelihood.life]
+family = "lognormal"
+median = "exp(mu)"
+log_sd = "sigma"
+[prior]
+b0 = { law = "flat" }
+b1 = { law = "flat" }
+sigma = { law = "flat" }
+)toml");
+  ASSERT_EQ(result.mode->problem, "");
+  EXPECT_NEAR(result.mode->parameters[0].value, -13.4686, 5e-4);
+  EXPECT_NEAR(result.mode->parameters[0].standard_error, 2.8872, 5e-3);
+  EXPECT_NEAR(result.mode->parameters[1].value, 0.6279, 5e-5);
+  EXPECT_NEAR(result.mode->parameters[2].value, 0.978, 5e-4);
+  EXPECT_NEAR(result.mode->log_likelihood, -321.7, 0.05);
+}
+
+const char* const product = R"(
+model = "law"
+[data]
+file = "d.csv"
+[data.columns]
+y = { column = "y", unit = "um" }
+x = { column = "x", unit = "km" }
+[likelihood.y]
+family = "normal"
+mean = "k1 * k2 * x"
+sd = "sigma"
+[prior]
+k1 = { law = "lognormal", median = "1 um/km", log_sd = 1 }
+k2 = { law = "lognormal", median = 1, log_sd = 1 }
+sigma = { law = "half-normal", scale = "2 um" }
+)";
+
+TEST_F(OwnStudy, WhatTheDataCannotTellApartIsNamedAndNotTrusted) {
+  write("d.csv", "x,y\n1,2.1\n2,3.9\n3,6.2\n4,8.0\n5,9.8\n");
+  const PosteriorSummary result = run(product);
+  EXPECT_FALSE(result.trusted);
+  const auto check = std::find_if(result.checks.begin(), result.checks.end(),
+                                  [](const Check& each) { return each.name == "identified"; });
+  ASSERT_NE(check, result.checks.end());
+  EXPECT_EQ(check->verdict, Verdict::fail);
+  EXPECT_NE(check->detail.find("k1 and k2 apart: with k1 up by 1 % and k2 down by 1 %"),
+            std::string::npos)
+      << check->detail;
+}
+
+// The example of the documentation: lives of a new machine and of each one seen. Of a straight path the
+// life is limit * area / (k force); by the posterior's draws of k and k_scatter it can be had otherwise.
+TEST_F(OwnStudy, LivesOfMachinesThatDiffer) {
+  const PosteriorStudy study = wearwell::read_posterior_study(examples + "law/study.toml");
+  const PosteriorSummary result = run_study(study, {Method::exact, 1, {}, 4000, {}}, {}, false);
+  ASSERT_EQ(result.quantities.size(), 14u);
+  EXPECT_EQ(result.quantities[0].name, "mean_over_median");
+  const QuantitySummary& life = result.quantities[1];
+  EXPECT_EQ(life.name, "life");
+  EXPECT_EQ(life.of, "new machine");
+  EXPECT_EQ(life.unit, "km");
+  EXPECT_EQ(result.quantities[2].name, "remaining life");
+  EXPECT_EQ(result.quantities[2].of, "machine 1");
+  // P(life <= q) over the exact posterior, with the normal law of log life written out.
+  const Chain& chain = result.posterior_draws.front();
+  for (const auto& [q, p] : {std::pair(life.best().q05, 0.05), std::pair(life.best().q50, 0.5),
+                             std::pair(life.best().q95, 0.95)}) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < chain.values.rows(); ++i) {
+      // 100 um * 50 mm^2 / (k * 20 N), k in mm^3/(N m): 0.25 m / k -> km.
+      const double middle = 0.25e-3 / chain.values(i, 0), scatter = chain.values(i, 2);
+      sum += 0.5 * std::erfc(-std::log(q / middle) / (scatter * std::sqrt(2.0)));
+    }
+    EXPECT_NEAR(sum / static_cast<double>(chain.values.rows()), p, 0.012);
+  }
+}
+
+TEST_F(OwnStudy, WrongStudiesAreRefusedWithTheirPlace) {
+  write("d.csv", "x,y\n1,2.1\n2,3.9\n");
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = product;
+    text.replace(text.find(from), from.size(), to);
+    return refusal(text);
+  };
+  EXPECT_NE(changed("k1 * k2 * x\"", "k1 * k2\"").find("mean"), std::string::npos);
+  EXPECT_NE(changed("[likelihood.y]", "[likelihood.z]").find("nearest: "), std::string::npos);
+  EXPECT_NE(changed("sd = \"sigma\"", "").find("normal needs mean and sd"), std::string::npos);
+  EXPECT_NE(changed("k2 * x", "k3 * x").find("k3"), std::string::npos);
+  EXPECT_NE(changed("mean = \"k1 * k2 * x\"", "mean = \"k1 * x\"").find("k2"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wearwell
