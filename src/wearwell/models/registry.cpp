@@ -10,7 +10,8 @@ namespace wearwell {
 
 Models all_models() {
   static const Model models[] = {
-      joint::model(), bearing::model(), clutch::model(), fatigue::model(), ownlaw::model(),
+      joint::model(),  bearing::model(), clutch::model(),       fatigue::model(),
+      ownlaw::model(), ownlaw::life(),   ownlaw::accelerated(),
   };
   return models;
 }

@@ -12,7 +12,10 @@ namespace {
 
 const Model& model_of(const TomlReader& root, Models models) {
   std::vector<std::string> names;
-  for (const Model& model : models) names.emplace_back(model.key);
+  for (const Model& model : models) {  // one may have several examples
+    if (std::find(names.begin(), names.end(), model.key) == names.end())
+      names.emplace_back(model.key);
+  }
   const auto name = root.choice("model", names);
   if (!name) {
     for (const std::string& key : root.keys()) {

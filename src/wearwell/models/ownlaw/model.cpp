@@ -7,22 +7,46 @@ namespace resource {
 
 std::string_view law_study();
 std::string_view law_data();
+std::string_view life_study();
+std::string_view life_data();
+std::string_view accelerated_study();
+std::string_view accelerated_data();
 
 }  // namespace resource
 
 namespace ownlaw {
 
-Model model() {
-  static constexpr ExampleFile example[] = {{"study.toml", resource::law_study},
-                                            {"wear.csv", resource::law_data}};
+namespace {
+
+Model law_with(std::string_view trade, std::span<const ExampleFile> example) {
   return {.key = "law",
-          .trade = "law",
+          .trade = trade,
           .example = example,
           .read =
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_law_study);
               },
           .add_commands = nullptr};
+}
+
+}  // namespace
+
+Model model() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::law_study},
+                                            {"wear.csv", resource::law_data}};
+  return law_with("law", example);
+}
+
+Model life() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::life_study},
+                                            {"bearings.csv", resource::life_data}};
+  return law_with("life", example);
+}
+
+Model accelerated() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::accelerated_study},
+                                            {"device_a.csv", resource::accelerated_data}};
+  return law_with("accelerated", example);
 }
 
 }  // namespace ownlaw

@@ -342,8 +342,15 @@ class OwnLikelihood final : public LogDensity {
   int dimension() const override { return static_cast<int>(law_->parameters.size()); }
 
   double value(std::span<const double> x) const override {
-    if (law_->varies()) return number(rows_->integrate(x.data()).sum());
     Scratch& scratch = mine();
+    if (law_->varies()) {
+      if (scratch.linear) {
+        scratch.rows.move_to(x.data());
+        scratch.linear->move();
+        if (const auto sum = scratch.linear->sum_of_one()) return number(*sum);
+      }
+      return number(rows_->integrate(x.data()).sum());
+    }
     scratch.rows.move_to(x.data());
     scratch.value.resize(law_->units.size());
     scratch.rows.evaluate({}, all_, scratch.value, {});
@@ -354,8 +361,13 @@ class OwnLikelihood final : public LogDensity {
 
   double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
     Scratch& scratch = mine();
-    const double sum = value(x);
     std::fill(gradient.begin(), gradient.end(), 0.0);
+    if (scratch.linear) {
+      scratch.rows.move_to(x.data());
+      scratch.linear->move();
+      if (const auto all = scratch.linear->sum_of_one(gradient)) return number(*all);
+    }
+    const double sum = law_->varies() ? number(rows_->integrate(x.data()).sum()) : value(x);
     if (!(sum > -infinity)) return sum;
     if (!law_->varies()) {
       scratch.rows.add_gradient({}, ones_, gradient);

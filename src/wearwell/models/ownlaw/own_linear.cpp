@@ -121,24 +121,46 @@ void LinearUnits::move() {
       rows_.means_at(at, c, mean_[r][c], sd_[c]);
     }
     for (std::size_t i = 0; i < column.unit.size(); ++i) {
-      const double count = column.count[i], sd = sd_[c][i], mean = mean_[0][c][i];
-      if (!(count > 0)) continue;
+      const double sd = sd_[c][i], mean = mean_[0][c][i];
       Parabola& p = parabola_[column.unit[i]];
+      if (!(column.count[i] > 0)) continue;
       if (!(sd > 0 && std::isfinite(sd) && std::isfinite(mean))) {
         p.top = -infinity;
         continue;
       }
-      const double off = column.responses.at[i] - mean, weight = count / (sd * sd);
-      p.top -= count * (std::log(sd) + half_log_two_pi) + 0.5 * weight * off * off;
-      const double d0 = mean_[1][c][i] - mean;
-      p.slope[0] += weight * d0 * off;
+      const double weight = column.count[i] / (sd * sd), off = column.responses.at[i] - mean;
+      const double d0 = mean_[1][c][i] - mean, d1 = effects_ > 1 ? mean_[2][c][i] - mean : 0;
+      p.best[0] += weight * d0 * off;  // the slope, until all rows are seen
+      p.best[1] += weight * d1 * off;
       p.bend[0] += weight * d0 * d0;
-      if (effects_ == 1) continue;
-      const double d1 = mean_[2][c][i] - mean;
-      p.slope[1] += weight * d1 * off;
       p.bend[1] += weight * d0 * d1;
       p.bend[2] += weight * d1 * d1;
     }
+  }
+  for (Parabola& p : parabola_) {
+    const double g0 = p.best[0], g1 = p.best[1];
+    const double det = p.bend[0] * p.bend[2] - p.bend[1] * p.bend[1];
+    const double trace = p.bend[0] + p.bend[2];
+    if (effects_ > 1 && det > 1e-12 * p.bend[0] * p.bend[2]) {
+      p.best[0] = (p.bend[2] * g0 - p.bend[1] * g1) / det;
+      p.best[1] = (p.bend[0] * g1 - p.bend[1] * g0) / det;
+    } else {  // along the only direction that the rows tell
+      p.best[0] = trace > 0 ? g0 / trace : 0;
+      p.best[1] = trace > 0 ? g1 / trace : 0;
+    }
+  }
+  for (std::size_t c = 0; c < rows_.columns().size(); ++c) fill(c);
+}
+
+void LinearUnits::fill(std::size_t c) {
+  const BoundColumn& column = rows_.columns()[c];
+  for (std::size_t i = 0; i < column.unit.size(); ++i) {
+    Parabola& p = parabola_[column.unit[i]];
+    if (!(column.count[i] > 0) || !(p.top > -infinity)) continue;
+    const double sd = sd_[c][i], mean = mean_[0][c][i];
+    const double d0 = mean_[1][c][i] - mean, d1 = effects_ > 1 ? mean_[2][c][i] - mean : 0;
+    const double z = (column.responses.at[i] - mean - d0 * p.best[0] - d1 * p.best[1]) / sd;
+    p.top -= column.count[i] * (std::log(sd) + half_log_two_pi + 0.5 * z * z);
   }
 }
 
@@ -158,9 +180,10 @@ void LinearUnits::evaluate(std::span<const double> z, std::span<const std::uint8
     const Parabola& p = parabola_[u];
     double s[2] = {}, effect[2] = {};
     steps(&z[u * effects_], s, effect);
-    const double by0 = p.slope[0] - p.bend[0] * s[0] - p.bend[1] * s[1];
-    const double by1 = p.slope[1] - p.bend[1] * s[0] - p.bend[2] * s[1];
-    const double at = p.top + 0.5 * ((p.slope[0] + by0) * s[0] + (p.slope[1] + by1) * s[1]);
+    const double d0 = s[0] - p.best[0], d1 = effects_ > 1 ? s[1] - p.best[1] : 0;
+    const double by0 = -(p.bend[0] * d0 + p.bend[1] * d1);
+    const double by1 = -(p.bend[1] * d0 + p.bend[2] * d1);
+    const double at = p.top + 0.5 * (by0 * d0 + by1 * d1);
     value[u] = std::isnan(at) ? -infinity : at;
     if (slope.empty()) continue;
     const auto by_own = [&](std::size_t e, double by) {
@@ -171,6 +194,129 @@ void LinearUnits::evaluate(std::span<const double> z, std::span<const std::uint8
     slope[u * effects_] += r * by_own(1, by1);
     slope[u * effects_ + 1] = rest * by_own(1, by1);
   }
+}
+
+namespace {
+
+// Nodes of the rule in t: sinh(t) and log cosh(t).
+struct SinhNodes {
+  static constexpr int most = 150;
+  static constexpr double step = 0.2;
+  double place[most], stretch[most];
+
+  SinhNodes() {
+    for (int n = 0; n < most; ++n) {
+      place[n] = std::sinh(n * step);
+      stretch[n] = std::log(std::cosh(n * step));
+    }
+  }
+};
+
+// -h/2 (e^sz - 1 - best)^2 - z^2/2, and its slope and bend.
+struct LognormalUnit {
+  double best, h, s;
+
+  double at(double z) const {
+    const double off = std::exp(s * z) - 1 - best;
+    return -0.5 * h * off * off - 0.5 * z * z;
+  }
+  // Where it is highest, about, and the width there.
+  std::pair<double, double> bell() const {
+    const double top = 1 + best, informed = s * s * top * top * h;
+    double z = top > 0 ? std::log(top) / s * informed / (1 + informed) : 0, bend = 1;
+    if (!std::isfinite(z)) z = 0;
+    for (int step = 0; step < 12; ++step) {
+      const double e = std::exp(s * z), off = e - 1 - best, slope = -s * e * h * off - z;
+      bend = std::max(1 + s * s * e * h * (e + off), 0.5 * (1 + s * s * e * e * h));
+      const double move = std::clamp(slope / bend, -2.0, 2.0);
+      if (std::abs(slope) < 0.1 * std::sqrt(bend)) break;
+      z += move;
+    }
+    return {z, 1 / std::sqrt(bend)};
+  }
+  struct Node {
+    double z, log_f;
+  };
+  // log of the integral over z, without the constant of the normal law.
+  std::optional<double> log_integral(std::vector<Node>* kept) const {
+    static const SinhNodes nodes;
+    constexpr double negligible = -36, most_difference = 3e-6;
+    const auto [center, width] = bell();
+    double highest = at(center), sums[2] = {1, 0};
+    if (kept) kept->assign(1, {center, highest});
+    for (const int sign : {1, -1}) {
+      for (int n = 1;; ++n) {
+        if (n == SinhNodes::most) return {};
+        const double z = center + sign * width * nodes.place[n];
+        const double log_f = at(z) + nodes.stretch[n];
+        if (!(log_f > highest + negligible)) break;
+        if (kept) kept->push_back({z, log_f});
+        if (log_f > highest) {
+          const double scale = std::exp(highest - log_f);
+          sums[0] *= scale;
+          sums[1] *= scale;
+          highest = log_f;
+        }
+        sums[n % 2] += std::exp(log_f - highest);
+      }
+    }
+    const double sum = sums[0] + sums[1];
+    if (!(std::abs(sums[0] - sums[1]) < most_difference * sum)) return {};
+    return highest + std::log(sum * SinhNodes::step * width);
+  }
+};
+
+}  // namespace
+
+std::optional<double> LinearUnits::sum_of_one(std::span<double> gradient) {
+  if (effects_ != 1) return {};
+  const Population& population = rows_.population();
+  const double s = population.scatter[0], middle = population.middle[0];
+  const bool sloped = !gradient.empty();
+  double sum = 0;
+  Population by;
+  static thread_local std::vector<LognormalUnit::Node> nodes;
+  for (std::size_t u = 0; u < parabola_.size(); ++u) {
+    const Parabola& p = parabola_[u];
+    Moments& m = moments_[u];
+    if (!(p.top > -infinity)) return -infinity;
+    if (!law_.effects[0].lognormal) {
+      // The effect's steps are normal: a z.
+      const double a = s / width_[0], b = 1 + p.bend[0] * a * a;
+      const double mean = p.bend[0] * a * p.best[0] / b;
+      sum += p.top - 0.5 * p.bend[0] * p.best[0] * p.best[0] / b - 0.5 * std::log(b);
+      if (!sloped) continue;
+      const double square = mean * mean + 1 / b;
+      m = {{a * mean, 0}, {a * a * square, 0, 0}};
+      by.middle[0] -= p.bend[0] * (a * mean - p.best[0]) / width_[0];
+      by.scatter[0] -= p.bend[0] * (a * square - p.best[0] * mean) / width_[0];
+      continue;
+    }
+    const LognormalUnit unit{p.best[0], p.bend[0], s};
+    const auto integral = unit.log_integral(sloped ? &nodes : nullptr);
+    if (!integral) return {};
+    sum += p.top + *integral - half_log_two_pi;
+    if (!sloped) continue;
+    double all = 0, highest = -infinity;
+    m = {};
+    for (const auto& node : nodes) highest = std::max(highest, node.log_f);
+    double by_middle = 0, by_scatter = 0;
+    for (const auto& node : nodes) {
+      const double weight = std::exp(node.log_f - highest), e = std::exp(s * node.z);
+      const double slope = -weight * unit.h * (e - 1 - unit.best) * e;
+      all += weight;
+      m.first[0] += weight * (e - 1);
+      m.second[0] += weight * (e - 1) * (e - 1);
+      by_middle += slope;
+      by_scatter += slope * node.z;
+    }
+    m.first[0] /= all;
+    m.second[0] /= all;
+    by.middle[0] += by_middle / all / middle;
+    by.scatter[0] += by_scatter / all;
+  }
+  if (sloped && std::isfinite(sum)) add_gradient_of_moments(by, gradient);
+  return sum;
 }
 
 void LinearUnits::add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient) {
@@ -192,8 +338,9 @@ void LinearUnits::add_gradient(const latent::UnitIntegrals& integrals, std::span
       m.second[1] += weight * s[0] * s[1];
       m.second[2] += weight * s[1] * s[1];
       const Parabola& p = parabola_[u];
-      const double slope[2] = {p.slope[0] - p.bend[0] * s[0] - p.bend[1] * s[1],
-                               p.slope[1] - p.bend[1] * s[0] - p.bend[2] * s[1]};
+      const double d0 = s[0] - p.best[0], d1 = effects_ > 1 ? s[1] - p.best[1] : 0;
+      const double slope[2] = {-(p.bend[0] * d0 + p.bend[1] * d1),
+                               -(p.bend[1] * d0 + p.bend[2] * d1)};
       for (std::size_t e = 0; e < effects_; ++e) {
         const bool lognormal = law_.effects[e].lognormal;
         const double by_effect = weight * slope[e] / width_[e];
@@ -207,6 +354,10 @@ void LinearUnits::add_gradient(const latent::UnitIntegrals& integrals, std::span
       }
     }
   }
+  add_gradient_of_moments(by, gradient);
+}
+
+void LinearUnits::add_gradient_of_moments(const Population& by, std::span<double> gradient) {
   rows_.add_population_gradient(by, gradient);
   for (std::size_t c = 0; c < rows_.columns().size(); ++c) {
     const BoundColumn& column = rows_.columns()[c];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,18 +32,26 @@ class LinearUnits final : public latent::UnitTerms {
   void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
                 std::span<double> value, std::span<double> slope) override;
 
+  /// The sum of the units' log likelihoods, where one effect is integrated out unit by unit: the same
+  /// rule as latent::integrate with all that a parabola spares. Nothing where that does not settle.
+  /// With `gradient` that is added as well, where it settles.
+  std::optional<double> sum_of_one(std::span<double> gradient = {});
+
   /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
   void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);
 
  private:
-  // Effects are counted from the middle, in steps.
+  // Effects are counted from the middle, in steps; about the best one, so that nothing cancels where
+  // the standard deviation is very small.
   struct Parabola {
-    double top = 0, slope[2] = {}, bend[3] = {};  // 00, 01, 11
+    double top = 0, best[2] = {}, bend[3] = {};  // 00, 01, 11
   };
   struct Moments {
     double first[2] = {}, second[3] = {};
   };
+  void fill(std::size_t c);
   void steps(const double* z, double* step, double* effect) const;
+  void add_gradient_of_moments(const Population& by, std::span<double> gradient);
 
   UnitRows& rows_;
   const OwnLaw& law_;

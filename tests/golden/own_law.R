@@ -1,0 +1,11 @@
+# Maximum likelihood of two published sets by R's survreg: the 23 ball bearings of Lieblein and Zelen (1956), whose seventh life is 48.40
+# in some books and 48.48 in others (the published 2.1021, 81.88 and -113.691 belong to 48.48), and Device-A of Meeker and Escobar (1998).
+#   Rscript tests/golden/own_law.R
+suppressMessages(library(survival))
+y <- c(17.88,28.92,33.00,41.52,42.12,45.60,48.40,51.84,51.96,54.12,55.56,67.80,68.64,68.64,68.88,84.12,93.12,98.64,105.12,105.84,127.92,128.04,173.40)
+for (v in c(48.40,48.48)) { z<-y; z[7]<-v; f <- survreg(Surv(z)~1); cat(v, sprintf("%.6f %.6f %.4f\n", 1/f$scale, exp(coef(f)), f$loglik[2])) }
+d <- rbind(data.frame(t=c(1298,1390,3187,3241,3261,3313,4501,4568,4841,4982),T=40,s=1,n=1), data.frame(t=5000,T=10,s=0,n=30), data.frame(t=5000,T=40,s=0,n=90),
+ data.frame(t=c(581,925,1432,1586,2452,2734,2772,4106,4674),T=60,s=1,n=1), data.frame(t=5000,T=60,s=0,n=11),
+ data.frame(t=c(283,361,515,638,854,1024,1030,1045,1767,1777,1856,1951,1964,2884),T=80,s=1,n=1), data.frame(t=5000,T=80,s=0,n=1))
+d$x <- 11605/(d$T+273.15)
+f <- survreg(Surv(t,s)~x, data=d, weights=n, dist="lognormal"); print(summary(f)); 
