@@ -8,6 +8,7 @@
 
 #include "wearwell/input/source.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/study/first_study.h"
 #include "wearwell/study/study.h"
 
 namespace wearwell {
@@ -28,6 +29,9 @@ struct Model {
   std::unique_ptr<const Study> (*read)(const TomlReader& root, const Source& source);
   /// Adds commands of its own; may be null.
   void (*add_commands)(CLI::App& app, int& exit_code);
+  /// A study of a table of that name, as far as its headings say; nothing where it is of another
+  /// trade. May be null.
+  std::optional<FirstStudy> (*first_study)(const Table& table, const std::string& file) = nullptr;
 };
 
 /// A list of models; programs hand in those that they know (models/registry.h).

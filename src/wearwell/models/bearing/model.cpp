@@ -1,5 +1,6 @@
 #include "wearwell/models/bearing/model.h"
 
+#include "wearwell/models/bearing/bearing_first.h"
 #include "wearwell/models/bearing/bearing_study.h"
 #include "wearwell/models/bearing/commands.h"
 
@@ -23,7 +24,8 @@ Model model() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_bearing_study);
               },
-          .add_commands = add_bearing_command};
+          .add_commands = add_bearing_command,
+          .first_study = first_study};
 }
 
 }  // namespace bearing

@@ -1,5 +1,6 @@
 #include "wearwell/models/fatigue/model.h"
 
+#include "wearwell/models/fatigue/sn_first.h"
 #include "wearwell/models/fatigue/sn_study.h"
 
 namespace wearwell {
@@ -22,7 +23,8 @@ Model model() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_sn_study);
               },
-          .add_commands = nullptr};
+          .add_commands = nullptr,
+          .first_study = first_study};
 }
 
 }  // namespace fatigue

@@ -1,5 +1,6 @@
 #include "wearwell/models/joint/model.h"
 
+#include "wearwell/models/joint/joint_first.h"
 #include "wearwell/models/joint/joint_study.h"
 
 namespace wearwell {
@@ -22,7 +23,8 @@ Model model() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_joint_study);
               },
-          .add_commands = nullptr};
+          .add_commands = nullptr,
+          .first_study = first_study};
 }
 
 }  // namespace joint
