@@ -123,6 +123,49 @@ TEST_F(BearingStudy, PredictionsAgreeWithTheBearingCommand) {
       1e-9 * 100);
 }
 
+// What the joint says, of a new bearing: the wait has the risk that was asked for, in the life's own
+// distribution, and the page draws limit and life.
+TEST_F(BearingStudy, SaysWhenToInspectAtARisk) {
+  const auto study = [&](const std::string& predict) {
+    std::ifstream in(example + "study.toml");
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    text.replace(text.find("inspections.csv"), 15, example + "inspections.csv");
+    return text.substr(0, text.find("[predict]")) + "[predict]\nclearance = \"30 um\"\n" + predict;
+  };
+  const std::string asked = "limit = \"80 um\"\npressure = \"1.5 MPa\"\nspeed = \"60 rpm\"\n";
+  const json one =
+      fit(write("a.toml", study(asked + "risk = \"10 %\"\n")).string(), "--method exact");
+  const json& life = one["life"]["exact"];
+  EXPECT_EQ(one["life"]["of"], "new bearing");
+  EXPECT_EQ(one["life"]["unit"], "h");
+  EXPECT_EQ(one["life"]["risk"], 0.1);
+  EXPECT_NEAR(double(life["inspect_within"]) / double(life["b10"]), 1, 1e-6);
+  const json& quantities = quantity(one, "life", "new bearing", "h")["exact"];
+  for (const char* q : {"q05", "q95", "b1", "b10", "b50"})
+    EXPECT_NEAR(double(life[q]) / double(quantities[q]), 1, 1e-6) << q;
+  std::ifstream page(folder() / "out" / "report.html");
+  const std::string html{std::istreambuf_iterator<char>(page), {}};
+  EXPECT_THAT(html, HasSubstr("Life until 80"));
+  EXPECT_THAT(html, HasSubstr("\"datum\":\"limit\""));
+  const std::string needs = "predict.risk: needs predict.limit and predict.pressure";
+  EXPECT_THAT(refusal(study("risk = \"1 %\"\npressure = \"1 MPa\"\nrevolutions = 1e5\n")),
+              HasSubstr(needs));
+  EXPECT_THAT(refusal(study(asked + "risk = \"100 %\"\n")),
+              HasSubstr("predict.risk: must lie between 0 and 1"));
+}
+
+// The limit is told in a unit of its own.
+TEST_F(BearingStudy, TheLimitIsDrawnInTheUnitOfTheDepths) {
+  std::ifstream in(example + "study.toml");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  text.replace(text.find("inspections.csv"), 15, example + "inspections.csv");
+  text.replace(text.find("limit       = \"80 um\""), 21, "limit       = \"0.08 mm\"");
+  fit(write("a.toml", text).string(), "--method exact");
+  std::ifstream file(folder() / "out" / "report.json");
+  const std::string report{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(report, HasSubstr("\"values\":\"y\\n80\""));
+}
+
 // The same inspections with other words and units: times at a speed, loads as pressures, the
 // contact in a column. Exact data of one k are recovered, whatever the contact.
 TEST_F(BearingStudy, RecoversExactDataOfEveryContact) {

@@ -100,6 +100,47 @@ TEST(BearingCommand, InverseSolvesAgreeWithForwardOne) {
 }
 
 // 150 rpm, 150 revolutions a minute, 2.5 Hz and 5 pi rad/s are one speed.
+TEST(BearingCommand, ADiameterIsTwiceTheRadius) {
+  const std::string rest =
+      " --contact stationary --clearance '20 um' --depth '0.1 mm' --pressure '1 MPa' --revolutions "
+      "1e5 --json";
+  const auto radius = run_wearwell("bearing rate --radius '20 +- 0.1 mm'" + rest);
+  const auto diameter = run_wearwell("bearing rate --diameter '40 +- 0.2 mm'" + rest);
+  ASSERT_EQ(diameter.exit_code, 0) << diameter.err;
+  const auto a = ordered_json::parse(radius.out), b = ordered_json::parse(diameter.out);
+  EXPECT_EQ(a["value"], b["value"]);
+  EXPECT_NEAR(double(b["interval"]["q95"]) / double(a["interval"]["q95"]), 1, 2e-4);
+  const auto both = run_wearwell("bearing rate --diameter '40 mm' --radius '20 mm'" + rest);
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.err, testing::HasSubstr("--diameter is given beside --radius; keep one"));
+}
+
+// A life is one over a lognormal rate: B10 is that of the 90 % rate, factor^1.2816 above the median.
+TEST(BearingCommand, LifeHasAB10WhenInputsAreUncertain) {
+  const std::string life =
+      "bearing life --contact journal --radius '10 mm' --clearance '20 um' --depth '50 um' "
+      "--pressure '2 MPa' --speed '60 rpm' --rate '1e-16 m^3/(N m) x/ 2'";
+  const auto run = run_wearwell(life + " --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err, "") << "no draw of a lognormal is impossible";
+  const auto result = ordered_json::parse(run.out);
+  EXPECT_NEAR(double(result["interval"]["b10"]) / double(result["value"]), std::pow(2, -1.2815516),
+              0.01);
+  EXPECT_NEAR(double(result["interval"]["q50"]) / double(result["value"]), 1, 0.01);
+  EXPECT_THAT(run_wearwell(life).out, testing::HasSubstr("\nB10 life: 1432 h: one in ten reaches"));
+}
+
+// A normal law of +- 200 % is three draws in ten below zero.
+TEST(BearingCommand, TellsOfALognormalWhereANormalLawIsTooWide) {
+  const auto run = run_wearwell(
+      "bearing depth --contact journal --radius '10 mm' --clearance '20 um' --pressure '2 MPa' "
+      "--revolutions 1e6 --rate '1e-16 m^3/(N m) +- 200 %'");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, testing::HasSubstr("31 % of all"));
+  EXPECT_THAT(run.err, testing::HasSubstr("use a lognormal for --rate"));
+  EXPECT_THAT(run.err, testing::HasSubstr("'1e-16 m^3/(N m) x/ 3.6'"));
+}
+
 TEST(BearingCommand, CountsTurnsWhateverTheUnit) {
   const std::string bearing =
       "pressure --contact bushing --radius '10 mm' --clearance '20 um' --depth '50 um' "

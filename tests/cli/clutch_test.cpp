@@ -296,7 +296,9 @@ TEST_F(Clutch, PredictTracesAndFlagsCycles) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const auto trace = lines(read(folder() / "trace.csv"));
   ASSERT_EQ(trace.size(), 5u);
-  EXPECT_EQ(trace[0], "plate,cycle,volume [mm^3],sd [mm^3],outside");
+  EXPECT_EQ(trace[0],
+            "plate,cycle,volume [mm^3],sd_scatter [mm^3],scatter_low [mm^3],scatter_high [mm^3],"
+            "sd_full [mm^3],full_low [mm^3],full_high [mm^3],outside");
   EXPECT_TRUE(trace[1].ends_with(',')) << trace[1];
   EXPECT_TRUE(trace[2].ends_with(",slip_speed") || trace[2].ends_with(",slip_speed negative"))
       << trace[2];

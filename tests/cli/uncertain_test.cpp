@@ -37,6 +37,33 @@ TEST(Uncertain, ReadsEveryForm) {
   EXPECT_EQ(read_uncertain(" 0.1 +- 0.01 mm ", "m").text, "0.1 +- 0.01 mm");
 }
 
+// A factor is that of one standard deviation of the logarithm: two in three lie between median/2 and
+// twice the median. plnorm(2, 0, log(2)) - plnorm(.5, 0, log(2)) = 0.6826895.
+TEST(Uncertain, AFactorIsLognormalAboutItsMedian) {
+  for (const char* text : {"0.1 mm x/ 2", "0.1 mm ×/ 2", "0.1 mm ×÷2", "100 um x/2"}) {
+    const Uncertain q = read_uncertain(text, "m");
+    EXPECT_EQ(q.law, Law::lognormal) << text;
+    EXPECT_NEAR(q.centre, 1e-4, 1e-18) << text;
+    EXPECT_NEAR(q.mean / 1e-4, std::exp(0.5 * std::log(2) * std::log(2)), 1e-14);
+    EXPECT_NEAR(equal_factor(q), 2, 1e-12);
+  }
+  const Uncertain q = read_uncertain("0.1 mm x/ 2", "m");
+  Rng rng(1, 0);
+  int below = 0, between = 0;
+  constexpr int draws = 100'000;
+  for (int i = 0; i < draws; ++i) {
+    const double x = draw(q, rng);
+    below += x < 1e-4;
+    between += x > 0.5e-4 && x < 2e-4;
+  }
+  EXPECT_NEAR(below, 0.5 * draws, 4 * std::sqrt(0.25 * draws));
+  EXPECT_NEAR(between, 0.6826895 * draws, 4 * std::sqrt(0.22 * draws));
+  EXPECT_EQ(read_uncertain("0.1 +- 0.005 mm", "m").centre, 1e-4);
+  for (const char* text : {"0.1 mm x/ 1", "0.1 mm x/ 0.5", "0.1 mm x/", "x/ 2", "0.1 mm x/ 2 mm",
+                           "-0.1 mm x/ 2", "0.1 mm x/ inf"})
+    EXPECT_THROW(read_uncertain(text, "m"), InputError) << text;
+}
+
 TEST(Uncertain, CountsInAnyMultiple) {
   expect(read_uncertain("40 +- 2 krev", "rev"), Law::normal, 4e4, 2e3);
   expect(read_uncertain("4e4 +- 5 %", "rev"), Law::normal, 4e4, 2e3);

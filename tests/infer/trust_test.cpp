@@ -120,14 +120,14 @@ TEST(Trust, AWeakPriorOnScatterIsNoConflict) {
 // flat law that was cut is no knowledge and fails, a uniform law is and warns.
 TEST(Trust, DependenceOnTheCut) {
   const Posterior uniform = joint_posterior(true, false, 7, 3);
-  const Check warning = check(checks_of(uniform), "prior-cut");
+  const Check warning = check(checks_of(uniform), "prior-bounds");
   EXPECT_EQ(warning.verdict, Verdict::warn);
   EXPECT_THAT(warning.detail, HasSubstr("bounds of sigma"));
 
   std::vector<Parameter> parameters = uniform.parameters();
   parameters[1].prior = make_law(Flat{}, 0, 7e-9);
   const auto cut = checks_of(Posterior(parameters, uniform.likelihood()));
-  EXPECT_EQ(check(cut, "prior-cut").verdict, Verdict::fail);
+  EXPECT_EQ(check(cut, "prior-bounds").verdict, Verdict::fail);
   EXPECT_EQ(check(cut, "bounds").verdict, Verdict::fail);
   EXPECT_FALSE(trusted(cut));
 }

@@ -172,5 +172,40 @@ TEST_F(PriorTest, RefusesUnitsWithAnOffset) {
   EXPECT_EQ(read(R"(law = "normal", mean = "293 K", sd = "1 K")", temperature).unit.text, "K");
 }
 
+// Where the study says nothing, or "default", it is the model's own, and says so.
+TEST_F(PriorTest, ADefaultStandsInAndIsCalledOne) {
+  ParameterSpec spec = positive;
+  spec.fallback = DefaultPrior{"half-normal", Normal{0, 2e-3}, "mm", 0};
+  const auto root = TomlReader::parse_file(write("c.toml", "y = 1\n[prior]\nz = 1\n"));
+  const Parameter none = read_prior(root, root.table("prior"), spec);
+  EXPECT_TRUE(none.is_default);
+  EXPECT_EQ(none.unit.text, "mm");
+  EXPECT_EQ(none.law, "half-normal");
+  EXPECT_NEAR(
+      std::exp(log_density(none.prior, 1e-3).value) /
+          std::exp(log_density(read(R"(law = "half-normal", scale = "2 mm")", positive).prior, 1e-3)
+                       .value),
+      1, 1e-12);
+  EXPECT_TRUE(read_prior(root, {}, spec).is_default);
+  EXPECT_TRUE(read(R"(law = "default")", spec).is_default);
+  EXPECT_FALSE(read(R"(law = "half-normal", scale = "2 mm")", spec).is_default);
+  EXPECT_THAT(refusal(R"(law = "default")", positive), HasSubstr("x has no default prior"));
+  EXPECT_THAT(message_of<InputError>([&] { read_prior(root, {}, positive); }),
+              HasSubstr("no prior for x"));
+}
+
+TEST(RoundedUp, IsOneTwoOrFiveTimesAPowerOfTen) {
+  for (const auto& [x, up] : {std::pair{45.31, 50.},
+                              {50., 50.},
+                              {51., 100.},
+                              {1., 1.},
+                              {1.1, 2.},
+                              {2e-9, 2e-9},
+                              {2.1e-9, 5e-9},
+                              {9.99e5, 1e6},
+                              {0., 0.}})
+    EXPECT_NEAR(rounded_up(x), up, 1e-9 * up) << x;
+}
+
 }  // namespace
 }  // namespace wearwell

@@ -46,7 +46,7 @@ TEST(Plot, OneLegendForAllMarks) {
 }
 
 TEST(Plot, NamesStandAtOneTwoThree) {
-  const Json spec = plot("", {"Data sets", false, {}, {}, {"first", "\"second\""}}, {"y"},
+  const Json spec = plot("", {"Rows", false, {}, {}, {"first", "\"second\""}}, {"y"},
                          {ranges({{"x", {1, 2}}, {"y", {0, 0}}, {"y2", {1, 1}}}, {"#aaaaaa"})});
   const Json& x = spec["layer"][0]["encoding"]["x"];
   EXPECT_THAT(x["axis"]["values"], ElementsAre(1, 2));
@@ -60,6 +60,37 @@ TEST(Plot, LinesAcrossHaveOneCoordinate) {
   EXPECT_FALSE(spec["layer"][0]["encoding"].contains("y"));
   EXPECT_FALSE(spec["layer"][1]["encoding"].contains("x"));
   EXPECT_EQ(spec["layer"][1]["data"]["values"], "y\n7");
+}
+
+// A dashed line is dashed in the legend, a point has its shape, a band is a square.
+TEST(Plot, LegendsLookAsTheirMarks) {
+  const Json spec =
+      plot("", {"x"}, {"y"},
+           {line({{"x", {1}}, {"y", {2}}}, {"#aaaaaa", "all", 1, 2, true}),
+            line({{"x", {1}}, {"y", {2}}}, {"#bbbbbb", "scatter"}),
+            area({{"x", {1}}, {"y", {2}}}, {"#cccccc", "band"}),
+            arrows({{"x", {1}}, {"y", {2}}}, "triangle-right", {"#dddddd", "run-outs"})});
+  const Json& symbols = spec["layer"][0]["encoding"]["color"]["legend"]["encoding"]["symbols"];
+  const std::string labels = R"([indexof(["all","scatter","band","run-outs"], datum.value)])";
+  EXPECT_EQ(symbols["shape"]["value"]["signal"],
+            R"(["stroke","stroke","square","triangle-right"])" + labels);
+  EXPECT_EQ(symbols["strokeDash"]["value"]["signal"], "[[4,3],[1,0],[1,0],[1,0]]" + labels);
+}
+
+TEST(Plot, PointsHaveRoomAtTheEndsOfAxes) {
+  const Json with = plot("", {"x"}, {"y"}, {points({{"x", {1}}, {"y", {2}}}, {"#aaaaaa"})});
+  EXPECT_EQ(with["layer"][0]["encoding"]["x"]["scale"]["padding"], 6);
+  const Json without = plot("", {"x"}, {"y"}, {line({{"x", {1}}, {"y", {2}}}, {"#aaaaaa"})});
+  EXPECT_FALSE(without["layer"][0]["encoding"]["x"]["scale"].contains("padding"));
+}
+
+TEST(Plot, AHeatMapHasAScaleOfItsNumbers) {
+  const Json map = heat_map({{"x", {0}}, {"x2", {1}}, {"y", {0}}, {"y2", {1}}, {"density", {25}}},
+                            {"#aaaaaa"}, {"wear rate", 10, 30});
+  const Json& opacity = map["encoding"]["opacity"];
+  EXPECT_THAT(opacity["scale"]["domain"], ElementsAre(10, 30));
+  EXPECT_EQ(opacity["legend"]["title"], "wear rate");
+  EXPECT_THAT(opacity["legend"]["values"], ElementsAre(10, 15, 20, 25, 30));
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST_F(ReportCommands, CheckSaysWhatWillBeFitted) {
   const CommandResult run = run_wearwell("check " + study);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const char* words :
-       {"V = k W, W = cycles x 5.966 N m", "5 data sets of worn volume",
+       {"V = k W, W = cycles x 5.966 N m", "5 rows of worn volume",
         "k      wear coefficient [mm^3/(N m)]", "prior: flat: nothing is known, above 0 mm^3/(N m)",
         "prior: uniform, between 0 and 15 mm^3", "by nuts, 4 chains of 1000 draws",
         "worn volume [mm^3] at 20585 cycles", "until the worn volume reaches 100 mm^3"}) {
@@ -104,7 +104,7 @@ TEST_F(ReportCommands, NewStudyRunsAsItIs) {
   ASSERT_EQ(run_wearwell("new bearing '" + bearing.string() + "'").exit_code, 0);
   const CommandResult check = run_wearwell("check '" + (bearing / "study.toml").string() + "'");
   EXPECT_EQ(check.exit_code, 0) << check.err;
-  for (const char* words : {"24 data sets of wear depth", "k_scatter  scatter of ln k between",
+  for (const char* words : {"24 rows of wear depth", "k_scatter  scatter of ln k between",
                             "life [h] of a new bearing to 80 um at 1.5 MPa, 60 rpm"}) {
     EXPECT_THAT(check.out, HasSubstr(words));
   }

@@ -5,6 +5,7 @@
 #include "study/sample.h"
 #include "support/run_command.h"
 #include "support/scratch.h"
+#include "wearwell/study/comparison_overlays.h"
 
 namespace wearwell {
 namespace {
@@ -126,6 +127,49 @@ TEST_F(CompareCommand, OfTheJointStudies) {
   EXPECT_EQ(run_wearwell("compare " + one).exit_code, 2);
   EXPECT_EQ(run_wearwell("compare " + one + " " + folder().string()).exit_code, 2);
   EXPECT_EQ(run_wearwell("compare -o page.txt " + one + " " + two).exit_code, 2);
+}
+
+// Curves of both studies over one pair of axes, each study in its colour there and in the histograms;
+// and the lives of both side by side.
+TEST(Comparison, PageHasCurvesAndLivesOverEachOther) {
+  const auto with_curve = [](double slope) {
+    SavedResult result = sample({{-2, 0, 0.1}, {-2, 0, 0.1}});
+    result.figures.push_back({"sn-curve", "S-N curve", "",
+                              plot::plot("", {"Life", true}, {"Stress", true},
+                                         {plot::line({{"x", {1e3, 1e6}}, {"y", {500, 500 * slope}}},
+                                                     {"#111111", "half"}),
+                                          plot::line({{"x", {1e2, 1e5}}, {"y", {500, 500 * slope}}},
+                                                     {"#222222", "at least", 1, 2, true})})});
+    result.quantities = {{"B10 life",
+                          "shaft",
+                          "at 400 MPa",
+                          "cycles",
+                          false,
+                          {1, 2, 3, 0, 0, 0, 2000 * slope, 1000 * slope},
+                          {}}};
+    return result;
+  };
+  Comparison comparison = compare({{"steep", with_curve(0.25)}, {"flat", with_curve(0.5)}});
+  const std::vector<html::Figure> figures = curve_figures(comparison);
+  ASSERT_EQ(figures.size(), 1u);
+  const auto& layers = figures[0].specification["layer"];
+  ASSERT_EQ(layers.size(), 4u);
+  EXPECT_EQ(layers[0]["data"]["values"], "x,y\n1000,500\n1e+06,125");
+  EXPECT_EQ(layers[2]["data"]["values"], "x,y\n1000,500\n1e+06,250");
+  EXPECT_TRUE(layers[1]["mark"].contains("strokeDash"));
+  EXPECT_EQ(layers[0]["encoding"]["y"]["scale"]["type"], "log");
+  EXPECT_THAT(layers[0]["encoding"]["color"]["scale"]["domain"], ElementsAre("steep", "flat"));
+  EXPECT_THAT(layers[0]["encoding"]["color"]["scale"]["range"],
+              ElementsAre(look_of_study(0, "").colour, look_of_study(1, "").colour));
+  EXPECT_EQ(layers[1]["mark"]["stroke"], look_of_study(0, "").colour);
+  const present::Table lives = life_table(comparison);
+  ASSERT_EQ(lives.rows.size(), 2u);
+  EXPECT_EQ(std::get<double>(lives.rows[0][4]), 250);
+  EXPECT_EQ(std::get<double>(lives.rows[1][4]), 500);
+  EXPECT_THAT(comparison_page(comparison), HasSubstr("overlay-sn-curve"));
+  // One study alone has no overlay.
+  comparison.studies[1].result.figures.clear();
+  EXPECT_TRUE(curve_figures(comparison).empty());
 }
 
 }  // namespace

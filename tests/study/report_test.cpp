@@ -40,14 +40,12 @@ PosteriorSummary result_of(Verdict verdict) {
   chain.log_density = {-1, 0, -1};
   result.posterior_draws = {chain};
   Plots plots;
-  plots.quantity = "worn volume";
+  result.quantity = "worn volume";
+  result.parameters[0].meaning = "wear coefficient";
+  result.parameters[0].prior = "flat: nothing is known";
   plots.unit = "mm^3";
   plots.at_name = "cycles";
-  plots.parameters = {{"wear coefficient",
-                       "flat: nothing is known",
-                       {{7e-4, 7.5e-4, 8e-4}, {{1e4, 1e4}}},
-                       {},
-                       {{7e-4, 8e-4}, {1e4, 1e4}}}};
+  plots.parameters = {{{{7e-4, 7.5e-4, 8e-4}, {{1e4, 1e4}}}, {}, {{7e-4, 8e-4}, {1e4, 1e4}}}};
   plots.history = {{1, 20585}, {0.1, 95}, {0.1, 90}, {0.1, 100}, {-5, 85}, {5, 105}};
   plots.replicated = {{1, 100}, {0.1, 0.5}, {0.1, 0.4}, {0.1, 0.6}, {-5, -4}, {5, 6}};
   plots.measured = {4.44, 7.1};
@@ -77,7 +75,9 @@ TEST(Report, SaysTheVerdictFirst) {
   const std::string page = html_report(result_of(Verdict::pass));
   const std::size_t sentence = page.find(
       "The worn volume reaches the limit of 100\u00a0mm³ after about 21\u202f600 cycles (90 % "
-      "interval 18\u202f000 to 26\u202f000); at 20\u202f585 cycles the worn volume is "
+      "interval 18\u202f000 to 26\u202f000; one in ten before 19\u202f000); inspect again within "
+      "6\u202f000 cycles, at a risk of 1 % of reaching it before; at 20\u202f585 cycles the worn "
+      "volume is "
       "95.0\u00a0mm³ (90 % interval 90.0 to 100\u00a0mm³); the wear coefficient k is "
       "7.60\u00a0×\u00a010⁻⁴\u00a0mm³/(N\u00a0m) (90 % interval "
       "7.10 to 8.10\u00a0×\u00a010⁻⁴\u00a0mm³/(N\u00a0m)).");

@@ -18,6 +18,7 @@ inline PosteriorSummary sample_result() {
   result.equation = "V = k W";
   result.data_file = "joint.csv";
   result.data_rows = 2;
+  result.quantity = "worn volume";
   result.method = "nuts";
   result.chains = 2;
   result.warmup = 100;

@@ -35,11 +35,11 @@ PosteriorSummary full_result() {
   const Curve curve{{1, 2, 3}, {0.1, 0.5, 0.2}};
   const History history{{1, 2}, {3, 4}, {2, 3}, {4, 5}, {1, 2}, {5, 6}};
   Plots plots;
-  plots.quantity = "worn volume";
+  result.quantity = "worn volume";
   plots.unit = "mm^3";
   plots.at_name = "cycles";
-  plots.parameters = {{"wear coefficient", "flat", {{0, 1, 2}, {{1, 0}, {0, 1}}}, curve, curve},
-                      {"scatter", "uniform", {{0, 1, 2}, {{1, 0}, {0, 1}}}, {}, curve}};
+  plots.parameters = {{{{0, 1, 2}, {{1, 0}, {0, 1}}}, curve, curve},
+                      {{{0, 1, 2}, {{1, 0}, {0, 1}}}, {}, curve}};
   plots.joint = DensityGrid{{1, 2}, {3, 4}, {0.1, 0.9, 0.3, 1}};
   plots.stages = {curve, curve, curve};
   plots.history = history;

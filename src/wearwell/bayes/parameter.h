@@ -20,6 +20,7 @@ struct Parameter {
   double natural_lower =
       -std::numeric_limits<double>::infinity();  ///< bound set by physics, not by belief
   double natural_upper = std::numeric_limits<double>::infinity();
+  bool is_default = false;  ///< nobody stated the prior: it is the model's own
 };
 
 }  // namespace wearwell

@@ -23,7 +23,7 @@ struct FitOptions {
   SamplerChoice sampler;
   std::string method;
   int threads = 0;
-  bool json = false, quiet = false, no_report = false;
+  bool json = false, quiet = false, no_report = false, rows = false;
 };
 
 std::optional<Method> method_named(const std::string& name) {
@@ -50,8 +50,9 @@ int run_fit(const FitOptions& options, Models models) {
   if (options.json) {
     fmt::print("{}", summary_text(result));
   } else if (!options.quiet) {
-    fmt::print("{}Results are in {}\n", terminal_text(result, terminal_style()),
-               folder.path().string());
+    TerminalStyle style = terminal_style();
+    style.rows = options.rows;
+    fmt::print("{}Results are in {}\n", terminal_text(result, style), folder.path().string());
   }
   return result.header.trusted ? 0 : 1;
 }
@@ -84,6 +85,7 @@ void add_fit_command(CLI::App& app, Models models, int& exit_code) {
       ->check(CLI::Range(1, 1024));
   CLI::Option* json = fit->add_flag("--json", options->json, "Print summary.json and nothing else");
   fit->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
+  fit->add_flag("--rows", options->rows, "Print tables with a line for each row of the data too");
   fit->add_flag("--no-report", options->no_report, "Write no report.html");
   fit->footer(
       "Examples:\n"

@@ -192,7 +192,7 @@ Check prior_cut(const Posterior& posterior, const Fit& fit) {
   std::vector<CutFinding> each(posterior.parameters().size());
   tbb::parallel_for(std::size_t{0}, each.size(),
                     [&](std::size_t i) { each[i] = moved_cut(posterior, fit, i); });
-  Findings findings("prior-cut");
+  Findings findings("prior-bounds");
   std::vector<std::string> passed;
   for (std::size_t i = 0; i < each.size(); ++i) {
     if (!each[i].verdict) continue;
@@ -348,6 +348,14 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
                     sensitivity.prior, sensitivity.likelihood);
     switch (verdict(sensitivity)) {
       case PowerScalingVerdict::prior_data_conflict:
+        // A default is nobody's knowledge: data that pull away from it contradict nobody.
+        if (parameter.is_default) {
+          findings.add(Verdict::warn, numbers,
+                       fmt::format("The data are so few that the default prior of {} is of weight: "
+                                   "state what you know of it, or test more.",
+                                   parameter.name));
+          break;
+        }
         if (pulled_apart(draws, log_prior, log_likelihood)) {
           findings.add(
               Verdict::fail, numbers,

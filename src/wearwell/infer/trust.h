@@ -11,7 +11,7 @@
 namespace wearwell {
 
 /// All checks that apply to this fit (prior_checks.h, sampler_checks.h), in the order in which a reader should care:
-/// proper-posterior, prior-cut, bounds, prior-data-conflict, convergence, divergences, energy, exact-agreement,
+/// proper-posterior, prior-bounds, bounds, prior-data-conflict, convergence, divergences, energy, exact-agreement,
 /// computation. The last tells what any stage of the computation fell short of (stage.h).
 ///
 /// A `flat` law is the absence of knowledge: an answer that hangs on where it was cut fails. A `uniform` law, or a bound on

@@ -11,9 +11,9 @@
 namespace wearwell {
 namespace {
 
-const std::vector<std::string> laws = {"flat",          "uniform",     "normal",      "lognormal",
-                                       "half-normal",   "half-cauchy", "exponential", "gamma",
-                                       "inverse-gamma", "student-t",   "beta",        "jeffreys"};
+const std::vector<std::string> laws = {
+    "flat",  "uniform",       "normal",    "lognormal", "half-normal", "half-cauchy", "exponential",
+    "gamma", "inverse-gamma", "student-t", "beta",      "jeffreys",    "default"};
 
 // Reads one prior, and remembers the unit it was written in.
 class PriorReader {
@@ -133,55 +133,101 @@ double spread(const Law& law, double start) {
   return start != 0 ? std::abs(start) : 1;
 }
 
-}  // namespace
+struct StatedPrior {
+  std::string law;
+  Family family;
+  double lower, upper;
+  Unit unit;
+};
 
-Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
-  const auto table = priors.table(spec.name);
-  if (!table) {
-    priors.fail(
-        "",
-        fmt::format(
-            "no prior for {}; write {} = {{ law = \"flat\", unit = \"{}\" }} if nothing is known",
-            spec.name, spec.name, spec.si));
-  }
-  const auto law = table->choice("law", laws);
-  if (!law) table->fail("law", "is missing");
-  PriorReader reader(*table, spec);
-  const Family family = reader.family(*law);
-  const double least = law->starts_with("half-") ? 0 : -std::numeric_limits<double>::infinity();
-  const double lower = std::max(least, reader.bound("lower", least));
-  const double upper = reader.bound("upper", std::numeric_limits<double>::infinity());
-
-  Parameter parameter{spec.name, spec.si, reader.unit(), *law, {}};
+// `fail(key, message)` refuses what the study says, or the default where it says nothing.
+Parameter make_parameter(const ParameterSpec& spec, const StatedPrior& stated, const auto& fail) {
+  Parameter parameter{spec.name, spec.si, stated.unit, stated.law, {}};
   parameter.natural_lower = spec.natural_lower;
   parameter.natural_upper = spec.natural_upper;
-  if (!(lower < upper)) {
-    table->fail("upper",
-                fmt::format("the lower bound {:.6g} is not below the upper bound {:.6g}",
-                            from_si(parameter.unit, lower), from_si(parameter.unit, upper)));
+  if (!(stated.lower < stated.upper)) {
+    fail("upper",
+         fmt::format("the lower bound {:.6g} is not below the upper bound {:.6g}",
+                     from_si(parameter.unit, stated.lower), from_si(parameter.unit, stated.upper)));
   }
   try {
-    parameter.prior =
-        make_law(family, std::max(lower, spec.natural_lower), std::min(upper, spec.natural_upper));
+    parameter.prior = make_law(stated.family, std::max(stated.lower, spec.natural_lower),
+                               std::min(stated.upper, spec.natural_upper));
   } catch (const InputError& error) {
-    table->fail("", error.what());
+    fail("", error.what());
   }
   try {
     parameter.start = start_inside(parameter.prior, spec.guess);
     parameter.scale = spread(parameter.prior, parameter.start);
   } catch (const std::runtime_error&) {  // of Boost's quantiles
-    table->fail("", "the law is so wide or so narrow that its quantiles are no finite numbers");
+    fail("", "the law is so wide or so narrow that its quantiles are no finite numbers");
   }
   if (!(parameter.prior.lower < parameter.start && parameter.start < parameter.prior.upper)) {
-    table->fail("",
-                fmt::format("no number lies between the bounds {:.17g} and {:.17g} {}",
-                            from_si(parameter.unit, parameter.prior.lower),
-                            from_si(parameter.unit, parameter.prior.upper), parameter.unit.text));
+    fail("", fmt::format("no number lies between the bounds {:.17g} and {:.17g} {}",
+                         from_si(parameter.unit, parameter.prior.lower),
+                         from_si(parameter.unit, parameter.prior.upper), parameter.unit.text));
   }
   if (!(parameter.scale > 0 && std::isfinite(parameter.scale))) {
-    table->fail("", "the law is so wide or so narrow that its spread is no number to count with");
+    fail("", "the law is so wide or so narrow that its spread is no number to count with");
   }
   return parameter;
+}
+
+// `table` is where the study says nothing of it, under `key` or as a whole.
+Parameter default_parameter(const TomlReader& table, const char* key, const ParameterSpec& spec) {
+  if (!spec.fallback) {
+    table.fail(key,
+               fmt::format("no prior for {}; write {} = {{ law = \"flat\", unit = \"{}\" }} if "
+                           "nothing is known",
+                           spec.name, spec.name, spec.si));
+  }
+  const DefaultPrior& prior = *spec.fallback;
+  Parameter parameter =
+      make_parameter(spec,
+                     {prior.law, prior.family, prior.lower, std::numeric_limits<double>::infinity(),
+                      read_unit(prior.unit, spec.si)},
+                     [&](const char*, const std::string& message) {
+                       table.fail(key, fmt::format("the data have no size for a default prior of "
+                                                   "{}: {}; state one",
+                                                   spec.name, message));
+                     });
+  parameter.is_default = true;
+  return parameter;
+}
+
+}  // namespace
+
+double rounded_up(double x) {
+  if (!(x > 0) || !std::isfinite(x)) return x;
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (x <= digit * power * (1 + 1e-12)) return digit * power;
+  }
+  return 10 * power;
+}
+
+Parameter read_prior(const TomlReader& root, const std::optional<TomlReader>& priors,
+                     const ParameterSpec& spec) {
+  return priors ? read_prior(*priors, spec) : default_parameter(root, "prior", spec);
+}
+
+Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
+  const auto table = priors.table(spec.name);
+  if (!table) return default_parameter(priors, "", spec);
+  const auto law = table->choice("law", laws);
+  if (!law) table->fail("law", "is missing");
+  if (*law == "default") {
+    if (!spec.fallback) table->fail("law", fmt::format("{} has no default prior", spec.name));
+    return default_parameter(*table, "law", spec);
+  }
+  PriorReader reader(*table, spec);
+  const Family family = reader.family(*law);
+  const double least = law->starts_with("half-") ? 0 : -std::numeric_limits<double>::infinity();
+  const double lower = std::max(least, reader.bound("lower", least));
+  const double upper = reader.bound("upper", std::numeric_limits<double>::infinity());
+  return make_parameter(
+      spec, {*law, family, lower, upper, reader.unit()},
+      [&](const char* key, const std::string& message) { table->fail(key, message); });
 }
 
 }  // namespace wearwell

@@ -21,7 +21,7 @@ ItemMixture::ItemMixture(const WeightedDraws& draws, const Function& center,
   }
 }
 
-double ItemMixture::cdf(double log_value) const {
+double ItemMixture::below(double log_value) const {
   double sum = 0;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     sum +=
@@ -30,12 +30,16 @@ double ItemMixture::cdf(double log_value) const {
   return sum;
 }
 
+double ItemMixture::cdf(double value) const {
+  return defined_ ? below(std::log(value)) : std::nan("");
+}
+
 double ItemMixture::quantile(double p) const {
   if (!defined_) return std::nan("");
   // From the dominant point outward; beyond any number there is nothing to find.
   constexpr double beyond = 1e4;
   const double start = std::clamp(log_center_.front(), -beyond, beyond);
-  const double root = solve_increasing([&](double x) { return cdf(x) - p; }, start, 1,
+  const double root = solve_increasing([&](double x) { return below(x) - p; }, start, 1,
                                        {.absolute = 1e-9}, -2 * beyond, 2 * beyond);
   return std::exp(root);  // 0 and infinity at the ends
 }

@@ -16,9 +16,11 @@ class ItemMixture {
 
   /// 0 < p < 1. Infinite or 0 where so many centers are; NaN where one with weight is no number.
   double quantile(double p) const;
+  /// The probability of a number not above `value`, which is positive.
+  double cdf(double value) const;
 
  private:
-  double cdf(double log_value) const;
+  double below(double log_value) const;
 
   std::vector<double> weight_, log_center_, log_sd_;
   bool defined_ = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numeric>
 
 #include "wearwell/math/root.h"
@@ -159,8 +160,20 @@ Prediction predict(const WeightedDraws& draws, const Function& mean, const Funct
           measurement.quantile(0.95)};
 }
 
-Life predict_life(const WeightedDraws& draws, const Function& life, double now, double risk) {
-  const Distribution lives(draws, life);
+LifeLaw life_law(const WeightedDraws& draws, const Function& life) {
+  const auto lives = std::make_shared<const Distribution>(draws, life);
+  return {[lives](double at) { return lives->cdf(at); },
+          [lives](double p) { return lives->quantile(p); }};
+}
+
+LifeLaw life_law(const WeightedDraws& draws, double constant, const Function& driver,
+                 const Function& log_sd) {
+  const auto items = std::make_shared<const ItemMixture>(draws, driver, log_sd);
+  return {[=](double at) { return at > 0 ? 1 - items->cdf(constant / at) : 0.0; },
+          [=](double p) { return constant / items->quantile(1 - p); }};
+}
+
+Life predict_life(const LifeLaw& lives, double now, double risk) {
   const double reached = lives.cdf(now);
   const double wait = lives.quantile(reached + risk * (1 - reached)) - now;
   return {lives.quantile(0.01),

@@ -231,19 +231,39 @@ std::string table(const Table& table) {
   return out + "</tbody></table></div>\n";
 }
 
-std::string figure(const Figure& figure) {
+namespace {
+
+std::string figure(const Figure& figure, bool wide) {
   return fmt::format(
-      "<figure id=\"{0}\"><figcaption><h3>{1}</h3><p>{2}</p></figcaption>\n"
+      "<figure id=\"{0}\"{4}><figcaption><h3>{1}</h3><p>{2}</p></figcaption>\n"
       "<div class=\"plot\"></div>\n"
       "<script type=\"application/json\">{3}</script></figure>\n",
       escape(figure.id), escape(figure.title), escape(figure.caption),
       script_safe(
-          figure.specification.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+          figure.specification.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)),
+      wide ? " class=\"wide\"" : "");
 }
+
+// What takes a row for itself: a curve over a history, or one that has no neighbour in its row.
+std::vector<bool> wide_ones(const std::vector<Figure>& figures) {
+  std::vector<bool> wide(figures.size(), false);
+  std::size_t in_row = 0;
+  for (std::size_t i = 0; i < figures.size(); ++i) {
+    const std::string& id = figures[i].id;
+    wide[i] = id == "history" || id == "sn-curve";
+    if (wide[i] && in_row == 1) wide[i - 1] = true;
+    in_row = wide[i] ? 0 : (in_row + 1) % 2;
+  }
+  if (in_row == 1) wide.back() = true;
+  return wide;
+}
+
+}  // namespace
 
 std::string figures(const std::vector<Figure>& figures) {
   std::string out = "<div class=\"figures\">\n";
-  for (const Figure& each : figures) out += figure(each);
+  const std::vector<bool> wide = wide_ones(figures);
+  for (std::size_t i = 0; i < figures.size(); ++i) out += figure(figures[i], wide[i]);
   return out + "</div>\n";
 }
 

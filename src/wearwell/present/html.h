@@ -59,9 +59,8 @@ struct Figure {
   std::string id, title, caption;
   nlohmann::ordered_json specification;
 };
-std::string figure(const Figure& figure);
 
-/// Figures side by side where there is room.
+/// Figures side by side, two in a row where there is room; one without a neighbour takes the row.
 std::string figures(const std::vector<Figure>& figures);
 
 /// What is shown on request.

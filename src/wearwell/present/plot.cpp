@@ -107,12 +107,16 @@ Json ticks(const char* channel, const Axis& axis) {
   return {{"format", ",~r"}};
 }
 
-void set_axis(Json& encoding, const char* channel, const Axis& axis) {
+// A point at the end of an axis is drawn whole: there is room beyond for half of it.
+constexpr int room_for_points = 6;  // pixels
+
+void set_axis(Json& encoding, const char* channel, const Axis& axis, bool has_points) {
   if (!encoding.contains(channel)) return;
   Json& each = encoding[channel];
   each["type"] = "quantitative";
   each["title"] = axis.title;
   each["scale"] = scale(axis);
+  if (has_points && axis.names.empty()) each["scale"]["padding"] = room_for_points;
   each["axis"] = ticks(channel, axis);
 }
 
@@ -162,6 +166,24 @@ Json cells(const Columns& data, const Look& look) {
   return json;
 }
 
+Json heat_map(const Columns& data, const Look& look, const Shade& shade) {
+  constexpr double palest = 0.06;
+  constexpr int steps = 4;
+  std::vector<double> shown;
+  for (int i = 0; i <= steps; ++i)
+    shown.push_back(std::lerp(shade.low, shade.high, static_cast<double>(i) / steps));
+  Json json = cells(data, look);
+  json["encoding"]["opacity"]["scale"] = {
+      {"domain", {shade.low, shade.high}}, {"range", {palest, 1}}, {"clamp", true}};
+  json["encoding"]["opacity"]["legend"] = {{"title", shade.title},
+                                           {"values", shown},
+                                           {"format", ".3~g"},
+                                           {"symbolType", "square"},
+                                           {"symbolFillColor", look.colour},
+                                           {"symbolStrokeWidth", 0}};
+  return json;
+}
+
 Json vertical_line(double x, const Look& look) {
   Json json = layer({{"x", {x}}}, stroke("rule", look), look);
   json["encoding"].erase("y");
@@ -180,29 +202,85 @@ Json text(double x, double y, const std::string& words, const std::string& colou
   return json;
 }
 
-Json plot(const std::string& description, const Axis& x, const Axis& y, std::vector<Json> marks,
-          int height, bool zoom) {
-  Json labels = Json::array(), colours = Json::array(), legend = Json::object();
-  bool lines = true;
+namespace {
+
+// One entry of the legend, as its marks look.
+struct Entry {
+  Json label, colour;
+  std::string shape = "square";
+  bool dashed = false;
+
+  explicit Entry(const Json& layer) : label(layer["encoding"]["color"]["datum"]) {
+    const Json& mark = layer["mark"];
+    constexpr double bar = 5;  // a stroke so wide is a bar
+    for (const char* paint : {"stroke", "fill", "color"}) {
+      if (mark.contains(paint)) colour = mark[paint];
+    }
+    if (mark.contains("stroke") && mark["strokeWidth"].get<double>() < bar) shape = "stroke";
+    if (mark["type"] == "point") shape = mark.value("shape", "circle");
+    dashed = mark.contains("strokeDash");
+  }
+};
+
+std::vector<Entry> entries_of(const std::vector<Json>& marks) {
+  std::vector<Entry> entries;
   for (const Json& each : marks) {
     if (!each["encoding"].contains("color")) continue;
-    const Json& label = each["encoding"]["color"]["datum"];
-    if (std::find(labels.begin(), labels.end(), label) != labels.end()) continue;
-    labels.push_back(label);
-    for (const char* paint : {"stroke", "fill", "color"}) {
-      if (each["mark"].contains(paint)) colours.push_back(each["mark"][paint]);
-    }
-    lines = lines && each["mark"].contains("stroke");
+    const Entry entry(each);
+    if (std::none_of(entries.begin(), entries.end(),
+                     [&](const Entry& known) { return known.label == entry.label; }))
+      entries.push_back(entry);
   }
-  if (lines) legend = {{"symbolType", "stroke"}, {"symbolStrokeWidth", 3}};
+  return entries;
+}
+
+// Symbols that look as the marks do: lines as lines, dashed ones dashed, points in their shape.
+Json legend_of(const std::vector<Entry>& entries) {
+  Json labels = Json::array(), shapes = Json::array(), dashes = Json::array(),
+       widths = Json::array();
+  for (const Entry& entry : entries) {
+    labels.push_back(entry.label);
+    shapes.push_back(entry.shape);
+    dashes.push_back(entry.dashed ? Json{4, 3} : Json{1, 0});
+    widths.push_back(entry.shape == "stroke" ? 2.5 : 0);
+  }
+  const auto signal = [](const std::string& expression) {
+    return Json{{"value", {{"signal", expression}}}};
+  };
+  const auto of_entry = [&](const Json& values) {
+    return signal(fmt::format("{}[indexof({}, datum.value)]", values.dump(), labels.dump()));
+  };
+  const Json colour = signal("scale('color', datum.value)");
+  return {{"encoding",
+           {{"symbols",
+             {{"shape", of_entry(shapes)},
+              {"strokeDash", of_entry(dashes)},
+              {"strokeWidth", of_entry(widths)},
+              {"stroke", colour},
+              {"fill", colour},
+              {"size", {{"value", 150}}}}}}}};
+}
+
+}  // namespace
+
+Json plot(const std::string& description, const Axis& x, const Axis& y, std::vector<Json> marks,
+          int height, bool zoom) {
+  const std::vector<Entry> entries = entries_of(marks);
+  Json labels = Json::array(), colours = Json::array();
+  for (const Entry& entry : entries) {
+    labels.push_back(entry.label);
+    colours.push_back(entry.colour);
+  }
+  const bool has_points = std::any_of(
+      marks.begin(), marks.end(), [](const Json& each) { return each["mark"]["type"] == "point"; });
   for (Json& each : marks) {
     Json& encoding = each["encoding"];
-    set_axis(encoding, "x", x);
-    set_axis(encoding, "y", y);
+    set_axis(encoding, "x", x, has_points);
+    set_axis(encoding, "y", y, has_points);
     if (!encoding.contains("color")) continue;
     encoding["color"].update({{"type", "nominal"},
                               {"title", nullptr},
-                              {"legend", legend},
+                              {"legend", legend_of(entries)},
                               {"scale", {{"domain", labels}, {"range", colours}}}});
     for (const char* paint : {"stroke", "fill", "color"}) each["mark"].erase(paint);
   }

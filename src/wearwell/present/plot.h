@@ -54,7 +54,13 @@ Json points(const Columns& data, const Look& look);
 Json arrows(const Columns& data, const std::string& shape, const Look& look);
 Json ranges(const Columns& data, const Look& look);  ///< an upright stroke from y to y2 at x
 Json cells(const Columns& data, const Look& look);   ///< x to x2, y to y2, opacity by `density`
-Json vertical_line(double x, const Look& look);      ///< a line across the plot
+/// The same with `density` a number from `low` to `high`, and a scale that shows which.
+struct Shade {
+  std::string title;
+  double low = 0, high = 1;
+};
+Json heat_map(const Columns& data, const Look& look, const Shade& shade);
+Json vertical_line(double x, const Look& look);  ///< a line across the plot
 Json horizontal_line(double y, const Look& look);
 Json text(double x, double y, const std::string& words, const std::string& colour);
 

@@ -6,6 +6,7 @@ namespace wearwell {
 struct TerminalStyle {
   bool colour = false;      ///< ANSI colours for verdicts
   bool histograms = false;  ///< small ones, of block characters
+  bool rows = false;        ///< tables with a line for each row of the data, because asked for
 };
 
 /// The style of standard output: none when it is not a terminal; no colour with NO_COLOR

@@ -8,6 +8,7 @@
 
 #include "wearwell/base/printable.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
 namespace {
@@ -203,12 +204,12 @@ std::string comparison_text(const Comparison& comparison) {
                  {result.header.data.names(), fmt::format("{}", result.header.data.rows)});
     }
     row.insert(row.end(),
-               {fmt::format("{}", result.parameters.size()), result.header.trusted ? "yes" : "no"});
+               {fmt::format("{}", result.parameters.size()), trust_word(result.header.checks)});
   }
   out +=
       (comparison.comparable ? "Prediction of each observation from all others\n" : "Studies\n") +
       text_table(rows);
-  if (!comparison.obstacle.empty()) out += fmt::format("  {}\n", printable(comparison.obstacle));
+  if (!comparison.obstacle.empty()) out += wrapped(printable(comparison.obstacle), 2, 4);
 
   Rows parameters = {{""}};
   for (const auto& each : comparison.studies) parameters[0].push_back(each.name);
@@ -225,7 +226,7 @@ std::string comparison_text(const Comparison& comparison) {
   out += "\nParameters (mean +- sd)\n" + text_table(parameters);
   if (!comparison.cautions.empty()) out += "\nBear in mind\n";
   for (const std::string& caution : comparison.cautions) {
-    out += fmt::format("  {}\n", printable(caution));
+    out += wrapped(printable(caution), 2, 4);
   }
   return out;
 }

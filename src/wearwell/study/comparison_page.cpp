@@ -8,6 +8,8 @@
 #include "wearwell/present/plot.h"
 #include "wearwell/present/section.h"
 #include "wearwell/study/comparison.h"
+#include "wearwell/study/comparison_overlays.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
 namespace {
@@ -61,6 +63,7 @@ Section verdict_section(const Comparison& comparison) {
 struct Overlaid {
   std::string name, unit;
   struct Of {
+    std::size_t index;  // of the study
     std::string study;
     const ParameterSummary* summary;
     Numbers draws;  // those that are finite, ascending
@@ -70,7 +73,8 @@ struct Overlaid {
 
 std::vector<Overlaid> overlaid(const Comparison& comparison) {
   std::vector<Overlaid> all;
-  for (const auto& [name, result, behind] : comparison.studies) {
+  for (std::size_t s = 0; s < comparison.studies.size(); ++s) {
+    const auto& [name, result, behind] = comparison.studies[s];
     for (std::size_t i = 0; i < result.parameters.size(); ++i) {
       const ParameterSummary& p = result.parameters[i];
       auto found = std::find_if(all.begin(), all.end(), [&](const Overlaid& each) {
@@ -87,7 +91,7 @@ std::vector<Overlaid> overlaid(const Comparison& comparison) {
                      [](double x) { return std::isfinite(x); });
       }
       std::sort(draws.begin(), draws.end());
-      found->of.push_back({name, &p, std::move(draws)});
+      found->of.push_back({s, name, &p, std::move(draws)});
     }
   }
   return all;
@@ -96,9 +100,6 @@ std::vector<Overlaid> overlaid(const Comparison& comparison) {
 // Fig. 6 of Heo et al. (2011): the histograms of one parameter in several studies.
 html::Figure histograms(const Overlaid& parameter) {
   constexpr std::size_t bins = 40;
-  static constexpr const char* colours[] = {plot::colour::chains[0], plot::colour::chains[1],
-                                            plot::colour::chains[2], plot::colour::chains[3],
-                                            plot::colour::limit,     plot::colour::prior};
   double low = INFINITY, high = -INFINITY;
   for (const auto& each : parameter.of) {
     const std::size_t cut = each.draws.size() / 400;
@@ -122,8 +123,7 @@ html::Figure histograms(const Overlaid& parameter) {
     }
     density.push_back(density.back());
     marks.push_back(plot::steps({{"x", edges}, {"y", density}},
-                                {colours[s % std::size(colours)], parameter.of[s].study, 0.95, 2,
-                                 s >= std::size(colours)}));
+                                look_of_study(parameter.of[s].index, parameter.of[s].study)));
   }
   return {"overlay-" + parameter.name, parameter.name,
           "The posterior's draws of each study; the areas are one.",
@@ -160,6 +160,14 @@ Section parameter_section(const std::vector<Overlaid>& parameters) {
   return section;
 }
 
+Section answer_section(const Comparison& comparison) {
+  Section section{"answers", "Curves and lives"};
+  if (auto figures = curve_figures(comparison); !figures.empty())
+    section.add(present::Figures{std::move(figures)});
+  if (auto table = life_table(comparison); !table.rows.empty()) section.add(std::move(table));
+  return section;
+}
+
 Section study_section(const Comparison& comparison) {
   Table table{
       "studies",
@@ -170,7 +178,7 @@ Section study_section(const Comparison& comparison) {
   for (const auto& [name, result, behind] : comparison.studies) {
     const Header& header = result.header;
     table.rows.push_back({name, header.title, header.equation, header.data.names(),
-                          static_cast<double>(header.data.rows), header.trusted ? "yes" : "no"});
+                          static_cast<double>(header.data.rows), trust_word(header.checks)});
   }
   Section section{"studies", "Studies"};
   section.add(std::move(table));
@@ -182,11 +190,13 @@ Section study_section(const Comparison& comparison) {
 std::string comparison_page(const Comparison& comparison) {
   std::string names;
   for (const auto& each : comparison.studies) names += (names.empty() ? "" : ", ") + each.name;
-  return html_page({comparison.studies.front().result.header.version,
-                    "Comparison of studies",
-                    names,
-                    {verdict_section(comparison), parameter_section(overlaid(comparison)),
-                     study_section(comparison)}});
+  std::vector<Section> sections = {verdict_section(comparison)};
+  if (Section section = answer_section(comparison); !section.blocks.empty())
+    sections.push_back(std::move(section));
+  sections.push_back(parameter_section(overlaid(comparison)));
+  sections.push_back(study_section(comparison));
+  return html_page(
+      {comparison.studies.front().result.header.version, "Comparison of studies", names, sections});
 }
 
 }  // namespace wearwell

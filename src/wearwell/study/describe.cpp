@@ -64,9 +64,8 @@ std::string prior_in_words(const Parameter& parameter) {
 }
 
 std::string study_in_words(const PosteriorStudy& study) {
-  std::string out =
-      fmt::format("{}\n  {}\n\nData\n  {}: {} data sets of {}\n", printable(study.title),
-                  study.equation, study.data_file, study.data_rows, study.quantity);
+  std::string out = fmt::format("{}\n  {}\n\nData\n  {}: {} rows of {}\n", printable(study.title),
+                                study.equation, study.data_file, study.data_rows, study.quantity);
   if (!study.data_layout.empty()) out += fmt::format("  {}\n", study.data_layout);
   out += columns_in_words(study.data_columns);
   for (const std::string& note : study.data_notes) out += fmt::format("  {}\n", note);
@@ -77,12 +76,12 @@ std::string study_in_words(const PosteriorStudy& study) {
     const Parameter& p = study.parameters[i];
     out += fmt::format("  {:<{}}  {}{}\n  {:<{}}  prior: {}\n", p.name, width, study.meanings[i],
                        p.unit.text == "1" ? "" : fmt::format(" [{}]", p.unit.text), "", width,
-                       prior_in_words(p));
+                       prior_in_words(p) + (p.is_default ? " (default: state what you know)" : ""));
   }
   out += "\nWill be fitted\n";
   out += study.stages && study.data_rows <= most_stages
-             ? fmt::format("  after each of 1, 2, ... {} data sets\n", study.data_rows)
-             : fmt::format("  from all {} data sets\n", study.data_rows);
+             ? fmt::format("  after each of 1, 2, ... {} rows\n", study.data_rows)
+             : fmt::format("  from all {} rows\n", study.data_rows);
   const FitSettings settings = fit_settings(study, {});
   const RunSettings& run = settings.run;
   if (settings.method == Method::exact) {
@@ -105,12 +104,12 @@ std::string study_in_words(const PosteriorStudy& study) {
     quantities.insert(quantities.end(), group.requests.begin(), group.requests.end());
   }
   for (const QuantityRequest& q : quantities) {
-    out +=
-        fmt::format("  {} [{}] of a {} {}{}\n", q.name, q.unit.text, q.of, q.at,
-                    q.credible_level ? fmt::format("; posterior predictive, and lower bound with "
-                                                   "{:.4g} % credibility",
-                                                   100 * *q.credible_level)
-                                     : "");
+    out += fmt::format("  {} [{}] of a {} {}{}\n", q.name, q.unit.text, q.of, q.at,
+                       q.credible_level
+                           ? fmt::format("; at least, with {:.4g} % confidence (credible), "
+                                         "and of the next one",
+                                         100 * *q.credible_level)
+                           : "");
   }
   if (study.life) {
     const LifeRequest& life = *study.life;

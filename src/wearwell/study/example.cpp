@@ -8,19 +8,36 @@
 namespace wearwell {
 namespace fs = std::filesystem;
 
-fs::path write_example(const Model& model, const fs::path& folder) {
+namespace {
+
+void require_new(const fs::path& folder) {
   heal_folder(behind_links(folder));
   std::error_code error;
   if (fs::exists(folder, error) &&
       !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
     throw InputError(
         fmt::format("{} is not empty; a new study needs a folder of its own", folder.string()));
+}
+
+}  // namespace
+
+fs::path write_example(const Model& model, const fs::path& folder) {
+  require_new(folder);
   StagedFolder staged(folder);
   // The study last: without its data it says nothing.
   for (std::size_t i = model.example.size(); i-- > 0;)
     staged.write(model.example[i].name, model.example[i].content());
   staged.commit({});
   return folder / model.example.front().name;
+}
+
+fs::path write_first_study(const FirstStudy& study, const fs::path& data, const fs::path& folder) {
+  require_new(folder);
+  StagedFolder staged(folder);
+  staged.write(data.filename().string(), read_text_file(data).text);
+  staged.write("study.toml", study.text);
+  staged.commit({});
+  return folder / "study.toml";
 }
 
 }  // namespace wearwell

@@ -11,4 +11,8 @@ namespace wearwell {
 /// MachineError when the disk refuses.
 std::filesystem::path write_example(const Model& model, const std::filesystem::path& folder);
 
+/// The same of a first study and a copy of its data, which it names `data`.
+std::filesystem::path write_first_study(const FirstStudy& study, const std::filesystem::path& data,
+                                        const std::filesystem::path& folder);
+
 }  // namespace wearwell

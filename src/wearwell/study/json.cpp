@@ -21,6 +21,7 @@ Json to_json(const ParameterSummary& p) {
                      {"q50", p.exact->q50},
                      {"q95", p.exact->q95}};
   }
+  if (!p.prior.empty()) json["prior"] = {{"words", p.prior}, {"default", p.prior_is_default}};
   return json;
 }
 
@@ -130,6 +131,7 @@ Json to_json(const LifeSummary& life) {
                {"limit_unit", life.limit_unit},
                {"now", life.now},
                {"risk", life.risk}};
+  if (!life.of.empty()) json["of"] = life.of;
   json.update(to_json(life.drawn));
   if (life.exact) json["exact"] = to_json(*life.exact);
   return json;

@@ -8,6 +8,7 @@
 #include "wearwell/input/source.h"
 #include "wearwell/input/study_keys.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/study/first_study.h"
 #include "wearwell/study/study.h"
 
 namespace CLI {
@@ -34,6 +35,9 @@ struct Model {
   void (*add_commands)(CLI::App& app, int& exit_code);
   /// All keys of its studies, for messages and docs/study-keys.md; may be null.
   StudyKeys (*keys)() = nullptr;
+  /// A study of a table of that name, as far as its headings say; nothing where it is of another
+  /// trade. May be null.
+  std::optional<FirstStudy> (*first_study)(const Table& table, const std::string& file) = nullptr;
 };
 
 /// A list of models; programs hand in those that they know (models/registry.h).

@@ -42,10 +42,11 @@ Figure belief_figure(const ParameterSummary& p, const ParameterPlots& plots) {
     marks.push_back(plot::line({{"x", scale(plots.exact->x)}, {"y", plots.exact->y}},
                                {colour::posterior, "after the data (exact)"}));
   }
-  return {"belief-" + p.name, fmt::format("{} ({})", capital(plots.meaning), p.name),
-          fmt::format("Prior: {}.", html::raised(plots.prior_in_words)),
-          plot::plot(fmt::format("Density of {} before and after the data", p.name),
-                     {scale.title(p.name)}, {"Density", false, 0.0, {}, {}, false}, marks)};
+  return {
+      "belief-" + p.name, fmt::format("{} ({})", capital(p.meaning), p.name),
+      fmt::format("Prior: {}.", html::raised(p.prior) + (p.prior_is_default ? " (default)" : "")),
+      plot::plot(fmt::format("Density of {} before and after the data", p.name),
+                 {scale.title(p.name)}, {"Density", false, 0.0, {}, {}, false}, marks)};
 }
 
 // The densities of two parameters together, drawn and exact (Fig. 7).
@@ -140,12 +141,12 @@ Figure stages_figure(const PosteriorSummary& result, const Plots& plots) {
         plot::line({{"x", scale(curve.x)}, {"y", top}}, {colour::posterior, "", 1, 1.5}));
     names.push_back(fmt::format("{}", n - i));
   }
-  return {"stages", fmt::format("{} after each data set", p.name),
-          "Each row is the density after so many data sets, drawn to the same height.",
-          plot::plot(fmt::format("Density of {} after each data set", p.name),
+  return {"stages", fmt::format("{} after each row", p.name),
+          "Each line is the density after so many rows of the data, drawn to the same height.",
+          plot::plot(fmt::format("Density of {} after each row", p.name),
                      {scale.title(p.name), false, scale(plots.stages.back().x.front()),
                       scale(plots.stages.back().x.back())},
-                     {"Data sets", false, {}, {}, names}, marks, 300)};
+                     {"Rows", false, {}, {}, names}, marks, 300)};
 }
 
 // Its interval by data set, with the target (Fig. 9).
@@ -177,12 +178,12 @@ Figure interval_figure(const PosteriorSummary& result) {
     return wide ? within(later.low / decades, later.high * decades, values)
                 : within(later.low - later.margin(spans), later.high + later.margin(spans), values);
   };
-  return {"interval", fmt::format("Interval of {} by data set", last.name),
-          fmt::format("5 % to 95 % and median{}. The line is the mean with all data sets.",
+  return {"interval", fmt::format("Interval of {} by row", last.name),
+          fmt::format("5 % to 95 % and median{}. The line is the mean with all rows.",
                       wide ? ", on a logarithmic axis" : ""),
-          plot::plot(fmt::format("Interval of {} after each data set", last.name),
-                     {"Data sets", false, {}, {}, names}, {scale.title(last.name), wide},
-                     {plot::horizontal_line(target, {colour::limit, "all data sets", 1, 1.5, true}),
+          plot::plot(fmt::format("Interval of {} after each row", last.name),
+                     {"Rows", false, {}, {}, names}, {scale.title(last.name), wide},
+                     {plot::horizontal_line(target, {colour::limit, "all rows", 1, 1.5, true}),
                       plot::ranges({{"x", x},
                                     {"y", drawn(low)},
                                     {"y2", drawn(high)},

@@ -113,11 +113,8 @@ ParameterPlots plot_parameter(const PosteriorStudy& study, std::size_t i, const 
   const auto index = static_cast<Eigen::Index>(i);
   const Distribution posterior = distribution(parameter, index, best(fit));
   const Range range = range_of(parameter, posterior);
-  ParameterPlots plots{study.meanings[i],
-                       prior_in_words(parameter),
-                       histogram(parameter, index, fit.draws, range),
-                       {},
-                       prior_curve(parameter, range)};
+  ParameterPlots plots{
+      histogram(parameter, index, fit.draws, range), {}, prior_curve(parameter, range)};
   if (fit.exact) plots.exact = density_curve(posterior, spaced(range, curve_points));
   return plots;
 }
@@ -166,7 +163,7 @@ History predict_all(const std::vector<PredictionRequest>& requests, const Weight
 }
 
 Curve life_curve(const LifeRequest& request, const Fit& fit) {
-  const Distribution lives(best(fit), request.life);
+  const LifeLaw lives = request.law(best(fit));
   // Components that hardly ever reach the limit have no finite upper quantiles.
   double end = request.now;
   for (const double p : {0.995, 0.95, 0.75, 0.5, 0.25, 0.1}) {
@@ -237,7 +234,6 @@ WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count) {
 
 Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit) {
   Plots plots;
-  plots.quantity = study.quantity;
   if (study.stage_predictions) {
     const PredictionRequest first = study.stage_predictions(1).front();
     plots.unit = first.unit.text;
@@ -272,7 +268,10 @@ Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const 
     plots.history_note = study.history_note;
   }
   if (study.exhibits) plots.exhibits = study.exhibits(fit);
-  if (study.life) plots.life = life_curve(*study.life, fit);
+  if (study.life) {
+    plots.life = life_curve(*study.life, fit);
+    plots.limit = from_si(study.history.front().unit, study.life->limit.si());
+  }
   return plots;
 }
 

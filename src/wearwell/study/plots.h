@@ -22,8 +22,6 @@ struct Histogram {
 };
 
 struct ParameterPlots {
-  std::string meaning;  ///< "wear coefficient"
-  std::string prior_in_words;
   Histogram histogram;
   std::optional<Curve> exact;  ///< marginal posterior density
   Curve prior;  ///< density; of an improper prior with area one over the curve's range
@@ -45,9 +43,8 @@ struct DataFile {
 };
 
 struct Plots {
-  std::string quantity;  ///< what is measured and predicted, "worn volume"
-  std::string unit;      ///< its unit
-  std::string at_name;   ///< against what, "cycles"
+  std::string unit;     ///< its unit
+  std::string at_name;  ///< against what, "cycles"
   std::vector<ParameterPlots> parameters;
   std::optional<DensityGrid> joint;  ///< of the first two parameters
   std::vector<Curve> stages;         ///< density of the first parameter after 1, 2, ... data sets
@@ -58,6 +55,7 @@ struct Plots {
   std::vector<double> measured;    ///< those data sets
   std::string history_note;        ///< what to know of it
   std::optional<Curve> life;       ///< probability that the limit is reached by then
+  std::optional<double> limit;     ///< in `unit`
   std::string study_text;          ///< the study file
   std::vector<DataFile> files;
   double seconds = 0;  ///< that the study took

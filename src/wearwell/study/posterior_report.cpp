@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "wearwell/study/answers.h"
 #include "wearwell/study/figures.h"
 #include "wearwell/study/long_tables.h"
 #include "wearwell/study/posterior_tables.h"
@@ -14,7 +15,6 @@ namespace {
 
 using html::given;
 using html::number;
-using html::quantity;
 using html::range;
 using html::unit;
 using present::Details;
@@ -36,48 +36,18 @@ std::string life_in_words(double x, const std::string& unit_text, int digits = 3
   return in_words(x, life_format(unit_text, digits));
 }
 
-// The life of the verdict where there is none until a limit: the last that was asked for.
-const QuantitySummary* last_life(const PosteriorSummary& result) {
-  const auto& all = result.quantities;
-  const auto last = std::find_if(all.rbegin(), all.rend(), [](const auto& q) { return q.is_life; });
-  return result.life || last == all.rend() ? nullptr : &*last;
+// What an engineer would say.
+std::string verdict_sentence(const PosteriorSummary& result) {
+  std::string sentence;
+  for (const std::string& clause : answers(result, Wording::page))
+    sentence += (sentence.empty() ? "" : "; ") + clause;
+  return html::capital(sentence) + ".";
 }
 
-// What a tribologist would say.
-std::string verdict_sentence(const PosteriorSummary& result, const Plots& plots) {
-  std::string sentence;
-  const auto add = [&](const std::string& clause) {
-    sentence += (sentence.empty() ? "" : "; ") + clause;
-  };
-  if (result.life) {
-    const Life& life = result.life->best();
-    add(fmt::format("the {} reaches the limit of {} after about {} {} (90 % interval {})",
-                    plots.quantity, given_with_unit(result.life->limit, result.life->limit_unit),
-                    life_in_words(life.b50, result.life->unit), result.life->unit,
-                    range(life.q05, life.q95, 3)));
-  }
-  if (const QuantitySummary* life = last_life(result)) {
-    const QuantityQuantiles& q = life->best();
-    const std::string in = unit(life->unit);
-    add(
-        fmt::format("the {} of a {} {} is {} {} in the median (90 % interval {} to {}), and one in "
-                    "ten has less than {} {}",
-                    life->name, life->of, life->at, life_in_words(q.q50, life->unit), in,
-                    life_in_words(q.q05, life->unit), life_in_words(q.q95, life->unit),
-                    life_in_words(q.b10, life->unit), in));
-  }
-  if (!result.predictions.empty()) {
-    const PredictionSummary& p = result.predictions.back();
-    add(fmt::format("at {} {} the {} is {} (90 % interval {})", given(p.at), p.at_name,
-                    plots.quantity, quantity(p.best().mean, p.unit, 3),
-                    interval(p.best().ci05, p.best().ci95, p.unit, 3)));
-  }
-  const ParameterSummary& first = result.parameters.front();
-  const ExactSummary k = first.best();
-  add(fmt::format("the {} {} is {} (90 % interval {})", plots.parameters.front().meaning,
-                  first.name, quantity(k.mean, first.unit, 3),
-                  interval(k.q05, k.q95, first.unit, 3)));
-  return html::capital(sentence) + ".";
+// What the trade shows there beyond that.
+void add_exhibits(Section& section, const Plots& plots) {
+  const auto found = plots.exhibits.find(section.id);
+  if (found != plots.exhibits.end()) section.add(Figures{found->second});
 }
 
 void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) {
@@ -90,63 +60,80 @@ void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) 
                      fmt::format("probability after {}; tolerated: {} %", given(summary.now),
                                  given(100 * summary.risk))});
   }
-  tiles.push_back({"Inspect again within", life_in_words(life.inspect_within, summary.unit),
-                   summary.unit,
-                   fmt::format("after {}, unless the limit is passed already; risk of reaching it "
-                               "before: {} %",
-                               given(summary.now), given(100 * summary.risk))});
+  tiles.push_back(
+      {"Inspect again within", life_in_words(life.inspect_within, summary.unit), summary.unit,
+       summary.now > 0 ? fmt::format("after {}, unless the limit is passed already; risk of "
+                                     "reaching it before: {} %",
+                                     given(summary.now), given(100 * summary.risk))
+                       : fmt::format("of a new one; risk of reaching the limit before: {} %",
+                                     given(100 * summary.risk))});
 }
+
+html::Tile headline_tile(const QuantitySummary& each) {
+  const QuantityQuantiles& q = each.best();
+  const std::string where = each.of + (each.at.empty() ? "" : " ") + each.at;
+  if (q.bound) {
+    return {html::capital(each.name) + ", at least", number(*q.bound, 3), unit(each.unit),
+            fmt::format("{}, with {} % confidence", where, given(100 * *each.credible_level))};
+  }
+  if (each.is_life) return {"Life B10", life_in_words(q.b10, each.unit), unit(each.unit), where};
+  return {html::capital(each.name) + ", to design with",
+          number(each.safe_end.value_or(0.05) < 0.5 ? q.q05 : q.q95, 3), unit(each.unit), where};
+}
+
+constexpr std::size_t most_headline_tiles = 4;
 
 Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"verdict", "Verdict"};
-  section.add(Prose{verdict_sentence(result, plots), true});
+  section.add(Prose{verdict_sentence(result), true});
   section.add(trust_callout(result.checks));
   std::vector<html::Tile> tiles;
   if (result.life) add_life_tiles(*result.life, tiles);
-  if (const QuantitySummary* life = last_life(result)) {
-    tiles.push_back({"Life B10", life_in_words(life->best().b10, life->unit), unit(life->unit),
-                     fmt::format("{} {}", life->of, life->at)});
+  for (const QuantitySummary* each : headlines(result)) {
+    if (tiles.size() < most_headline_tiles) tiles.push_back(headline_tile(*each));
   }
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
     tiles.push_back(
-        {fmt::format("{} at {} {}", html::capital(plots.quantity), given(p.at), p.at_name),
+        {fmt::format("{} at {} {}", html::capital(result.quantity), given(p.at), p.at_name),
          number(p.best().mean, 3), unit(p.unit),
          fmt::format("one measurement: {}", interval(p.best().pi05, p.best().pi95, p.unit, 3))});
   }
   for (std::size_t i = 0; i < std::min<std::size_t>(2, result.parameters.size()); ++i) {
     const ParameterSummary& p = result.parameters[i];
     const ExactSummary each = p.best();
-    tiles.push_back({fmt::format("{}, {}", p.name, plots.parameters[i].meaning),
-                     number(each.mean, 3), unit(p.unit),
+    tiles.push_back({fmt::format("{}, {}", p.name, p.meaning), number(each.mean, 3), unit(p.unit),
                      fmt::format("90 % interval {}", range(each.q05, each.q95, 3))});
   }
   section.add(present::Tiles{std::move(tiles)});
+  if (const std::string defaults = default_priors(result.parameters); !defaults.empty()) {
+    section.add(
+        Prose{fmt::format("Nobody stated a prior of {}: the defaults hold, which are weak. "
+                          "They stand among the parameters.",
+                          defaults)});
+  }
+  add_exhibits(section, plots);
   return section;
-}
-
-// What the trade shows there beyond that.
-void add_exhibits(Section& section, const Plots& plots) {
-  const auto found = plots.exhibits.find(section.id);
-  if (found != plots.exhibits.end()) section.add(Figures{found->second});
 }
 
 Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"predictions", "Predictions"};
-  section.add(Figures{prediction_figures(result, plots)});
+  if (auto figures = prediction_figures(result, plots); !figures.empty())
+    section.add(Figures{std::move(figures)});
   if (!result.predictions.empty()) section.add(prediction_table(result));
   if (result.life) section.add(life_table(*result.life));
-  if (auto table = quantity_table(result.quantities); !table.rows.empty()) section.add(table);
   if (auto table = bound_table(result.quantities); !table.rows.empty()) {
     section.add(Prose{
-        "Posterior predictive: what holds for the next one, with all that is unknown averaged in. "
-        "Lower bound: what holds for all such items at least, with the stated probability; 5, 50 "
-        "and 95 % are of the same."});
+        "At least: the lower bound, and the number to design with. With the stated confidence "
+        "(Bayesian: it is credible) the true value, of all such items, lies above it; 5, 50 and "
+        "95 % are of the same. Next one: what the next item has with just that chance, all that is "
+        "unknown averaged in (predictive). It has no margin for few tests."});
     section.add(std::move(table));
   }
+  if (auto table = quantity_table(result.quantities); !table.rows.empty()) section.add(table);
   add_exhibits(section, plots);
   if (auto table = stage_prediction_table(result); !table.rows.empty())
-    section.add(Details{"Every prediction, data set by data set", {{std::move(table)}}});
+    section.add(Details{"Every prediction, row by row", {{std::move(table)}}});
   return section;
 }
 
@@ -173,7 +160,7 @@ void add_mode(const ModeSummary& mode, Section& section) {
 Section parameter_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"parameters", "Parameters"};
   section.add(parameter_table(result.parameters));
-  section.add(prior_table(result, plots));
+  section.add(prior_table(result.parameters));
   if (result.mode) add_mode(*result.mode, section);
   if (!result.stages.empty()) section.add(stage_table(result));
   section.add(Figures{parameter_figures(result, plots)});

@@ -8,6 +8,7 @@
 #include "wearwell/study/json.h"
 #include "wearwell/study/long_tables.h"
 #include "wearwell/study/posterior_report.h"
+#include "wearwell/study/posterior_tables.h"
 #include "wearwell/study/terminal.h"
 
 namespace wearwell {
@@ -29,7 +30,16 @@ Result posterior_result(PosteriorSummary summary) {
     result.files.emplace_back(fmt::format("draws_{}.csv", c + 1), draws_csv(s, c));
   result.files.emplace_back("predictions.csv", predictions_csv(s));
   for (auto& table : long_tables(s)) result.files.push_back(std::move(table));
-  if (s.plots) result.sections = report_sections(s);
+  if (s.plots) {
+    result.sections = report_sections(s);
+  } else {  // the terminal names them
+    const auto add = [&](const present::Table& table) {
+      result.files.emplace_back(fmt::format("tables/{}.csv", table.id), present::csv(table));
+    };
+    if (s.pointwise) add(pointwise_table(*s.pointwise));
+    if (!s.stages.empty()) add(stage_table(s));
+    if (s.coverage) add(coverage_table(*s.coverage));
+  }
   result.text = [shared](const TerminalStyle& style) { return terminal_summary(*shared, style); };
   return result;
 }

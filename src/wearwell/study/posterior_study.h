@@ -46,9 +46,10 @@ struct LifeRequest {
   Unit unit;              ///< of the life
   std::string unit_name;  ///< "cycles"
   Quantity limit;
-  double now = 0;   ///< the last inspection
+  double now = 0;   ///< the last inspection; 0 of an item that is new
   double risk = 0;  ///< tolerated at the next inspection
-  Function life;
+  std::function<LifeLaw(const WeightedDraws& draws)> law;
+  std::string of = {};  ///< "new bearing", where items differ
 };
 
 /// A quantity that follows from one positive unknown, its driver, by a monotone function: a depth,
@@ -67,6 +68,7 @@ struct QuantityRequest {
   std::optional<double> credible_level = {};  ///< of `QuantityQuantiles::bound`
   /// The quantile that a careful engineer designs with: 0.05 of a life, 0.95 of a needed length.
   std::optional<double> safe_end = {};
+  bool headline = false;  ///< answers what was asked first
 };
 
 /// Quantities that have no single driver: all of them at once from the points of a posterior, SI.
@@ -117,6 +119,8 @@ struct PosteriorStudy : Study {
   std::vector<QuantityGroup> quantity_groups;
   std::vector<ProfileRequest> profiled;
   std::optional<LifeRequest> life;
+  /// The law with its numbers, as a clause: "S_f = 2010 MPa N^-0.12"; may be empty.
+  std::function<std::string(const WeightedDraws&)> curve;
   std::vector<PredictionRequest> history;  ///< along the whole history, past and to come: a curve
   std::vector<double> history_at;  ///< where each data set lies along it; where it was if empty
   std::string history_note;        ///< what to know of that curve

@@ -29,6 +29,9 @@ struct ParameterSummary {
   double mean = 0, sd = 0, mcse = 0, q05 = 0, q50 = 0, q95 = 0;
   double ess_bulk = 0, ess_tail = 0, rhat = 0;
   std::optional<ExactSummary> exact;
+  std::string meaning = {};  ///< "wear coefficient"
+  std::string prior = {};    ///< in words
+  bool prior_is_default = false;
 
   ExactSummary best() const { return exact ? *exact : ExactSummary{mean, sd, q05, q50, q95}; }
 };
@@ -68,6 +71,7 @@ struct QuantitySummary {
   std::optional<QuantityQuantiles> exact;
   std::optional<double> credible_level = {};  ///< of the bound
   std::optional<double> safe_end = {};        ///< 0.05 or 0.95: the quantile to design with
+  bool headline = false;                      ///< answers what was asked first
 
   const QuantityQuantiles& best() const { return exact ? *exact : drawn; }
 };
@@ -150,12 +154,18 @@ struct LifeSummary {
   double risk = 0;
   Life drawn;
   std::optional<Life> exact;
+  std::string of = {};  ///< "new bearing", where items differ
 
   const Life& best() const { return exact ? *exact : drawn; }
 
   /// The limit is passed by now with a larger probability than the risk that is tolerated.
   bool passed_beyond_risk() const { return best().passed > risk; }
 };
+
+/// Whether lives in this unit are counted, and have no fraction: cycles, not hours.
+inline bool is_count(const std::string& unit) {
+  return unit == "cycles" || unit == "revolutions" || unit == "cycle" || unit == "rev";
+}
 
 /// "12 %", "less than 0.01 %".
 inline std::string probability_in_words(double p) {
@@ -217,6 +227,8 @@ struct PosteriorSummary {
   std::optional<ModeSummary> mode{};
   std::optional<LooSummary> loo{};  ///< of a proper posterior
   std::optional<QuadratureSummary> quadrature{};
+  std::string quantity{};  ///< what is measured and predicted, "worn volume"
+  std::string curve{};     ///< the law with its numbers, a clause; empty where it has no use
 };
 
 }  // namespace wearwell

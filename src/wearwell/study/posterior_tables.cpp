@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "wearwell/present/html.h"
 #include "wearwell/study/trust_blocks.h"
 
@@ -26,7 +28,7 @@ Table prediction_rows(const char* id, const std::string& caption, const Predicti
   const bool items = !first.mean_of.empty();
   return {id,
           caption,
-          {{"Data sets", "1", given},
+          {{"Rows", "1", given},
            {first.at_name, "1", given},
            {first.quantity, first.unit},
            interval_column("90 % of the " + (items ? first.mean_of : "mean"), first.unit),
@@ -38,8 +40,10 @@ Table prediction_rows(const char* id, const std::string& caption, const Predicti
 
 void add_row(Table& table, std::size_t data_sets, const PredictionSummary& p) {
   const Prediction& b = p.best();
+  Cell measured;
+  if (p.measured) measured = *p.measured;
   table.rows.push_back({count(data_sets), p.at, b.mean, Range{b.ci05, b.ci95},
-                        Range{b.pi05, b.pi95}, p.measured ? Cell(*p.measured) : Cell()});
+                        Range{b.pi05, b.pi95}, std::move(measured)});
 }
 
 std::vector<Cell> profile_cells(const std::optional<ProfileSummary>& profile) {
@@ -53,12 +57,11 @@ std::vector<Cell> profile_cells(const std::optional<ProfileSummary>& profile) {
 }  // namespace
 
 Format life_format(const std::string& unit, int digits) {
-  return unit.starts_with("1e") ? present::digits(digits) : present::life(digits);
+  return is_count(unit) ? present::life(digits) : present::digits(digits);
 }
 
 Table prediction_table(const PosteriorSummary& result) {
-  Table table =
-      prediction_rows("predictions", "Predictions from all data sets", result.predictions.front());
+  Table table = prediction_rows("predictions", "Predictions", result.predictions.front());
   for (const PredictionSummary& p : result.predictions) add_row(table, result.data_rows, p);
   return table;
 }
@@ -68,7 +71,7 @@ Table stage_prediction_table(const PosteriorSummary& result) {
   for (const StageSummary& stage : result.stages) {
     for (const PredictionSummary& p : stage.predictions) {
       if (table.rows.empty())
-        table = prediction_rows("predictions-by-data-set", "Predictions, data set by data set", p);
+        table = prediction_rows("predictions-by-data-set", "Predictions, row by row", p);
       add_row(table, stage.rows, p);
     }
   }
@@ -95,7 +98,7 @@ Table life_table(const LifeSummary& summary) {
 
 Table quantity_table(const std::vector<QuantitySummary>& quantities) {
   Table table{"quantities",
-              "What follows from the parameters",
+              "What follows for one item",
               {{"Quantity"},
                {"Unit"},
                {"Of"},
@@ -103,48 +106,52 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
                {"5 %"},
                {"50 %"},
                {"95 %"},
-               {"Safe end", "%", given},
+               {"Design with"},
                {"B1"},
                {"B10"}}};
+  // Where lower bounds are told, they are what to design with.
+  const bool bounds = std::any_of(quantities.begin(), quantities.end(),
+                                  [](const auto& each) { return each.best().bound.has_value(); });
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
     const auto value = [&](double x) -> Cell {
       return std::isinf(x) && each.is_life ? Cell("never") : Cell(x);
     };
-    table.rows.push_back({each.name, each.unit, each.of, each.at, value(q.q05), value(q.q50),
-                          value(q.q95), each.safe_end ? Cell(100 * *each.safe_end) : Cell(),
-                          each.is_life ? value(q.b1) : Cell(),
-                          each.is_life ? value(q.b10) : Cell()});
+    table.rows.push_back(
+        {each.name, each.unit, each.of, each.at, value(q.q05), value(q.q50), value(q.q95),
+         bounds || !each.safe_end ? Cell() : value(*each.safe_end < 0.5 ? q.q05 : q.q95),
+         each.is_life ? value(q.b1) : Cell(), each.is_life ? value(q.b10) : Cell()});
   }
   return table;
 }
 
 Table bound_table(const std::vector<QuantitySummary>& quantities) {
-  Table table{"bounds", "For the next one, and at least", {}};
+  Table table{"bounds", "Design values", {}};
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (!q.predictive) continue;
     if (table.columns.empty()) {
-      table.columns = {{"Quantity"},
-                       {"Unit"},
-                       {"Of"},
-                       {"Where"},
-                       {"Posterior predictive"},
-                       {fmt::format("{} % lower bound", html::given(100 * *each.credible_level))},
-                       {"5 %"},
-                       {"50 %"},
-                       {"95 %"}};
+      table.columns = {
+          {"Quantity"},
+          {"Unit"},
+          {"Of"},
+          {"Where"},
+          {fmt::format("At least, {} % confidence", html::given(100 * *each.credible_level))},
+          {"5 %"},
+          {"50 %"},
+          {"95 %"},
+          {"Next one"}};
     }
     table.rows.push_back(
-        {each.name, each.unit, each.of, each.at, *q.predictive, *q.bound, q.q05, q.q50, q.q95});
+        {each.name, each.unit, each.of, each.at, *q.bound, q.q05, q.q50, q.q95, *q.predictive});
   }
   return table;
 }
 
 Table parameter_table(const std::vector<ParameterSummary>& parameters) {
   Table table{"parameters",
-              "Parameters after all data sets",
+              "Parameters",
               {{"Parameter"},
                {"Unit"},
                {"Mean"},
@@ -162,12 +169,15 @@ Table parameter_table(const std::vector<ParameterSummary>& parameters) {
   return table;
 }
 
-Table prior_table(const PosteriorSummary& result, const Plots& plots) {
-  Table table{
-      "priors", "What was believed before", {{"Parameter"}, {"Meaning"}, {"Prior"}}, {}, true};
-  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
-    table.rows.push_back({result.parameters[i].name, plots.parameters[i].meaning,
-                          plots.parameters[i].prior_in_words});
+Table prior_table(const std::vector<ParameterSummary>& parameters) {
+  Table table{"priors",
+              "What was believed before",
+              {{"Parameter"}, {"Meaning"}, {"Prior"}, {"Stated by"}},
+              {},
+              true};
+  for (const ParameterSummary& p : parameters) {
+    table.rows.push_back(
+        {p.name, p.meaning, p.prior, p.prior_is_default ? "nobody: the default" : "the study"});
   }
   return table;
 }
@@ -203,8 +213,7 @@ Table mode_table(const ModeSummary& mode) {
 }
 
 Table stage_table(const PosteriorSummary& result) {
-  Table table{
-      "parameters-by-data-set", "Parameters, data set by data set", {{"Data sets", "1", given}}};
+  Table table{"parameters-by-data-set", "Parameters, row by row", {{"Rows", "1", given}}};
   for (const ParameterSummary& p : result.parameters) {
     table.columns.push_back({p.name, p.unit});
     table.columns.push_back({"sd of " + p.name, p.unit});
@@ -218,7 +227,8 @@ Table stage_table(const PosteriorSummary& result) {
       const ExactSummary b = p.best();
       row.insert(row.end(), {b.mean, b.sd, Range{b.q05, b.q95}});
     }
-    row.emplace_back(stage.trusted ? "yes" : "no: " + names_of(stage.checks, Verdict::fail));
+    row.emplace_back(stage.trusted ? std::string(trust_word(stage.checks))
+                                   : "no: " + names_of(stage.checks, Verdict::fail));
   }
   return table;
 }

@@ -22,7 +22,7 @@ present::Table quantity_table(const std::vector<QuantitySummary>& quantities);
 /// mistaken for each other.
 present::Table bound_table(const std::vector<QuantitySummary>& quantities);
 present::Table parameter_table(const std::vector<ParameterSummary>& parameters);
-present::Table prior_table(const PosteriorSummary& result, const Plots& plots);
+present::Table prior_table(const std::vector<ParameterSummary>& parameters);
 present::Table mode_table(const ModeSummary& mode);  ///< of a posterior that has one
 present::Table stage_table(const PosteriorSummary& result);
 present::Table fit_table(const Plots& plots);

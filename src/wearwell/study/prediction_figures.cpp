@@ -15,6 +15,11 @@ using html::capital;
 using html::Figure;
 using plot::Json;
 
+// There is no wear below nothing, unless it was measured.
+bool never_negative(const Plots& plots) {
+  return std::all_of(plots.measured.begin(), plots.measured.end(), [](double y) { return y >= 0; });
+}
+
 // Wear against cycles (Fig. 12 of An et al. 2011).
 Figure history_figure(const PosteriorSummary& result, const Plots& plots) {
   const History& h = plots.history;
@@ -25,9 +30,8 @@ Figure history_figure(const PosteriorSummary& result, const Plots& plots) {
                                         {colour::posterior, "90 % of the mean", 0.38}),
                              plot::line({{"x", h.at}, {"y", h.mean}, {at, h.at}, {"mean", h.mean}},
                                         {colour::posterior, "", 1, 2})};
-  if (result.life) {
-    marks.push_back(
-        plot::horizontal_line(result.life->limit, {colour::limit, "limit", 1, 1.5, true}));
+  if (plots.limit) {
+    marks.push_back(plot::horizontal_line(*plots.limit, {colour::limit, "limit", 1, 1.5, true}));
   }
   marks.push_back(plot::points({{"x", plots.history_at},
                                 {"y", plots.measured},
@@ -38,11 +42,12 @@ Figure history_figure(const PosteriorSummary& result, const Plots& plots) {
       "The line is the mean; the inner band holds the true mean, the outer band one measurement, "
       "with 90 % probability. {}",
       plots.history_note);
-  return {"history", fmt::format("{} against {}", capital(plots.quantity), at), caption,
+  return {"history", fmt::format("{} against {}", capital(result.quantity), at), caption,
           plot::plot(fmt::format("{} against {} with its bands and the measured points",
-                                 capital(plots.quantity), at),
+                                 capital(result.quantity), at),
                      {capital(at), false, 0.0, h.at.back()},
-                     {fmt::format("{} [{}]", capital(plots.quantity), html::unit(plots.unit))},
+                     {fmt::format("{} [{}]", capital(result.quantity), html::unit(plots.unit)),
+                      false, never_negative(plots) ? std::optional(0.0) : std::nullopt},
                      marks, 340, true)};
 }
 
@@ -79,7 +84,7 @@ Figure life_figure(const PosteriorSummary& result, const Plots& plots) {
 }
 
 // What each stage said of the next inspection (Figs. 10 and 11).
-Figure next_figure(const PosteriorSummary& result) {
+Figure next_figure(const PosteriorSummary& result, const Plots& plots) {
   std::vector<std::string> names;
   Numbers ci05, ci95, pi05, pi95, measured;
   AxisWindow window;
@@ -118,14 +123,16 @@ Figure next_figure(const PosteriorSummary& result) {
                                           {colour::posterior, "90 % of the mean", 0.9, 8}),
                              plot::points({{"x", x}, {"y", measured}, {"measured", measured}},
                                           {colour::measured, "measured then", 1, 0, false, 70})};
-  return {"next", "Predicted before each inspection",
-          fmt::format("What the data sets before an inspection say of it, and what was then "
-                      "measured. Bars that leave the plot are cut off; the table has their ends."),
-          plot::plot("Predicted and measured " + first.quantity + " at each inspection",
-                     {fmt::format("Inspection at … {}", first.at_name), false, {}, {}, names},
-                     {fmt::format("{} [{}]", capital(first.quantity), html::unit(first.unit)),
-                      false, window.low - margin, window.high + margin},
-                     marks, 300)};
+  return {
+      "next", "Predicted before each inspection",
+      fmt::format("What the rows before an inspection say of it, and what was then "
+                  "measured. Bars that leave the plot are cut off; the table has their ends."),
+      plot::plot("Predicted and measured " + first.quantity + " at each inspection",
+                 {fmt::format("Inspection at … {}", first.at_name), false, {}, {}, names},
+                 {fmt::format("{} [{}]", capital(first.quantity), html::unit(first.unit)), false,
+                  never_negative(plots) ? std::max(0.0, window.low - margin) : window.low - margin,
+                  window.high + margin},
+                 marks, 300)};
 }
 
 }  // namespace
@@ -138,7 +145,7 @@ std::vector<Figure> prediction_figures(const PosteriorSummary& result, const Plo
       result.stages.size() > 2 &&
       std::all_of(result.stages.begin(), result.stages.end() - 1,
                   [](const StageSummary& stage) { return stage.predictions.size() > 1; });
-  if (has_next) figures.push_back(next_figure(result));
+  if (has_next) figures.push_back(next_figure(result, plots));
   return figures;
 }
 

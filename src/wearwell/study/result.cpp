@@ -5,6 +5,7 @@
 
 #include "wearwell/base/printable.h"
 #include "wearwell/present/page.h"
+#include "wearwell/present/text_table.h"
 #include "wearwell/study/header_json.h"
 #include "wearwell/study/trust_blocks.h"
 
@@ -23,20 +24,22 @@ nlohmann::ordered_json summary_json(const Result& result) {
 std::string terminal_text(const Result& result, const TerminalStyle& style) {
   if (result.text) return result.text(style);
   const Header& header = result.header;
+  const std::string trust = wrapped(printable(trust_line(header.checks)), 0, 2);
   std::string out =
-      fmt::format("{}\n  {}\n  {}: {} data sets\n", printable(header.title),
-                  printable(header.equation), printable(header.data.names()), header.data.rows);
+      wrapped(printable(header.title), 0, 2) + wrapped(printable(header.equation), 2, 4) +
+      wrapped(fmt::format("{}: {} rows", printable(header.data.names()), header.data.rows), 2, 4) +
+      "\n" + trust;
   for (const present::Table* table : present::tables(result.sections)) {
     if (table->id != "checks") out += "\n" + present::text(*table);
   }
   out += "\n" + present::text(checks_table(header.checks));
-  return out + (header.trusted ? "\nTrusted.\n" : "\nNot trusted: a check failed.\n");
+  return out + "\n" + trust;
 }
 
 std::string report_html(const Header& header, const std::vector<present::Section>& sections) {
   return html_page(
       {header.version, header.title,
-       fmt::format("{}, {} data sets of {}", header.model, header.data.rows, header.data.names()),
+       fmt::format("{}, {} rows of {}", header.model, header.data.rows, header.data.names()),
        sections});
 }
 

@@ -24,7 +24,7 @@ struct Header {
   std::string title = {}, model = {}, equation = {};
   struct Data {
     std::vector<std::string> files = {};  ///< as the study names them
-    std::size_t rows = 0;                 ///< data sets
+    std::size_t rows = 0;                 ///< of the data
     std::string fingerprint = {};         ///< of what was observed: equal for the same data
 
     std::string names() const;  ///< "a.csv, b.csv"

@@ -14,6 +14,7 @@
 #include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/input/fingerprint.h"
+#include "wearwell/study/describe.h"
 #include "wearwell/study/plot_study.h"
 #include "wearwell/study/summarize.h"
 
@@ -160,7 +161,14 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   result.warmup = final.method == Method::exact ? 0 : final.run.warmup;
   result.draws = final.run.draws;
   result.seed = settings.run.seed;
+  result.quantity = study.quantity;
   result.parameters = summarize_parameters(posterior, final);
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    result.parameters[i].meaning = study.meanings[i];
+    result.parameters[i].prior = prior_in_words(study.parameters[i]);
+    result.parameters[i].prior_is_default = study.parameters[i].is_default;
+  }
+  if (study.curve) result.curve = study.curve(final.exact ? final.exact->nodes : final.pooled);
   result.predictions = summarize(study.predictions, final);
   result.quantities = summarize_quantities(study, final);
   result.pointwise = study.pointwise;
@@ -176,7 +184,7 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   result.loo = std::move(loo);
   if (study.life) {
     result.life = summarize(*study.life, final);
-    result.checks.push_back(limit_check(*result.life));
+    if (result.life->now > 0) result.checks.push_back(limit_check(*result.life));
   }
   result.checks.push_back(sense_check(result));
   result.trusted = trusted(result.checks);

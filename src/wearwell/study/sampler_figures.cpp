@@ -31,7 +31,7 @@ Figure check_figure(const Plots& plots) {
   return {"check", "Measured about the fit",
           "Measurements minus the fitted mean. Nine in ten should lie within the bars, and on both "
           "sides of zero without a pattern.",
-          plot::plot("Measured minus fitted at each data set",
+          plot::plot("Measured minus fitted at each row",
                      {fmt::format("Inspection at … {}", plots.at_name), false, {}, {}, names},
                      {fmt::format("Difference [{}]", html::unit(plots.unit))},
                      {plot::ranges({{"x", x}, {"y", low}, {"y2", high}},

@@ -123,6 +123,39 @@ LooSummary read_loo(const JsonReader& json, const std::filesystem::path& folder)
   return summary;
 }
 
+QuantityQuantiles read_quantiles(const JsonReader& json) {
+  QuantityQuantiles q{number(json, "q05"), number(json, "q50"), number(json, "q95")};
+  if (json.find("b10")) q.b10 = number(json, "b10", never);
+  if (json.find("predictive")) q.predictive = number(json, "predictive", never);
+  if (json.find("bound")) q.bound = number(json, "bound", never);
+  return q;
+}
+
+std::vector<QuantitySummary> read_quantities(const JsonReader& json) {
+  std::vector<QuantitySummary> quantities;
+  for (const JsonReader& each : json.items()) {
+    QuantitySummary q{text(each, "name"),
+                      text(each, "of"),
+                      text(each, "at"),
+                      text(each, "unit"),
+                      each.find("b10").has_value(),
+                      read_quantiles(each),
+                      {}};
+    if (const auto exact = each.find("exact")) q.exact = read_quantiles(*exact);
+    quantities.push_back(std::move(q));
+  }
+  return quantities;
+}
+
+void add_figures(const std::vector<present::Block>& blocks, std::vector<html::Figure>& figures) {
+  for (const present::Block& block : blocks) {
+    if (const auto* found = std::get_if<present::Figures>(&block.content))
+      figures.insert(figures.end(), found->figures.begin(), found->figures.end());
+    if (const auto* details = std::get_if<present::Details>(&block.content))
+      add_figures(details->blocks, figures);
+  }
+}
+
 // The parameters stand in the last columns, in their order.
 std::size_t first_parameter(const CsvReader& csv, const std::filesystem::path& file,
                             const std::vector<ParameterSummary>& parameters) {
@@ -189,6 +222,15 @@ SavedResult read_saved_result(const std::filesystem::path& folder) {
     result.parameters = read_parameters(json.at("parameters"));
   if (const auto mode = json.find("mode")) result.mode = read_mode(*mode);
   if (const auto loo = json.find("loo")) result.loo = read_loo(*loo, folder);
+  if (const auto quantities = json.find("quantities")) {
+    result.quantities = read_quantities(*quantities);
+  }
+  if (const std::filesystem::path report = folder / "report.json";
+      std::filesystem::exists(report)) {
+    const auto sections = read_json(report);
+    for (const present::Section& each : present::sections_from_json(JsonReader(sections, report)))
+      add_figures(each.blocks, result.figures);
+  }
   if (sampler) {
     const long long chains = sampler->at("chains").integer(1, max_chains);
     for (long long c = 1; c <= chains; ++c)

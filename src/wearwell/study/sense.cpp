@@ -34,7 +34,7 @@ class Sense {
     if (!(q05 > 0) || !std::isfinite(q95)) return;
     const double decades = std::log10(q95 / q05);
     if (decades <= widest_interval) return;
-    findings_.add(Verdict::warn,
+    findings_.add(decades > absurd_interval ? Verdict::fail : Verdict::warn,
                   fmt::format("the 90 % interval of {} spans {:.1f} decades, {:.3g} to {:.3g}{}",
                               what, decades, q05, q95, with_unit(unit)),
                   advice);
@@ -61,7 +61,7 @@ Check extrapolation_check(const std::vector<Reach>& reaches) {
     const double times = each.asked / each.seen;
     farthest = std::max(farthest, times);
     if (times <= farthest_reach) continue;
-    findings.add(Verdict::warn,
+    findings.add(times > absurd_reach ? Verdict::fail : Verdict::warn,
                  fmt::format("{} is {:.3g} times as far as the data reach: {}", each.what, times,
                              each.seen_as),
                  "Nothing was seen there: the answer is the law's, drawn beyond the data. Inspect "

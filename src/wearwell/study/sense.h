@@ -11,8 +11,14 @@ namespace wearwell {
 /// Beyond so many times what was seen a prediction is warned of.
 inline constexpr double farthest_reach = 3;
 
+/// Beyond so many times it fails: no number there is to be used.
+inline constexpr double absurd_reach = 100;
+
 /// A 90 % interval of a result that spans more decades is warned of.
 inline constexpr double widest_interval = 3;
+
+/// One that spans so many fails.
+inline constexpr double absurd_interval = 6;
 
 /// Something asked for, against the largest of its kind that the data hold; one unit, in words.
 struct Reach {

@@ -67,9 +67,9 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
 }
 
 QuantitySummary summary_of(const QuantityRequest& request, const QuantityQuantiles& drawn) {
-  return {request.name,    request.of, request.at, request.unit.text,
-          request.is_life, drawn,      {},         request.credible_level,
-          request.safe_end};
+  return {request.name,     request.of,      request.at, request.unit.text,
+          request.is_life,  drawn,           {},         request.credible_level,
+          request.safe_end, request.headline};
 }
 
 QuantitySummary summarize(const QuantityRequest& request, const Fit& fit) {
@@ -177,7 +177,7 @@ std::vector<QuantitySummary> summarize_quantities(const PosteriorStudy& study, c
 
 LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
   const auto life = [&](const WeightedDraws& draws) {
-    return predict_life(draws, request.life, request.now, request.risk);
+    return predict_life(request.law(draws), request.now, request.risk);
   };
   LifeSummary summary{.unit = request.unit_name,
                       .limit = request.limit.value,
@@ -185,7 +185,8 @@ LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
                       .now = request.now,
                       .risk = request.risk,
                       .drawn = life(fit.pooled),
-                      .exact = {}};
+                      .exact = {},
+                      .of = request.of};
   if (fit.exact) summary.exact = life(fit.exact->nodes);
   return summary;
 }

@@ -1,34 +1,55 @@
 #include "wearwell/study/terminal.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/present/html.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/answers.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/terminal_rows.h"
+#include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
 namespace {
 
 std::string number(double x) {
-  return fmt::format("{:.4g}", x);
+  return plain_number(x);
 }
 
 std::string with_unit(const std::string& name, const std::string& unit) {
   return printable(unit == "1" ? name : fmt::format("{} [{}]", name, unit));
 }
 
-std::string parameter_table(const std::vector<ParameterSummary>& parameters) {
-  std::vector<std::vector<std::string>> rows = {
-      {"", "mean", "MCSE", "sd", "5 %", "50 %", "95 %", "ESS", "R-hat", "exact mean", "exact sd"}};
+// The better of the two: quadrature where there is one.
+std::string parameter_table(const PosteriorSummary& result) {
+  std::vector<std::vector<std::string>> rows = {{"", "mean", "sd", "5 %", "50 %", "95 %"}};
+  for (const ParameterSummary& p : result.parameters) {
+    const ExactSummary b = p.best();
+    rows.push_back({with_unit(p.name, p.unit), number(b.mean), number(b.sd), number(b.q05),
+                    number(b.q50), number(b.q95)});
+  }
+  std::string out = text_table(rows);
+  const std::string defaults = default_priors(result.parameters);
+  if (!defaults.empty()) {
+    out += wrapped("default priors, that nobody stated: " + printable(defaults) +
+                       "; [prior] takes what you know (docs/priors.md)",
+                   2, 4);
+  }
+  return out;
+}
+
+std::string draws_table(const std::vector<ParameterSummary>& parameters) {
+  std::vector<std::vector<std::string>> rows = {{"", "mean", "MCSE", "sd", "ESS", "R-hat"}};
   for (const ParameterSummary& p : parameters) {
     rows.push_back({with_unit(p.name, p.unit), number(p.mean), fmt::format("{:.2g}", p.mcse),
-                    number(p.sd), number(p.q05), number(p.q50), number(p.q95),
-                    fmt::format("{:.0f}", std::min(p.ess_bulk, p.ess_tail)),
-                    fmt::format("{:.3f}", p.rhat), p.exact ? number(p.exact->mean) : "-",
-                    p.exact ? number(p.exact->sd) : "-"});
+                    number(p.sd), fmt::format("{:.0f}", std::min(p.ess_bulk, p.ess_tail)),
+                    fmt::format("{:.3f}", p.rhat)});
   }
   return text_table(rows);
 }
@@ -41,7 +62,7 @@ std::string profile_ends(const ProfileSummary& profile) {
 }
 
 std::string mode_lines(const ModeSummary& mode) {
-  if (!mode.problem.empty()) return fmt::format("  there is none: {}\n", printable(mode.problem));
+  if (!mode.problem.empty()) return wrapped("there is none: " + printable(mode.problem), 2, 4);
   std::vector<std::vector<std::string>> rows = {{"", "at", "standard error"}};
   const auto profile = mode.profile();
   if (profile) rows[0].push_back(fmt::format("{:.4g} % profile interval", 100 * profile->level));
@@ -67,11 +88,12 @@ std::string mode_title(const ModeSummary& mode) {
 
 std::string loo_lines(const LooSummary& summary) {
   const Loo& loo = summary.loo;
-  return fmt::format(
-      "  each {} from all others: elpd {:.2f} (standard error {:.2f}), effective parameters "
-      "{:.1f}{}\n",
-      printable(summary.observation), loo.elpd(), loo.se(), loo.p_loo(),
-      loo.by_quadrature ? "" : fmt::format(", Monte Carlo error {:.2g}", loo.error));
+  return wrapped(
+      fmt::format("each {} from all others: elpd {:.2f} (standard error {:.2f}), effective "
+                  "parameters {:.1f}{}",
+                  printable(summary.observation), loo.elpd(), loo.se(), loo.p_loo(),
+                  loo.by_quadrature ? "" : fmt::format(", Monte Carlo error {:.2g}", loo.error)),
+      2, 4);
 }
 
 // The draws of one parameter between their smallest and largest 0.5 %, in blocks of eight heights.
@@ -111,114 +133,110 @@ std::string histogram_lines(const PosteriorSummary& result) {
   return out;
 }
 
-// The better of the two: quadrature where there is one.
-std::string stage_table(const std::vector<StageSummary>& stages) {
-  std::vector<std::vector<std::string>> rows = {{"data sets"}};
-  for (const ParameterSummary& p : stages.front().parameters) {
-    rows[0].push_back(with_unit(p.name, p.unit));
-    rows[0].push_back("sd");
-  }
-  rows[0].push_back("trusted");
-  for (const StageSummary& stage : stages) {
-    rows.push_back({fmt::format("{}", stage.rows)});
-    for (const ParameterSummary& p : stage.parameters) {
-      rows.back().push_back(number(p.exact ? p.exact->mean : p.mean));
-      rows.back().push_back(number(p.exact ? p.exact->sd : p.sd));
-    }
-    rows.back().push_back(stage.trusted ? "yes" : "no");
-  }
-  return text_table(rows);
-}
-
 std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
   const PredictionSummary& first = predictions.front();
   std::vector<std::vector<std::string>> rows = {
       {first.at_name, with_unit(first.quantity, first.unit),
        first.mean_of.empty() ? "mean wear 5 %..95 %" : first.mean_of + " 5 %..95 %",
-       first.mean_of.empty() ? "measurement 5 %..95 %"
-                             : "measurement of a " + first.measured_of + " 5 %..95 %",
+       first.mean_of.empty() ? "measurement 5 %..95 %" : first.measured_of + " reads 5 %..95 %",
        "measured"}};
   for (const PredictionSummary& each : predictions) {
     const Prediction& p = each.best();
     rows.push_back({fmt::format("{}", each.at), number(p.mean),
-                    fmt::format("{:.4g} .. {:.4g}", p.ci05, p.ci95),
-                    fmt::format("{:.4g} .. {:.4g}", p.pi05, p.pi95),
+                    fmt::format("{} .. {}", number(p.ci05), number(p.ci95)),
+                    fmt::format("{} .. {}", number(p.pi05), number(p.pi95)),
                     each.measured ? number(*each.measured) : "-"});
   }
   return text_table(rows);
 }
 
+std::string b_value(const QuantitySummary& each, double x) {
+  if (!each.is_life) return "-";
+  return std::isinf(x) ? "never" : number(x);
+}
+
+// Of one item each, a new one where items differ; those of one name and place stand together. Where
+// lower bounds are told, they are what to design with.
 std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
-  std::vector<std::vector<std::string>> rows = {
-      {"", "of the", "5 %", "50 %", "95 %", "safe end", "B1", "B10", "B50"}};
+  const bool bounds = std::any_of(quantities.begin(), quantities.end(),
+                                  [](const auto& each) { return each.best().bound.has_value(); });
+  std::vector<std::vector<std::string>> rows = {{"", "5 %", "50 %", "95 %"}};
+  if (!bounds) rows[0].push_back("design with");
+  rows[0].insert(rows[0].end(), {"B1", "B10"});
+  std::string above;
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
-    rows.push_back({with_unit(each.name, each.unit) + " " + each.at, each.of, number(q.q05),
-                    number(q.q50), number(q.q95),
-                    each.safe_end ? fmt::format("{:.0f} %", 100 * *each.safe_end) : "-"});
-    for (const double b : {q.b1, q.b10, q.b50}) {
-      rows.back().push_back(each.is_life ? number(b) : "-");
+    const std::string heading = with_unit(each.name, each.unit) + " " + printable(each.at);
+    if (heading != above) rows.push_back({heading});
+    above = heading;
+    rows.push_back({"  " + printable(each.of), number(q.q05), number(q.q50), number(q.q95)});
+    if (!bounds) {
+      rows.back().push_back(!each.safe_end ? "-" : number(*each.safe_end < 0.5 ? q.q05 : q.q95));
     }
+    for (const double b : {q.b1, q.b10}) rows.back().push_back(b_value(each, b));
   }
-  return rows.size() > 1 ? "\nDerived quantities\n" + text_table(rows) : "";
+  if (rows.size() == 1) return "";
+  return (bounds ? "\nThe next one, one item (predictive)\n" : "\nWhat follows for one item\n") +
+         text_table(rows);
 }
 
 // Properties of all items: of the next one, and how far they can be relied on.
 std::string bound_table(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows;
+  std::string above, level;
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (!q.predictive) continue;
+    level = fmt::format("{:.4g} %", 100 * *each.credible_level);
     if (rows.empty()) {
-      rows.push_back({"", "of the", "posterior predictive",
-                      fmt::format("{:.4g} % lower bound", 100 * *each.credible_level), "5 %",
-                      "50 %", "95 %"});
+      rows.push_back({"", "at least, " + level, "5 %", "50 %", "95 %", "next one"});
     }
-    rows.push_back({with_unit(each.name, each.unit) + (each.at.empty() ? "" : " ") + each.at,
-                    each.of, number(*q.predictive), number(*q.bound), number(q.q05), number(q.q50),
-                    number(q.q95)});
+    const bool alone = each.at.starts_with("for ");  // a question of its own
+    const std::string heading = alone ? with_unit(each.name, each.unit)
+                                      : printable(each.of + (each.at.empty() ? "" : " ") + each.at);
+    if (heading != above) rows.push_back({heading});
+    above = heading;
+    rows.push_back({"  " + (alone ? printable(each.at) : with_unit(each.name, each.unit)),
+                    number(*q.bound), number(q.q05), number(q.q50), number(q.q95),
+                    number(*q.predictive)});
   }
-  return rows.empty() ? ""
-                      : "\nFor the next one (posterior predictive), and at least (lower bound)\n" +
-                            text_table(rows);
+  if (rows.empty()) return "";
+  return "\nDesign values\n" + text_table(rows) +
+         wrapped(
+             fmt::format("at least: the lower bound to design with. With {} confidence (Bayesian: "
+                         "credible) the true value, of all such items, lies above it.",
+                         level),
+             2, 4) +
+         wrapped(
+             "next one: what the next item has with just that chance, all that is unknown "
+             "averaged in (predictive). It has no margin for few tests: it is not the number to "
+             "design with.",
+             2, 4);
 }
 
-// Of a table with a row for each observation; the files hold all.
-constexpr std::size_t most_rows = 200;
-
-std::string rest_line(std::size_t rows, const char* file) {
-  if (rows <= most_rows) return "";
-  return fmt::format("  ... and {} more{}\n", rows - most_rows,
-                     rows > most_rows_inline ? fmt::format(" in {}", file) : "");
-}
-
-std::string coverage_table(const CoverageTable& table) {
-  std::vector<std::vector<std::string>> rows = {{"row", "type", "outcome",
-                                                 with_unit("life", table.unit), "share below",
-                                                 "90 % predictive interval", "B10", ""}};
-  std::size_t failures = 0, inside = 0;
+// How many, and which not.
+std::string coverage_lines(const CoverageTable& table) {
+  constexpr std::size_t most_named = 12;
+  std::size_t failures = 0, inside = 0, outside = 0;
+  std::string names;
   for (const CoverageRow& row : table.rows) {
     failures += row.failed();
     inside += row.failed() && row.inside();
-    if (rows.size() > most_rows) continue;
-    rows.push_back(
-        {fmt::format("{}", row.row), row.label, row.outcome,
-         row.until ? fmt::format("{:.4g} .. {:.4g}", row.life, *row.until) : number(row.life),
-         fmt::format("{:.1f} %", 100 * row.probability),
-         fmt::format("{:.4g} .. {:.4g}", row.q05, row.q95), number(row.b10),
-         !row.failed()     ? ""
-         : row.below_b10() ? row.inside() ? "below B10" : "below B10, outside"
-         : row.inside()    ? ""
-                           : "outside"});
+    if (!row.failed() || row.inside() || ++outside > most_named) continue;
+    names += fmt::format("{}row {}{} ({})", names.empty() ? "" : ", ", row.row,
+                         row.label.empty() ? "" : " " + printable(row.label),
+                         row.life < row.q05 ? "shorter" : "longer");
   }
-  return fmt::format("{}{}  {} of {} failures{} lie inside the 90 % intervals\n",
-                     text_table(rows, true), rest_line(table.rows.size(), coverage_table_file),
-                     inside, failures, chosen_tests(table));
+  if (outside > most_named) names += fmt::format(" and {} more", outside - most_named);
+  return wrapped(
+      fmt::format("{} of {} failures{} lie inside their 90 % intervals{}", inside, failures,
+                  chosen_tests(table), names.empty() ? "" : "; outside: " + names),
+      2, 4);
 }
 
 // The digits that quadrature gives: four of a life, three of the difference of two.
-std::string count(double x, int digits = 4) {
+std::string counted(double x, int digits) {
   if (std::isnan(x)) return "unknown";
   if (!std::isfinite(x)) return "never";
   const double last = std::pow(10, std::max(0.0, std::floor(std::log10(std::abs(x))) + 1 - digits));
@@ -228,32 +246,27 @@ std::string count(double x, int digits = 4) {
 std::string life_lines(const LifeSummary& summary) {
   const Life& life = summary.best();
   const std::string unit = printable(summary.unit);
+  const bool whole = is_count(summary.unit);
+  const auto count = [&](double x, int digits = 4) {
+    return whole || !std::isfinite(x) ? counted(x, digits) : plain_number(x, digits);
+  };
   const std::string lives =
-      fmt::format("  {} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})\n", unit,
-                  number(summary.limit), printable(summary.limit_unit), count(life.b1),
-                  count(life.b10), count(life.b50), count(life.q05), count(life.q95));
+      fmt::format("{}{} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})", unit,
+                  summary.of.empty() ? "" : " of a " + printable(summary.of), number(summary.limit),
+                  printable(summary.limit_unit), count(life.b1), count(life.b10), count(life.b50),
+                  count(life.q05), count(life.q95));
   const std::string passed = fmt::format(
-      "  after {} {} the limit is passed already with a probability of {}{}\n", summary.now, unit,
+      "after {} {} the limit is passed already with a probability of {}{}", summary.now, unit,
       probability_in_words(life.passed),
       summary.passed_beyond_risk() ? fmt::format(": more than the risk of {} % that is tolerated",
                                                  number(100 * summary.risk))
                                    : "");
-  return lives + passed +
-         fmt::format(
-             "  if it is not passed, inspect again within {} {}: {} % risk of reaching it before\n",
-             count(life.inspect_within, 3), unit, number(100 * summary.risk));
-}
-
-std::string pointwise_table(const PointwiseTable& p) {
-  std::vector<std::vector<std::string>> rows = {
-      {"cycles", with_unit("F", p.force_unit), with_unit("s", p.slip_unit),
-       with_unit("V", p.volume_unit), with_unit("k = V/(F s)", p.k_unit)}};
-  for (const PointwiseRow& row : p.rows) {
-    if (rows.size() > most_rows) break;
-    rows.push_back({fmt::format("{}", row.cycles), number(row.force), number(row.slip),
-                    number(row.volume), number(row.k)});
-  }
-  return text_table(rows) + rest_line(p.rows.size(), pointwise_table_file);
+  const bool used = summary.now > 0;
+  return wrapped(lives, 2, 4) + (used ? wrapped(passed, 2, 4) : "") +
+         wrapped(fmt::format("{} within {} {}: {} % risk of reaching it before",
+                             used ? "if it is not passed, inspect again" : "inspect a new one",
+                             count(life.inspect_within, 3), unit, number(100 * summary.risk)),
+                 2, 4);
 }
 
 std::string painted(Verdict verdict, bool colour) {
@@ -264,14 +277,21 @@ std::string painted(Verdict verdict, bool colour) {
 }
 
 std::string check_lines(const std::vector<Check>& checks, bool colour) {
+  constexpr std::size_t name_width = 20, indent = 2 + 4 + 2 + name_width + 1;
   std::string out;
   for (const Check& check : checks) {
-    out += fmt::format("  {}  {:<20} {}\n", painted(check.verdict, colour), printable(check.name),
-                       printable(check.detail));
-    if (!check.advice.empty()) {
-      out += fmt::format("  {:>4}  {:<20} -> {}\n", "", "", printable(check.advice));
-    }
+    const std::string detail = wrapped(printable(check.detail), indent);
+    out += fmt::format("  {}  {:<{}} {}", painted(check.verdict, colour), printable(check.name),
+                       name_width, detail.substr(std::min(indent, detail.size() - 1)));
+    if (!check.advice.empty()) out += wrapped("-> " + printable(check.advice), indent, indent + 3);
   }
+  return out;
+}
+
+std::string answer_lines(const PosteriorSummary& result) {
+  std::string out;
+  for (const std::string& each : answers(result, Wording::plain))
+    out += wrapped(html::capital(printable(each)) + ".", 2, 4);
   return out;
 }
 
@@ -279,9 +299,15 @@ std::string check_lines(const std::vector<Check>& checks, bool colour) {
 
 std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle& style) {
   std::string out =
-      fmt::format("{}\n  {}\n  {}: {} data sets\n", printable(result.title),
-                  printable(result.equation), printable(result.data_file), result.data_rows);
-  out += "\nParameters\n" + parameter_table(result.parameters);
+      wrapped(printable(result.title), 0, 2) + wrapped(printable(result.equation), 2, 4) +
+      wrapped(fmt::format("{}: {} rows", printable(result.data_file), result.data_rows), 2, 4);
+  const std::string trust = printable(trust_line(result.checks));
+  out += "\n" + wrapped(trust, 0, 2);
+  out += "\nAnswers\n" + answer_lines(result);
+  if (result.life) out += "\nLife\n" + life_lines(*result.life);
+  if (!result.predictions.empty()) out += "\nPredictions\n" + prediction_table(result.predictions);
+  out += bound_table(result.quantities) + quantity_table(result.quantities);
+  out += "\nParameters\n" + parameter_table(result);
   if (style.histograms) {
     out += '\n';
     out += histogram_lines(result);
@@ -289,24 +315,15 @@ std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle
   if (result.mode)
     out += fmt::format("\n{}\n", mode_title(*result.mode)) + mode_lines(*result.mode);
   if (result.loo) out += "\nLeave-one-out prediction\n" + loo_lines(*result.loo);
-  if (result.pointwise)
-    out += "\nWear coefficient of each measurement\n" + pointwise_table(*result.pointwise);
-  if (!result.stages.empty())
-    out += "\nData set by data set (mean, sd)\n" + stage_table(result.stages);
-  if (!result.predictions.empty()) out += "\nPredictions\n" + prediction_table(result.predictions);
-  if (result.coverage) {
-    out +=
-        "\nTests, and the lives that the fit predicts of them\n" + coverage_table(*result.coverage);
-  }
-  out += quantity_table(result.quantities) + bound_table(result.quantities);
-  if (result.life) out += "\nLife\n" + life_lines(*result.life);
+  if (result.coverage) out += "\nTests about the fit\n" + coverage_lines(*result.coverage);
+  out +=
+      fmt::format("\nDraws ({}, {} chains of {})\n", result.method, result.chains, result.draws) +
+      draws_table(result.parameters);
+  out += row_tables(result, style.rows);
   // Of all above, the line feeds are ours; below, the colours too.
   out = printable_lines(out);
-  out += "\nChecks\n" + check_lines(result.checks, style.colour);
-  out += result.trusted ? "\nTrusted: no check failed.\n"
-                        : "\nNOT TRUSTED: at least one check failed; the numbers above are not to "
-                          "be used as they stand.\n";
-  return out;
+  return out + "\nChecks\n" + check_lines(result.checks, style.colour) + "\n" +
+         wrapped(trust, 0, 2);
 }
 
 }  // namespace wearwell

@@ -19,9 +19,34 @@ std::string names_of(const std::vector<Check>& checks, Verdict verdict) {
   return names;
 }
 
-present::Callout trust_callout(const std::vector<Check>& checks) {
+namespace {
+
+Verdict worst_of(const std::vector<Check>& checks) {
   Verdict worst = Verdict::pass;
   for (const Check& check : checks) worst = std::max(worst, check.verdict);
+  return worst;
+}
+
+}  // namespace
+
+std::string trust_line(const std::vector<Check>& checks) {
+  const Verdict worst = worst_of(checks);
+  const std::string names = names_of(checks, worst);
+  if (worst == Verdict::pass) return "Trusted: no check failed.";
+  return worst == Verdict::warn
+             ? fmt::format("Trusted, with a warning: no check failed; look at {}.", names)
+             : fmt::format(
+                   "NOT TRUSTED: {} failed; these numbers are not to be used as they stand.",
+                   names);
+}
+
+const char* trust_word(const std::vector<Check>& checks) {
+  static constexpr const char* words[] = {"yes", "with a warning", "no"};
+  return words[static_cast<int>(worst_of(checks))];
+}
+
+present::Callout trust_callout(const std::vector<Check>& checks) {
+  const Verdict worst = worst_of(checks);
   if (worst == Verdict::pass)
     return {"pass", "Trusted.", fmt::format("All {} checks passed.", checks.size())};
   const std::string names = names_of(checks, worst);

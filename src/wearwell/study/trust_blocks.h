@@ -14,6 +14,12 @@ const char* verdict_kind(Verdict verdict);
 /// Names of the checks with this verdict: "fit, sense".
 std::string names_of(const std::vector<Check>& checks, Verdict verdict);
 
+/// Whether to use the numbers, in a line: "Trusted, with a warning: ..."
+std::string trust_line(const std::vector<Check>& checks);
+
+/// The same in a cell: "yes", "with a warning" or "no".
+const char* trust_word(const std::vector<Check>& checks);
+
 /// Whether to use the numbers, and if not, what to do.
 present::Callout trust_callout(const std::vector<Check>& checks);
 

@@ -52,5 +52,40 @@ TEST(ClutchChecks, TheExamplesTruthPasses) {
   EXPECT_LT(result.nested.r2, result.maps.front().fit.r2p + 0.05);
 }
 
+WearModel model_between(double low, double high) {
+  WearModel model;
+  model.lowest = {low, 25, 120, 1};
+  model.highest = {high, 75, 220, 3};
+  return model;
+}
+
+// What `clutch life` says of an operating point, `fit` says too, and does not trust it far out.
+TEST(ClutchChecks, ALifeOutsideTheRangeOfValidityIsNamed) {
+  const WearModel model = model_between(1000 * rpm, 2000 * rpm);
+  const auto check = [&](double speed) {
+    return extrapolation_check(model, {{"hill", {speed * rpm, 50, 170, 2}, {}}});
+  };
+  EXPECT_EQ(check(1500).verdict, Verdict::pass);
+  EXPECT_EQ(check(2200).verdict, Verdict::warn);
+  EXPECT_THAT(check(2200).detail, HasSubstr("'hill' lies outside the range of validity by 0.2 of"));
+  EXPECT_THAT(check(2200).detail, HasSubstr("slip_speed 2200, modelled from 1000 to 2000 rpm"));
+  EXPECT_EQ(check(9000).verdict, Verdict::fail);
+  EXPECT_EQ(check(300).verdict, Verdict::fail);
+  EXPECT_EQ(extrapolation_check(model, {{"cold", {1500 * rpm, 50, 60, 2}, {}}}).verdict,
+            Verdict::fail);
+}
+
+TEST(ClutchChecks, AnIntervalThatSaysNothingFails) {
+  const auto check = [](double relative) {
+    NamedLife life{"launch", {}, {}};
+    life.life.levels.push_back({.level = 1, .full_relative = relative});
+    return sense_check({life});
+  };
+  EXPECT_EQ(check(0.2).verdict, Verdict::pass);
+  EXPECT_EQ(check(0.7).verdict, Verdict::warn);
+  EXPECT_EQ(check(16404.74).verdict, Verdict::fail);
+  EXPECT_THAT(check(16404.74).detail, HasSubstr("'launch' is known to +- 1.64e+06 % only"));
+}
+
 }  // namespace
 }  // namespace wearwell::clutch

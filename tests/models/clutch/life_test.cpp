@@ -33,6 +33,30 @@ TEST(Life, ClosedFormWithoutRunIn) {
   EXPECT_NEAR(life.levels[1].full_relative, life.levels[1].relative, 1e-12)
       << "nothing else is uncertain";
   EXPECT_EQ(life.outside, 0u);
+  // n v +- 2 s sqrt(n) = T for n: a quadratic in its root.
+  for (const LifeAtLevel& at : life.levels) {
+    const double v = 0.2, s = 1, target = at.level * 10'000, root = std::sqrt(s * s + v * target);
+    EXPECT_NEAR(at.scatter.low / std::pow((root - s) / v, 2), 1, 1e-9);
+    EXPECT_NEAR(at.scatter.high / std::pow((root + s) / v, 2), 1, 1e-9);
+    EXPECT_NEAR(at.full.low / at.scatter.low, 1, 1e-9);
+    EXPECT_NEAR(at.full.high / at.scatter.high, 1, 1e-9);
+  }
+}
+
+// Where a plate may wear at next to nothing, as far as is known, its life has no upper end.
+TEST(Life, AnIntervalMayHaveNoEnd) {
+  WearModel model = constant_model(20 * mm3_per_MJ, 100 * mm3_per_MJ, {0, 0, 1, 1});
+  model.plate_sd = 0.1;
+  const Life known = predict_life(model, duty, {1});
+  EXPECT_LT(known.levels[0].full.low, known.levels[0].scatter.low);
+  EXPECT_GT(known.levels[0].full.high, known.levels[0].scatter.high);
+  // V (1 -+ 2 * 0.1) and little scatter beside it.
+  EXPECT_NEAR(known.levels[0].full.low, 50'000 / 1.2, 300);
+  EXPECT_NEAR(known.levels[0].full.high, 50'000 / 0.8, 500);
+  model.plate_sd = 0.6;
+  const Life unknown = predict_life(model, duty, {1});
+  EXPECT_TRUE(std::isinf(unknown.levels[0].full.high));
+  EXPECT_EQ(in_words(unknown.levels[0].full).substr(5), " .. never");
 }
 
 // A level that the recursion reaches with the last cycle of a repetition is reached then: by one

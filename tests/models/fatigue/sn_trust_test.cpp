@@ -91,7 +91,7 @@ b         = { law = "uniform", lower = -0.1, upper = -0.06 }
 log10_Sut = { law = "uniform", lower = "3.1 log10(MPa)", upper = "5.2 log10(MPa)" }
 sigma     = { law = "uniform", lower = 0.01, upper = 0.6 }
 )toml");
-  const Check cut = check(result, "prior-cut");
+  const Check cut = check(result, "prior-bounds");
   EXPECT_EQ(cut.verdict, Verdict::warn);
   EXPECT_THAT(
       cut.detail,

@@ -67,6 +67,11 @@ class Predictions {
       predict_.fail(required_key_, "needs predict.limit: the depth that is allowed until then");
     }
     if (limit) reach(*limit, required);
+    if (predict_.has("risk") && !study_.life) {
+      predict_.fail("risk",
+                    "needs predict.limit and predict.pressure: it is that of reaching the "
+                    "limit before the next inspection");
+    }
     if (force_ && !required) {
       predict_.fail("force",
                     "needs predict.required_revolutions (or required_time) for the length that it "
@@ -131,7 +136,8 @@ class Predictions {
   }
 
   // A quantity of the bearing in the middle, and of a new one where bearings differ.
-  void add(QuantityRequest request) {
+  void add(QuantityRequest request, bool headline = false) {
+    request.headline = headline && !model_.has_scatter;
     request.driver = [](const double* x) { return x[0]; };
     // Wear that is faster than thought makes the depth larger and the life shorter.
     request.safe_end = request.increasing ? 0.95 : 0.05;
@@ -140,7 +146,36 @@ class Predictions {
     if (!model_.has_scatter) return;
     request.scatter = [model = model_](const double* x) { return model.scatter(x); };
     request.of = "new bearing";
+    request.headline = headline;
     study_.quantities.push_back(request);
+  }
+
+  // When a bearing like these reaches the limit, and until when it need not be looked at.
+  void life(const Quantity& limit, double wear_per_pressure) {
+    Unit unit{"1", 1, 0};
+    std::string name = "revolutions";
+    double constant = wear_per_pressure;  // revolutions times wear rate
+    if (speed_) {
+      unit = time_unit_;
+      name = unit.text;
+      constant /= speed_->si() * unit.scale;
+    }
+    const auto risk = predict_.quantity("risk", "1");
+    if (risk && !(risk->si() > 0 && risk->si() < 1))
+      predict_.fail("risk", "must lie between 0 and 1");
+    LifeRequest request{unit, name, limit, 0, risk ? risk->si() : 0.01, {}};
+    const Function rate = [](const double* x) { return x[0]; };
+    if (model_.has_scatter) {
+      request.of = "new bearing";
+      request.law = [=, model = model_](const WeightedDraws& draws) {
+        return life_law(draws, constant, rate, [=](const double* x) { return model.scatter(x); });
+      };
+    } else {
+      request.law = [=](const WeightedDraws& draws) {
+        return life_law(draws, [=](const double* x) { return constant / x[0]; });
+      };
+    }
+    study_.life = std::move(request);
   }
 
   void depth(const char* key, double revolutions, const std::string& when) {
@@ -191,6 +226,7 @@ class Predictions {
                     "required_time) for the pressure that is allowed");
     }
     if (pressure_) {
+      life(limit, wear / pressure_->si());
       const std::string where = fmt::format("{} at {}", to, in_words(*pressure_));
       const double rate = pressure_->si();
       add({"life",
@@ -225,7 +261,8 @@ class Predictions {
          false,
          [=](double k) { return wear / (k * n); },
          {},
-         {}});
+         {}},
+        true);
     if (!force_) return;
     const double per_rate = force_->si() * n / (2 * at.radius * wear);
     add({"length",
@@ -236,7 +273,8 @@ class Predictions {
          false,
          [=](double k) { return k * per_rate; },
          {},
-         {}});
+         {}},
+        true);
   }
 
   const TomlReader& predict_;

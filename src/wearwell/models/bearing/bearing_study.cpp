@@ -18,24 +18,31 @@ namespace {
 
 std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData& data,
                                        bearing::WearModel& model) {
-  const TomlReader priors = root.required_table("prior");
+  const auto priors = root.table("prior");
   bearing::WearGuess guess{};
   try {
     guess = bearing::guess(data.inspections);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", data.source, error.what()));
   }
-  model.has_scatter = priors.has("k_scatter");
+  model.has_scatter = priors && priors->has("k_scatter");
   if (model.has_scatter && data.bearings < 2) {
-    priors.fail("k_scatter", fmt::format("all rows of {} are of one bearing; the scatter between "
-                                         "bearings needs at least 2",
-                                         data.source));
+    priors->fail("k_scatter", fmt::format("all rows of {} are of one bearing; the scatter between "
+                                          "bearings needs at least 2",
+                                          data.source));
   }
+  // Defaults: k as of any wear (models/joint), sigma no larger than what is measured, and bearings
+  // that differ by less than a factor of 10.
+  const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
+    spec.fallback = std::move(fallback);
+    return read_prior(root, priors, spec);
+  };
   std::vector<Parameter> parameters;
-  parameters.push_back(read_prior(priors, {"k", "m^3/(N m)", 0, INFINITY, guess.k}));
+  parameters.push_back(read({"k", "m^3/(N m)", 0, INFINITY, guess.k},
+                            {"lognormal", Lognormal{std::log(1e-14), 4.2}, "mm^3/(N m)"}));
   if (model.depth_error) {
-    if (priors.has("sigma")) {
-      priors.fail("sigma", "is given, but likelihood.depth_error says that it is known; keep one");
+    if (priors && priors->has("sigma")) {
+      priors->fail("sigma", "is given, but likelihood.depth_error says that it is known; keep one");
     }
   } else {
     if (data.inspections.depth.size() < 2) {
@@ -48,11 +55,13 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData
     for (const double d : data.inspections.depth) largest = std::max(largest, std::abs(d));
     // Where bearings differ, not all of the residuals is the measurement's.
     const double sigma = std::max((model.has_scatter ? 0.5 : 1) * guess.sigma, 1e-3 * largest);
-    parameters.push_back(read_prior(priors, {"sigma", "m", 0, INFINITY, sigma}));
+    parameters.push_back(
+        read({"sigma", "m", 0, INFINITY, sigma},
+             {"half-normal", Normal{0, rounded_up(largest)}, data.depth_unit.text, 0}));
   }
   if (model.has_scatter) {
-    parameters.push_back(
-        read_prior(priors, {"k_scatter", "1", 0, INFINITY, std::max(guess.scatter, 0.05)}));
+    parameters.push_back(read({"k_scatter", "1", 0, INFINITY, std::max(guess.scatter, 0.05)},
+                              {"half-normal", Normal{0, 1}, "1", 0}));
   }
   return parameters;
 }

@@ -56,6 +56,7 @@ struct Options {
 
 struct Interval {
   double q05 = 0, q50 = 0, q95 = 0;  ///< SI
+  double b10 = 0;                    ///< of a life: reached before in one draw of ten
   int redrawn = 0;                   ///< impossible draws, which were drawn again
   double beyond_limit = 0;           ///< share of the draws above the limit
 };
@@ -65,6 +66,24 @@ double quantile(const std::vector<double>& sorted, double p) {
   const auto below = static_cast<std::size_t>(at);
   const auto above = std::min(below + 1, sorted.size() - 1);
   return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
+}
+
+/// What to write instead of normal laws that are so wide that a good part of them is not positive;
+/// empty when there is none.
+std::string use_a_lognormal(const UncertainBearing& uncertain) {
+  constexpr double widest =
+      1.0 / 3;  // of the mean: beyond, more than one in a thousand is negative
+  std::string advice;
+  for (const auto& [option, value] : uncertain.given) {
+    if (value.law != Uncertain::Law::normal || !(value.sd > widest * value.mean)) continue;
+    const std::string amount = fmt::format("{:.6g}{}", from_si(value.unit, value.mean),
+                                           value.unit.text == "1" ? "" : " " + value.unit.text);
+    advice += fmt::format(
+        "; use a lognormal for {}, which is positive and has {:.3g} % for its "
+        "standard deviation: '{} x/ {:.2g}'",
+        option->flag, 100 * value.sd / value.mean, amount, equal_factor(value));
+  }
+  return advice;
 }
 
 /// Carries the uncertainty of the inputs to the answer, one random stream per option, so that an
@@ -81,14 +100,16 @@ Interval propagate(Quantity wanted, const UncertainBearing& uncertain, std::opti
   drawn.contact = uncertain.contact;
   while (answers.size() < static_cast<std::size_t>(draws)) {
     for (std::size_t i = 0; i < streams.size(); ++i)
-      drawn.*(uncertain.given[i].option->input) = draw(uncertain.given[i].value, streams[i]);
+      drawn.*(uncertain.given[i].option->input) =
+          uncertain.given[i].option->factor * draw(uncertain.given[i].value, streams[i]);
     try {
       answers.push_back(solve(wanted, drawn).value);
     } catch (const InputError& error) {
       if (++result.redrawn > draws) {
         throw InputError(
-            fmt::format("the uncertainties are too wide: most draws are impossible, for example {}",
-                        error.what()));
+            fmt::format("the uncertainties are too wide: most draws are impossible, for example "
+                        "{}{}",
+                        error.what(), use_a_lognormal(uncertain)));
       }
     }
   }
@@ -96,6 +117,7 @@ Interval propagate(Quantity wanted, const UncertainBearing& uncertain, std::opti
   result.q05 = quantile(answers, 0.05);
   result.q50 = quantile(answers, 0.50);
   result.q95 = quantile(answers, 0.95);
+  result.b10 = quantile(answers, 0.10);
   if (limit) {
     const auto above = answers.end() - std::upper_bound(answers.begin(), answers.end(), *limit);
     result.beyond_limit = static_cast<double>(above) / draws;
@@ -117,6 +139,9 @@ struct Answer {
 
   double radius() const { return *given.mean().radius; }
   double in_unit(double si) const { return from_si(unit, si); }
+  bool is_life() const {
+    return question.wanted == Quantity::revolutions || question.wanted == Quantity::time;
+  }
 };
 
 Unit answer_unit(const Question& question, const std::string& asked) {
@@ -186,9 +211,10 @@ std::vector<std::string> warnings(const Answer& a) {
   }
   if (a.interval && a.interval->redrawn > 0) {
     result.push_back(fmt::format(
-        "{} impossible draws (a negative size, a depth beyond the geometry) were drawn again, so "
-        "the interval is that of the possible ones",
-        a.interval->redrawn));
+        "{} impossible draws (a negative size, a depth beyond the geometry), {:.2g} % of all, were "
+        "drawn again, so the interval is that of the possible ones{}",
+        a.interval->redrawn, 100.0 * a.interval->redrawn / (a.interval->redrawn + a.options.draws),
+        use_a_lognormal(a.given)));
   }
   return result;
 }
@@ -209,6 +235,7 @@ void print_json(const Answer& a) {
     json["interval"] = {{"q05", a.in_unit(a.interval->q05)},
                         {"q50", a.in_unit(a.interval->q50)},
                         {"q95", a.in_unit(a.interval->q95)}};
+    if (a.is_life()) json["interval"]["b10"] = a.in_unit(a.interval->b10);
   }
   fmt::print("{}\n", json.dump(2));
   if (!a.margin.empty()) fmt::print(stderr, "{}\n", a.margin);
@@ -221,6 +248,9 @@ void print_text(const Answer& a) {
     fmt::print("90 % interval: {:.4g} .. {:.4g}, median {:.4g} ({} draws, seed {})\n",
                a.in_unit(a.interval->q05), a.in_unit(a.interval->q95), a.in_unit(a.interval->q50),
                a.options.draws, a.options.seed);
+    if (a.is_life())
+      fmt::print("B10 life: {:.4g} {}: one in ten reaches the depth before that\n",
+                 a.in_unit(a.interval->b10), a.unit.text);
   }
   fmt::print("\n");
   print_row("sigma = clearance/radius", fmt::format("{:.10g}", s.sigma));
@@ -364,7 +394,8 @@ void add_bearing_command(CLI::App& app, int&) {
         "Every value has a unit, and may have an uncertainty, which then gives an interval:\n"
         "  '0.100 +- 0.005 mm' (standard deviation), '1 MPa +- 5 %',\n"
         "  '~ lognormal(0.1 mm, 0.005 mm)' (mean, standard deviation), '~ uniform(90 um, 110 "
-        "um)'\n\n"
+        "um)',\n"
+        "  '1e-16 m^3/(N m) x/ 2' (lognormal: two in three between half and twice that)\n\n"
         "Example:\n  {}",
         question.example));
     sub->callback([&question, options] { bearing::run(question, *options); });

@@ -1,5 +1,6 @@
 #include "wearwell/models/bearing/model.h"
 
+#include "wearwell/models/bearing/bearing_first.h"
 #include "wearwell/models/bearing/bearing_keys.h"
 #include "wearwell/models/bearing/bearing_study.h"
 #include "wearwell/models/bearing/commands.h"
@@ -25,7 +26,8 @@ Model model() {
                 return read_posterior_study(root, source, read_bearing_study);
               },
           .add_commands = add_bearing_command,
-          .keys = study_keys};
+          .keys = study_keys,
+          .first_study = first_study};
 }
 
 }  // namespace bearing

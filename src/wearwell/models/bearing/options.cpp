@@ -41,7 +41,7 @@ Uncertain read_input(const InputOption& option, const std::string& text) {
 Bearing UncertainBearing::mean() const {
   Bearing result;
   result.contact = contact;
-  for (const Given& g : given) result.*(g.option->input) = g.value.mean;
+  for (const Given& g : given) result.*(g.option->input) = g.option->factor * g.value.centre;
   return result;
 }
 
@@ -72,8 +72,13 @@ UncertainBearing BearingOptions::read() const {
   UncertainBearing result;
   result.contact = read_contact(contact);
   for (std::size_t i = 0; i < input_options.size(); ++i) {
-    if (!texts[i].empty())
-      result.given.push_back({&input_options[i], read_input(input_options[i], texts[i])});
+    if (texts[i].empty()) continue;
+    for (const UncertainBearing::Given& other : result.given) {
+      if (other.option->input == input_options[i].input)
+        throw InputError(fmt::format("{} is given beside {}; keep one of the two",
+                                     input_options[i].flag, other.option->flag));
+    }
+    result.given.push_back({&input_options[i], read_input(input_options[i], texts[i])});
   }
   return result;
 }

@@ -18,8 +18,9 @@ struct InputOption {
   Input input;
   const char* si;
   const char* help;
+  double factor = 1;  ///< of the input, to what is given
 };
-inline constexpr std::array<InputOption, 11> input_options = {{
+inline constexpr std::array<InputOption, 12> input_options = {{
     {"--radius", &Bearing::radius, "m", "radius r of the journal"},
     {"--clearance", &Bearing::clearance, "m",
      "radial clearance: bushing radius less journal radius"},
@@ -33,6 +34,7 @@ inline constexpr std::array<InputOption, 11> input_options = {{
     {"--speed", &Bearing::speed, "rev/s",
      "speed (rpm, Hz, rad/s), with --time instead of --revolutions"},
     {"--time", &Bearing::time, "s", "running time"},
+    {"--diameter", &Bearing::radius, "m", "diameter of the journal, instead of --radius", 0.5},
 }};
 
 /// A bearing whose inputs may be uncertain.

@@ -53,6 +53,25 @@ Uncertain read_plus_minus(const std::string& left, const std::string& right, std
   return result;
 }
 
+/// "1e-16 m^3/(N m) x/ 2": the median, and the factor by which one standard deviation of the logarithm
+/// multiplies and divides it.
+Uncertain read_factor(const std::string& left, const std::string& right, std::string_view si) {
+  Uncertain result;
+  const Quantity median = read_quantity(left, si);
+  const double factor = read_quantity(right, "1").si();
+  if (!(factor > 1 && std::isfinite(factor)))
+    throw InputError(fmt::format("'{} x/ {}': the factor must be more than 1", left, right));
+  const double log_sd = std::log(factor), variance = log_sd * log_sd;
+  result.law = Law::lognormal;
+  result.unit = median.unit;
+  result.centre = median.si();
+  result.mean = result.centre * std::exp(variance / 2);
+  result.sd = std::abs(result.mean) * std::sqrt(std::expm1(variance));
+  if (!(result.centre > 0))
+    throw InputError(fmt::format("'{} x/ {}': a lognormal quantity is above 0", left, right));
+  return result;
+}
+
 /// "lognormal(0.1 mm, 0.005 mm)"
 Uncertain read_law(const std::string& text, std::string_view si) {
   const auto open = text.find('('), comma = text.find(','), close = text.rfind(')');
@@ -92,15 +111,26 @@ Uncertain read_law(const std::string& text, std::string_view si) {
 Uncertain read_uncertain(std::string_view text, std::string_view si) {
   const std::string written = trimmed(text);
   Uncertain result;
-  std::size_t sign = 0, sign_size = 0;
+  std::size_t sign = 0, sign_size = 0, times = std::string::npos, times_size = 0;
   for (const std::string_view plus_minus : {"+-", "±", "+/-"}) {
     if (const auto at = written.find(plus_minus); at != written.npos) {
       sign = at;
       sign_size = plus_minus.size();
     }
   }
+  for (const std::string_view over : {"x/", "×/", "×÷", "x÷"}) {
+    // Behind a number or a unit, which no "x" ends, and before a number.
+    if (const auto at = written.find(over);
+        at != written.npos && at > 0 && written[at - 1] == ' ') {
+      times = at;
+      times_size = over.size();
+    }
+  }
   if (boost::algorithm::starts_with(written, "~")) {
     result = read_law(trimmed(written.substr(1)), si);
+  } else if (times_size != 0) {
+    result = read_factor(trimmed(written.substr(0, times)),
+                         trimmed(written.substr(times + times_size)), si);
   } else if (sign_size != 0) {
     result = read_plus_minus(trimmed(written.substr(0, sign)),
                              trimmed(written.substr(sign + sign_size)), si);
@@ -112,6 +142,7 @@ Uncertain read_uncertain(std::string_view text, std::string_view si) {
   if (result.sd < 0)
     throw InputError(fmt::format("'{}' has a negative standard deviation", written));
   if (result.sd == 0) result.law = Law::exact;
+  if (times_size == 0) result.centre = result.mean;
   result.text = written;
   return result;
 }
@@ -130,6 +161,10 @@ double draw(const Uncertain& q, Rng& rng) {
       return q.mean + q.sd * std::sqrt(12) * (rng.uniform() - 0.5);
   }
   return q.mean;
+}
+
+double equal_factor(const Uncertain& q) {
+  return std::exp(std::sqrt(std::log1p(q.sd * q.sd / (q.mean * q.mean))));
 }
 
 }  // namespace wearwell

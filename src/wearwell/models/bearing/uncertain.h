@@ -12,10 +12,11 @@ namespace wearwell {
 struct Uncertain {
   enum class Law { exact, normal, lognormal, uniform };
   Law law = Law::exact;
-  double mean = 0;   ///< SI
-  double sd = 0;     ///< SI
-  Unit unit;         ///< of the mean, as written
-  std::string text;  ///< as written
+  double mean = 0;    ///< SI
+  double sd = 0;      ///< SI
+  double centre = 0;  ///< SI: what an answer without uncertainty takes; mean, or the median of "x/"
+  Unit unit;          ///< of the mean, as written
+  std::string text;   ///< as written
 };
 
 /// Reads one of
@@ -23,9 +24,13 @@ struct Uncertain {
 ///   "0.100 +- 0.005 mm", "1 MPa +- 5 %"  normal: mean and standard deviation (% of the mean)
 ///   "~ lognormal(0.1 mm, 0.005 mm)"    mean and standard deviation of the quantity itself
 ///   "~ normal(0.1 mm, 0.005 mm)", "~ uniform(0.09 mm, 0.11 mm)"
+///   "1e-16 m^3/(N m) x/ 2"             lognormal: two in three between half of it and twice as much
 /// with the dimension of the SI unit `si`. A ± serves as +-. Throws InputError.
 Uncertain read_uncertain(std::string_view text, std::string_view si);
 
 double draw(const Uncertain& quantity, Rng& rng);
+
+/// The factor of "x/" that has the mean and standard deviation of `quantity`.
+double equal_factor(const Uncertain& quantity);
 
 }  // namespace wearwell

@@ -65,7 +65,7 @@ Figure run_in_figure(const ClutchResult& r) {
 
 /// Fig. 11: the best R2p at every pair of exponents.
 Figure exponent_figure(const ExponentSearch& search) {
-  Numbers x, x2, y, y2, density, r, q, r2p;
+  Numbers x, x2, y, y2, r, q, r2p;
   double low = INFINITY, high = -INFINITY;
   for (const PairBest& pair : search.pairs) {
     low = std::min(low, pair.r2p);
@@ -78,23 +78,22 @@ Figure exponent_figure(const ExponentSearch& search) {
     x2.push_back(pair.r + half);
     y.push_back(pair.q - half);
     y2.push_back(pair.q + half);
-    density.push_back(high > low ? 0.05 + 0.95 * (pair.r2p - low) / (high - low) : 1);
     r.push_back(pair.r);
     q.push_back(pair.q);
     r2p.push_back(pair.r2p);
   }
   const PairBest& best = search.pairs[search.best];
-  return {"exponents", "Exponents of the surrogate input",
-          fmt::format("R2p of the best submodel at each pair of exponents of ds = ω₀^r t₂^q: the "
-                      "darker, the higher, from {:.3f} to {:.3f}. The point is the best.",
-                      low, high),
-          plot::plot(
-              "R2p over the exponents r and q", {"r"}, {"q"},
-              {plot::cells(
-                   {{"x", x}, {"x2", x2}, {"y", y}, {"y2", y2}, {"density", density}, {"r2p", r2p}},
-                   {colour::posterior}),
-               plot::points({{"x", {best.r}}, {"y", {best.q}}, {"r2p", {best.r2p}}},
-                            {colour::measured, "best"})})};
+  return {
+      "exponents", "Exponents of the surrogate input",
+      fmt::format("R2p of the best submodel at each pair of exponents of ds = ω₀^r t₂^q: the "
+                  "darker, the higher, from {:.3f} to {:.3f}. The point is the best.",
+                  low, high),
+      plot::plot("R2p over the exponents r and q", {"r"}, {"q"},
+                 {plot::heat_map(
+                      {{"x", x}, {"x2", x2}, {"y", y}, {"y2", y2}, {"density", r2p}, {"R2p", r2p}},
+                      {colour::posterior}, {"R2p", low, std::max(high, low + 1e-6)}),
+                  plot::points({{"x", {best.r}}, {"y", {best.q}}, {"r2p", {best.r2p}}},
+                               {colour::measured, "best"})})};
 }
 
 /// Figs. 13 and 14: measured against predicted.
@@ -168,8 +167,6 @@ std::vector<Figure> map_figures(const ClutchStudy& study, const ClutchResult& r)
   }
   std::vector<Figure> figures;
   for (const Grid& grid : grids) {
-    Numbers density;
-    for (const double rate : grid.rate) density.push_back(std::clamp(rate / most, 0.0, 1.0));
     const auto [low, high] = std::minmax_element(grid.rate.begin(), grid.rate.end());
     figures.push_back(
         {fmt::format("map-{:.0f}", grid.temperature),
@@ -180,13 +177,14 @@ std::vector<Figure> map_figures(const ClutchStudy& study, const ClutchResult& r)
              at.closing_time, *low, *high, most),
          plot::plot(fmt::format("Wear rate at {:g} degrees", grid.temperature),
                     {"slip speed [rpm]"}, {"torque [N m]"},
-                    {plot::cells({{"x", grid.x},
-                                  {"x2", grid.x2},
-                                  {"y", grid.y},
-                                  {"y2", grid.y2},
-                                  {"density", density},
-                                  {"rate", grid.rate}},
-                                 {colour::measured})})});
+                    {plot::heat_map({{"x", grid.x},
+                                     {"x2", grid.x2},
+                                     {"y", grid.y},
+                                     {"y2", grid.y2},
+                                     {"density", grid.rate},
+                                     {"rate", grid.rate}},
+                                    {colour::measured},
+                                    {"wear rate [mm³/MJ]", 0, std::max(most, 1e-6)})})});
   }
   return figures;
 }
@@ -232,9 +230,9 @@ Figure sequence_figure(const SequenceResult& s) {
   for (const auto& w : s.weighings) {
     x.push_back(static_cast<double>(w.cycle));
     mean.push_back(w.predicted / mm3);
-    low.push_back((w.predicted - 2 * w.sd) / mm3);
+    low.push_back(std::max(0.0, w.predicted - 2 * w.sd) / mm3);
     high.push_back((w.predicted + 2 * w.sd) / mm3);
-    full_low.push_back((w.predicted - 2 * w.full_sd) / mm3);
+    full_low.push_back(std::max(0.0, w.predicted - 2 * w.full_sd) / mm3);
     full_high.push_back((w.predicted + 2 * w.full_sd) / mm3);
     at.push_back(x.back());
     measured.push_back(w.measured / mm3);
@@ -244,7 +242,8 @@ Figure sequence_figure(const SequenceResult& s) {
                       "off by {}. The inner band is the scatter of cycles, the outer one all that "
                       "is uncertain (95 %).",
                       percent(s.final_error())),
-          plot::plot("Worn volume against cycles", {"cycles"}, {"worn volume [mm³]"},
+          plot::plot("Worn volume against cycles", {"cycles", false, 0.0},
+                     {"worn volume [mm³]", false, 0.0},
                      {plot::area({{"x", x}, {"y", full_high}, {"y2", full_low}},
                                  {colour::wide, "95 %, all", 0.28}),
                       plot::area({{"x", x}, {"y", high}, {"y2", low}},

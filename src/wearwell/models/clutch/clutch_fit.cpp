@@ -355,6 +355,10 @@ ClutchResult run_clutch_study(const ClutchStudy& study, int threads, Progress* p
   r.checks = {data_check(study.campaign, r),           run_in_check(r.run_in),
               map_check(r.maps, r.nested, r.held_out), scatter_check(r.scatter_fit()),
               validation_check(r.validation),          sequence_check(r.sequences)};
+  if (!r.lives.empty()) {
+    r.checks.push_back(extrapolation_check(r.model, r.lives));
+    r.checks.push_back(sense_check(r.lives));
+  }
   if (const auto units = units_check(cycle_columns(study.campaign))) r.checks.push_back(*units);
   for (const Check& check : r.checks) r.trusted = r.trusted && check.verdict != Verdict::fail;
   r.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -148,8 +148,14 @@ std::string trace_lines(std::size_t every, const Batch& batch, const CycleSum::T
     const std::string plate =
         batch.names ? csv_cell((*batch.names)[static_cast<std::size_t>(batch.cycles.plate[i]) - 1])
                     : fmt::format("{}", batch.cycles.plate[i]);
-    fmt::format_to(end, "{},{},{:.9g},{:.9g},{}\n", plate, batch.cycles.number[i],
-                   trace.volume[i] / mm3, trace.sd[i] / mm3, flags);
+    fmt::format_to(end, "{},{},{:.9g}", plate, batch.cycles.number[i], trace.volume[i] / mm3);
+    const auto interval = [&](double sd) {
+      fmt::format_to(end, ",{:.9g},{:.9g},{:.9g}", sd / mm3, (trace.volume[i] - 2 * sd) / mm3,
+                     (trace.volume[i] + 2 * sd) / mm3);
+    };
+    interval(trace.sd[i]);
+    if (!trace.full_sd.empty()) interval(trace.full_sd[i]);
+    fmt::format_to(end, ",{}\n", flags);
   }
   return text;
 }
@@ -180,7 +186,12 @@ std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum,
                        int threads) {
   Reader reader(file, sum.plates());
   std::size_t rows = 0;
-  if (trace) trace("plate,cycle,volume [mm^3],sd [mm^3],outside\n");
+  if (trace) {
+    trace(fmt::format(
+        "plate,cycle,volume [mm^3],sd_scatter [mm^3],scatter_low [mm^3],"
+        "scatter_high [mm^3]{},outside\n",
+        sum.with_replicates() ? ",sd_full [mm^3],full_low [mm^3],full_high [mm^3]" : ""));
+  }
   using BatchPointer = std::shared_ptr<Batch>;
   const auto read = [&](tbb::flow_control& control) {
     auto batch = std::make_shared<Batch>();

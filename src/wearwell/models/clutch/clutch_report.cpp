@@ -44,10 +44,9 @@ Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
   std::vector<html::Tile> tiles;
   for (const NamedLife& each : r.lives) {
     const LifeAtLevel& at = each.life.levels.back();
-    tiles.push_back({fmt::format("Life, {}", each.name), fmt::format("{:.0f}", at.repetitions),
-                     "cycles",
-                     fmt::format("to {:g} % worn; volume known to ± {:.1f}\u00a0%", 100 * at.level,
-                                 100 * at.full_relative)});
+    tiles.push_back(
+        {fmt::format("Life, {}", each.name), fmt::format("{:.0f}", at.repetitions), "cycles",
+         fmt::format("to {:g} % worn; 95 % interval {}", 100 * at.level, in_words(at.full))});
   }
   tiles.push_back(
       {"R2p", fmt::format("{:.3f}", map.fit.r2p), "",
@@ -64,14 +63,18 @@ Table life_table(const ClutchResult& r) {
               {{"Operating point"},
                {"Worn", "%", given},
                {"Cycles", "1", fixed(0)},
+               {"95 % by scatter", "1", present::life(5), true},
+               {"95 % by all", "1", present::life(5), true},
                {"Without run-in", "1", fixed(0)},
-               {"95 % by scatter, ±", "mm^3", digits(3)},
-               {"of the volume, ±", "%", fixed(1)},
-               {"95 % by all, ±", "mm^3", digits(3)},
-               {"of the volume by all, ±", "%", fixed(1)}}};
+               {"Volume by scatter, ±", "mm^3", digits(3)},
+               {"of it, ±", "%", fixed(1)},
+               {"Volume by all, ±", "mm^3", digits(3)},
+               {"of it by all, ±", "%", fixed(1)}}};
   for (const NamedLife& each : r.lives) {
     for (const LifeAtLevel& at : each.life.levels)
-      table.rows.push_back({each.name, 100 * at.level, at.repetitions, at.without_run_in,
+      table.rows.push_back({each.name, 100 * at.level, at.repetitions,
+                            present::Range{at.scatter.low, at.scatter.high},
+                            present::Range{at.full.low, at.full.high}, at.without_run_in,
                             2 * at.sd / mm3, 100 * at.relative, 2 * at.full_sd / mm3,
                             100 * at.full_relative});
   }

@@ -120,6 +120,16 @@ std::vector<DataColumn> cycle_columns(const Campaign& campaign);
 WearPoints wear_points(const Campaign& campaign, const std::vector<WornBlock>& blocks,
                        const RunInFit& run_in, bool held_out);
 
+/// Beyond so many widths of the range of validity a life is not to be trusted.
+inline constexpr double farthest_outside = 0.5;
+/// A 95 % interval wider than +- so much of the volume is warned of; beyond all of it, it fails.
+inline constexpr double half_the_volume = 0.5;
+
+/// Whether the operating points whose life is asked for were modelled, and whether what is said of
+/// their volume says anything.
+Check extrapolation_check(const WearModel& model, const std::vector<NamedLife>& lives);
+Check sense_check(const std::vector<NamedLife>& lives);
+
 /// Features, run-in, map, scatter, validation, prediction and life in one go. `threads`: 0 for all;
 /// the result does not depend on it. `progress`, where there is one, counts exact searches.
 ClutchResult run_clutch_study(const ClutchStudy& study, int threads = 0,

@@ -104,6 +104,8 @@ Json to_json(const NamedLife& named) {
     levels.push_back({{"level", at.level},
                       {"cycles", at.repetitions},
                       {"without_run_in", at.without_run_in},
+                      {"interval_scatter", {at.scatter.low, at.scatter.high}},
+                      {"interval_full", {at.full.low, at.full.high}},
                       {"sd_scatter", at.sd / mm3},
                       {"sd_full", at.full_sd / mm3},
                       {"relative_scatter", at.relative},
@@ -192,15 +194,28 @@ std::string sequences_csv(const ClutchResult& r) {
 }
 
 std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
-  std::string out =
-      fmt::format("{}\n{} cycles, {} weighings; {} points to model with, {} held out\n",
-                  study.title, study.campaign.cycles.size(), study.campaign.weighings.size(),
-                  r.points.size(), r.held_out.size());
+  std::string out = wrapped(printable(study.title), 0, 2) +
+                    fmt::format("{} cycles, {} weighings; {} points to model with, {} held out\n",
+                                study.campaign.cycles.size(), study.campaign.weighings.size(),
+                                r.points.size(), r.held_out.size());
   if (study.simulated) out += "Simulated: the truth is known, no measurement stands behind it.\n";
   const auto section = [&](const char* title, const std::vector<std::vector<std::string>>& rows) {
     out += fmt::format("\n{}\n{}", title, text_table(rows));
   };
-  std::vector<std::vector<std::string>> rows = {{""}, {"fitted"}, {"standard error"}};
+  const std::string trust = wrapped(printable(trust_line(r.checks)), 0, 2);
+  out += "\n" + trust;
+  std::vector<std::vector<std::string>> rows;
+  if (!r.lives.empty()) {
+    rows = {{"operating point", "worn", "cycles", "95 % scatter", "95 % full", "without run-in"}};
+    for (const NamedLife& each : r.lives) {
+      for (const LifeAtLevel& at : each.life.levels)
+        rows.push_back({each.name, fmt::format("{:.0f} %", 100 * at.level),
+                        fmt::format("{:.0f}", at.repetitions), in_words(at.scatter),
+                        in_words(at.full), fmt::format("{:.0f}", at.without_run_in)});
+    }
+    section("Life (cycles)", rows);
+  }
+  rows = {{""}, {"fitted"}, {"standard error"}};
   for (int i = 0; i < RunInFit::size; ++i) {
     const RunInConstant& constant = run_in_constants[static_cast<std::size_t>(i)];
     rows[0].push_back(constant.name);
@@ -259,22 +274,11 @@ std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
     }
     section("Sequences, at their end", rows);
   }
-  if (!r.lives.empty()) {
-    rows = {{"operating point", "worn", "cycles", "without run-in", "95 % scatter", "95 % full"}};
-    for (const NamedLife& each : r.lives) {
-      for (const LifeAtLevel& at : each.life.levels)
-        rows.push_back({each.name, fmt::format("{:.0f} %", 100 * at.level),
-                        fmt::format("{:.0f}", at.repetitions),
-                        fmt::format("{:.0f}", at.without_run_in), "+- " + percent(at.relative),
-                        "+- " + percent(at.full_relative)});
-    }
-    section("Life", rows);
-  }
   rows = {{"check", "verdict", "what was found"}};
   for (const Check& check : r.checks)
     rows.push_back({check.name, verdict_kind(check.verdict), check.detail});
   out += "\nChecks\n" + text_table(rows, true);
-  out += r.trusted ? "\nTrusted.\n" : "\nNot trusted: a check failed.\n";
+  out += "\n" + trust;
   return printable_lines(out);
 }
 

@@ -199,6 +199,7 @@ void CycleSum::add(const CycleColumns& cycles, const Rates& rates, std::size_t f
     if (trace) {
       trace->volume.push_back(p.volume);
       trace->sd.push_back(p.sd());
+      if (with_replicates_) trace->full_sd.push_back(p.full_sd(model_.plate_sd));
       trace->skipped.push_back(!done);
     }
   }

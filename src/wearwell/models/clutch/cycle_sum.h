@@ -68,10 +68,13 @@ class CycleSum {
   /// on its plate; and for a cycle without a finite number, where that is not to be skipped.
   struct Trace {
     std::vector<double> volume, sd;
+    std::vector<double> full_sd;  ///< empty without replicates
     std::vector<bool> skipped;
   };
   void add(const CycleColumns& cycles, const Rates& rates, std::size_t first_row = 0,
            Trace* trace = nullptr);
+
+  bool with_replicates() const { return with_replicates_; }
 
   /// By first appearance.
   const std::vector<PlateWear>& plates() const { return plates_; }

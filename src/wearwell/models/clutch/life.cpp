@@ -51,7 +51,56 @@ class Repeated {
   double slow_ = 0, fast_ = 0;  ///< volume by cycle, times exp(-energy before it/eps)
 };
 
+/// What is known of the volume after any number of repetitions.
+struct Knowledge {
+  const Repeated& repeated;
+  const std::vector<Repeated>& replicates;
+  double sd = 0;        ///< of one repetition by the scatter of cycles
+  double plate_sd = 0;  ///< of the logarithm of a plate's factor
+
+  double scatter_sd(double repetitions) const { return sd * std::sqrt(repetitions); }
+
+  double full_sd(double repetitions) const {
+    const double volume = repeated.volume(repetitions), scatter = scatter_sd(repetitions);
+    double squares = 0;
+    for (const Repeated& replicate : replicates) {
+      const double off = replicate.volume(repetitions) - volume;
+      squares += off * off / static_cast<double>(replicates.size());
+    }
+    const double plate = plate_sd * volume;
+    return std::sqrt(scatter * scatter + squares + plate * plate);
+  }
+
+  /// Where volume + 2 sd first reaches the target, and volume - 2 sd last comes up to it.
+  LifeInterval interval(double target, double middle,
+                        double (Knowledge::*sd_at)(double) const) const {
+    const auto end = [&](double sign) {
+      const auto below = [&](double n) {
+        return repeated.volume(n) + sign * 2 * (this->*sd_at)(n) < target;
+      };
+      double low = sign > 0 ? 0 : middle, high = middle;
+      constexpr double farthest = 1e6;  // times the middle
+      while (below(high)) {
+        low = high;
+        high *= 2;
+        if (high > farthest * middle) return std::numeric_limits<double>::infinity();
+      }
+      for (int i = 0; i < 200 && high - low > 1e-12 * high; ++i) {
+        const double half = 0.5 * (low + high);
+        (below(half) ? low : high) = half;
+      }
+      return 0.5 * (low + high);
+    };
+    return {end(1), end(-1)};
+  }
+};
+
 }  // namespace
+
+std::string in_words(const LifeInterval& interval) {
+  return fmt::format("{:.0f} .. {}", interval.low,
+                     std::isfinite(interval.high) ? fmt::format("{:.0f}", interval.high) : "never");
+}
 
 Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
                   const std::vector<double>& levels) {
@@ -77,6 +126,7 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
   std::vector<Repeated> replicates;
   for (const Replicate& replicate : model.replicates)
     replicates.emplace_back(replicate.w, replicate.run_in, duty);
+  const Knowledge known{repeated, replicates, life.sd, model.plate_sd};
   for (const double level : levels) {
     if (!(level > 0 && std::isfinite(level)))
       throw InputError(fmt::format("wear level {} must be positive and finite", level));
@@ -85,17 +135,13 @@ Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
     const double target = level * model.worn_out;
     at.without_run_in = target / life.volume;
     at.repetitions = repeated.until(target);
-    at.sd = life.sd * std::sqrt(at.repetitions);
-    double squares = 0;
-    for (const Repeated& replicate : replicates) {
-      const double off = replicate.volume(at.repetitions) - target;
-      squares += off * off / static_cast<double>(replicates.size());
-    }
-    const double plate = model.plate_sd * target;
-    at.full_sd = std::sqrt(at.sd * at.sd + squares + plate * plate);
+    at.sd = known.scatter_sd(at.repetitions);
+    at.full_sd = known.full_sd(at.repetitions);
     if (!std::isfinite(at.repetitions) || !std::isfinite(at.full_sd))
       throw InputError(
           fmt::format("wear level {} is too far away: no finite number of repetitions", level));
+    at.scatter = known.interval(target, at.repetitions, &Knowledge::scatter_sd);
+    at.full = known.interval(target, at.repetitions, &Knowledge::full_sd);
     at.relative = 2 * at.sd / target;
     at.full_relative = 2 * at.full_sd / target;
     life.levels.push_back(at);

@@ -1,10 +1,21 @@
 #pragma once
 
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "wearwell/models/clutch/wear_model.h"
 
 namespace wearwell::clutch {
+
+/// Repetitions between which a level is reached; the upper end is infinite where the volume may stay
+/// below it for ever, as far as is known.
+struct LifeInterval {
+  double low = 0, high = std::numeric_limits<double>::infinity();
+};
+
+/// "28520 .. 36700"; "never" for an end that is infinite.
+std::string in_words(const LifeInterval& interval);
 
 /// When a wear level is reached under a duty that repeats.
 struct LifeAtLevel {
@@ -15,6 +26,7 @@ struct LifeAtLevel {
   double full_sd = 0;         ///< and by all that is uncertain, m^3
   double relative = 0;        ///< 2 sd/volume: half width of the 95 % interval
   double full_relative = 0;
+  LifeInterval scatter, full;  ///< all repetitions after which volume +- 2 sd holds the level
 };
 
 struct Life {

@@ -55,6 +55,8 @@ void run(const LifeOptions& options) {
       rows.push_back({{"level", at.level},
                       {"repetitions", at.repetitions},
                       {"without_run_in", at.without_run_in},
+                      {"interval_scatter", {at.scatter.low, at.scatter.high}},
+                      {"interval_full", {at.full.low, at.full.high}},
                       {"sd_scatter", at.sd / mm3},
                       {"sd_full", at.full_sd / mm3},
                       {"relative_scatter", at.relative},
@@ -72,16 +74,22 @@ void run(const LifeOptions& options) {
       life.energy * 1e-3, life.volume / mm3, model.worn_out / mm3);
   if (life.outside)
     fmt::print("Outside the range of validity: {}.\n", names_of_inputs(life.outside));
-  std::vector<std::vector<std::string>> rows = {{"worn [%]", "repetitions", "without run-in",
-                                                 "95 % scatter [mm^3]", "of the volume",
-                                                 "95 % full [mm^3]", "of the volume"}};
+  std::vector<std::vector<std::string>> rows = {
+      {"worn [%]", "repetitions", "95 % scatter", "95 % full", "without run-in"}};
   for (const LifeAtLevel& at : life.levels)
-    rows.push_back(
-        {fmt::format("{:.6g}", 100 * at.level), fmt::format("{:.0f}", at.repetitions),
-         fmt::format("{:.0f}", at.without_run_in), fmt::format("+- {:.4g}", 2 * at.sd / mm3),
-         fmt::format("{:.1f} %", 100 * at.relative), fmt::format("+- {:.4g}", 2 * at.full_sd / mm3),
-         fmt::format("{:.1f} %", 100 * at.full_relative)});
+    rows.push_back({fmt::format("{:.6g}", 100 * at.level), fmt::format("{:.0f}", at.repetitions),
+                    in_words(at.scatter), in_words(at.full),
+                    fmt::format("{:.0f}", at.without_run_in)});
   fmt::print("{}", text_table(rows));
+  rows = {{"worn [%]", "volume [mm^3]", "95 % scatter", "of it", "95 % full", "of it"}};
+  for (const LifeAtLevel& at : life.levels)
+    rows.push_back({fmt::format("{:.6g}", 100 * at.level),
+                    fmt::format("{:.6g}", at.level * model.worn_out / mm3),
+                    fmt::format("+- {:.4g}", 2 * at.sd / mm3),
+                    fmt::format("{:.1f} %", 100 * at.relative),
+                    fmt::format("+- {:.4g}", 2 * at.full_sd / mm3),
+                    fmt::format("{:.1f} %", 100 * at.full_relative)});
+  fmt::print("The volume after so many:\n{}", text_table(rows));
 }
 
 }  // namespace

@@ -34,6 +34,20 @@ Numbers spaced(double low, double high, std::size_t count) {
   return points;
 }
 
+// Points that would hide each other stand one above the other: their heights moved, in steps of a share
+// of the plot's, up and down in turn. `x` and `y` from 0 to 1 over the plot.
+Numbers apart(const Numbers& x, Numbers y) {
+  constexpr double near_x = 0.012, near_y = 0.02, step = 0.022;
+  const Numbers where = y;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    int before = 0;
+    for (std::size_t j = 0; j < i; ++j)
+      before += std::abs(x[j] - x[i]) < near_x && std::abs(where[j] - where[i]) < near_y;
+    y[i] += step * (before % 2 == 1 ? (before + 1) / 2 : -(before / 2));
+  }
+  return y;
+}
+
 // All tests, or some of them evenly.
 SnData drawn_tests(const SnData& data) {
   if (data.tests.size() <= most_tests) return data;
@@ -81,11 +95,12 @@ class Drawing {
     Numbers moved;
     for (const LifeTest& test : data_.tests) moved.push_back(moved_to_line(test.stress));
     const auto [least, most] = std::minmax_element(moved.begin(), moved.end());
-    const double margin = std::max(0.15 * (*most - *least), 0.03 * *most);
-    const double low = std::max(0.5 * *least, *least - margin), high = *most + margin;
-    const Numbers stresses = spaced(low, high, curve_points);
+    const double margin = std::max(1.03, std::pow(*most / *least, 0.15));
+    const double low = *least / margin, high = *most * margin;
+    Numbers stresses = spaced(std::log(low), std::log(high), curve_points);
+    for (double& each : stresses) each = std::exp(each);
     struct Row {
-      double pi05, pi95, ci05, ci50, ci95;
+      double pi05, pi95, ci05, ci50, ci95, bound;
     };
     std::vector<Row> rows(stresses.size());
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
@@ -94,10 +109,16 @@ class Drawing {
       const Distribution median(
           draws_, [&](const double* x) { return life_quantile(law_, x, stress, 0.5); });
       const auto at = [&](double p) { return shown(cycles(law_, median.quantile(p))); };
-      rows[i] = {shown(next.quantile(0.05)), shown(next.quantile(0.95)), at(0.05), at(0.5),
-                 at(0.95)};
+      const Distribution tenth(
+          draws_, [&](const double* x) { return life_quantile(law_, x, stress, 0.1); });
+      rows[i] = {shown(next.quantile(0.05)),
+                 shown(next.quantile(0.95)),
+                 at(0.05),
+                 at(0.5),
+                 at(0.95),
+                 shown(cycles(law_, tenth.quantile(1 - predictions_.credible_level)))};
     });
-    Numbers y, pi05, pi95, ci05, ci50, ci95;
+    Numbers y, pi05, pi95, ci05, ci50, ci95, bound;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       y.push_back(in_unit(stresses[i]));
       pi05.push_back(rows[i].pi05);
@@ -105,24 +126,31 @@ class Drawing {
       ci05.push_back(rows[i].ci05);
       ci50.push_back(rows[i].ci50);
       ci95.push_back(rows[i].ci95);
+      bound.push_back(rows[i].bound);
     }
+    const std::string confidence = fmt::format("{:.4g} %", 100 * predictions_.credible_level);
     std::vector<plot::Json> marks = {
         plot::area({{"x", pi95}, {"x2", pi05}, {"y", y}}, {colour::wide, "90 % of lives", 0.28}),
         plot::area({{"x", ci95}, {"x2", ci05}, {"y", y}},
                    {colour::posterior, "90 % of the median life", 0.38}),
         plot::line({{"x", ci50}, {"y", y}, {"median life", ci50}, {"stress", y}},
-                   {colour::posterior, "", 1, 2})};
-    add_tests(moved, marks);
-    return {"sn-curve", "Life against stress",
-            fmt::format("{}. The inner band holds the life that half of all specimens outlast, the "
-                        "outer band the life of the next one, with 90 % probability.{}{}",
-                        where_drawn(), arrows_note(), thinned_),
-            plot::plot("Alternating stress against life, with bands and tests",
-                       {life_title(), true, from_si(data_.life_unit, shortest_ / 20),
-                        from_si(data_.life_unit, longest_ * 20)},
-                       {fmt::format("Alternating stress [{}]", data_.stress_unit.text),
-                        high > 5 * low, in_unit(low), in_unit(high)},
-                       marks, 360, true)};
+                   {colour::posterior, "half outlast it", 1, 2}),
+        plot::line({{"x", bound}, {"y", y}, {"B10 at least", bound}, {"stress", y}},
+                   {colour::limit, "B10, at least with " + confidence, 1, 2, true})};
+    add_tests(moved, low, high, marks);
+    return {
+        "sn-curve", "S-N curve: life against stress",
+        fmt::format("{}. The dashed line is the one to design with: nine in ten outlast it, with "
+                    "{} confidence. The inner band holds the life that half of all specimens "
+                    "outlast, the outer band the life of the next one, with 90 % probability.{} "
+                    "Tests at one place stand above each other.{}",
+                    where_drawn(), confidence, arrows_note(), thinned_),
+        plot::plot("Alternating stress against life, with bands and tests",
+                   {life_title(), true, from_si(data_.life_unit, shortest_ / 20),
+                    from_si(data_.life_unit, longest_ * 20)},
+                   {fmt::format("Alternating stress [{}]", data_.stress_unit.text), true,
+                    in_unit(low), in_unit(high)},
+                   marks, 380, true)};
   }
 
   // The predicted density of every stress that was tested or is asked about, one above the other.
@@ -169,8 +197,14 @@ class Drawing {
           continue;
         }
         const bool runout = test.outcome == Outcome::runout;
-        (runout ? on_x : broke_x).push_back(shown(test.life));
-        (runout ? on_y : broke_y).push_back(base(i) + 0.12);
+        Numbers& on_line = runout ? on_x : broke_x;
+        Numbers& heights = runout ? on_y : broke_y;
+        int before = 0;  // at the same place
+        for (std::size_t k = 0; k < on_line.size(); ++k)
+          before += heights[k] > base(i) && heights[k] < base(i) + 0.9 &&
+                    std::abs(std::log10(on_line[k] / shown(test.life))) < 0.02 * (high - low);
+        on_line.push_back(shown(test.life));
+        heights.push_back(base(i) + 0.1 + 0.1 * (before % 8));
         (runout ? on_life : broke_life).push_back(from_si(data_.life_unit, test.life));
       }
     }
@@ -319,30 +353,39 @@ class Drawing {
                     : "";
   }
 
-  void add_tests(const Numbers& moved, std::vector<plot::Json>& marks) const {
+  void add_tests(const Numbers& moved, double low, double high,
+                 std::vector<plot::Json>& marks) const {
+    Numbers lives, across, up;
+    for (std::size_t i = 0; i < data_.tests.size(); ++i) {
+      const LifeTest& test = data_.tests[i];
+      lives.push_back(test.outcome == Outcome::interval ? std::sqrt(test.life * test.until)
+                                                        : test.life);
+      across.push_back(std::log(lives[i] / (shortest_ / 20)) /
+                       std::log(400 * longest_ / shortest_));
+      up.push_back(std::log(moved[i] / low) / std::log(high / low));
+    }
+    const Numbers heights = apart(across, up);
     struct Group {
       const char* name;
       const char* shape;
       const char* paint;
-      Numbers x, y;
+      Numbers x, y, stress;
     };
-    Group groups[] = {{"failures", "circle", colour::measured, {}, {}},
-                      {"run-outs", "triangle-right", colour::chains[2], {}, {}},
-                      {"broken before", "triangle-left", colour::chains[1], {}, {}},
-                      {"broken between", "diamond", colour::chains[3], {}, {}}};
+    Group groups[] = {{"failures", "circle", colour::measured, {}, {}, {}},
+                      {"run-outs", "triangle-right", colour::chains[2], {}, {}, {}},
+                      {"broken before", "triangle-left", colour::chains[1], {}, {}, {}},
+                      {"broken between", "diamond", colour::chains[3], {}, {}, {}}};
     for (std::size_t i = 0; i < data_.tests.size(); ++i) {
-      const LifeTest& test = data_.tests[i];
-      const double life =
-          test.outcome == Outcome::interval ? std::sqrt(test.life * test.until) : test.life;
-      Group& group = groups[static_cast<int>(test.outcome)];
-      group.x.push_back(from_si(data_.life_unit, life));
-      group.y.push_back(in_unit(moved[i]));
+      Group& group = groups[static_cast<int>(data_.tests[i].outcome)];
+      group.x.push_back(from_si(data_.life_unit, lives[i]));
+      group.y.push_back(in_unit(low * std::pow(high / low, heights[i])));
+      group.stress.push_back(in_unit(moved[i]));
     }
     for (const Group& group : groups) {
       if (group.x.empty()) continue;
-      marks.push_back(
-          plot::arrows({{"x", group.x}, {"y", group.y}, {"life", group.x}, {"stress", group.y}},
-                       group.shape, {group.paint, group.name, 1, 0, false, 70}));
+      marks.push_back(plot::arrows(
+          {{"x", group.x}, {"y", group.y}, {"life", group.x}, {"stress", group.stress}},
+          group.shape, {group.paint, group.name, 1, 0, false, 70}));
     }
   }
 
@@ -362,8 +405,8 @@ std::map<std::string, std::vector<html::Figure>> sn_exhibits(const SnLaw& law, c
                                                              const Fit& fit) {
   const Drawing drawing(law, data, predictions, fit);
   std::map<std::string, std::vector<html::Figure>> exhibits;
+  exhibits["verdict"].push_back(drawing.curve());
   exhibits["predictions"].push_back(drawing.lives());
-  exhibits["fit"].push_back(drawing.curve());
   if (law.correction != MeanStress::none) {
     exhibits["predictions"].push_back(drawing.haigh());
   }

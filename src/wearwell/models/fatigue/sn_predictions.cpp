@@ -440,6 +440,13 @@ ProfiledQuantity life_by_likelihood(const SnLaw& law, const Stress& stress, doub
 void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions& predictions,
                        PosteriorStudy& study) {
   const double level = predictions.credible_level;
+  // Of several percentages the one nearest to the tenth of B10, of several reliabilities the highest.
+  const auto nearest = std::min_element(
+      predictions.percents.begin(), predictions.percents.end(),
+      [](double a, double b) { return std::abs(std::log(a / 10)) < std::abs(std::log(b / 10)); });
+  double most_reliable = 0;
+  for (const AllowedStress& allowed : predictions.allowed)
+    most_reliable = std::max(most_reliable, allowed.reliability);
   const auto request = [&](const std::string& name, const std::string& of, const std::string& at,
                            const Unit& unit) {
     QuantityRequest result{name, of, at, unit, true, false, {}, {}, {}};
@@ -459,6 +466,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     for (const double percent_failed : predictions.percents) {
       group.requests.push_back(
           request(fmt::format("B{:.6g} life", percent_failed), of, at, data.life_unit));
+      group.requests.back().headline = percent_failed == *nearest;
       if (law.limit) continue;
       study.profiled.push_back({group.requests.back().name, of, at, data.life_unit,
                                 life_by_likelihood(law, point.stress, percent_failed / 100),
@@ -478,6 +486,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
                 fmt::format("for {:.6g} % to outlast {}{}", 100 * allowed.reliability,
                             in_words(allowed.life), in_words(law, data, allowed.line)),
                 data.stress_unit);
+    stress.headline = allowed.reliability == most_reliable;
     study.quantity_groups.push_back({{stress}, [=](const WeightedDraws& draws) {
                                        return std::vector<QuantityQuantiles>{
                                            allowed_quantiles(law, draws, allowed, level)};

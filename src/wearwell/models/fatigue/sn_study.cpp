@@ -85,9 +85,52 @@ void refuse_beyond(const SnData& data, double strength, const std::string& name)
   }
 }
 
+// What is known of S-N curves before any test of this one, and the size of the stresses, which are
+// set and not measured (docs/priors.md).
+class Defaults {
+ public:
+  explicit Defaults(const SnData& data) : data_(data) {
+    for (const LifeTest& test : data.tests) {
+      highest_ = std::max(highest_, test.stress.alternating);
+      largest_ = std::max(largest_, test.stress.alternating + std::abs(test.stress.mean));
+      lowest_ = std::min(lowest_, test.stress.alternating);
+      longest_ = std::max({longest_, test.life, test.until});
+    }
+  }
+
+  // Basquin's b of -0.05 to -0.12 (Basquin 1910, Dowling 2013) raises the highest stress by 2 to 6
+  // from 1e5 cycles to 1; welds, of -1/3, by 50.
+  DefaultPrior log10_a() const { return logarithm(4 * highest_, 0.7); }
+  // Long tails: welds have -0.33.
+  DefaultPrior b() const { return {"student-t", StudentT{4, -0.12, 0.06}, "1"}; }
+  DefaultPrior gamma() const { return {"beta", Beta{4, 3}, "1"}; }
+  DefaultPrior sigma(bool logarithmic) const {
+    return {"half-normal", Normal{0, logarithmic ? 0.5 : rounded_up(longest_)},
+            logarithmic ? "1" : data_.life_unit.text, 0};
+  }
+  // Tests run at about half of the strength.
+  DefaultPrior log_strength() const { return logarithm(2 * largest_, 0.2); }
+  DefaultPrior log_limit() const { return logarithm(lowest_, 0.3); }
+  DefaultPrior sigma_limit() const { return {"half-normal", Normal{0, 0.1}, "1", 0}; }
+
+ private:
+  DefaultPrior logarithm(double stress, double sd) const {
+    return {"normal", Normal{std::log10(rounded_up(stress)), sd},
+            fmt::format("log10({})", data_.stress_unit.text)};
+  }
+
+  const SnData& data_;
+  double highest_ = 0, largest_ = 0, lowest_ = INFINITY, longest_ = 0;
+};
+
 std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
                                        const SnData& data) {
-  const TomlReader priors = root.required_table("prior");
+  const auto priors = root.table("prior");
+  const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
+    spec.fallback = std::move(fallback);
+    return read_prior(root, priors, spec);
+  };
+  const Defaults defaults(data);
   double largest_mean = 0;
   for (const LifeTest& test : data.tests) largest_mean = std::max(largest_mean, test.stress.mean);
   const std::string strength = strength_name(law.correction);
@@ -95,15 +138,16 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
   std::optional<Parameter> log_strength;
   if (law.strength) {
     refuse_beyond(data, *law.strength, strength);
-    if (priors.has(log_strength_name(law.correction))) {
-      priors.fail(
+    if (priors && priors->has(log_strength_name(law.correction))) {
+      priors->fail(
           log_strength_name(law.correction),
           fmt::format("is given, but conditions.{} says that it is known; keep one", strength));
     }
     material = *law.strength;
   } else if (law.has_strength()) {
-    log_strength = read_prior(priors, {log_strength_name(law.correction), "log10(Pa)", -INFINITY,
-                                       INFINITY, std::log10(material)});
+    log_strength = read(
+        {log_strength_name(law.correction), "log10(Pa)", -INFINITY, INFINITY, std::log10(material)},
+        defaults.log_strength());
     refuse_beyond(data, std::pow(10, log_strength->prior.upper), strength);
     const double least = largest_mean > 0 ? std::log10(largest_mean) : -INFINITY;
     if (log_strength->start < least + 0.01) {
@@ -116,21 +160,22 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
 
   std::vector<Parameter> parameters;
   parameters.push_back(
-      read_prior(priors, {"log10_a", "log10(Pa)", -INFINITY, INFINITY, guess.log10_a}));
-  parameters.push_back(read_prior(priors, {"b", "1", -INFINITY, 0, guess.b}));
+      read({"log10_a", "log10(Pa)", -INFINITY, INFINITY, guess.log10_a}, defaults.log10_a()));
+  parameters.push_back(read({"b", "1", -INFINITY, 0, guess.b}, defaults.b()));
   if (log_strength) parameters.push_back(*log_strength);
-  if (law.has_gamma()) parameters.push_back(read_prior(priors, {"gamma", "1", 0, 1, 0.5}));
+  if (law.has_gamma()) parameters.push_back(read({"gamma", "1", 0, 1, 0.5}, defaults.gamma()));
   const char* sigma_si = law.logarithmic() ? "1" : "cycle";
-  parameters.push_back(read_prior(priors, {"sigma", sigma_si, 0, INFINITY, guess.sigma}));
+  parameters.push_back(
+      read({"sigma", sigma_si, 0, INFINITY, guess.sigma}, defaults.sigma(law.logarithmic())));
   if (law.limit) {
     double lowest = INFINITY;
     for (const LifeTest& test : data.tests) {
       lowest = std::min(lowest, std::log10(test.stress.alternating) +
                                     log10_factor(law.correction, test.stress, material, 0.5));
     }
-    parameters.push_back(
-        read_prior(priors, {"log10_limit", "log10(Pa)", -INFINITY, INFINITY, lowest - 0.05}));
-    parameters.push_back(read_prior(priors, {"sigma_limit", "1", 0, INFINITY, 0.05}));
+    parameters.push_back(read({"log10_limit", "log10(Pa)", -INFINITY, INFINITY, lowest - 0.05},
+                              defaults.log_limit()));
+    parameters.push_back(read({"sigma_limit", "1", 0, INFINITY, 0.05}, defaults.sigma_limit()));
   }
   if (!law.logarithmic()) {
     Parameter& sigma = parameters[static_cast<std::size_t>(law.sigma_index())];
@@ -286,6 +331,13 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
     predictions = read_sn_predictions(*predict, law, data);
   }
   add_sn_quantities(law, data, predictions, study);
+  study.curve = [=](const WeightedDraws& draws) {
+    const double log10_a = Distribution(draws, [](const double* x) { return x[0]; }).mean();
+    const double b = Distribution(draws, [](const double* x) { return x[1]; }).mean();
+    return fmt::format("the curve is {} = {:.4g} {} x N^({:.4g}) in the mean",
+                       law.limit ? "S_f - limit" : "S_f",
+                       from_si(data.stress_unit, std::pow(10, log10_a)), data.stress_unit.text, b);
+  };
   study.coverage = [=](const WeightedDraws& draws) { return sn_coverage(law, data, draws); };
   study.exhibits = [=](const Fit& fit) { return sn_exhibits(law, data, predictions, fit); };
   study.checks = [=](const Fit& fit) { return sn_checks(law, data, predictions, fit); };

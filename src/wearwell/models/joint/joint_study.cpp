@@ -203,7 +203,7 @@ JointData read_data(const TomlReader& root, const Source& source, ObservationFam
 
 std::vector<Parameter> read_parameters(const TomlReader& root, const JointData& data,
                                        joint::Archard& law) {
-  const TomlReader priors = root.required_table("prior");
+  const auto priors = root.table("prior");
   const joint::LeastSquares guess = joint::least_squares(data.inspections);
   const double largest =
       std::abs(*std::max_element(data.inspections.volume.begin(), data.inspections.volume.end(),
@@ -212,15 +212,30 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const JointData& 
   const double sigma = std::max({guess.sigma, 1e-3 * largest, std::numeric_limits<double>::min()});
   const double k = guess.k > 0 ? guess.k : sigma / law.reference_work;
 
+  // Defaults: Archard's coefficient of metals and polymers lies between 1e-8 and 1e-2 (Archard and
+  // Hirst 1956), which at a hardness of about 1 GPa is as much in mm^3/(N m); a measurement does not
+  // scatter by more than what it measures.
+  const std::string& unit = data.volume_unit.text;
+  const double size = rounded_up(largest);
+  const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
+    spec.fallback = std::move(fallback);
+    return read_prior(root, priors, spec);
+  };
   std::vector<Parameter> parameters;
-  parameters.push_back(read_prior(priors, {"k", "m^3/(N m)", 0, INFINITY, k}));
-  parameters.push_back(read_prior(priors, {"sigma", "m^3", 0, INFINITY, sigma}));
-  law.has_constant = priors.has("V0");
-  law.has_exponent = priors.has("exponent");
+  parameters.push_back(read({"k", "m^3/(N m)", 0, INFINITY, k},
+                            {"lognormal", Lognormal{std::log(1e-14), 4.2}, unit + "/(N m)"}));
+  parameters.push_back(
+      read({"sigma", "m^3", 0, INFINITY, sigma}, {"half-normal", Normal{0, size}, unit, 0}));
+  law.has_constant = priors && priors->has("V0");
+  law.has_exponent = priors && priors->has("exponent");
   if (law.has_constant) {
-    parameters.push_back(read_prior(priors, {"V0", "m^3", -INFINITY, INFINITY, 0.1 * sigma}));
+    parameters.push_back(
+        read({"V0", "m^3", -INFINITY, INFINITY, 0.1 * sigma}, {"normal", Normal{0, size}, unit}));
   }
-  if (law.has_exponent) parameters.push_back(read_prior(priors, {"exponent", "1", 0, INFINITY, 1}));
+  if (law.has_exponent) {
+    parameters.push_back(
+        read({"exponent", "1", 0, INFINITY, 1}, {"lognormal", Lognormal{0, 0.5}, "1"}));
+  }
   return parameters;
 }
 
@@ -358,8 +373,10 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
                              *limit,
                              *std::max_element(data.cycles.begin(), data.cycles.end()),
                              risk ? risk->si() : 0.01,
-                             [=, limit = limit->si()](const double* x) {
-                               return history.cycles_at(law.work_at(x, limit));
+                             [=, limit = limit->si()](const WeightedDraws& draws) {
+                               return life_law(draws, [=](const double* x) {
+                                 return history.cycles_at(law.work_at(x, limit));
+                               });
                              }};
   } else if (risk) {
     predict->fail("risk", "needs predict.limit");

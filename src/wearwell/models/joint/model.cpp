@@ -1,5 +1,6 @@
 #include "wearwell/models/joint/model.h"
 
+#include "wearwell/models/joint/joint_first.h"
 #include "wearwell/models/joint/joint_keys.h"
 #include "wearwell/models/joint/joint_study.h"
 
@@ -24,7 +25,8 @@ Model model() {
                 return read_posterior_study(root, source, read_joint_study);
               },
           .add_commands = nullptr,
-          .keys = study_keys};
+          .keys = study_keys,
+          .first_study = first_study};
 }
 
 }  // namespace joint

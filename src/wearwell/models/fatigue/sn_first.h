@@ -1,0 +1,12 @@
+#pragma once
+
+#include <optional>
+
+#include "wearwell/study/first_study.h"
+
+namespace wearwell::fatigue {
+
+/// A study of lives under stresses, or nothing where the headings name none.
+std::optional<FirstStudy> first_study(const Table& table, const std::string& file);
+
+}  // namespace wearwell::fatigue

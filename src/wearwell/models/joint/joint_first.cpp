@@ -1,0 +1,78 @@
+#include "wearwell/models/joint/joint_first.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace wearwell::joint {
+
+std::optional<FirstStudy> first_study(const Table& table, const std::string& file) {
+  HeadingGuesses headings(table);
+  const auto volume =
+      headings.take("volume", "m^3", "mm^3",
+                    {"worn volume", "wear volume", "volume loss", "volume", "verschleissvolumen",
+                     "verschleißvolumen", "volumen", "usure"});
+  const auto cycles = headings.take("cycles", "cycle", "1",
+                                    {"cycles", "cycle", "number of cycles", "zyklen", "zyklus",
+                                     "lastwechsel", "hübe", "strokes", "cicli", "n"});
+  if (!volume || !cycles) return {};
+  const auto work =
+      headings.take("work", "N m", "J",
+                    {"friction work", "work", "energy", "reibarbeit", "reibungsarbeit", "arbeit"});
+  auto force = work ? std::nullopt
+                    : headings.take("force", "N", "N",
+                                    {"normal force", "force", "load", "kraft", "normalkraft",
+                                     "charge", "carico"});
+  auto slip =
+      force ? headings.take("slip", "m", "m",
+                            {"sliding distance", "slip", "distance", "gleitweg", "weg", "path"})
+            : std::nullopt;
+  std::string columns =
+      HeadingGuesses::line("cycles", *cycles) + HeadingGuesses::line("volume", *volume);
+  if (work) columns += HeadingGuesses::line("work", *work);
+  if (force && slip)
+    columns += HeadingGuesses::line("force", *force) + HeadingGuesses::line("slip", *slip);
+  std::string conditions;
+  if (!work && !slip) {
+    conditions =
+        "\n[conditions]\n"
+        "work_per_cycle = \"1 N m\"               # a GUESS: the table has no friction work; put "
+        "force "
+        "times slip of one cycle here\n";
+    headings.guesses.push_back(
+        "no heading names friction work, or force and sliding distance: work_per_cycle is 1 N m "
+        "until "
+        "you put the work of one cycle there; k is the volume of a cycle till then");
+  }
+  const auto values = values_of(*cycles->column);
+  const double last = values.empty() ? 1 : *std::max_element(values.begin(), values.end());
+  FirstStudy study;
+  study.text = fmt::format(
+      "title = \"Wear of a joint, from {0}\"\n"
+      "model = \"archard-joint\"\n\n"
+      "[data]\nfile = {1}\n[data.columns]\n{2}{3}\n"
+      "[likelihood]\nfamily = \"normal\"\n\n"
+      "# Without [prior] weak defaults hold (docs/priors.md). What you know of k makes a better "
+      "answer:\n"
+      "# [prior]\n# k = {{ law = \"lognormal\", median = \"1e-5 mm^3/(N m)\", log_sd = 2 }}\n\n"
+      "[predict]\n{4}",
+      [&] {
+        std::string name = toml_text(file);
+        return name.substr(1, name.size() - 2);
+      }(),
+      toml_text(file), columns, conditions,
+      slip || work
+          ? "# work_per_cycle = \"5 N m\"             # of cycles to come: then cycles = [...] and "
+            "limit = \"...\"\n"
+          : fmt::format("cycles = [{:.0f}]{}\n# limit = \"100 mm^3\"                  # when is it "
+                        "reached?\n"
+                        "# risk  = \"1 %\"                       # and when to inspect again\n",
+                        2 * last, "                         # twice what was run"));
+  study.taken = headings.taken;
+  study.guesses = headings.guesses;
+  for (const std::string& name : headings.left())
+    study.guesses.push_back(fmt::format("column '{}' is not used", name));
+  return study;
+}
+
+}  // namespace wearwell::joint

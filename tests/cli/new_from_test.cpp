@@ -1,0 +1,114 @@
+// `wearwell new --from`: headings as people write them, to a study that runs.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/run_command.h"
+#include "support/scratch.h"
+
+namespace wearwell {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class NewFrom : public ScratchTest {
+ protected:
+  CommandResult here(const std::string& words) {
+    return run_command("cd '" + folder().string() + "' && '" WEARWELL_BINARY "' " + words);
+  }
+  std::string content(const std::string& file) {
+    std::ifstream in(folder() / file);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  // What is guessed, after the study was checked and fitted as it is.
+  std::string runs(const std::string& table, const std::string& text) {
+    write(table, text);
+    const CommandResult run = here("new --from " + table + " out");
+    EXPECT_EQ(run.exit_code, 0) << run.err << run.out << content("out/study.toml");
+    EXPECT_EQ(content("out/" + table), text);
+    const CommandResult fit =
+        here("fit out/study.toml --method exact --draws 100 --json --no-report -o r");
+    EXPECT_LE(fit.exit_code, 1) << fit.err << content("out/study.toml");
+    if (fit.exit_code <= 1) result_ = json::parse(fit.out);
+    return run.out;
+  }
+  json result_;
+};
+
+TEST_F(NewFrom, WornVolumes) {
+  const std::string said =
+      runs("pin.csv",
+           "Cycles [-],normal force (N),Sliding distance / m,worn volume [mm³],remark\n"
+           "100,60,6,0.3,\n1000,60,60,3.1,ok\n5000,60,300,14,\n10000,60,600,31,\n");
+  EXPECT_THAT(said, AllOf(HasSubstr("volume: column 'worn volume [mm³]' in mm^3"),
+                          HasSubstr("force: column 'normal force (N)' in N"),
+                          HasSubstr("slip: column 'Sliding distance / m' in m"),
+                          HasSubstr("column 'remark' is not used"), Not(HasSubstr("is a guess"))));
+  EXPECT_EQ(result_["model"], "archard-joint");
+  EXPECT_NEAR(result_["parameters"]["k"]["exact"]["q50"], 31.0 / 36000, 0.1e-3);
+  EXPECT_EQ(result_["parameters"]["k"]["prior"]["default"], true);
+}
+
+TEST_F(NewFrom, LivesInGerman) {
+  const std::string said =
+      runs("versuche.csv",
+           "Probe,Spannungsamplitude_MPa,Spannungsverhältnis,Lastspiele,Status\n1,400,-1,41000,"
+           "F\n2,400,-1,52000,F\n"
+           "3,350,-1,120000,F\n4,350,-1,160000,F\n5,300,-1,500000,F\n6,300,-1,2000000,S\n");
+  EXPECT_THAT(said,
+              AllOf(HasSubstr("alternating_stress: column 'Spannungsamplitude_MPa' in MPa"),
+                    HasSubstr("life: column 'Lastspiele'"), HasSubstr("status: column 'Status'")));
+  EXPECT_EQ(result_["model"], "sn");
+  EXPECT_THAT(content("out/study.toml"), HasSubstr("mean_stress = \"none\""));
+  EXPECT_EQ(result_["coverage"]["rows"][5]["outcome"], "runout");
+}
+
+// A unit that no heading has is a guess, and is called one in the study and on the terminal.
+TEST_F(NewFrom, AUnitThatIsGuessedIsCalledAGuess) {
+  const std::string said =
+      runs("lives.csv", "stress,N\n400,41000\n400,52000\n350,120000\n300,500000\n300,700000\n");
+  EXPECT_THAT(said, AllOf(HasSubstr("column 'stress' has no unit in its heading: MPa is a guess"),
+                          HasSubstr("no column says which tests were stopped unbroken")));
+  EXPECT_THAT(content("out/study.toml"), HasSubstr("unit = \"MPa\" }    # the unit is a GUESS"));
+}
+
+TEST_F(NewFrom, DepthsOfSeveralBearings) {
+  const std::string said = runs(
+      "inspections.csv",
+      "bearing,radial clearance [um],load [N],bearing length [mm],revolutions,wear depth [um]\n"
+      "A,25,400,20,50000,16.7\nA,25,400,20,100000,31.9\nB,35,400,20,50000,12.0\nB,35,400,20,100000,"
+      "22.5\n"
+      "C,35,400,20,50000,19.0\nC,35,400,20,100000,34.5\n");
+  EXPECT_THAT(said, AllOf(HasSubstr("depth: column 'wear depth [um]' in um"),
+                          HasSubstr("radius = \"10 mm\" is a guess")));
+  EXPECT_EQ(result_["model"], "bearing-wear");
+  EXPECT_TRUE(result_["parameters"].contains("k_scatter"));
+}
+
+TEST_F(NewFrom, RefusesWhatSaysNothing) {
+  write("a.csv", "x,y\n1,2\n2,3\n");
+  const CommandResult none = here("new --from a.csv");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.err, HasSubstr("no study follows from its headings (x, y)"));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "a-study"));
+  EXPECT_EQ(here("new clutch --from a.csv").exit_code, 2);
+  EXPECT_EQ(here("new --from missing.csv").exit_code, 2);
+  EXPECT_EQ(here("new").exit_code, 2);
+  EXPECT_EQ(here("new joint").exit_code, 2);
+  EXPECT_THAT(here("new jiont d").err, HasSubstr("'jiont' is not one of joint"));
+}
+
+TEST_F(NewFrom, SaysWhatKeepsItFromRunning) {
+  write("lives.csv", "stress [MPa],cycles,status\n400,41000,broke\n300,2000000,went on\n");
+  const CommandResult run = here("new --from lives.csv");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("It does not run yet"), HasSubstr("'broke' is no status")));
+  EXPECT_TRUE(std::filesystem::exists(folder() / "lives-study" / "study.toml"));
+}
+
+}  // namespace
+}  // namespace wearwell
