@@ -17,6 +17,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit_system.h"
 
+// Longer than others: every way to refuse or read a unit looks at the same parsed text.
 namespace wearwell {
 namespace {
 

@@ -10,6 +10,7 @@
 #include "wearwell/infer/power_scaling.h"
 #include "wearwell/math/view.h"
 
+// Longer than others: the checks of a prior share its cuts and the integrals without them.
 namespace wearwell {
 namespace {
 

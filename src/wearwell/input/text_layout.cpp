@@ -16,6 +16,7 @@
 #include "wearwell/input/text_heading.h"
 #include "wearwell/input/text_records.h"
 
+// Longer than others: one survey of the marks in a text, and what it settles.
 namespace wearwell {
 namespace {
 

@@ -6,6 +6,7 @@
 // Some text that is no TOML ("[.=") breaks an assertion of toml++, and without its assertions the
 // behaviour is undefined. So they are on here, and throw: in the headers, because Debian's library
 // is built without.
+// Longer than others: one class, a function for each kind of value.
 namespace wearwell {
 namespace {
 struct NoToml {};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+// Longer than others: one integrand: its mode, its nodes about it, and the sums over them.
 namespace wearwell::latent {
 namespace {
 

@@ -22,6 +22,7 @@
 #include "wearwell/models/bearing/scar.h"
 #include "wearwell/models/bearing/solve.h"
 
+// Longer than others: five questions with one kind of answer; texts, options and margins belong to all.
 namespace wearwell {
 namespace bearing {
 namespace {

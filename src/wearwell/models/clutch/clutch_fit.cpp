@@ -13,6 +13,7 @@
 #include "wearwell/models/clutch/nested_map.h"
 #include "wearwell/study/units_check.h"
 
+// Longer than others: the chain of one campaign with the check of each of its steps.
 namespace wearwell::clutch {
 namespace {
 

@@ -9,6 +9,7 @@
 #include "wearwell/present/plot.h"
 #include "wearwell/study/plot_study.h"
 
+// Longer than others: the figures of one study share scales and marks.
 namespace wearwell {
 namespace {
 

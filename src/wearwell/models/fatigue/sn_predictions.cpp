@@ -13,6 +13,7 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/math/root.h"
 
+// Longer than others: lives, survival, stress allowed and coverage share the reduced draws and their groups.
 namespace wearwell {
 namespace {
 

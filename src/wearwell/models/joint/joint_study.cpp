@@ -13,6 +13,7 @@
 #include "wearwell/models/joint/inspection.h"
 #include "wearwell/models/joint/work_history.h"
 
+// Longer than others: work and volume have many sources, which exclude each other.
 namespace wearwell {
 namespace {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+// Longer than others: one likelihood: rows, effects integrated out, gradients of both.
 namespace wearwell::ownlaw {
 namespace {
 

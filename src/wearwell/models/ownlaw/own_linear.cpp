@@ -6,6 +6,7 @@
 
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
+// Longer than others: one special case of the likelihood, whose sums are all of one kind.
 namespace wearwell::ownlaw {
 namespace {
 

@@ -13,6 +13,7 @@
 #include "wearwell/models/ownlaw/own_lives.h"
 #include "wearwell/models/ownlaw/own_reader.h"
 
+// Longer than others: every answer of a law asks the same nodes and paths.
 namespace wearwell::ownlaw {
 namespace {
 

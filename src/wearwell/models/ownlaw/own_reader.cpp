@@ -14,6 +14,7 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/prior.h"
 
+// Longer than others: the sections of one study file, each of which needs the names of those before.
 namespace wearwell::ownlaw {
 namespace {
 
