@@ -32,7 +32,7 @@ TEST_F(JsonFile, SaysWhereItIsNoJson) {
   EXPECT_THAT(refused(std::string(65, '[') + std::string(65, ']')), HasSubstr("nested more than"));
   EXPECT_NO_THROW(read_json(write("b.json", std::string(64, '[') + std::string(64, ']'))));
   EXPECT_THAT(message_of<InputError>([&] { read_json(folder() / "none.json"); }),
-              HasSubstr("cannot read"));
+              HasSubstr("no such file"));
   EXPECT_THAT(message_of<InputError>([&] { read_json(folder()); }), HasSubstr("is a folder"));
 }
 
