@@ -163,7 +163,8 @@ TEST_F(Door, SlipsInAStudy) {
       {"clutch", "^(torque = \"50|closing_time = \"2.15).*", "",
        "2 keys are missing; with values of yours: life.points.launch.torque = \"50 N m\"; "
        "life.points.launch.closing_time = "},
-      {"clutch", "^\\[search\\]", "[data]\n[search]", "data: stands beside [simulation]; keep one"},
+      {"clutch", "^\\[search\\]", "[data]\n[search]",
+       "data: stands beside [simulation]; give one of the two"},
       // values
       {"joint", "law = \"uniform\"", "law = \"unifrom\"",
        "prior.sigma.law: 'unifrom' is not possible; it is one of flat, uniform, "},

@@ -86,6 +86,14 @@ class Keys {
     return result;
   }
 
+  // Whether the reader's words are about a value that stands there.
+  bool is_of_a_value(std::string_view refusal) const {
+    return std::any_of(present_.begin(), present_.end(), [&](const Present& each) {
+      return !each.is_table &&
+             refusal.find(fmt::format(":{}: {}: ", each.place, each.path)) != refusal.npos;
+    });
+  }
+
   const std::string& file() const { return file_; }
 
  private:
@@ -190,7 +198,8 @@ std::string like(const StudyKey& key) {
   std::vector<std::string> others;
   for (const std::string& each : key.unless) {
     const bool is_path = each.find('=') == each.npos && !each.starts_with('.');
-    if (is_path && others.size() < most) others.push_back(each);
+    if (is_path && others.size() < most)
+      others.push_back(each.find('.') == each.npos ? fmt::format("[{}]", each) : each);
   }
   return fmt::format("{} = {}{}", key.path, key.example,
                      others.empty() ? "" : fmt::format(" (or {})", fmt::join(others, ", ")));
@@ -265,20 +274,26 @@ std::string key_faults(const TomlReader& root, const StudyKeys& keys, std::strin
   const std::vector<std::string> unknown = all.unknown();
   const StudyKeys missing = all.missing();
   if (unknown.empty() && missing.empty()) return {};
-  if (unknown.empty() && missing.size() == 1) {
-    const StudyKey& key = missing.front();
-    if (refusal.find(std::string(leaf_of(key.path))) != refusal.npos) return {};
-    return fmt::format("{}: {} is missing, {}: {}", all.file(), key.path, key.meaning, like(key));
-  }
   std::string message = all.file() + ":";
-  if (!unknown.empty()) message += fmt::format("{}", fmt::join(unknown, "; and "));
-  if (missing.empty()) return message;
-  std::vector<std::string> examples;
-  for (const StudyKey& key : missing) examples.push_back(like(key));
-  const char* are = unknown.empty()       ? " {} keys are missing; with values of yours: {}"
-                    : missing.size() == 1 ? "; and missing is {1}"
-                                          : "; and {} keys are missing: {}";
-  return message + fmt::format(fmt::runtime(are), missing.size(), fmt::join(examples, "; "));
+  if (!unknown.empty()) {
+    message += fmt::format("{}", fmt::join(unknown, "; and "));
+  } else if (missing.size() == 1) {
+    const StudyKey& key = missing.front();
+    const bool is_said = refusal.find(leaf_of(key.path)) != refusal.npos;
+    if (is_said && !all.is_of_a_value(refusal)) return {};
+    message += fmt::format(" {} is missing, {}: {}", key.path, key.meaning, like(key));
+  }
+  if (missing.size() > 1 || (missing.size() == 1 && !unknown.empty())) {
+    std::vector<std::string> examples;
+    for (const StudyKey& key : missing) examples.push_back(like(key));
+    const char* are = unknown.empty()       ? " {} keys are missing; with values of yours: {}"
+                      : missing.size() == 1 ? "; and missing is {1}"
+                                            : "; and {} keys are missing: {}";
+    message += fmt::format(fmt::runtime(are), missing.size(), fmt::join(examples, "; "));
+  }
+  // A value that is wrong does not follow from what is missing.
+  if (unknown.empty() && all.is_of_a_value(refusal)) message += fmt::format("; and {}", refusal);
+  return message;
 }
 
 std::string unused_keys(const TomlReader& root, const StudyKeys& keys) {

@@ -165,7 +165,9 @@ ClutchStudy read_clutch_study(const TomlReader& root, const Source& source) {
   const auto simulation = root.table("simulation");
   const auto data = root.table("data");
   if (simulation && data)
-    root.fail("data", "stands beside [simulation]; keep one: the files of a rig, or a simulation");
+    root.fail("data",
+              "stands beside [simulation]; give one of the two, the files of a rig or a "
+              "simulation, not both");
   if (!simulation && !data)
     root.fail("data", "is missing: [data] with the files of a rig, or [simulation]");
   if (simulation) {
