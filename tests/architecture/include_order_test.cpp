@@ -18,21 +18,22 @@ namespace fs = std::filesystem;
 const fs::path source = PROJECT_SOURCE_DIR "/src/wearwell";
 
 // Each folder may include those before it, but none of its own line.
-const std::vector<std::set<std::string>> order = {{"base"},
-                                                  {"math"},
-                                                  {"law"},
-                                                  {"prob"},
-                                                  {"bayes"},
-                                                  {"latent"},
-                                                  {"infer", "regress"},
-                                                  {"physics"},
-                                                  {"predict"},
-                                                  {"input"},
-                                                  {"present"},
-                                                  {"study", "selection"},
-                                                  {"joint", "bearing", "clutch", "fatigue", "ownlaw"},
-                                                  {"models"},
-                                                  {"cli"}};
+const std::vector<std::set<std::string>> order = {
+    {"base"},
+    {"math"},
+    {"law"},
+    {"prob"},
+    {"bayes"},
+    {"latent"},
+    {"infer", "regress"},
+    {"physics"},
+    {"predict"},
+    {"input"},
+    {"present"},
+    {"study", "selection"},
+    {"joint", "bearing", "clutch", "fatigue", "ownlaw"},
+    {"models"},
+    {"cli"}};
 
 std::size_t rank(const std::string& folder) {
   const auto at = std::find_if(order.begin(), order.end(),
