@@ -217,9 +217,22 @@ void add_keys(StudyKeys& keys, const StudyKeys& more) {
   keys.insert(keys.end(), more.begin(), more.end());
 }
 
-StudyKeys column_keys() {
-  return {needed_key("data.columns.*.column", "\"wear\"", "heading of the column"),
-          {"data.columns.*.unit", "\"mm^3\"", "unit of its numbers; a count needs none"}};
+StudyKeys column_keys(const std::string& table) {
+  return {needed_key(table + ".columns.*.column", "\"wear\"", "heading of the column"),
+          {table + ".columns.*.unit", "\"mm^3\"",
+           "unit of its numbers, where the heading has none; a count needs none"}};
+}
+
+StudyKeys layout_keys(const std::string& table) {
+  return {{table + ".decimal", "\",\"", "decimal mark"},
+          {table + ".thousands", "\".\"", "mark for thousands, or none"},
+          {table + ".delimiter", "\";\"", "what separates the columns"},
+          {table + ".encoding", "\"cp1252\"", "of the text: utf-8, utf-16 or cp1252"},
+          {table + ".header_row", "5", "line of the headings, from 1"},
+          {table + ".units_row", "\"below\"", "units stand in the row below the headings, or none"},
+          {table + ".comment", "\"#\"", "lines that begin so are left out"},
+          {table + ".sheet", "\"Messung\"", "of a workbook: name or number"},
+          {table + ".range", "\"B4:G22\"", "of that sheet"}};
 }
 
 StudyKeys prior_keys() {

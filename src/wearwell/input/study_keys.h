@@ -32,7 +32,10 @@ StudyKey needed_key(std::string path, std::string example, std::string meaning,
 void add_keys(StudyKeys& keys, const StudyKeys& more);
 
 /// Column and unit of each of `data.columns`, if these are tables.
-StudyKeys column_keys();
+StudyKeys column_keys(const std::string& table = "data");
+
+/// How a table is written, of [data] or of whatever table names a file.
+StudyKeys layout_keys(const std::string& table = "data");
 
 /// What `[prior]` may say of each unknown (docs/priors.md).
 StudyKeys prior_keys();

@@ -11,6 +11,7 @@ StudyKeys posterior_keys() {
       {"data.sql", "\"select * from data where cycles < 1e5\"",
        "one SELECT over the view `data`; its rows are taken instead of the table's"},
   };
+  add_keys(keys, layout_keys());
   add_keys(keys, column_keys());
   add_keys(keys, prior_keys());
   add_keys(

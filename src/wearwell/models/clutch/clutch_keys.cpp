@@ -5,7 +5,7 @@ namespace wearwell::clutch {
 StudyKeys study_keys() {
   const std::vector<std::string> simulated = {"simulation"}, measured = {"data"};
   const std::string point = "life.points.*";
-  return {
+  StudyKeys keys = {
       {"title", "\"Dry clutch, lining B\"", "heading of the report"},
       needed_key("model", "\"clutch-wear\"", "the law; `wearwell new` has an example of each"),
       needed_key("data.design", "\"design.csv\"",
@@ -36,7 +36,20 @@ StudyKeys study_keys() {
       needed_key(point + ".torque", "\"50 N m\"", "while it slips"),
       needed_key(point + ".temperature", "\"170 degC\"", "of the lining"),
       needed_key(point + ".closing_time", "\"2.15 s\"", "until it sticks"),
+      {"data.missing_cycles", "\"fill\"",
+       "where a logger lost closings: refuse, or fill each with a copy of the one before"},
   };
+  for (const std::string name : {"design", "cycles", "weighings", "traces"}) {
+    const std::string table = "data." + name;
+    add_keys(keys,
+             {needed_key(table + ".file", "\"" + name + ".csv\"",
+                         "the table, where more is to be said of it", {}, {table}),
+              {table + ".sql", "\"select * from data\"", "its rows are taken instead"},
+              {table + ".columns.*", "\"heading\"", "which column is what, by its name here"}});
+    add_keys(keys, layout_keys(table));
+    add_keys(keys, column_keys(table));
+  }
+  return keys;
 }
 
 }  // namespace wearwell::clutch

@@ -10,6 +10,7 @@ StudyKeys study_keys() {
   add_keys(
       keys,
       {needed_key("data.columns.cycles", "\"cycles\"", "cycles until each inspection"),
+       {"data.columns.count", "\"count\"", "so many rows alike"},
        needed_key("data.columns.volume", "{ column = \"volume\", unit = \"mm^3\" }", "worn volume",
                   positions),
        {"data.columns.work", "{ column = \"work\", unit = \"kJ\" }",
@@ -43,9 +44,9 @@ StudyKeys study_keys() {
        {"conditions.profile.columns.*.column", "\"force\"", "heading of the column"},
        {"conditions.profile.columns.*.unit", "\"N\"", "unit of its numbers"},
        needed_key("likelihood.family", "\"normal\"", "how one measurement scatters"),
-       needed_key("prior.k", "{ law = \"flat\", unit = \"mm^3/(N m)\" }", "wear coefficient"),
-       needed_key("prior.sigma", "{ law = \"uniform\", lower = \"0 mm^3\", upper = \"15 mm^3\" }",
-                  "scatter of one measurement"),
+       {"prior.k", "{ law = \"flat\", unit = \"mm^3/(N m)\" }", "wear coefficient"},
+       {"prior.sigma", "{ law = \"uniform\", lower = \"0 mm^3\", upper = \"15 mm^3\" }",
+        "scatter of one measurement"},
        {"prior.V0", "{ law = \"normal\", mean = \"0 mm^3\", sd = \"10 mm^3\" }",
         "volume before any work: with it the law is V = V0 + k W"},
        {"prior.exponent", "{ law = \"normal\", mean = 1, sd = 0.2 }",
@@ -55,6 +56,7 @@ StudyKeys study_keys() {
        {"predict.risk", "\"1 %\"", "of passing the limit before the next inspection (1 %)"},
        {"predict.work_per_cycle", "\"6 N m\"",
         "of the cycles to come, where conditions.work_per_cycle is not given"}});
+  add_keys(keys, layout_keys("conditions.profile"));
   return keys;
 }
 
