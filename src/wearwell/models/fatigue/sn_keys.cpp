@@ -66,9 +66,6 @@ StudyKeys stress_keys() {
 
 StudyKeys parameter_keys() {
   const std::string logarithm = "{ law = \"normal\", mean = \"3 log10(MPa)\", sd = 0.3 }";
-  const Names ultimate = {"law.mean_stress=goodman", "law.mean_stress=gerber"};
-  const Names yield = {"law.mean_stress=soderberg"}, fracture = {"law.mean_stress=morrow"};
-  const Names walker = {"law.mean_stress=walker"}, random = {"law.fatigue_limit=random"};
   return {
       {"conditions.S_ut", "\"1200 MPa\"", "ultimate strength, known (goodman, gerber)"},
       {"conditions.S_y", "\"900 MPa\"", "yield strength, known (soderberg)"},
