@@ -90,7 +90,7 @@ TEST(Html, WritesAnyNumber) {
 // quotes around it.
 TEST(Html, NothingInAFigureEndsItsScript) {
   const std::string evil = "</script><script>alert(1)</script><!--";
-  const std::string markup = figure({"id", evil, evil, {{"description", evil}}});
+  const std::string markup = figures({{"id", evil, evil, {{"description", evil}}}});
   const std::string begin = "<script type=\"application/json\">";
   const std::size_t at = markup.find(begin) + begin.size();
   const std::string json = markup.substr(at, markup.find("</script>", at) - at);

@@ -78,7 +78,10 @@ TEST(ClutchChecks, ALifeOutsideTheRangeOfValidityIsNamed) {
 TEST(ClutchChecks, AnIntervalThatSaysNothingFails) {
   const auto check = [](double relative) {
     NamedLife life{"launch", {}, {}};
-    life.life.levels.push_back({.level = 1, .full_relative = relative});
+    LifeAtLevel level;
+    level.level = 1;
+    level.full_relative = relative;
+    life.life.levels.push_back(level);
     return sense_check({life});
   };
   EXPECT_EQ(check(0.2).verdict, Verdict::pass);
