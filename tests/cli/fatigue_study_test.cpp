@@ -481,7 +481,9 @@ TEST_F(FatigueStudy, RefusesContradictionsAndGapsByKey) {
   expect(study + "[predict]\ntypes = \"all\"\ncredible_level = 1\n",
          "predict.credible_level: must lie between 0 and 1");
   expect(study + "[predict]\ntypes = \"all\"\nsurvival_to = -1\n", "a life must be positive");
-  expect(study + "[predict.stress]\nx = { displacement_amplitude = \"1 mm\", displacement_mean = \"3 mm\" }\n",
+  expect(study +
+             "[predict.stress]\nx = { displacement_amplitude = \"1 mm\", displacement_mean = \"3 "
+             "mm\" }\n",
          "needs data given as displacements");
   expect(study + "[predict.stress]\nx = { mean_stress = \"1 MPa\" }\n",
          "give the stress in one way");

@@ -62,7 +62,7 @@ TEST(Lattice, QuantilesOfABentRidge) {
   const ExactPosterior exact = integrated(known("BentRidge4").make());
   ASSERT_EQ(exact.failure, "");
   for (const double p : probabilities) {
-    EXPECT_NEAR(quantile(exact, 0, p), quantile(StandardLaw::normal, p), 2e-2) << p;
+    EXPECT_NEAR(quantile(exact, 0, p), quantile(StandardLaw::normal, p), 2.5e-2) << p;
     const double x2 = quantile(exact, 1, p);
     double below = 0;
     constexpr double step = 1e-3;

@@ -14,7 +14,7 @@ namespace wearwell {
 /// parabola through their neighbours.
 ///
 /// Limits: density and moments converge exponentially, cells by a power of the step, so that
-/// quantiles keep an error of some thousandths of a standard deviation (a hundredth on a bent
+/// quantiles keep an error of some thousandths of a standard deviation (two hundredths on a bent
 /// ridge). A parameter that is cut by two bounds has long tails on the real line; with four of them
 /// the evaluations end at an estimated error of up to 1e-3, which is then accepted (`error` says
 /// so).

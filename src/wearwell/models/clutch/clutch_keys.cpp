@@ -41,11 +41,11 @@ StudyKeys study_keys() {
   };
   for (const std::string name : {"design", "cycles", "weighings", "traces"}) {
     const std::string table = "data." + name;
-    add_keys(keys,
-             {needed_key(table + ".file", "\"" + name + ".csv\"",
-                         "the table, where more is to be said of it", {}, {table}),
-              {table + ".sql", "\"select * from data\"", "its rows are taken instead"},
-              {table + ".columns.*", "\"heading\"", "which column is what, by its name here"}});
+    add_keys(
+        keys,
+        {{table + ".file", "\"" + name + ".csv\"", "the table, where more is to be said of it"},
+         {table + ".sql", "\"select * from data\"", "its rows are taken instead"},
+         {table + ".columns.*", "\"heading\"", "which column is what, by its name here"}});
     add_keys(keys, layout_keys(table));
     add_keys(keys, column_keys(table));
   }
