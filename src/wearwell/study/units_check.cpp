@@ -38,11 +38,6 @@ bool is_count(const DataColumn& column) {
   return column.si == "cycle" || column.si == "rev";
 }
 
-// How far something has slid grows without end, and is no length of a machine.
-bool is_path(const DataColumn& column) {
-  return column.name == "slip";
-}
-
 // A test that broke at once is told as a half or a quarter of a cycle.
 bool below_one(double count) {
   return count > 0 && count < 1 && count != 0.5 && count != 0.25;
@@ -72,7 +67,7 @@ void look_at(const DataColumn& column, Findings& findings) {
     add(fmt::format("{} of {} counts are below 1, the smallest is {:.4g}", parts,
                     column.values.size(), *low));
   for (const Sizes& size : sizes) {
-    if (is_path(column) || size.si != column.si || (largest >= size.least && largest <= size.most))
+    if (column.endless || size.si != column.si || (largest >= size.least && largest <= size.most))
       continue;
     add(fmt::format("the largest value is {}; no machine has that", in_words(column, largest)));
   }

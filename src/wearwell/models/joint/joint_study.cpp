@@ -106,7 +106,8 @@ void read_work(const TomlReader& root, const TomlReader& columns, const Source& 
     const auto f = si_numbers(table, *force), s = si_numbers(table, *slip);
     for (std::size_t i = 0; i < table.rows; ++i) data.inspections.work.push_back(f[i] * s[i]);
     data.columns.push_back({"force", "N", force->unit, f, true});
-    data.columns.push_back({"slip", "m", slip->unit, s});
+    data.columns.push_back(
+        {.name = "slip", .si = "m", .unit = slip->unit, .values = s, .endless = true});
   } else {
     root.fail("conditions",
               "the friction work is missing; give conditions.work_per_cycle, conditions.profile, "

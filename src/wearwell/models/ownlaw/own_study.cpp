@@ -117,8 +117,11 @@ void tell_data(const OwnLaw& law, PosteriorStudy& study) {
         std::all_of(column.unit.powers.begin(), column.unit.powers.end(),
                     [](const auto& power) { return power.second.denominator() == 1; });
     if (!whole || !integers) continue;
-    study.data_columns.push_back(
-        {column.name, law::si_text(column.unit.powers), column.unit.unit, column.values});
+    study.data_columns.push_back({.name = column.name,
+                                  .si = law::si_text(column.unit.powers),
+                                  .unit = column.unit.unit,
+                                  .values = column.values,
+                                  .endless = law.along == column.name});
   }
 }
 
