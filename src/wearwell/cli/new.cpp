@@ -105,8 +105,10 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
       "new", "Write a commented study that runs as it is: an example, or one for a table of yours");
   std::vector<std::string> trades;
   for (const Model& model : models) trades.emplace_back(model.trade);
-  command->add_option("TRADE", options->trade,
-                      fmt::format("What to start from: {}", fmt::join(trades, ", ")));
+  command
+      ->add_option("TRADE", options->trade,
+                   fmt::format("What to start from: {}", fmt::join(trades, ", ")))
+      ->type_name(fmt::format("TEXT:{}", fmt::join(trades, "|")));
   command->add_option("DIR", options->folder,
                       "Folder for it: new or empty (with --from: FILE-study if not said)");
   command->add_option("--from", options->from,
