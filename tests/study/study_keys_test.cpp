@@ -364,6 +364,23 @@ TEST_F(StudyKeysTest, ListsHoldWhatReadersAskForAndDocsShowThem) {
                                        {"data.cycles", "\"rig/cycles.csv\""},
                                        {"data.weighings", "\"rig/weighings.csv\""},
                                        {"data.traces", "\"rig/traces.csv\""}})));
+  Values tables;
+  const std::pair<const char*, const char*> columns[] = {{"design", "torque = N m"},
+                                                         {"cycles", "torque = N m"},
+                                                         {"weighings", "mass = g"},
+                                                         {"traces", "torque = N m"}};
+  for (const auto& [table, column] : columns) {
+    const std::string name = std::string(column).substr(0, std::string(column).find(' ')),
+                      unit = std::string(column).substr(name.size() + 3),
+                      path = std::string("data.") + table;
+    const std::string file =
+        table == std::string("design") ? "design.csv" : fmt::format("rig/{}.csv", table);
+    tables.emplace_back(path + ".file", fmt::format("\"{}\"", file));
+    tables.emplace_back(path + ".sql", "\"select * from data\"");
+    tables.emplace_back(path + ".columns." + name,
+                        fmt::format("{{ column = \"{0} [{1}]\", unit = \"{1}\" }}", name, unit));
+  }
+  read(clutch, toml(completed(clutch, tables)));
   std::string docs = read_text_file(fs::path(PROJECT_SOURCE_DIR) / "docs/study-keys.md").text;
   const auto put = [&](const std::string& name, const std::string& content) {
     const std::string begin = fmt::format("<!-- keys: {} -->\n", name), end = "<!-- end -->";

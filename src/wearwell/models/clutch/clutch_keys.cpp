@@ -39,6 +39,7 @@ StudyKeys study_keys() {
       {"data.missing_cycles", "\"fill\"",
        "where a logger lost closings: refuse, or fill each with a copy of the one before"},
   };
+  add_keys(keys, layout_keys());
   for (const std::string name : {"design", "cycles", "weighings", "traces"}) {
     const std::string table = "data." + name;
     add_keys(
