@@ -139,6 +139,21 @@ TEST(FitCheck, NamesWhatIsWrong) {
   EXPECT_THAT(verdict(outlier).detail, HasSubstr("row 7 lies farther out"));
 }
 
+// A table that is sorted by what was observed, as tables of lives are: at one stress that says nothing.
+TEST(FitCheck, SortedTablesAreNotBent) {
+  Rng rng(6, 0);
+  std::vector<double> y, along;
+  for (int level = 0; level < 3; ++level) {
+    std::vector<double> here = normals(12, rng);
+    std::sort(here.begin(), here.end());
+    y.insert(y.end(), here.begin(), here.end());
+    along.insert(along.end(), here.size(), level);
+  }
+  const Normal normal(y, along);
+  const Check check = fit_check(judge_fit(normal.data, normal.draws, {}));
+  EXPECT_EQ(check.verdict, Verdict::pass) << check.detail;
+}
+
 // A run-out's score is drawn from beyond where it was stopped: whoever took the stop for the life
 // would see too many that are short.
 TEST(FitCheck, RunOutsAreDrawn) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/residual_tests.h"
@@ -23,6 +24,20 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+// Where the driver is the same the order is drawn: tables are often sorted by what was observed, which
+// would make neighbours alike.
+std::vector<std::size_t> order_along(const std::vector<double>& driver) {
+  Rng rng(seed, 0);
+  std::vector<double> lot;
+  for (std::size_t i = 0; i < driver.size(); ++i) lot.push_back(rng.uniform());
+  std::vector<std::size_t> order(driver.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::make_pair(driver[a], lot[a]) < std::make_pair(driver[b], lot[b]);
+  });
+  return order;
 }
 
 // A score between the two ends, at random where they differ.
@@ -67,10 +82,7 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
   }
   if (data.drivers.empty()) return tests;
   const std::vector<double> along = each(data.drivers.front().value);
-  std::vector<std::size_t> order(along.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return along[a] < along[b]; });
+  const std::vector<std::size_t> order = order_along(along);
   tests.push_back({"order along " + data.drivers.front().name,
                    [order](std::span<const double> z) {
                      std::vector<double> ordered;

@@ -54,10 +54,9 @@ std::vector<std::string> meanings(const OwnLaw& law) {
   for (std::size_t i = 0; i < law.parameters.size(); ++i) {
     const auto effect = std::find_if(law.effects.begin(), law.effects.end(),
                                      [&](const Effect& each) { return each.parameter == i; });
-    all.push_back(
-        effect == law.effects.end()
-            ? "parameter of the law"
-            : fmt::format("of the {} {}", effect->lognormal ? "median" : "mean", *law.label));
+    all.push_back(effect == law.effects.end()
+                      ? "parameter"
+                      : fmt::format("{} {}'s", effect->lognormal ? "median" : "mean", *law.label));
   }
   return all;
 }
