@@ -15,6 +15,10 @@ class OwnLikelihoodTest : public ScratchTest {
  protected:
   std::shared_ptr<const LogDensity> likelihood(const std::string& mean,
                                                const std::string& varies) const {
+    return own_likelihood(rows(mean, varies));
+  }
+
+  std::shared_ptr<const OwnRows> rows(const std::string& mean, const std::string& varies) const {
     write(
         "d.csv",
         "m,t,y\na,1,1.2\na,2,2.6\na,3,3.4\nb,1,0.7\nb,2,1.1\nc,1,2.1\nc,2,4.4\nc,3,6.0\nc,4,8.8\n");
@@ -41,7 +45,7 @@ rho = { law = "flat" }
 )" + varies);
     const Source source = source_of(file);
     const TomlReader root = TomlReader::parse(source.study);
-    return own_likelihood(std::make_shared<const OwnRows>(read_own_law(root, source), 9));
+    return std::make_shared<const OwnRows>(read_own_law(root, source), 9);
   }
 };
 
@@ -72,6 +76,50 @@ TEST_F(OwnLikelihoodTest, AParabolaIsTheSameAsRowByRow) {
     EXPECT_NEAR(parabola->value(x), by_rows->value(x), 1e-7);
     expect_gradient(*parabola, x);
     expect_gradient(*by_rows, x);
+  }
+}
+
+// The mean and the square of each unit's effect under its own posterior, by the nodes.
+std::vector<double> moments(const OwnRows& rows, const std::vector<double>& x) {
+  std::vector<double> result;
+  const latent::UnitIntegrals& integrals = rows.integrate(x.data());
+  for (std::size_t u = 0; u < 3; ++u) {
+    double all = 0, first = 0, second = 0;
+    for (const latent::Sweep& sweep : integrals.sweeps) {
+      all += sweep.weight[u];
+      first += sweep.weight[u] * sweep.z[u];
+      second += sweep.weight[u] * sweep.z[u] * sweep.z[u];
+    }
+    EXPECT_NEAR(all, 1, 1e-9);
+    result.insert(result.end(), {integrals.log_likelihood[u], first, second});
+  }
+  return result;
+}
+
+// Units one by one, and what is known of each one's effect, without a look at rows for each node.
+TEST_F(OwnLikelihoodTest, UnitsAsParabolasHaveTheNodesOfRowByRow) {
+  const std::string lognormal = "b = { law = \"lognormal\", log_sd = \"s + 0*rho + 0*r/a\" }\n";
+  const std::string normal = "b = { law = \"normal\", sd = \"s*b + 0*rho*b + 0*r/a*b\" }\n";
+  for (const std::string& effect : {lognormal, normal}) {
+    const auto parabola = rows("a + b * t", effect);
+    const auto by_rows = rows("where(t > 0, a + b * t, a)", effect);
+    const auto density = own_likelihood(parabola);
+    // The last: an effect that the readings hardly know, then one that they know to 1e-4.
+    for (const auto& [scatter, sigma] :
+         {std::pair(0.05, 0.2), {0.6, 0.2}, {2.5, 0.2}, {1.0, 50.0}, {0.3, 1e-3}}) {
+      const std::vector<double> x = {0.3 * um, 1.4 * um / h, sigma * um, scatter, 1 * um, 0.1};
+      const std::vector<double> one = moments(*parabola, x), other = moments(*by_rows, x);
+      const std::vector<double> each = density->pointwise(x);
+      double sum = 0;
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        EXPECT_NEAR(one[i], other[i], 1e-6 * (1 + std::abs(other[i]))) << i << " " << scatter;
+      }
+      for (std::size_t u = 0; u < each.size(); ++u) {
+        sum += each[u];
+        EXPECT_NEAR(each[u], one[3 * u], 1e-7 * (1 + std::abs(each[u])));
+      }
+      EXPECT_NEAR(sum, density->value(x), 1e-9 * (1 + std::abs(sum)));
+    }
   }
 }
 

@@ -135,7 +135,7 @@ void UnitRows::visit(std::span<const std::uint8_t> wanted, const Visit& visit) {
   }
 }
 
-void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool sloped) {
+void UnitRows::run(const Chunk& chunk, std::span<const double> z) {
   const BoundColumn& column = *chunk.column;
   const std::size_t n = chunk.end - chunk.begin, d = law_.effects.size();
   for (std::size_t e = 0; e < d; ++e) {
@@ -156,6 +156,12 @@ void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool slope
   for (std::size_t o = 0; o < outputs.size(); ++o) {
     slots_[column.measured->slot[o]] = {workspace.values(o).data(), outputs[o].uniform};
   }
+}
+
+void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool sloped) {
+  run(chunk, z);
+  const BoundColumn& column = *chunk.column;
+  const std::size_t n = chunk.end - chunk.begin;
   log_responses(column.measured->form->family, column.responses, chunk.begin, slots_,
                 {value_.data(), n},
                 sloped ? std::span(slope_.data(), most_response_slots * n) : std::span<double>());
@@ -263,7 +269,7 @@ void UnitRows::means_at(const double* effects, std::size_t c, std::span<double> 
   held_ = effects;
   visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
     if (chunk.index != c) return;
-    forward(chunk, {}, false);
+    run(chunk, {});
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       mean[i] = slots_[0][i - chunk.begin];
       sd[i] = slots_[1][i - chunk.begin];
@@ -279,7 +285,7 @@ void UnitRows::add_mean_gradient(const double* effects, std::size_t c,
   std::fill(inner_gradient_.begin(), inner_gradient_.end(), 0.0);
   visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
     if (chunk.index != c) return;
-    forward(chunk, {}, false);
+    run(chunk, {});
     const std::size_t n = chunk.end - chunk.begin;
     std::fill_n(slope_.begin(), most_response_slots * n, 0.0);
     std::copy_n(by_mean.begin() + static_cast<std::ptrdiff_t>(chunk.begin), n, slope_.begin());
@@ -393,8 +399,13 @@ class OwnLikelihood final : public LogDensity {
 
   // Of units where they differ, else of observations, column by column.
   std::vector<double> pointwise(std::span<const double> x) const override {
-    if (law_->varies()) return rows_->integrate(x.data()).log_likelihood;
     Scratch& scratch = mine();
+    if (scratch.linear) {
+      scratch.rows.move_to(x.data());
+      scratch.linear->move();
+      if (std::vector<double> each; scratch.linear->each_of_one(each)) return each;
+    }
+    if (law_->varies()) return rows_->integrate(x.data()).log_likelihood;
     scratch.rows.move_to(x.data());
     std::vector<double> all;
     for (const auto& column : scratch.rows.each_term({})) {
@@ -437,7 +448,9 @@ const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
   scratch.rows.move_to(x);
   if (scratch.linear) {
     scratch.linear->move();
-    latent::integrate(*scratch.linear, scratch.integrals);
+    if (!scratch.linear->integrate_one(scratch.integrals)) {
+      latent::integrate(*scratch.linear, scratch.integrals);
+    }
   } else {
     latent::integrate(scratch.rows, scratch.integrals);
   }

@@ -76,6 +76,7 @@ class UnitRows final : public latent::UnitTerms {
   };
   template <class Visit>
   void visit(std::span<const std::uint8_t> wanted, const Visit& visit);
+  void run(const Chunk& chunk, std::span<const double> z);  // the slots alone
   void forward(const Chunk& chunk, std::span<const double> z, bool sloped);
   void fill_adjoints(const Chunk& chunk, const double* weight);
   double weight_of(const Chunk& chunk, std::size_t i, const double* weight) const;

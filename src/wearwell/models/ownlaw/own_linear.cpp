@@ -155,13 +155,15 @@ void LinearUnits::move() {
 
 void LinearUnits::fill(std::size_t c) {
   const BoundColumn& column = rows_.columns()[c];
+  double last = 0, log_sd = 0;
   for (std::size_t i = 0; i < column.unit.size(); ++i) {
     Parabola& p = parabola_[column.unit[i]];
     if (!(column.count[i] > 0) || !(p.top > -infinity)) continue;
     const double sd = sd_[c][i], mean = mean_[0][c][i];
     const double d0 = mean_[1][c][i] - mean, d1 = effects_ > 1 ? mean_[2][c][i] - mean : 0;
     const double z = (column.responses.at[i] - mean - d0 * p.best[0] - d1 * p.best[1]) / sd;
-    p.top -= column.count[i] * (std::log(sd) + half_log_two_pi + 0.5 * z * z);
+    if (sd != last) log_sd = std::log(last = sd);
+    p.top -= column.count[i] * (log_sd + half_log_two_pi + 0.5 * z * z);
   }
 }
 
@@ -199,10 +201,10 @@ void LinearUnits::evaluate(std::span<const double> z, std::span<const std::uint8
 
 namespace {
 
-// Nodes of the rule in t: sinh(t) and log cosh(t).
+// Nodes of the finest rule in t: sinh(t) and log cosh(t); the coarser one takes every second.
 struct SinhNodes {
-  static constexpr int most = 150;
-  static constexpr double step = 0.2;
+  static constexpr int most = 600;
+  static constexpr double step = 0.05;
   double place[most], stretch[most];
 
   SinhNodes() {
@@ -235,23 +237,36 @@ struct LognormalUnit {
     }
     return {z, 1 / std::sqrt(bend)};
   }
+  // Of the rule, the first to the right (1, 3, ...) and to the left (2, 4, ...) of node 0.
   struct Node {
+    std::size_t place;
     double z, log_f;
   };
   // log of the integral over z, without the constant of the normal law.
   std::optional<double> log_integral(std::vector<Node>* kept) const {
+    // Steps of 0.1: with those of 0.2 even of a bell every second node is off by more than is asked.
+    for (const int stride : {2, 1}) {
+      if (const auto integral = by_rule(stride, kept)) return integral;
+    }
+    return {};
+  }
+
+ private:
+  // Nothing where every second node does not tell the same.
+  std::optional<double> by_rule(int stride, std::vector<Node>* kept) const {
     static const SinhNodes nodes;
     constexpr double negligible = -36, most_difference = 3e-6;
     const auto [center, width] = bell();
     double highest = at(center), sums[2] = {1, 0};
-    if (kept) kept->assign(1, {center, highest});
+    if (kept) kept->assign(1, {0, center, highest});
     for (const int sign : {1, -1}) {
       for (int n = 1;; ++n) {
-        if (n == SinhNodes::most) return {};
-        const double z = center + sign * width * nodes.place[n];
-        const double log_f = at(z) + nodes.stretch[n];
+        if (n * stride >= SinhNodes::most) return {};
+        const double z = center + sign * width * nodes.place[n * stride];
+        const double log_f = at(z) + nodes.stretch[n * stride];
         if (!(log_f > highest + negligible)) break;
-        if (kept) kept->push_back({z, log_f});
+        const auto place = static_cast<std::size_t>(sign > 0 ? 2 * n - 1 : 2 * n);
+        if (kept) kept->push_back({place, z, log_f});
         if (log_f > highest) {
           const double scale = std::exp(highest - log_f);
           sums[0] *= scale;
@@ -263,11 +278,70 @@ struct LognormalUnit {
     }
     const double sum = sums[0] + sums[1];
     if (!(std::abs(sums[0] - sums[1]) < most_difference * sum)) return {};
-    return highest + std::log(sum * SinhNodes::step * width);
+    return highest + std::log(sum * SinhNodes::step * stride * width);
   }
 };
 
+// One effect that is normal: its steps are a z.
+double log_normal_unit(double top, double best, double bend, double a) {
+  const double b = 1 + bend * a * a;
+  return top - 0.5 * bend * best * best / b - 0.5 * std::log(b);
+}
+
 }  // namespace
+
+bool LinearUnits::each_of_one(std::vector<double>& log_likelihood) const {
+  if (effects_ != 1) return false;
+  const double s = rows_.population().scatter[0];
+  log_likelihood.assign(parabola_.size(), -infinity);
+  for (std::size_t u = 0; u < parabola_.size(); ++u) {
+    const Parabola& p = parabola_[u];
+    if (!(p.top > -infinity)) continue;
+    if (!law_.effects[0].lognormal) {
+      log_likelihood[u] = log_normal_unit(p.top, p.best[0], p.bend[0], s / width_[0]);
+      continue;
+    }
+    const auto integral = LognormalUnit{p.best[0], p.bend[0], s}.log_integral(nullptr);
+    if (!integral) return false;
+    log_likelihood[u] = p.top + *integral - half_log_two_pi;
+  }
+  return true;
+}
+
+bool LinearUnits::integrate_one(latent::UnitIntegrals& result) const {
+  if (effects_ != 1 || !law_.effects[0].lognormal) return false;
+  const double s = rows_.population().scatter[0];
+  const std::size_t units = parabola_.size();
+  result.settled = true;
+  result.log_likelihood.assign(units, -infinity);
+  std::size_t used = 0;
+  static thread_local std::vector<LognormalUnit::Node> nodes;
+  for (std::size_t u = 0; u < units; ++u) {
+    const Parabola& p = parabola_[u];
+    if (!(p.top > -infinity)) continue;
+    const auto integral = LognormalUnit{p.best[0], p.bend[0], s}.log_integral(&nodes);
+    if (!integral) return false;
+    result.log_likelihood[u] = p.top + *integral - half_log_two_pi;
+    double sum = 0;
+    for (const auto& node : nodes) {
+      if (node.place >= result.sweeps.size()) result.sweeps.resize(node.place + 1);
+      for (; used <= node.place; ++used) {
+        result.sweeps[used].z.assign(units, 0);
+        result.sweeps[used].log_f.assign(units, -infinity);
+        result.sweeps[used].weight.assign(units, 0);
+      }
+      latent::Sweep& sweep = result.sweeps[node.place];
+      // log f here is the integrand's in t, with the stretch of its cell.
+      sweep.weight[u] = std::exp(node.log_f - *integral);
+      sum += sweep.weight[u];
+      sweep.z[u] = node.z;
+      sweep.log_f[u] = p.top + LognormalUnit{p.best[0], p.bend[0], s}.at(node.z) - half_log_two_pi;
+    }
+    for (const auto& node : nodes) result.sweeps[node.place].weight[u] /= sum;
+  }
+  result.sweeps.resize(used);
+  return true;
+}
 
 std::optional<double> LinearUnits::sum_of_one(std::span<double> gradient) {
   if (effects_ != 1) return {};
@@ -285,7 +359,7 @@ std::optional<double> LinearUnits::sum_of_one(std::span<double> gradient) {
       // The effect's steps are normal: a z.
       const double a = s / width_[0], b = 1 + p.bend[0] * a * a;
       const double mean = p.bend[0] * a * p.best[0] / b;
-      sum += p.top - 0.5 * p.bend[0] * p.best[0] * p.best[0] / b - 0.5 * std::log(b);
+      sum += log_normal_unit(p.top, p.best[0], p.bend[0], a);
       if (!sloped) continue;
       const double square = mean * mean + 1 / b;
       m = {{a * mean, 0}, {a * a * square, 0, 0}};

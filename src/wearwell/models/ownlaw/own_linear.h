@@ -36,6 +36,10 @@ class LinearUnits final : public latent::UnitTerms {
   /// rule as latent::integrate with all that a parabola spares. Nothing where that does not settle.
   /// With `gradient` that is added as well, where it settles.
   std::optional<double> sum_of_one(std::span<double> gradient = {});
+  /// Each unit's instead; false where that does not settle or there are two effects.
+  bool each_of_one(std::vector<double>& log_likelihood) const;
+  /// With the nodes, where the one effect is lognormal; false elsewhere.
+  bool integrate_one(latent::UnitIntegrals& result) const;
 
   /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
   void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);
