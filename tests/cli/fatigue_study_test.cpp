@@ -535,7 +535,8 @@ TEST_F(FatigueStudy, NewStudyRunsAndIsSaidInWords) {
   const CommandResult run = run_wearwell(
       "fit '" + mine + "/study.toml' --no-report --method exact --draws 100 -o '" + mine + "/out'");
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
-  for (const char* expected : {"at least, with 90 % confidence", "Design values", "(predictive)"}) {
+  for (const char* expected :
+       {"is at least 304000 cycles, with 90 % confidence", "Design values", "(predictive)"}) {
     EXPECT_THAT(run.out, HasSubstr(expected));
   }
 }
