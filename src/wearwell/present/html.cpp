@@ -206,7 +206,7 @@ std::string callout(const std::string& kind, const std::string& word, const std:
 std::string table(const Table& table) {
   // A wide table scrolls by itself, with the keyboard too.
   std::string out = fmt::format(
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\">\n"
+      "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\">\n"
       "<table{1}><caption>{0}</caption>\n<thead><tr>",
       escape(table.caption), table.words ? " class=\"words\"" : "");
   for (const std::string& heading : table.heading) {
