@@ -1,10 +1,17 @@
 # make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
-.PHONY: run test install build calibrate sanitize fuzz bench format clean
+.PHONY: run python test install build calibrate sanitize fuzz bench format clean
 
 run: setup
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release --target wearwell
 	@build/release/bin/wearwell fit examples/joint/study.toml -o build/joint-results
+
+# The Python module as a wheel in build/wheel (docs/python.md).
+python: setup-python
+	@cmake --preset release -DWEARWELL_BUILD_PYTHON=ON >/dev/null
+	@cmake --build --preset release --target wearwell_python
+	@WEARWELL_BUILD=$(CURDIR)/build/release /usr/bin/python3 -m pip wheel python/ --no-build-isolation --no-deps -q -w build/wheel
+	@echo "python3 -m pip install $$(ls -t build/wheel/*.whl | head -1)"
 
 test: build
 	@ctest --preset release
@@ -41,9 +48,12 @@ build: setup-tests
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release
 
-.PHONY: setup setup-tests setup-fuzz
+.PHONY: setup setup-python setup-tests setup-fuzz
 setup:
 	@setup/install
+
+setup-python:
+	@setup/install --python
 
 setup-tests:
 	@setup/install --tests

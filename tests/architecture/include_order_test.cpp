@@ -20,7 +20,7 @@ const fs::path source = PROJECT_SOURCE_DIR "/src/wearwell";
 // Each folder may include those before it, but none of its own line.
 const std::vector<std::set<std::string>> order = {
     {"base"},
-    {"math"},
+    {"math", "netcdf"},
     {"law"},
     {"prob"},
     {"bayes"},

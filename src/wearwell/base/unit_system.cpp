@@ -7,6 +7,7 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <cctype>
 #include <memory>
+#include <mutex>
 #include <string_view>
 
 #include "wearwell/base/error.h"
@@ -192,6 +193,8 @@ std::optional<ParsedUnit> parse_unit(const std::string& text) {
   boost::algorithm::replace_all(plain, "\u22c5", "\u00b7");  // the other dot of products
   boost::algorithm::replace_all(plain, "\u00a0", " ");       // a space that does not break
   boost::algorithm::replace_all(plain, "\u2212", "-");       // the minus of typesetters
+  static std::mutex one_at_a_time;                           // UDUNITS-2 parses by globals
+  const std::lock_guard lock(one_at_a_time);
   const UtUnit unit{ut_parse(unit_system(), plain.c_str(), UT_UTF8)};
   if (!unit) return {};
   ParsedUnit result;

@@ -10,8 +10,10 @@
 #include <string>
 
 #include "wearwell/base/same_file.h"
+#include "wearwell/base/staged_file.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/present/progress_line.h"
+#include "wearwell/study/inference_data.h"
 #include "wearwell/study/posterior_study.h"
 #include "wearwell/study/result_writer.h"
 
@@ -19,7 +21,7 @@ namespace wearwell {
 namespace {
 
 struct FitOptions {
-  std::filesystem::path study, output;
+  std::filesystem::path study, output, netcdf;
   SamplerChoice sampler;
   std::string method;
   int threads = 0;
@@ -36,16 +38,26 @@ int run_fit(const FitOptions& options, Models models) {
       options.output.empty() ? std::filesystem::path(options.study.stem().string() + "-results")
                              : options.output;
   const Source source = source_of(options.study);
-  refuse_overwriting({{"the study", options.study}}, {{"--output", output}});
+  refuse_overwriting({{"the study", options.study}},
+                     {{"--output", output}, {"--netcdf", options.netcdf}});
   const auto study = read_study(source, models);
+  const bool netcdf = !options.netcdf.empty();
+  if (netcdf) static_cast<void>(require_posterior_study(*study));
   ResultFolder folder(output);
+  std::optional<StagedFile> draws;
+  if (netcdf) draws.emplace(options.netcdf);
   const Result result = [&] {
     ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);
     const Monitor monitor{.progress = [&](const Step& step) { line.show(step); },
                           .threads = options.threads};
     return study->run({options.sampler, !options.no_report}, monitor);
   }();
+  if (draws) {
+    draws->write(
+        netcdf::file_of(inference_data(require_posterior_study(*study), *result.posterior)));
+  }
   write_result(result, source.study.text, folder);
+  if (draws) draws->commit();
 
   if (options.json) {
     fmt::print("{}", summary_text(result));
@@ -53,6 +65,7 @@ int run_fit(const FitOptions& options, Models models) {
     TerminalStyle style = terminal_style();
     style.rows = options.rows;
     fmt::print("{}Results are in {}\n", terminal_text(result, style), folder.path().string());
+    if (netcdf) fmt::print("The draws for ArviZ are in {}\n", options.netcdf.string());
   }
   return result.header.trusted ? 0 : 1;
 }
@@ -87,6 +100,9 @@ void add_fit_command(CLI::App& app, Models models, int& exit_code) {
   fit->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
   fit->add_flag("--rows", options->rows, "Print tables with a line for each row of the data too");
   fit->add_flag("--no-report", options->no_report, "Write no report.html");
+  fit->add_option("--netcdf", options->netcdf,
+                  "Write draws, their statistics and log-likelihoods as NetCDF for ArviZ as well")
+      ->type_name("FILE");
   fit->footer(
       "Examples:\n"
       "  wearwell fit examples/joint/study.toml\n"

@@ -153,11 +153,12 @@ DominantDraws::DominantDraws(const WeightedDraws& draws) {
 }
 
 Prediction predict(const WeightedDraws& draws, const Function& mean, const Function& sd,
-                   ObservationFamily family, const ItemFunction& item, std::size_t points) {
+                   ObservationFamily family, const ItemFunction& item, std::size_t points,
+                   const Ends& ends) {
   const Distribution truth(draws, mean);
   const Mixture measurement = mixture(draws, mean, sd, family, item, points);
-  return {truth.mean(), truth.quantile(0.05), truth.quantile(0.95), measurement.quantile(0.05),
-          measurement.quantile(0.95)};
+  return {truth.mean(), truth.quantile(ends.lower), truth.quantile(ends.upper),
+          measurement.quantile(ends.lower), measurement.quantile(ends.upper)};
 }
 
 LifeLaw life_law(const WeightedDraws& draws, const Function& life) {

@@ -22,6 +22,11 @@ struct DominantDraws {
   std::vector<double> weights;
 };
 
+/// The probabilities at which intervals end.
+struct Ends {
+  double lower = 0.05, upper = 0.95;
+};
+
 /// What a measurement will read: the law of the true mean, and of one measurement of it.
 struct Prediction {
   double mean = 0;  ///< of the true mean
@@ -34,10 +39,11 @@ struct Prediction {
 /// `mean` and `sd` of the measurement as functions of the parameters. The prediction interval
 /// solves for the quantiles of the mixture over all draws, so it carries no noise of its own. With
 /// `item` it is the interval of a measurement of an item not yet seen, whose true value that is:
-/// `points` items over all draws, 200,000 for 4 digits.
+/// `points` items over all draws, 200,000 for 4 digits. With other `ends` what is called 05 and 95 is
+/// there.
 Prediction predict(const WeightedDraws& draws, const Function& mean, const Function& sd,
                    ObservationFamily family, const ItemFunction& item = {},
-                   std::size_t points = 200'000);
+                   std::size_t points = 200'000, const Ends& ends = {});
 
 /// When something is reached that every draw reaches at its own time.
 struct Life {

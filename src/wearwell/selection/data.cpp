@@ -124,10 +124,17 @@ SelectionResult read_selection(const SelectData& data) {
       throw InputError(fmt::format("--sql: {}", error.what()));
     }
   }();
+  std::string sha1 = read.sha1();
+  SelectionResult result = read_selection(data, table);
+  result.data_sha1 = std::move(sha1);
+  result.sql = data.sql.value_or("");
+  return result;
+}
+
+SelectionResult read_selection(const SelectData& data, const Table& table) {
+  check(data);
   SelectionResult result;
   result.data_file = table.source;
-  result.data_sha1 = read.sha1();
-  result.sql = data.sql.value_or("");
   result.response = data.response;
   result.weights_column = data.weights;
   result.inputs = data.inputs;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/input/table.h"
 #include "wearwell/selection/result.h"
 
 namespace wearwell {
@@ -24,5 +25,7 @@ struct SelectData {
 /// The table's rows and the candidate terms: fills data, response, inputs, design, weights and
 /// settings.search.forced. Throws InputError that names the option, the column or the row at fault.
 SelectionResult read_selection(const SelectData& data);
+/// The same of a table in memory: `file` and `sql` mean nothing.
+SelectionResult read_selection(const SelectData& data, const Table& table);
 
 }  // namespace wearwell

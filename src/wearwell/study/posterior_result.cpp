@@ -41,6 +41,7 @@ Result posterior_result(PosteriorSummary summary) {
     if (s.coverage) add(coverage_table(*s.coverage));
   }
   result.text = [shared](const TerminalStyle& style) { return terminal_summary(*shared, style); };
+  result.posterior = shared;
   return result;
 }
 

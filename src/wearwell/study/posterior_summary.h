@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "wearwell/bayes/draws.h"
+#include "wearwell/infer/fit.h"
 #include "wearwell/infer/loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/predict/prediction.h"
@@ -229,6 +231,7 @@ struct PosteriorSummary {
   std::optional<QuadratureSummary> quadrature{};
   std::string quantity{};  ///< what is measured and predicted, "worn volume"
   std::string curve{};     ///< the law with its numbers, a clause; empty where it has no use
+  std::shared_ptr<const Fit> fit{};  ///< nodes and pooled draws, for what is asked later; no draws
 };
 
 }  // namespace wearwell

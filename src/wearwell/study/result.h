@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@
 #include "wearwell/present/terminal_style.h"
 
 namespace wearwell {
+
+struct PosteriorSummary;
 
 /// Grows when a name of summary.json changes its meaning or goes.
 inline constexpr int summary_schema = 1;
@@ -43,6 +46,7 @@ struct Result {
   std::vector<std::pair<std::string, std::string>> files = {};
   /// For a terminal; ends with a newline. Where it is empty, the tables of the sections are shown.
   std::function<std::string(const TerminalStyle&)> text = {};
+  std::shared_ptr<const PosteriorSummary> posterior = {};  ///< of a study that has one
 };
 
 /// summary.json.

@@ -209,7 +209,7 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
       result.stages[i] = run_stage(study, settings, i + 1, plots ? &densities[i] : nullptr);
     });
     if (plots) {
-      densities[last] = final.exact ? std::move(final.exact->nodes) : std::move(final.pooled);
+      densities[last] = final.exact ? final.exact->nodes : final.pooled;
       plots->stages = stage_densities(study.parameters.front(), 0, densities);
     }
   }
@@ -218,6 +218,8 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
     plots->seconds = taken.count();
   }
   result.plots = std::move(plots);
+  final.quick.reset();  // it refers to this study
+  result.fit = std::make_shared<const Fit>(std::move(final));
   return result;
 }
 

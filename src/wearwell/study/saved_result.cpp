@@ -253,4 +253,15 @@ SavedReport read_saved_report(const std::filesystem::path& folder) {
   return saved;
 }
 
+SavedReport read_saved_report(const std::string& summary, const std::string& report) {
+  const auto parsed = [](const std::string& text) {
+    auto json = nlohmann::ordered_json::parse(text, nullptr, false);
+    if (json.is_discarded()) throw InputError("a result that was kept is no JSON");
+    return json;
+  };
+  const auto header = parsed(summary), sections = parsed(report);
+  return {read_header(JsonReader(header, "summary.json")),
+          present::sections_from_json(JsonReader(sections, "report.json"))};
+}
+
 }  // namespace wearwell

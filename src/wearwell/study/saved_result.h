@@ -36,5 +36,7 @@ struct SavedReport {
   std::vector<present::Section> sections;
 };
 SavedReport read_saved_report(const std::filesystem::path& folder);
+/// Of the texts of summary.json and report.json.
+SavedReport read_saved_report(const std::string& summary, const std::string& report);
 
 }  // namespace wearwell

@@ -6,20 +6,25 @@
 #include <cmath>
 #include <iterator>
 
+#include "wearwell/base/error.h"
+#include "wearwell/input/fingerprint.h"
 #include "wearwell/predict/item_mixture.h"
+#include "wearwell/study/describe.h"
 
 namespace wearwell {
 namespace {
+
+constexpr std::size_t item_points = 200'000;  // for 4 digits
 
 Prediction in_unit(const Unit& unit, Prediction p) {
   for (double* each : {&p.mean, &p.ci05, &p.ci95, &p.pi05, &p.pi95}) *each = from_si(unit, *each);
   return p;
 }
 
-PredictionSummary summarize(const PredictionRequest& request, const Fit& fit) {
+PredictionSummary summarize(const PredictionRequest& request, const Fit& fit, const Ends& ends) {
   const auto predicted = [&](const WeightedDraws& draws) {
-    return in_unit(request.unit,
-                   predict(draws, request.mean, request.sd, request.family, request.item));
+    return in_unit(request.unit, predict(draws, request.mean, request.sd, request.family,
+                                         request.item, item_points, ends));
   };
   PredictionSummary summary{.at_name = request.at_name,
                             .at = request.at,
@@ -157,10 +162,29 @@ std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, c
 }
 
 std::vector<PredictionSummary> summarize(const std::vector<PredictionRequest>& requests,
-                                         const Fit& fit) {
+                                         const Fit& fit, const Ends& ends) {
   std::vector<PredictionSummary> summaries;
-  for (const PredictionRequest& request : requests) summaries.push_back(summarize(request, fit));
+  for (const PredictionRequest& request : requests)
+    summaries.push_back(summarize(request, fit, ends));
   return summaries;
+}
+
+PosteriorSummary asked_later(const PosteriorStudy& asked, const PosteriorSummary& fitted,
+                             const Ends& ends) {
+  bool same = asked.equation == fitted.equation &&
+              asked.parameters.size() == fitted.parameters.size() &&
+              fingerprint(asked.quantity, asked.observed) == fitted.data_fingerprint;
+  for (std::size_t i = 0; same && i < asked.parameters.size(); ++i) {
+    same = asked.parameters[i].name == fitted.parameters[i].name &&
+           prior_in_words(asked.parameters[i]) == fitted.parameters[i].prior;
+  }
+  if (!same || !fitted.fit)
+    throw InputError("what is asked later must be of the same data, law and priors as the fit");
+  PosteriorSummary answers;
+  answers.predictions = summarize(asked.predictions, *fitted.fit, ends);
+  answers.quantities = summarize_quantities(asked, *fitted.fit);
+  if (asked.life) answers.life = summarize(*asked.life, *fitted.fit);
+  return answers;
 }
 
 std::vector<QuantitySummary> summarize_quantities(const PosteriorStudy& study, const Fit& fit) {

@@ -1,6 +1,7 @@
 #include "wearwell/models/bearing/commands.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/bearing/chart_command.h"
 #include "wearwell/models/bearing/options.h"
@@ -220,7 +222,7 @@ std::vector<std::string> warnings(const Answer& a) {
   return result;
 }
 
-void print_json(const Answer& a) {
+nlohmann::ordered_json json_of(const Answer& a) {
   nlohmann::ordered_json json;
   json["quantity"] = a.question.command;
   json["contact"] = contact_name(a.given.contact);
@@ -238,8 +240,7 @@ void print_json(const Answer& a) {
                         {"q95", a.in_unit(a.interval->q95)}};
     if (a.is_life()) json["interval"]["b10"] = a.in_unit(a.interval->b10);
   }
-  fmt::print("{}\n", json.dump(2));
-  if (!a.margin.empty()) fmt::print(stderr, "{}\n", a.margin);
+  return json;
 }
 
 void print_text(const Answer& a) {
@@ -276,8 +277,7 @@ void print_text(const Answer& a) {
   if (!a.margin.empty()) fmt::print("\n{}\n", a.margin);
 }
 
-void run(const Question& asked, const Options& options) {
-  Question question = asked;
+Answer answer_of(Question question, const Options& options) {
   if (question.wanted == Quantity::revolutions && !options.bearing.text(&Bearing::speed).empty()) {
     question.wanted = Quantity::time;
     question.si = "s";
@@ -305,9 +305,15 @@ void run(const Question& asked, const Options& options) {
   if (!given.is_exact())
     answer.interval = propagate(question.wanted, given, limit, options.draws, options.seed);
   if (limit) answer.margin = margin_statement(answer, *limit);
+  return answer;
+}
+
+void run(const Question& question, const Options& options) {
+  const Answer answer = answer_of(question, options);
   for (const std::string& warning : warnings(answer)) fmt::print(stderr, "warning: {}\n", warning);
   if (options.json) {
-    print_json(answer);
+    fmt::print("{}\n", json_of(answer).dump(2));
+    if (!answer.margin.empty()) fmt::print(stderr, "{}\n", answer.margin);
   } else {
     print_text(answer);
   }
@@ -368,6 +374,33 @@ const std::vector<Question>& questions() {
 }
 
 }  // namespace
+
+Told answer(const std::string& command, const Asked& asked) {
+  std::vector<std::string> names;
+  for (const Question& each : questions()) names.emplace_back(each.command);
+  const auto question = std::find(names.begin(), names.end(), command);
+  if (question == names.end()) throw std::logic_error("no question " + command);
+  Options options;
+  options.bearing.contact = asked.contact;
+  std::vector<std::string> flags;
+  for (const InputOption& each : input_options) flags.emplace_back(each.flag + 2);
+  for (const auto& [name, text] : asked.inputs) {
+    const auto flag = std::find(flags.begin(), flags.end(), name);
+    if (flag == flags.end()) {
+      throw InputError(fmt::format("a bearing has no '{}'{}: {}", name, did_you_mean(name, flags),
+                                   fmt::join(flags, ", ")));
+    }
+    options.bearing.texts[static_cast<std::size_t>(flag - flags.begin())] = text;
+  }
+  options.unit = asked.unit;
+  options.limit = asked.limit;
+  options.draws = asked.draws;
+  options.seed = asked.seed;
+  const Answer told =
+      answer_of(questions()[static_cast<std::size_t>(question - names.begin())], options);
+  return {json_of(told), warnings(told), told.margin};
+}
+
 }  // namespace bearing
 
 void add_bearing_command(CLI::App& app, int&) {

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "wearwell/base/error.h"
@@ -18,6 +17,7 @@
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/models/clutch/command_parts.h"
+#include "wearwell/models/clutch/cycle_table.h"
 #include "wearwell/present/text_table.h"
 
 namespace wearwell::clutch {
@@ -57,31 +57,6 @@ void print_table(const WearModel& model, const CycleSum& sum, bool full) {
     rows.back().push_back(outside_text(p));
   }
   fmt::print("{}", text_table(rows, true));
-}
-
-void print_json(const WearModel& model, const CycleSum& sum, bool full) {
-  nlohmann::ordered_json plates = nlohmann::ordered_json::array();
-  for (const PlateWear& p : sum.plates()) {
-    nlohmann::ordered_json each = {{"plate", p.name.empty() ? nlohmann::ordered_json(p.plate)
-                                                            : nlohmann::ordered_json(p.name)},
-                                   {"cycles", p.cycles},
-                                   {"last_cycle", p.last_number},
-                                   {"energy", p.energy},
-                                   {"volume", p.volume / mm3},
-                                   {"sd_scatter", p.sd() / mm3}};
-    if (full) each["sd_full"] = p.full_sd(model.plate_sd) / mm3;
-    each["worn"] = p.volume / model.worn_out;
-    nlohmann::ordered_json outside;
-    for (std::size_t i = 0; i < inputs.size(); ++i) outside[inputs[i].name] = p.outside[i];
-    each["outside"] = outside;
-    each["outside_any"] = p.outside_any;
-    each["clamped"] = p.clamped;
-    each["skipped"] = p.skipped;
-    plates.push_back(std::move(each));
-  }
-  const nlohmann::ordered_json json = {{"units", {{"energy", "J"}, {"volume", "mm^3"}}},
-                                       {"plates", std::move(plates)}};
-  fmt::print("{}\n", json.dump(2));
 }
 
 /// Only what can be read again may take the place of a state.
@@ -126,7 +101,7 @@ void run(const PredictOptions& options) {
   if (state) state->commit();
   lock.reset();
   if (options.json) {
-    print_json(model, sum, full);
+    fmt::print("{}\n", wear_json(model, sum, full).dump(2));
   } else {
     print_table(model, sum, full);
   }

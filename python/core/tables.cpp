@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
+
+#include <cmath>
+#include <optional>
+
+#include "arrow.h"
+#include "core.h"
+#include "wearwell/base/error.h"
+#include "wearwell/input/table.h"
+
+namespace wearwell::python {
+namespace {
+
+using Numbers = py::array_t<double, py::array::forcecast>;
+
+void add_numbers(Column& column, const py::array& values) {
+  const Numbers numbers = Numbers::ensure(values);  // the same array where it holds doubles
+  if (!numbers) throw py::error_already_set();
+  const auto view = numbers.unchecked<1>();
+  column.is_number = true;
+  column.numbers.resize(static_cast<std::size_t>(view.shape(0)));
+  for (py::ssize_t i = 0; i < view.shape(0); ++i)
+    column.numbers[static_cast<std::size_t>(i)] = view(i);
+}
+
+void add_text(Column& column, const py::sequence& values, const std::string& table) {
+  std::size_t row = 0;
+  for (const py::handle each : values) {
+    ++row;
+    if (py::isinstance<py::str>(each)) {
+      Py_ssize_t size = 0;
+      const char* const text = PyUnicode_AsUTF8AndSize(each.ptr(), &size);
+      if (!text) {
+        PyErr_Clear();
+        throw InputError(fmt::format("{}, row {}, column '{}': the text is not Unicode", table, row,
+                                     column.name));
+      }
+      column.text.emplace_back(text, static_cast<std::size_t>(size));
+    } else if (each.is_none() ||
+               (PyFloat_Check(each.ptr()) && std::isnan(PyFloat_AS_DOUBLE(each.ptr())))) {
+      column.text.emplace_back();
+    } else {
+      throw InputError(
+          fmt::format("{}, row {}, column '{}': {} in a column of objects, which may hold texts "
+                      "alone; numbers need a dtype of numbers (astype(float))",
+                      table, row, column.name,
+                      std::string(py::str(py::type::handle_of(each).attr("__name__")))));
+    }
+  }
+}
+
+void refuse_no_table(const Table& table) {
+  if (table.columns.empty()) throw InputError(fmt::format("{} has no columns", table.source));
+  if (table.rows == 0) throw InputError(fmt::format("{} has no rows", table.source));
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    for (std::size_t d = 0; d < c; ++d) {
+      if (table.columns[c].name == table.columns[d].name) {
+        throw InputError(
+            fmt::format("{}: two columns are called '{}'", table.source, table.columns[c].name));
+      }
+    }
+  }
+}
+
+// (heading, unit, array of numbers or list of texts).
+using Named = std::tuple<std::string, std::string, py::object>;
+
+Table table_of(const std::string& name, const std::vector<Named>& columns) {
+  Table table;
+  table.source = name;
+  for (const auto& [heading, unit, values] : columns) {
+    Column column;
+    column.name = heading;
+    column.unit = unit;
+    if (py::isinstance<py::array>(values)) {
+      add_numbers(column, py::reinterpret_borrow<py::array>(values));
+    } else {
+      add_text(column, py::reinterpret_borrow<py::sequence>(values), name);
+    }
+    const std::size_t rows = column.is_number ? column.numbers.size() : column.text.size();
+    if (!table.columns.empty() && rows != table.rows) {
+      throw InputError(fmt::format("{}: column '{}' has {} rows, and '{}' has {}", name, heading,
+                                   rows, table.columns.front().name, table.rows));
+    }
+    table.rows = rows;
+    table.columns.push_back(std::move(column));
+  }
+  refuse_no_table(table);
+  return table;
+}
+
+void add_units(Table& table, const std::map<std::string, std::string>& units) {
+  for (const auto& [heading, unit] : units) {
+    const Column& column = table.column(heading);  // throws and names the nearest
+    for (Column& each : table.columns) {
+      if (&each == &column) each.unit = unit;
+    }
+  }
+}
+
+}  // namespace
+
+void add_tables(py::module_& module) {
+  py::class_<Table, std::shared_ptr<Table>>(module, "Table")
+      .def_readonly("rows", &Table::rows)
+      .def("headings",
+           [](const Table& table) {
+             std::vector<std::string> names;
+             for (const Column& each : table.columns) names.push_back(each.name);
+             return names;
+           })
+      .def("add_units", &add_units);
+  module.def("table_of", &table_of);
+  module.def("table_of_arrow", [](const std::string& name, const py::capsule& capsule) {
+    void* const stream = PyCapsule_GetPointer(capsule.ptr(), "arrow_array_stream");
+    if (!stream) throw py::error_already_set();
+    Table table = read_arrow(*static_cast<ArrowArrayStream*>(stream), name);
+    refuse_no_table(table);
+    return table;
+  });
+  module.def("table_of_file", [](const std::string& file, const std::optional<std::string>& sql) {
+    const py::gil_scoped_release release;
+    const ForkGuard guard;
+    return read_table(file, sql);
+  });
+}
+
+}  // namespace wearwell::python

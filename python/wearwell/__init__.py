@@ -1,0 +1,39 @@
+"""wearwell: wear and fatigue-life parameters from few noisy measurements, with honest uncertainty.
+
+    import wearwell as ww
+    fit = ww.fit("study.toml", seed=1)
+    fit.trusted, fit.parameters, fit.report("report.html")
+
+docs/python.md has the rest.
+"""
+
+from . import _errors
+from ._errors import CheckWarning, InputError, MachineError, NotTrusted
+from . import _core
+from . import bearing, clutch
+from ._fit import Check, Fit
+from ._priors import (
+    beta,
+    default,
+    exponential,
+    flat,
+    gamma,
+    half_cauchy,
+    half_normal,
+    inverse_gamma,
+    jeffreys,
+    lognormal,
+    normal,
+    student_t,
+    uniform,
+)
+from ._study import Study, fit, table
+from ._tools import Comparison, Selection, compare, select
+
+__version__ = _core.version
+
+__all__ = [
+    "Check", "CheckWarning", "Comparison", "Fit", "InputError", "MachineError", "NotTrusted", "Selection", "Study",
+    "bearing", "beta", "clutch", "compare", "default", "exponential", "fit", "flat", "gamma", "half_cauchy", "half_normal",
+    "inverse_gamma", "jeffreys", "lognormal", "normal", "select", "student_t", "table", "uniform",
+]

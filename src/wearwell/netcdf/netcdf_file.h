@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace wearwell::netcdf {
+
+/// Name and text, of a variable, a group or a file.
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+struct Dimension {
+  std::string name;
+  std::size_t size = 0;
+};
+
+/// An array; the last of its dimensions runs fastest. Flags are bytes that xarray reads as bool.
+struct Variable {
+  using Flags = std::vector<signed char>;
+  std::string name;
+  std::vector<std::string> dimensions;  ///< of its group
+  std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>, Flags>
+      values;
+  Attributes attributes = {};
+};
+
+struct Group {
+  std::string name;
+  std::vector<Dimension> dimensions;
+  std::vector<Variable> variables;
+  Attributes attributes = {};
+};
+
+/// A letter or _ first, then letters, digits and _: what every reader of NetCDF takes for a name.
+std::string plain_name(const std::string& text);
+
+/// A NetCDF-4 file of these groups, as bytes. One thread at a time, whoever calls: HDF5 below is not
+/// made for more. Throws MachineError when the library of NetCDF is not there, or fails;
+/// std::logic_error where an array has not the size of its dimensions.
+std::string file_of(const std::vector<Group>& groups);
+
+/// The same as a file that appears whole or not at all. Throws as StagedFile does.
+void write(const std::filesystem::path& target, const std::vector<Group>& groups);
+
+}  // namespace wearwell::netcdf
