@@ -30,7 +30,7 @@ def warn(message):
     here, frame, level = os.path.dirname(__file__), sys._getframe(1), 2
     while frame is not None and os.path.dirname(frame.f_code.co_filename) == here:
         frame, level = frame.f_back, level + 1
-    warnings.warn(message, CheckWarning, stacklevel=level - 1)
+    warnings.warn(message, CheckWarning, stacklevel=level)
 
 
 def warn_of(checks):

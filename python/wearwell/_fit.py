@@ -93,7 +93,7 @@ class Fit:
     # ---- Frames.
 
     def _need(self, key, what):
-        if key not in self.summary:
+        if "sampler" not in self.summary or key not in self.summary:
             raise InputError(f"a study of the model {self.summary['model']} has no {what}; fit.summary and fit.tables hold what "
                              "it found")
         return self.summary[key]

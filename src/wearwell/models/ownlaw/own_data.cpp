@@ -8,6 +8,9 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/heading.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -230,6 +233,36 @@ void OwnData::require_complete(const NumberColumn& column) const {
   }
 }
 
+namespace {
+
+// Whether the table has a unit for the column: in a row of units, or in square brackets in the
+// heading, where other words may stand as well.
+bool says_unit(const Column& column) {
+  return !column.unit.empty() || read_heading(column.name, "").certain;
+}
+
+law::AnyUnit written_unit(const Table& table, const Column& column) {
+  if (!says_unit(column)) return law::read_any_unit("1");
+  const bool row = !column.unit.empty();
+  const Heading heading = read_heading(column.name, "");
+  const std::string text = row ? bare_unit(column.unit) : heading.unit;
+  if (!row && !parse_unit(text)) return law::read_any_unit("1");
+  try {
+    return law::read_any_unit(text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}, column '{}': {}", table.source, column.name, error.what()));
+  }
+}
+
+// Empty where the unit has a root of something.
+std::string si_of(const law::AnyUnit& unit) {
+  const bool whole = std::all_of(unit.powers.begin(), unit.powers.end(),
+                                 [](const auto& each) { return each.second.denominator() == 1; });
+  return whole ? law::si_text(unit.powers) : std::string();
+}
+
+}  // namespace
+
 OwnData read_own_data(const TomlReader& root, const Source& source,
                       const std::vector<std::string>& label_names) {
   const TomlReader section = root.required_table("data");
@@ -266,7 +299,11 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
     if (is_label(name) || (!unit && is_text(*column))) {
       data.labels.push_back(read_labels(data.table, name, *column));
     } else {
-      if (!unit) unit = law::read_any_unit("1");
+      if (!unit) {
+        unit = written_unit(data.table, *column);
+      } else if (const std::string si = si_of(*unit); !si.empty() && says_unit(*column)) {
+        unit->unit = column_unit(data.table, *column, si, unit->unit);  // refuses what contradicts
+      }
       data.numbers.push_back(read_numbers(data.table, name, *column, std::move(*unit)));
     }
   }

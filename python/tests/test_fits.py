@@ -1,0 +1,256 @@
+"""What a fit is: verdict, frames, exceptions, Ctrl-C, progress, copies, threads, forks, memory."""
+
+import copy
+import json
+import multiprocessing
+import os
+import pickle
+import re
+import resource
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+import warnings
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+
+import wearwell as ww
+
+
+@pytest.fixture
+def joint(examples):
+    return os.path.join(examples, "joint", "study.toml")
+
+
+@pytest.fixture
+def fit(joint):
+    return ww.fit(joint, seed=3)
+
+
+def test_parameters_are_the_summarys_by_quadrature(fit):
+    k = fit.summary["parameters"]["k"]
+    assert fit.parameters.loc["k", "mean"] == k["exact"]["mean"]
+    assert fit.parameters.loc["k", "unit"] == "mm^3/(N m)"
+    # Table 5 of An et al. (2011): 7.76e-4 +- 0.92e-4, sigma 5.63.
+    assert abs(fit.parameters.loc["k", "mean"] - 7.76e-4) < 0.005e-4
+    assert abs(fit.parameters.loc["sigma", "mean"] - 5.63) < 0.005
+    assert fit.predictions.loc[0, "pi95"] == fit.summary["predictions"][0]["exact"]["pi95"]
+    assert fit.lives.loc[0, "b10"] == fit.summary["life"]["exact"]["b10"]
+    assert len(fit.draws) == 4000 and list(fit.draws.columns) == ["k", "sigma"]
+    assert fit.sample_stats["divergent"].dtype == bool
+    assert fit.tables["parameters"].shape[0] == 2
+
+
+def test_draws_are_of_the_posterior(fit):
+    standard_error = fit.parameters.loc["k", "mcse"]
+    assert abs(fit.draws["k"].mean() - fit.parameters.loc["k", "mean"]) < 5 * standard_error
+
+
+def test_trusted_and_not(joint, examples):
+    assert ww.fit(joint, seed=3, report=False).require_trusted().trusted
+    with pytest.warns(ww.CheckWarning, match="proper-posterior fails"):
+        improper = ww.fit(os.path.join(examples, "joint", "improper_normal.toml"), seed=1, report=False)
+    assert not improper.trusted
+    with pytest.raises(ww.NotTrusted, match="proper-posterior"):
+        improper.require_trusted()
+
+
+def test_warning_names_the_callers_line(examples):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        ww.fit(os.path.join(examples, "joint", "improper_normal.toml"), seed=1, report=False)
+    assert caught and all(w.filename == __file__ for w in caught)
+
+
+def test_errors_have_the_words_of_the_program(tmp_path, joint, wearwell):
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text(open(joint).read().replace("[likelihood]", "[likelyhood]"))
+    for study in (wrong, tmp_path / "none.toml"):
+        _, _, said = wearwell("fit", study)
+        with pytest.raises(ww.InputError) as error:
+            ww.fit(study)
+        assert isinstance(error.value, ValueError)
+        assert said == f"wearwell: {error.value}\n"
+    fit = ww.fit(joint, seed=1, report=False)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ww.InputError, match="file"):
+        fit.write(tmp_path / "file")
+    with pytest.raises(ww.InputError, match="report=False"):
+        fit.report(tmp_path / "page.html")
+    with pytest.raises(ww.MachineError) as machine:
+        fit.to_netcdf("/dev/full")
+    assert isinstance(machine.value, OSError) and isinstance(machine.value, RuntimeError)
+    again = pickle.loads(pickle.dumps(machine.value))
+    assert type(again) is ww.MachineError and str(again) == str(machine.value)
+
+
+@pytest.mark.parametrize("options, message", [
+    ({"seed": -1}, "seed is -1"), ({"seed": 1.5}, "seed is 1.5"), ({"chains": 0}, "chains is 0"), ({"draws": 5}, "draws is 5"),
+    ({"method": "gibbs"}, "method is 'gibbs'"), ({"threads": -1}, "threads is -1"), ({"progress": 3}, "progress is 3")])
+def test_options_are_checked(joint, options, message):
+    with pytest.raises(ValueError, match=re.escape(message)):
+        ww.fit(joint, **options)
+
+
+def test_progress_is_told_and_its_exception_stops(joint):
+    told = []
+    ww.fit(joint, seed=1, draws=60_000, report=False, progress=lambda *step: told.append(step))
+    assert told and told[-1][0] == "iterations"
+    assert all(0 <= done <= total for _, done, total, _ in told)
+
+    def stop(*_):
+        raise LookupError("enough")
+
+    start = time.monotonic()
+    with pytest.raises(LookupError, match="enough"):
+        ww.fit(joint, seed=1, draws=5_000_000, report=False, progress=stop)
+    assert ww.fit(joint, seed=3, report=False).trusted  # the next one is as any
+    assert time.monotonic() - start < 600
+
+
+def test_interrupt_stops_and_leaves_nothing(joint, tmp_path):
+    code = textwrap.dedent(f"""
+        import os, signal, threading, time, sys
+        import wearwell as ww
+        threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        try:
+            ww.fit({joint!r}, seed=1, draws=9_000_000, report=False).write("results")
+        except KeyboardInterrupt:
+            print("stopped", threading.active_count(), os.listdir("."))
+        print(ww.fit({joint!r}, seed=3, report=False).trusted)
+    """)
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=600)
+    assert done.stdout == "stopped 1 []\nTrue\n", done.stderr
+
+
+def test_other_threads_go_on_meanwhile(joint):
+    counted = []
+
+    def count():
+        while not done.is_set():
+            counted.append(1)
+            time.sleep(0.001)
+
+    done = threading.Event()
+    counter = threading.Thread(target=count)
+    counter.start()
+    ww.fit(joint, seed=1, draws=20_000, report=False)
+    done.set()
+    counter.join()
+    assert len(counted) > 20
+
+
+def test_threads_fit_at_once_the_same_bits(joint, examples):
+    studies = [joint, os.path.join(examples, "life", "study.toml")] * 3
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        alone = [ww.fit(s, seed=4, report=False).summary for s in studies[:2]] * 3
+        with ThreadPoolExecutor(6) as pool:
+            together = list(pool.map(lambda s: ww.fit(s, seed=4, report=False).summary, studies))
+    assert together == alone
+
+
+def _in_child(study, queue):
+    queue.put(ww.fit(study, seed=4, report=False).summary)
+
+
+@pytest.mark.parametrize("how", ["fork", "spawn"])
+def test_forked_and_spawned_children_fit_too(joint, how):
+    here = ww.fit(joint, seed=4, report=False).summary  # starts threads, of which a forked child has none
+    context = multiprocessing.get_context(how)
+    queue = context.Queue()
+    children = [context.Process(target=_in_child, args=(joint, queue)) for _ in range(2)]
+    for child in children:
+        child.start()
+    found = [queue.get(timeout=300) for _ in children]
+    for child in children:
+        child.join(timeout=60)
+        assert child.exitcode == 0
+    assert found == [here, here]
+
+
+def test_pickle_and_copy(fit, tmp_path):
+    assert copy.copy(fit).summary is fit.summary and copy.deepcopy(fit).summary is fit.summary
+    again = pickle.loads(pickle.dumps(fit))
+    assert again.summary == fit.summary and again.checks == fit.checks and str(again) == str(fit)
+    assert (again.draws == fit.draws).all().all() and (again.sample_stats == fit.sample_stats).all().all()
+    for each, name in ((fit, "one"), (again, "two")):
+        each.write(tmp_path / name)
+    assert (tmp_path / "one" / "report.html").read_bytes() == (tmp_path / "two" / "report.html").read_bytes()
+    assert (tmp_path / "one" / "results.sha1").read_bytes() == (tmp_path / "two" / "results.sha1").read_bytes()
+    assert again.ask({"cycles": [30_000]}) == fit.ask({"cycles": [30_000]})
+
+
+def test_pickled_fit_of_other_data_is_refused(joint, tmp_path):
+    (tmp_path / "joint_wear.csv").write_text(open(os.path.join(os.path.dirname(joint), "joint_wear.csv")).read())
+    (tmp_path / "study.toml").write_text(open(joint).read())
+    fit = ww.fit(tmp_path / "study.toml", seed=1, report=False)
+    kept = pickle.dumps(fit)
+    table = (tmp_path / "joint_wear.csv").read_text()
+    (tmp_path / "joint_wear.csv").write_text(table.replace("44.41", "45.41"))
+    assert (tmp_path / "joint_wear.csv").read_text() != table
+    again = pickle.loads(kept)
+    assert again.parameters.equals(fit.parameters)
+    with pytest.raises(ww.InputError, match="not those of this fit"):
+        again.to_netcdf(tmp_path / "fit.nc")
+
+
+def test_asked_later_is_what_the_study_says(fit, joint):
+    """Another [predict] of the same posterior: the numbers of a study that has it."""
+    text = open(joint).read()
+    later = fit.ask({"cycles": [30_000, 20_585]})
+    study = ww.Study.from_toml(re.sub(r"cycles *= *\[20585[^\]]*\]", "cycles = [30000, 20585]", text), folder=os.path.dirname(joint))
+    assert study.fit(seed=3, report=False).summary["predictions"] == later["predictions"]
+    assert later["predictions"][1]["exact"] == fit.summary["predictions"][0]["exact"]
+    narrow = fit.ask({"cycles": [20_585]}, level=0.5)["predictions"][0]["exact"]
+    wide = fit.summary["predictions"][0]["exact"]
+    assert wide["pi05"] < narrow["pi05"] < narrow["mean"] < narrow["pi95"] < wide["pi95"]
+    with pytest.raises(ww.InputError, match="cykles"):
+        fit.ask({"cykles": [1]})
+
+
+def test_clutch_has_tables_and_no_posterior(examples):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        fit = ww.fit(os.path.join(examples, "clutch", "study.toml"), report=False)
+    with pytest.raises(ww.InputError, match="no parameters"):
+        fit.parameters
+    with pytest.raises(ww.InputError, match="no posterior"):
+        fit.to_netcdf("nothing.nc")
+    assert not os.path.exists("nothing.nc")
+
+
+def test_html_shows_verdict_and_parameters(fit):
+    html = fit._repr_html_()
+    assert "trusted" in html and "mm^3/(N m)" in html and "7.759e-04" in html.replace("0.0007759", "7.759e-04")
+    assert "<script" not in html  # the page itself is data of a frame of its own
+    assert "data:text/html;charset=utf-8;base64," in html
+
+
+def test_an_interpreter_that_fitted_ends_well(joint):
+    code = f"import wearwell as ww; ww.fit({joint!r}, seed=1, report=False)"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_many_fits_leave_no_memory_behind(joint):
+    text = re.sub(r"(?ms)^\[update\].*", "", open(joint).read())
+    study = ww.Study.from_toml(text, folder=os.path.dirname(joint))
+
+    def resident():
+        with open("/proc/self/statm") as file:
+            return int(file.read().split()[1]) * resource.getpagesize()
+
+    def some(n):
+        for seed in range(n):
+            fit = study.fit(seed, method="exact", draws=100, report=False)
+            json.dumps(fit.summary)
+            fit.draws
+
+    some(100)
+    before = resident()
+    some(200)
+    assert resident() - before < 8e6  # 40 kB each would be a leak of draws or nodes

@@ -1,0 +1,78 @@
+"""Every example, fitted here and by the program with the same seed: byte for byte the same files."""
+
+import glob
+import os
+import warnings
+
+import pytest
+
+import wearwell as ww
+from conftest import source
+
+studies = sorted(s for s in glob.glob(os.path.join(source, "examples", "*", "*.toml")) if not s.endswith("truth.toml"))
+
+
+def files_below(folder):
+    found = {}
+    for here, _, names in os.walk(folder):
+        for name in names:
+            path = os.path.join(here, name)
+            with open(path, "rb") as file:
+                found[os.path.relpath(path, folder)] = file.read()
+    return found
+
+
+def test_there_are_examples():
+    assert len(studies) >= 15
+
+
+@pytest.mark.parametrize("study", studies, ids=lambda s: os.path.relpath(s, os.path.join(source, "examples")))
+def test_files_are_those_of_the_program(study, wearwell, tmp_path):
+    code, _, error = wearwell("fit", study, "--seed", 7, "--quiet", "--no-report", "-o", tmp_path / "there")
+    assert code <= 1, error
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        fit = ww.fit(study, seed=7, report=False)
+    fit.write(tmp_path / "here")
+    assert fit.trusted == (code == 0)
+    here, there = files_below(tmp_path / "here"), files_below(tmp_path / "there")
+    assert here.keys() == there.keys()
+    assert not [name for name in here if here[name] != there[name]]
+
+
+def test_with_report_and_other_method(examples, wearwell, tmp_path):
+    study = os.path.join(examples, "joint", "study.toml")
+    options = ("--method", "metropolis", "--chains", 3, "--draws", 500, "--warmup", 200, "--seed", 11)
+    code, out, _ = wearwell("fit", study, *options, "-o", tmp_path / "there")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        fit = ww.fit(study, seed=11, method="metropolis", chains=3, draws=500, warmup=200)
+    fit.write(tmp_path / "here")
+    here, there = files_below(tmp_path / "here"), files_below(tmp_path / "there")
+    # The page tells the seconds that it took; the list has its sum.
+    timed = {"report.html", "report.json", "results.sha1"}
+    assert here.keys() == there.keys()
+    assert {n for n in here if here[n] != there[n]} <= timed
+    assert out.startswith(str(fit))
+    assert abs(len(here["report.html"]) - len(there["report.html"])) < 40
+    fit.report(tmp_path / "page.html")
+    assert (tmp_path / "page.html").read_bytes() == here["report.html"]
+
+
+def test_number_of_threads_changes_nothing(examples):
+    study = os.path.join(examples, "joint", "study.toml")
+    one, all_of_them = (ww.fit(study, seed=2, threads=n, report=False) for n in (1, 0))
+    assert one.summary == all_of_them.summary
+    assert (one.draws == all_of_them.draws).all().all()
+
+
+def test_draws_are_those_of_the_file(examples, tmp_path):
+    import pandas
+
+    fit = ww.fit(os.path.join(examples, "joint", "study.toml"), seed=5, report=False)
+    fit.write(tmp_path / "results")
+    for chain in range(4):
+        written = pandas.read_csv(tmp_path / "results" / f"draws_{chain + 1}.csv", comment="#", float_precision="round_trip")
+        assert (written[["k", "sigma"]].to_numpy() == fit.draws.loc[chain].to_numpy()).all()
+        assert (written["energy__"].to_numpy() == fit.sample_stats.loc[chain]["energy"].to_numpy()).all()
+        assert (written["treedepth__"].to_numpy() == fit.sample_stats.loc[chain]["treedepth"].to_numpy()).all()
