@@ -7,6 +7,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/table.h"
+#include "wearwell/models/joint/inspection.h"
 
 namespace wearwell::joint {
 namespace {

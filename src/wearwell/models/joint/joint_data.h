@@ -8,7 +8,7 @@
 #include "wearwell/bayes/observation.h"
 #include "wearwell/input/source.h"
 #include "wearwell/input/toml_reader.h"
-#include "wearwell/models/joint/inspection.h"
+#include "wearwell/models/joint/archard.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell::joint {
