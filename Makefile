@@ -1,5 +1,5 @@
 # make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
-.PHONY: run python test install build calibrate sanitize fuzz bench format clean
+.PHONY: run python test install build calibrate sanitize fuzz tidy bench format clean
 
 run: setup
 	@cmake --preset release >/dev/null
@@ -30,16 +30,21 @@ calibrate: build
 
 # All tests but those in a browser and under strace; threads where there are any. Debian's oneTBB and DuckDB are not
 # instrumented: tests/sanitizers/thread.txt.
-sanitize: setup-tests setup-fuzz
+sanitize: setup-tests setup-clang
 	@cmake --preset asan-ubsan >/dev/null && cmake --build --preset asan-ubsan && ctest --preset asan-ubsan
 	@cmake --preset tsan >/dev/null && cmake --build --preset tsan && ctest --preset tsan
 
 # Coverage-guided; an hour over all targets, or as many seconds as are asked for (make fuzz SECONDS=600).
 SECONDS = 3600
-fuzz: setup-tests setup-fuzz
+fuzz: setup-tests setup-clang
 	@cmake --preset asan-ubsan >/dev/null
 	@cmake --build --preset fuzz
 	@tests/fuzz/run $(SECONDS)
+
+# clang-tidy over src/, with the chosen checks of .clang-tidy; some minutes.
+tidy: setup-clang
+	@cmake --preset tidy >/dev/null
+	@run-clang-tidy-14 -quiet -p build/tidy '^$(CURDIR)/src/'
 
 bench: build
 	@bench/run
@@ -48,7 +53,7 @@ build: setup-tests
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release
 
-.PHONY: setup setup-python setup-tests setup-fuzz
+.PHONY: setup setup-python setup-tests setup-clang
 setup:
 	@setup/install
 
@@ -58,8 +63,8 @@ setup-python:
 setup-tests:
 	@setup/install --tests
 
-setup-fuzz:
-	@setup/install --fuzz
+setup-clang:
+	@setup/install --clang
 
 format:
 	@git ls-files '*.h' '*.cpp' | xargs clang-format -i

@@ -9,16 +9,17 @@ function(wearwell_precompiled name)
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
 endfunction()
 
-set(common_headers <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <optional> <span> <string>
-  <vector> <fmt/format.h> <fmt/ranges.h> <Eigen/Dense>)
+set(common_headers <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <limits> <map> <memory> <mutex>
+  <numbers> <numeric> <optional> <set> <span> <sstream> <stop_token> <string> <unordered_map> <variant> <vector>
+  <fmt/format.h> <fmt/ranges.h> <nlohmann/json.hpp> <Eigen/Dense> <Random123/philox.h>)
 wearwell_precompiled(wearwell_headers
   HEADERS ${common_headers}
-  LIBRARIES Eigen3::Eigen fmt::fmt Threads::Threads)
+  LIBRARIES Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json Threads::Threads)
 set_target_properties(wearwell_headers PROPERTIES POSITION_INDEPENDENT_CODE ON)
 if(WEARWELL_BUILD_TESTS)
   wearwell_precompiled(wearwell_test_headers
     HEADERS ${common_headers} <gmock/gmock.h> <gtest/gtest.h> <rapidcheck/gtest.h>
-    LIBRARIES Eigen3::Eigen fmt::fmt GTest::gmock rapidcheck Threads::Threads)
+    LIBRARIES Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json GTest::gmock rapidcheck Threads::Threads)
 endif()
 
 # One library per folder, so that an include against the direction of the design fails to link.

@@ -150,6 +150,16 @@ TEST(Headers, ComeFirstInTheirSource) {
 TEST(Headers, IncludeWhatIsPrecompiled) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> hidden = {
       {"<array>", {"std::array<"}},
+      {"<chrono>", {"std::chrono::"}},
+      {"<limits>", {"std::numeric_limits<"}},
+      {"<mutex>", {"std::mutex", "std::scoped_lock", "std::unique_lock"}},
+      {"<numbers>", {"std::numbers::"}},
+      {"<numeric>", {"std::accumulate(", "std::iota("}},
+      {"<set>", {"std::set<"}},
+      {"<sstream>", {"stringstream"}},
+      {"<stop_token>", {"std::stop_token"}},
+      {"<unordered_map>", {"std::unordered_map<"}},
+      {"<variant>", {"std::variant<", "std::get_if<", "std::visit("}},
       {"<filesystem>", {"std::filesystem::"}},
       {"<fstream>", {"std::ifstream", "std::ofstream"}},
       {"<functional>", {"std::function<"}},
@@ -162,6 +172,8 @@ TEST(Headers, IncludeWhatIsPrecompiled) {
       {"<cmath>", {"std::exp(", "std::log(", "std::sqrt(", "std::isfinite("}},
       {"<algorithm>", {"std::sort(", "std::min(", "std::max(", "std::find("}},
       {"fmt/", {"fmt::format("}},
+      {"nlohmann/", {"nlohmann::"}},
+      {"Random123/", {"r123::"}},
       {"Eigen/", {"Eigen::"}}};
   for (const auto& entry : fs::recursive_directory_iterator(source)) {
     if (entry.path().extension() != ".h") continue;

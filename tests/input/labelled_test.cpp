@@ -11,6 +11,12 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+// As the tables of a campaign are read.
+std::vector<double> labelled_numbers(const Table& table, const char* name, const std::string& si) {
+  const ColumnChoice found = find_labelled(table, name, si);
+  return si == "K" ? kelvins(table, found) : si_numbers(table, found);
+}
+
 class LabelledTest : public ScratchTest {
  protected:
   Table table(const std::string& content) const { return read_table(write("a.csv", content)); }

@@ -124,14 +124,7 @@ CLI::Validator nested_parts() {
       "0 or 2 to 1000000");
 }
 
-}  // namespace
-
-void add_select_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<SelectOptions>();
-  CLI::App* select = app.add_subcommand(
-      "select", "Find the best terms of a regression among all submodels, with a proof");
-  SelectData& data = options->data;
-  SearchSettings& search = options->settings.search;
+void add_data_options(CLI::App* select, SelectData& data) {
   select->add_option("DATA", data.file, "Table: CSV, TSV, Parquet or JSON")->required();
   select->add_option("--sql", data.sql, "Query over the view `data`, instead of all its rows");
   select->add_option("--response", data.response, "Column to explain")->type_name("COLUMN");
@@ -146,8 +139,17 @@ void add_select_command(CLI::App& app, int& exit_code) {
           "Terms as given, instead: columns and products like A*A*B; the constant is added")
       ->delimiter(',')
       ->type_name("A,B,A*B");
+  select->add_option("--force", data.forced, "Terms that every model holds; the constant is 1")
+      ->delimiter(',')
+      ->type_name("T,T");
+  select->add_option("--weights", data.weights, "Column of weights: 1 / variance of a row")
+      ->type_name("COLUMN");
+}
+
+void add_search_options(CLI::App* select, SelectOptions& options) {
+  SearchSettings& search = options.settings.search;
   select
-      ->add_option("--criterion", options->criterion,
+      ->add_option("--criterion", options.criterion,
                    "loo (PRESS, so R2p), aic, aicc, bic, cp or adjr2")
       ->capture_default_str()
       ->type_name("NAME");
@@ -159,30 +161,25 @@ void add_select_command(CLI::App& app, int& exit_code) {
                    "And every model this near to the best: for loo relative (0.01: PRESS 1 % "
                    "above), else in units of the criterion")
       ->check(number_between(0, 1e9));
-  select->add_option("--force", data.forced, "Terms that every model holds; the constant is 1")
-      ->delimiter(',')
-      ->type_name("T,T");
-  select->add_option("--weights", data.weights, "Column of weights: 1 / variance of a row")
-      ->type_name("COLUMN");
-  select->add_flag("--cloud", options->cloud,
+  select->add_flag("--cloud", options.cloud,
                    "Look at every model, for the report's picture of them all (30 free terms or "
                    "fewer)");
   select->add_flag("--prove-sizes", search.prove_sizes,
                    "Prove the best model of every size too (done anyway for 20 free terms or "
                    "fewer); may take much longer");
   select
-      ->add_option("--folds", options->settings.folds,
+      ->add_option("--folds", options.settings.folds,
                    "k-fold cross-validation of the models found; a heuristic beside the criterion")
       ->check(CLI::Range(2, 1'000'000))
       ->type_name("K");
   select
-      ->add_option("--nested", options->settings.nested,
+      ->add_option("--nested", options.settings.nested,
                    "Parts of the rows that are left out of the whole search in turn, to know how "
                    "well rows are predicted that it has not seen; 0: none (default: 10, up to "
                    "2000 rows)")
       ->check(nested_parts())
       ->type_name("K");
-  select->add_option("--seed", options->settings.seed, "Seed of folds and parts (default 1)")
+  select->add_option("--seed", options.settings.seed, "Seed of folds and parts (default 1)")
       ->check(seed_number());
   select->add_option("--time", search.seconds, "Stop after so many seconds, proven or not")
       ->check(number_between(0, 1e9))
@@ -191,6 +188,16 @@ void add_select_command(CLI::App& app, int& exit_code) {
       ->add_option("--threads", search.threads,
                    "Threads (default: all); answers do not depend on it")
       ->check(CLI::Range(1, 1024));
+}
+
+}  // namespace
+
+void add_select_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SelectOptions>();
+  CLI::App* select = app.add_subcommand(
+      "select", "Find the best terms of a regression among all submodels, with a proof");
+  add_data_options(select, options->data);
+  add_search_options(select, *options);
   CLI::Option* json = select->add_flag("--json", options->json, "Print summary.json, nothing else");
   select->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
   select->add_option("-o,--output", options->output,

@@ -138,13 +138,15 @@ struct Refitted {
 
 // Empty where the quadrature fails.
 std::optional<Refitted> fitted_without(const Posterior& posterior, const Whitening& whitening,
-                                       std::size_t term, const Scores* scores) {
+                                       std::size_t term, const Scores* scores,
+                                       std::stop_token stop) {
   const Posterior others(posterior.parameters(),
                          std::make_shared<Without>(posterior.likelihood(), term));
   ExactSettings settings;
   settings.tolerance = 1e-3;
   settings.max_evaluations = 4'000'000;
   settings.second_moments = false;
+  settings.stop = std::move(stop);
   ExactPosterior exact = integrate(others, whitening, settings, posterior);
   if (!exact.failure.empty()) {
     // Without an observation that pulled it far away the posterior lies elsewhere.
@@ -251,11 +253,12 @@ Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double ef
 }
 
 double exact_elpd(const Posterior& posterior, const Whitening& whitening, std::size_t term) {
-  const auto refitted = fitted_without(posterior, whitening, term, nullptr);
+  const auto refitted = fitted_without(posterior, whitening, term, nullptr, {});
   return refitted ? refitted->elpd : std::numeric_limits<double>::quiet_NaN();
 }
 
-Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scores) {
+Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scores,
+                  const std::stop_token& stop) {
   const LogDensity& likelihood = *posterior.likelihood();
   if (!fit.exact) return psis_loo(likelihood, fit.pooled, efficiency_of(fit), scores);
   Loo loo = psis_loo(likelihood, fit.pooled);
@@ -286,7 +289,7 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
                         }) > most_refits;
   for (std::size_t i = 0; i < std::min<std::size_t>(uneven.size(), most_refits) && !too_many; ++i) {
     LooTerm& term = loo.terms[uneven[i]];
-    const auto refitted = fitted_without(posterior, fit.whitening, uneven[i], scores);
+    const auto refitted = fitted_without(posterior, fit.whitening, uneven[i], scores, stop);
     if (!refitted) continue;
     term.elpd = refitted->elpd;
     term.tail = refitted->tail;

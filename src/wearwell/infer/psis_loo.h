@@ -1,5 +1,7 @@
 #pragma once
 
+#include <stop_token>
+
 #include "wearwell/bayes/normal_score.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/bayes/weighted_draws.h"
@@ -17,8 +19,10 @@ Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double ef
              const Scores* scores = nullptr);
 
 /// The same. Where `fit` holds an exact posterior the densities are integrated over its nodes, and
-/// terms whose weights are uneven are fitted anew by quadrature; k-hat remains that of the draws.
-Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scores = nullptr);
+/// terms whose weights are uneven are fitted anew by quadrature; k-hat remains that of the draws. Throws
+/// `Cancelled` once `stop` is requested.
+Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scores = nullptr,
+                  const std::stop_token& stop = {});
 
 /// The exact elpd of one term: quadrature of the posterior of all others; NaN where that fails.
 double exact_elpd(const Posterior& posterior, const Whitening& whitening, std::size_t term);

@@ -104,7 +104,7 @@ Check exact_agreement(const Posterior& posterior, const Fit& fit) {
   constexpr double tolerated = 4;  // Monte Carlo standard errors
   Findings findings("exact-agreement");
   if (!fit.exact) {
-    findings.add(Verdict::warn, fmt::format("no exact posterior to compare with: {}", fit.no_exact),
+    findings.add(Verdict::warn, fmt::format("no quadrature to compare with: {}", fit.no_exact),
                  "Rely on the other checks.");
     return findings.result("");
   }
@@ -126,9 +126,9 @@ Check exact_agreement(const Posterior& posterior, const Fit& fit) {
       if (!(std::abs(distance) <= tolerated)) {
         findings.add(
             Verdict::fail,
-            fmt::format("the {} of {} is {:.1f} Monte Carlo standard errors from the exact one",
+            fmt::format("the {} of {} is {:.1f} Monte Carlo standard errors from quadrature",
                         what, posterior.parameters()[i].name, distance),
-            "Believe the exact numbers, and draw more.");
+            "Believe the numbers by quadrature, and draw more.");
       }
     }
   }

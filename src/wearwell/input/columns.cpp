@@ -130,6 +130,17 @@ std::string cell_word(const Column& column, std::size_t row) {
   return std::isnan(column.numbers[row]) ? "" : fmt::format("{}", column.numbers[row]);
 }
 
+std::vector<double> kelvins(const Table& table, const ColumnChoice& choice) {
+  std::vector<double> values = si_numbers(table, choice);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] < 0)
+      throw InputError(fmt::format("{}: {:.6g} is below absolute zero",
+                                   place(table, choice.column, i),
+                                   from_si(choice.unit, values[i])));
+  }
+  return values;
+}
+
 Table with_counts(const TomlReader& columns, Table table) {
   const auto count = read_column(columns, "count", "1", table);
   if (!count) return table;

@@ -45,6 +45,9 @@ inline std::vector<double> si_numbers(const Table& table, const ColumnChoice& ch
   return si_numbers(table, choice.column, choice.unit);
 }
 
+/// The same of temperatures. Throws InputError where one is below absolute zero.
+std::vector<double> kelvins(const Table& table, const ColumnChoice& choice);
+
 /// Throws InputError unless `good`: "FILE, row 3, column 'volume': -1 must be ALLOWED".
 void require(bool good, const Table& table, const ColumnChoice& choice, std::size_t row,
              const char* allowed);

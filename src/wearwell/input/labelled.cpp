@@ -6,14 +6,13 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
-#include "wearwell/input/columns.h"
 #include "wearwell/input/heading.h"
 
 namespace wearwell {
 namespace {
 
-LabelledColumn labelled(const Table& table, const Column& column, std::string_view name,
-                        std::string_view si) {
+ColumnChoice labelled(const Table& table, const Column& column, std::string_view name,
+                      std::string_view si) {
   const bool has_unit = !column.unit.empty() || !read_heading(column.name, si).unit.empty();
   if (!has_unit && !may_be_plain(si))
     throw InputError(fmt::format("{}, column '{}' has no unit: name it '{} [{}]'", table.source,
@@ -23,15 +22,15 @@ LabelledColumn labelled(const Table& table, const Column& column, std::string_vi
 
 }  // namespace
 
-LabelledColumn find_labelled(const std::vector<std::string>& headings, std::string_view name,
-                             std::string_view si, const std::string& source) {
+ColumnChoice find_labelled(const std::vector<std::string>& headings, std::string_view name,
+                           std::string_view si, const std::string& source) {
   Table table;
   table.source = source;
   for (const std::string& heading : headings) table.columns.push_back({heading, true, {}, {}});
   return find_labelled(table, name, si);
 }
 
-LabelledColumn find_labelled(const Table& table, std::string_view name, std::string_view si) {
+ColumnChoice find_labelled(const Table& table, std::string_view name, std::string_view si) {
   std::vector<std::string> names;
   for (const Column& column : table.columns) {
     if (column.name == name || read_heading(column.name, si).name == name)
@@ -43,19 +42,6 @@ LabelledColumn find_labelled(const Table& table, std::string_view name, std::str
       fmt::format("{} has no column '{}{}' (nearest: '{}')", table.source, name,
                   may_be_plain(si) ? "" : fmt::format(" [{}]", si),
                   table.columns[static_cast<std::size_t>(nearest - names.begin())].name));
-}
-
-std::vector<double> labelled_numbers(const Table& table, std::string_view name,
-                                     std::string_view si) {
-  const LabelledColumn found = find_labelled(table, name, si);
-  std::vector<double> values = si_numbers(table, found.heading, found.unit);
-  for (std::size_t i = 0; si == "K" && i < values.size(); ++i) {
-    if (values[i] < 0) {
-      throw InputError(fmt::format("{}: {:.6g} is below absolute zero",
-                                   place(table, found.heading, i), from_si(found.unit, values[i])));
-    }
-  }
-  return values;
 }
 
 }  // namespace wearwell

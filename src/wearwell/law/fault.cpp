@@ -18,10 +18,9 @@ std::size_t index(int i) {
 // Every node by itself, in the order in which they were written; slow, and for a message only.
 class Examination {
  public:
-  Examination(const Graph& graph, const std::vector<int>& roots, const Symbols& symbols)
+  Examination(const Graph& graph, const std::vector<int>& roots)
       : graph_(graph),
         roots_(roots),
-        symbols_(symbols),
         needed_(reachable(graph, roots)),
         values_(index(graph.size())) {}
 
@@ -138,7 +137,6 @@ class Examination {
 
   const Graph& graph_;
   const std::vector<int>& roots_;
-  const Symbols& symbols_;
   std::vector<bool> needed_;
   std::vector<Column> values_;
   std::vector<std::vector<bool>> asked_;
@@ -173,7 +171,7 @@ std::optional<Fault> Program::first_fault(const Data& data, std::size_t begin, s
                 .parameters[first[index(node.index)] + index(data.body_->labels[label][begin + r])];
     }
   };
-  Examination examination(body_->graph, body_->roots, symbols);
+  Examination examination(body_->graph, body_->roots);
   examination.compute(
       end - begin, data.body_->starts.data() + begin, [&](const Node& node, Column& out) {
         switch (node.op) {

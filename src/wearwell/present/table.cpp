@@ -86,8 +86,12 @@ std::string plain(const Cell& cell, const Format& format) {
 
 }  // namespace
 
+std::string heading(const std::string& name, const std::string& unit) {
+  return unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+}
+
 std::string heading(const Column& column) {
-  return column.unit == "1" ? column.name : fmt::format("{} [{}]", column.name, column.unit);
+  return heading(column.name, column.unit);
 }
 
 std::string in_words(double x, const Format& format) {

@@ -55,6 +55,7 @@ struct Column {
 };
 
 /// The heading of a column: "life [h]"; the name alone where the unit is 1.
+std::string heading(const std::string& name, const std::string& unit);
 std::string heading(const Column& column);
 
 /// A table as a report, a file and a terminal show it. Rows are as long as `columns`.

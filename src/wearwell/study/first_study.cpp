@@ -9,13 +9,10 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
+#include "wearwell/input/heading.h"
 
 namespace wearwell {
 namespace {
-
-struct Named {
-  std::string name, unit;  // the unit empty where the heading has none of the dimension
-};
 
 bool is_unit(const std::string& text, std::string_view si) {
   if (text.empty()) return false;
@@ -35,27 +32,22 @@ std::string plain_powers(std::string text) {
   return text;
 }
 
-// "volume [mm³]", "volume (mm³)", "volume / mm³", "volume in mm³", "volume_mm3".
-Named named(const std::string& heading, std::string_view si) {
-  const auto split = [&](std::size_t name_end, std::size_t begin, std::size_t end) {
-    Named result{heading.substr(0, name_end), plain_powers(heading.substr(begin, end - begin))};
-    if (!is_unit(result.unit, si)) result.unit.clear();
-    return result;
-  };
-  for (const auto& [open, close] : {std::pair{'[', ']'}, {'(', ')'}}) {
-    const std::size_t begin = heading.find(open), end = heading.rfind(close);
-    if (begin != heading.npos && end != heading.npos && begin < end)
-      return split(begin, begin + 1, end);
+// Name and unit of a heading; no unit where it has none of the dimension. Words may stand behind
+// brackets, and a unit behind a blank alone.
+Heading named(const std::string& heading, std::string_view si) {
+  const std::size_t close = heading.find_last_of("])");
+  const bool brackets = close != heading.npos && heading.find_first_of("[(") < close;
+  Heading found = read_heading(brackets ? heading.substr(0, close + 1) : heading, si);
+  found.unit = plain_powers(found.unit);
+  if (found.certain && !is_unit(found.unit, si)) found.unit.clear();
+  if (brackets || !found.unit.empty()) return found;
+  for (std::size_t at = heading.find(' '); at != heading.npos && at > 0;
+       at = heading.find(' ', at + 1)) {
+    const std::string unit = plain_powers(heading.substr(at + 1));
+    if (unit.find_first_not_of("0123456789") != unit.npos && is_unit(unit, si))
+      return {heading.substr(0, at), unit};
   }
-  for (const std::string_view separator : {" / ", " in ", ", ", "/", "_", " "}) {
-    for (std::size_t at = heading.find(separator); at != heading.npos && at > 0;
-         at = heading.find(separator, at + 1)) {
-      const Named result = split(at, at + separator.size(), heading.size());
-      if (!result.unit.empty() && result.unit.find_first_not_of("0123456789") != std::string::npos)
-        return result;
-    }
-  }
-  return {heading, ""};
+  return found;
 }
 
 // In lower case, with one blank for whatever is neither letter nor digit, and one at either end.
@@ -117,7 +109,7 @@ const Column* HeadingGuesses::find(std::string_view si, const std::vector<std::s
     for (const Column& column : table_.columns) {
       if (std::find(used_.begin(), used_.end(), &column) != used_.end()) continue;
       if (numbers && !has_numbers(column)) continue;
-      const Named heading = named(column.name, si);
+      const Heading heading = named(column.name, si);
       if (!is_called(heading.name, name)) continue;
       unit = heading.unit;
       return &column;
@@ -155,12 +147,13 @@ std::string HeadingGuesses::line(const std::string& name, const Found& found) {
                      toml_text(found.unit), found.unit_guessed ? "    # the unit is a GUESS" : "");
 }
 
-std::vector<std::string> HeadingGuesses::left() const {
-  std::vector<std::string> names;
+FirstStudy HeadingGuesses::study(std::string text) const {
+  FirstStudy study{std::move(text), taken, guesses};
   for (const Column& column : table_.columns) {
-    if (std::find(used_.begin(), used_.end(), &column) == used_.end()) names.push_back(column.name);
+    if (std::find(used_.begin(), used_.end(), &column) == used_.end())
+      study.guesses.push_back(fmt::format("column '{}' is not used", column.name));
   }
-  return names;
+  return study;
 }
 
 }  // namespace wearwell

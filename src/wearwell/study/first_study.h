@@ -38,9 +38,11 @@ class HeadingGuesses {
   /// guess.
   static std::string line(const std::string& name, const Found& found);
 
-  /// What was taken, what was guessed, and the headings that nobody asked for.
+  /// What was taken, and what was guessed.
   std::vector<std::string> taken, guesses;
-  std::vector<std::string> left() const;
+
+  /// The study of that text, with these and the headings that nobody asked for.
+  FirstStudy study(std::string text) const;
 
  private:
   const Column* find(std::string_view si, const std::vector<std::string_view>& names, bool numbers,

@@ -105,9 +105,9 @@ std::vector<Figure> joint_figures(const PosteriorSummary& result, const Plots& p
           }
         }
         figures.push_back(
-            {"exact-joint", names + ", exact",
+            {"exact-joint", names + ", by quadrature",
              "The density by quadrature, on the same axes: where it is dark, draws are to be.",
-             plot::plot("Exact joint density of " + names, x, y,
+             plot::plot("Joint density by quadrature of " + names, x, y,
                         {plot::cells({{"x", xs(x1)},
                                       {"x2", xs(x2)},
                                       {"y", ys(y1)},

@@ -71,6 +71,89 @@ Draws in_units(const PosteriorStudy& study, Draws draws) {
   return draws;
 }
 
+// How many of the sampler's iterations there will be.
+long long iterations(const PosteriorStudy& study, const FitSettings& settings) {
+  if (settings.method == Method::exact) return 0;
+  const RunSettings& run = settings.run;
+  const long long fits =
+      study.stages && study.data_rows <= most_stages ? static_cast<long long>(study.data_rows) : 1;
+  return fits * run.chains * (run.warmup + run.draws);
+}
+
+std::optional<LooSummary> left_out_one_by_one(const PosteriorStudy& study,
+                                              const Posterior& posterior, const Fit& fit,
+                                              const std::stop_token& stop) {
+  if (!proper(fit)) return std::nullopt;
+  const bool scored = study.fit_data && study.fit_data->terms && study.fit_data->cheap;
+  Loo loo = leave_one_out(posterior, fit, scored ? &study.fit_data->scores : nullptr, stop);
+  if (loo.terms.empty()) return std::nullopt;
+  return LooSummary{study.observation, std::move(loo)};
+}
+
+// The study, its fit, and what follows from it: all but what judges it.
+PosteriorSummary described(const PosteriorStudy& study, const FitSettings& settings,
+                           const Posterior& posterior, const Fit& fit) {
+  const WeightedDraws& nodes = fit.exact ? fit.exact->nodes : fit.pooled;
+  PosteriorSummary result;
+  result.version = WEARWELL_VERSION;
+  result.title = study.title;
+  result.model = study.model;
+  result.equation = study.equation;
+  result.data_file = study.data_file;
+  result.data_rows = study.data_rows;
+  result.data_fingerprint = fingerprint(study.quantity, study.observed);
+  result.method = method_name(fit.method);
+  result.chains = settings.run.chains;
+  result.warmup = fit.method == Method::exact ? 0 : fit.run.warmup;
+  result.draws = fit.run.draws;
+  result.seed = settings.run.seed;
+  result.quantity = study.quantity;
+  result.parameters = summarize_parameters(posterior, fit);
+  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
+    result.parameters[i].meaning = study.meanings[i];
+    result.parameters[i].prior = prior_in_words(study.parameters[i]);
+    result.parameters[i].prior_is_default = study.parameters[i].is_default;
+  }
+  if (study.curve) result.curve = study.curve(nodes);
+  result.predictions = summarize(study.predictions, fit);
+  result.quantities = summarize_quantities(study, fit);
+  result.pointwise = study.pointwise;
+  if (study.life) result.life = summarize(*study.life, fit);
+  if (study.coverage) result.coverage = study.coverage(nodes);
+  if (fit.exact) {
+    result.log_evidence = fit.exact->log_evidence;
+    result.quadrature = {settings.exact.tolerance, fit.exact->error,
+                         static_cast<std::size_t>(fit.exact->nodes.values.rows())};
+  }
+  return result;
+}
+
+// One fit for each data set but the last: after that the stage is the whole, `final`. `plots`, when
+// wanted, takes the densities.
+void add_stages(const PosteriorStudy& study, const FitSettings& settings, const Fit& final,
+                PosteriorSummary& result, std::optional<Plots>& plots) {
+  if (study.data_rows > most_stages) {
+    result.checks.push_back(
+        {"stages", Verdict::warn,
+         fmt::format("none: one fit for each of {} data sets is too much; at most {} are updated "
+                     "one by one",
+                     study.data_rows, most_stages),
+         "Leave update.stages out."});
+    return;
+  }
+  const std::size_t last = study.data_rows - 1;
+  result.stages.resize(study.data_rows);
+  result.stages[last] =
+      summarize_stage(study, study.data_rows, result.parameters, result.checks, final);
+  std::vector<WeightedDraws> densities(plots ? study.data_rows : 0);
+  tbb::parallel_for(std::size_t{0}, last, [&](std::size_t i) {
+    result.stages[i] = run_stage(study, settings, i + 1, plots ? &densities[i] : nullptr);
+  });
+  if (!plots) return;
+  densities[last] = final.exact ? final.exact->nodes : final.pooled;
+  plots->stages = stage_densities(study.parameters.front(), 0, densities);
+}
+
 }  // namespace
 
 FitSettings fit_settings(const PosteriorStudy& study, const SamplerChoice& choice) {
@@ -119,100 +202,33 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   }
   FitSettings settings = fit_settings(study, choice);
   Progress progress(monitor, "iterations");
+  progress.expect(iterations(study, settings));
   settings.run.progress = &progress;
   settings.exact.stop = monitor.stop;
-  if (settings.method != Method::exact) {
-    const RunSettings& run = settings.run;
-    const long long fits = study.stages && study.data_rows <= most_stages
-                               ? static_cast<long long>(study.data_rows)
-                               : 1;
-    progress.expect(fits * run.chains * (run.warmup + run.draws));
-  }
+
   const Posterior whole(study.parameters, study.likelihood(study.data_rows));
   Fit final = fit(whole, settings);
   const std::shared_ptr<const Posterior> quick = final.quick;
   const Posterior& posterior = quick ? *quick : whole;
   std::optional<Plots> plots;
   if (with_plots) plots = plot_study(study, posterior, final);
-
-  std::optional<LooSummary> loo;
-  if (proper(final)) {
-    const bool scored = study.fit_data && study.fit_data->terms && study.fit_data->cheap;
-    Loo each = leave_one_out(posterior, final, scored ? &study.fit_data->scores : nullptr);
-    if (!each.terms.empty()) loo = {study.observation, std::move(each)};
-  }
+  std::optional<LooSummary> loo = left_out_one_by_one(study, posterior, final, monitor.stop);
   const NaturalMode natural = natural_mode(posterior, final);
-  const ModeSummary mode =
-      summarize_mode(study, posterior, final, natural,
-                     loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
   for (Shortfall& each : later_shortfalls(whole, final, natural)) {
     final.shortfalls.push_back(std::move(each));
   }
 
-  PosteriorSummary result;
-  result.version = WEARWELL_VERSION;
-  result.title = study.title;
-  result.model = study.model;
-  result.equation = study.equation;
-  result.data_file = study.data_file;
-  result.data_rows = study.data_rows;
-  result.method = method_name(final.method);
-  result.chains = settings.run.chains;
-  result.warmup = final.method == Method::exact ? 0 : final.run.warmup;
-  result.draws = final.run.draws;
-  result.seed = settings.run.seed;
-  result.quantity = study.quantity;
-  result.parameters = summarize_parameters(posterior, final);
-  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
-    result.parameters[i].meaning = study.meanings[i];
-    result.parameters[i].prior = prior_in_words(study.parameters[i]);
-    result.parameters[i].prior_is_default = study.parameters[i].is_default;
-  }
-  if (study.curve) result.curve = study.curve(final.exact ? final.exact->nodes : final.pooled);
-  result.predictions = summarize(study.predictions, final);
-  result.quantities = summarize_quantities(study, final);
-  result.pointwise = study.pointwise;
-  result.log_evidence = final.exact ? final.exact->log_evidence : std::nullopt;
+  PosteriorSummary result = described(study, settings, posterior, final);
+  result.mode =
+      summarize_mode(study, posterior, final, natural,
+                     loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
   result.checks = all_checks(study, posterior, final, loo);
-  result.posterior_draws = in_units(study, std::move(final.draws));
-  if (final.exact) {
-    result.quadrature = {settings.exact.tolerance, final.exact->error,
-                         static_cast<std::size_t>(final.exact->nodes.values.rows())};
-  }
-  result.data_fingerprint = fingerprint(study.quantity, study.observed);
-  result.mode = mode;
   result.loo = std::move(loo);
-  if (study.life) {
-    result.life = summarize(*study.life, final);
-    if (result.life->now > 0) result.checks.push_back(limit_check(*result.life));
-  }
+  if (result.life && result.life->now > 0) result.checks.push_back(limit_check(*result.life));
   result.checks.push_back(sense_check(result));
   result.trusted = trusted(result.checks);
-  if (study.coverage) {
-    result.coverage = study.coverage(final.exact ? final.exact->nodes : final.pooled);
-  }
-  if (study.stages && study.data_rows > most_stages) {
-    result.checks.push_back(
-        {"stages", Verdict::warn,
-         fmt::format("none: one fit for each of {} data sets is too much; at most {} are updated "
-                     "one by one",
-                     study.data_rows, most_stages),
-         "Leave update.stages out."});
-  } else if (study.stages) {
-    // After the last data set the stage is the whole.
-    const std::size_t last = study.data_rows - 1;
-    result.stages.resize(study.data_rows);
-    result.stages[last] =
-        summarize_stage(study, study.data_rows, result.parameters, result.checks, final);
-    std::vector<WeightedDraws> densities(plots ? study.data_rows : 0);
-    tbb::parallel_for(std::size_t{0}, last, [&](std::size_t i) {
-      result.stages[i] = run_stage(study, settings, i + 1, plots ? &densities[i] : nullptr);
-    });
-    if (plots) {
-      densities[last] = final.exact ? final.exact->nodes : final.pooled;
-      plots->stages = stage_densities(study.parameters.front(), 0, densities);
-    }
-  }
+  result.posterior_draws = in_units(study, std::move(final.draws));
+  if (study.stages) add_stages(study, settings, final, result, plots);
   if (plots) {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     plots->seconds = taken.count();

@@ -18,21 +18,13 @@
 namespace wearwell {
 namespace {
 
-std::string number(double x) {
-  return plain_number(x);
-}
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return printable(unit == "1" ? name : fmt::format("{} [{}]", name, unit));
-}
-
 // The better of the two: quadrature where there is one.
 std::string parameter_table(const PosteriorSummary& result) {
   std::vector<std::vector<std::string>> rows = {{"", "mean", "sd", "5 %", "50 %", "95 %"}};
   for (const ParameterSummary& p : result.parameters) {
     const ExactSummary b = p.best();
-    rows.push_back({with_unit(p.name, p.unit), number(b.mean), number(b.sd), number(b.q05),
-                    number(b.q50), number(b.q95)});
+    rows.push_back({printable_heading(p.name, p.unit), plain_number(b.mean), plain_number(b.sd),
+                    plain_number(b.q05), plain_number(b.q50), plain_number(b.q95)});
   }
   std::string out = text_table(rows);
   const std::string defaults = default_priors(result.parameters);
@@ -47,8 +39,9 @@ std::string parameter_table(const PosteriorSummary& result) {
 std::string draws_table(const std::vector<ParameterSummary>& parameters) {
   std::vector<std::vector<std::string>> rows = {{"", "mean", "MCSE", "sd", "ESS", "R-hat"}};
   for (const ParameterSummary& p : parameters) {
-    rows.push_back({with_unit(p.name, p.unit), number(p.mean), fmt::format("{:.2g}", p.mcse),
-                    number(p.sd), fmt::format("{:.0f}", std::min(p.ess_bulk, p.ess_tail)),
+    rows.push_back({printable_heading(p.name, p.unit), plain_number(p.mean),
+                    fmt::format("{:.2g}", p.mcse), plain_number(p.sd),
+                    fmt::format("{:.0f}", std::min(p.ess_bulk, p.ess_tail)),
                     fmt::format("{:.3f}", p.rhat)});
   }
   return text_table(rows);
@@ -56,7 +49,7 @@ std::string draws_table(const std::vector<ParameterSummary>& parameters) {
 
 std::string profile_ends(const ProfileSummary& profile) {
   const auto end = [](double value, const std::string& open) {
-    return open.empty() ? number(value) : "open";
+    return open.empty() ? plain_number(value) : "open";
   };
   return end(profile.lower, profile.lower_open) + " .. " + end(profile.upper, profile.upper_open);
 }
@@ -67,14 +60,14 @@ std::string mode_lines(const ModeSummary& mode) {
   const auto profile = mode.profile();
   if (profile) rows[0].push_back(fmt::format("{:.4g} % profile interval", 100 * profile->level));
   for (const ModeParameter& p : mode.parameters) {
-    rows.push_back({with_unit(p.name, p.unit), number(p.value),
-                    p.at == "inside" ? number(p.standard_error) : "on its " + p.at});
+    rows.push_back({printable_heading(p.name, p.unit), plain_number(p.value),
+                    p.at == "inside" ? plain_number(p.standard_error) : "on its " + p.at});
     if (profile) rows.back().push_back(p.profile ? profile_ends(*p.profile) : "-");
   }
   for (const ModeQuantity& q : mode.quantities) {
-    rows.push_back({fmt::format("{} of {}{}{}", with_unit(q.name, q.unit), q.of,
+    rows.push_back({fmt::format("{} of {}{}{}", printable_heading(q.name, q.unit), q.of,
                                 q.at.empty() ? "" : " ", q.at),
-                    number(q.value), "-", profile_ends(q.profile)});
+                    plain_number(q.value), "-", profile_ends(q.profile)});
   }
   return text_table(rows) + fmt::format("  log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f}{}\n",
                                         mode.log_likelihood, mode.aic, mode.bic,
@@ -122,12 +115,12 @@ std::string histogram(const Draws& draws, Eigen::Index parameter) {
 std::string histogram_lines(const PosteriorSummary& result) {
   std::size_t width = 0;
   for (const ParameterSummary& p : result.parameters) {
-    width = std::max(width, with_unit(p.name, p.unit).size());
+    width = std::max(width, printable_heading(p.name, p.unit).size());
   }
   std::string out;
   for (std::size_t i = 0; i < result.parameters.size(); ++i) {
     const ParameterSummary& p = result.parameters[i];
-    out += fmt::format("  {:<{}}  {}\n", with_unit(p.name, p.unit), width,
+    out += fmt::format("  {:<{}}  {}\n", printable_heading(p.name, p.unit), width,
                        histogram(result.posterior_draws, static_cast<Eigen::Index>(i)));
   }
   return out;
@@ -136,23 +129,23 @@ std::string histogram_lines(const PosteriorSummary& result) {
 std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
   const PredictionSummary& first = predictions.front();
   std::vector<std::vector<std::string>> rows = {
-      {first.at_name, with_unit(first.quantity, first.unit),
+      {first.at_name, printable_heading(first.quantity, first.unit),
        first.mean_of.empty() ? "mean wear 5 %..95 %" : first.mean_of + " 5 %..95 %",
        first.mean_of.empty() ? "measurement 5 %..95 %" : first.measured_of + " reads 5 %..95 %",
        "measured"}};
   for (const PredictionSummary& each : predictions) {
     const Prediction& p = each.best();
-    rows.push_back({fmt::format("{}", each.at), number(p.mean),
-                    fmt::format("{} .. {}", number(p.ci05), number(p.ci95)),
-                    fmt::format("{} .. {}", number(p.pi05), number(p.pi95)),
-                    each.measured ? number(*each.measured) : "-"});
+    rows.push_back({fmt::format("{}", each.at), plain_number(p.mean),
+                    fmt::format("{} .. {}", plain_number(p.ci05), plain_number(p.ci95)),
+                    fmt::format("{} .. {}", plain_number(p.pi05), plain_number(p.pi95)),
+                    each.measured ? plain_number(*each.measured) : "-"});
   }
   return text_table(rows);
 }
 
 std::string b_value(const QuantitySummary& each, double x) {
   if (!each.is_life) return "-";
-  return std::isinf(x) ? "never" : number(x);
+  return std::isinf(x) ? "never" : plain_number(x);
 }
 
 // Of one item each, a new one where items differ; those of one name and place stand together. Where
@@ -167,12 +160,14 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
-    const std::string heading = with_unit(each.name, each.unit) + " " + printable(each.at);
+    const std::string heading = printable_heading(each.name, each.unit) + " " + printable(each.at);
     if (heading != above) rows.push_back({heading});
     above = heading;
-    rows.push_back({"  " + printable(each.of), number(q.q05), number(q.q50), number(q.q95)});
+    rows.push_back(
+        {"  " + printable(each.of), plain_number(q.q05), plain_number(q.q50), plain_number(q.q95)});
     if (!bounds) {
-      rows.back().push_back(!each.safe_end ? "-" : number(*each.safe_end < 0.5 ? q.q05 : q.q95));
+      rows.back().push_back(!each.safe_end ? "-"
+                                           : plain_number(*each.safe_end < 0.5 ? q.q05 : q.q95));
     }
     for (const double b : {q.b1, q.b10}) rows.back().push_back(b_value(each, b));
   }
@@ -193,13 +188,13 @@ std::string bound_table(const std::vector<QuantitySummary>& quantities) {
       rows.push_back({"", "at least, " + level, "5 %", "50 %", "95 %", "next one"});
     }
     const bool alone = each.at.starts_with("for ");  // a question of its own
-    const std::string heading = alone ? with_unit(each.name, each.unit)
+    const std::string heading = alone ? printable_heading(each.name, each.unit)
                                       : printable(each.of + (each.at.empty() ? "" : " ") + each.at);
     if (heading != above) rows.push_back({heading});
     above = heading;
-    rows.push_back({"  " + (alone ? printable(each.at) : with_unit(each.name, each.unit)),
-                    number(*q.bound), number(q.q05), number(q.q50), number(q.q95),
-                    number(*q.predictive)});
+    rows.push_back({"  " + (alone ? printable(each.at) : printable_heading(each.name, each.unit)),
+                    plain_number(*q.bound), plain_number(q.q05), plain_number(q.q50),
+                    plain_number(q.q95), plain_number(*q.predictive)});
   }
   if (rows.empty()) return "";
   return "\nDesign values\n" + text_table(rows) +
@@ -252,20 +247,20 @@ std::string life_lines(const LifeSummary& summary) {
   };
   const std::string lives =
       fmt::format("{}{} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})", unit,
-                  summary.of.empty() ? "" : " of a " + printable(summary.of), number(summary.limit),
-                  printable(summary.limit_unit), count(life.b1), count(life.b10), count(life.b50),
-                  count(life.q05), count(life.q95));
+                  summary.of.empty() ? "" : " of a " + printable(summary.of),
+                  plain_number(summary.limit), printable(summary.limit_unit), count(life.b1),
+                  count(life.b10), count(life.b50), count(life.q05), count(life.q95));
   const std::string passed = fmt::format(
       "after {} {} the limit is passed already with a probability of {}{}", summary.now, unit,
       probability_in_words(life.passed),
       summary.passed_beyond_risk() ? fmt::format(": more than the risk of {} % that is tolerated",
-                                                 number(100 * summary.risk))
+                                                 plain_number(100 * summary.risk))
                                    : "");
   const bool used = summary.now > 0;
   return wrapped(lives, 2, 4) + (used ? wrapped(passed, 2, 4) : "") +
          wrapped(fmt::format("{} within {} {}: {} % risk of reaching it before",
                              used ? "if it is not passed, inspect again" : "inspect a new one",
-                             count(life.inspect_within, 3), unit, number(100 * summary.risk)),
+                             count(life.inspect_within, 3), unit, plain_number(100 * summary.risk)),
                  2, 4);
 }
 

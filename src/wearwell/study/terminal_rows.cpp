@@ -5,6 +5,7 @@
 
 #include "wearwell/base/printable.h"
 #include "wearwell/present/plain.h"
+#include "wearwell/present/table.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/long_tables.h"
 #include "wearwell/study/trust_blocks.h"
@@ -12,27 +13,19 @@
 namespace wearwell {
 namespace {
 
-std::string number(double x) {
-  return plain_number(x);
-}
-
-std::string with_unit(const std::string& name, const std::string& unit) {
-  return printable(unit == "1" ? name : fmt::format("{} [{}]", name, unit));
-}
-
 // The better of the two: quadrature where there is one.
 std::string stage_table(const std::vector<StageSummary>& stages) {
   std::vector<std::vector<std::string>> rows = {{"rows"}};
   for (const ParameterSummary& p : stages.front().parameters) {
-    rows[0].push_back(with_unit(p.name, p.unit));
+    rows[0].push_back(printable_heading(p.name, p.unit));
     rows[0].push_back("sd");
   }
   rows[0].push_back("trusted");
   for (const StageSummary& stage : stages) {
     rows.push_back({fmt::format("{}", stage.rows)});
     for (const ParameterSummary& p : stage.parameters) {
-      rows.back().push_back(number(p.exact ? p.exact->mean : p.mean));
-      rows.back().push_back(number(p.exact ? p.exact->sd : p.sd));
+      rows.back().push_back(plain_number(p.exact ? p.exact->mean : p.mean));
+      rows.back().push_back(plain_number(p.exact ? p.exact->sd : p.sd));
     }
     rows.back().push_back(trust_word(stage.checks));
   }
@@ -56,28 +49,29 @@ const char* place_of(const CoverageRow& row) {
 
 std::string coverage_table(const CoverageTable& table) {
   std::vector<std::vector<std::string>> rows = {{"row", "type", "outcome",
-                                                 with_unit("life", table.unit), "share below",
-                                                 "90 % interval", "B10", ""}};
+                                                 printable_heading("life", table.unit),
+                                                 "share below", "90 % interval", "B10", ""}};
   for (const CoverageRow& row : table.rows) {
     if (rows.size() > most_rows) break;
     rows.push_back({fmt::format("{}", row.row), row.label, row.outcome,
-                    row.until ? fmt::format("{} .. {}", number(row.life), number(*row.until))
-                              : number(row.life),
+                    row.until
+                        ? fmt::format("{} .. {}", plain_number(row.life), plain_number(*row.until))
+                        : plain_number(row.life),
                     fmt::format("{:.1f} %", 100 * row.probability),
-                    fmt::format("{} .. {}", number(row.q05), number(row.q95)), number(row.b10),
-                    place_of(row)});
+                    fmt::format("{} .. {}", plain_number(row.q05), plain_number(row.q95)),
+                    plain_number(row.b10), place_of(row)});
   }
   return text_table(rows, true) + rest_line(table.rows.size(), coverage_table_file);
 }
 
 std::string pointwise_table(const PointwiseTable& p) {
   std::vector<std::vector<std::string>> rows = {
-      {"cycles", with_unit("F", p.force_unit), with_unit("s", p.slip_unit),
-       with_unit("V", p.volume_unit), with_unit("k = V/(F s)", p.k_unit)}};
+      {"cycles", printable_heading("F", p.force_unit), printable_heading("s", p.slip_unit),
+       printable_heading("V", p.volume_unit), printable_heading("k = V/(F s)", p.k_unit)}};
   for (const PointwiseRow& row : p.rows) {
     if (rows.size() > most_rows) break;
-    rows.push_back({fmt::format("{}", row.cycles), number(row.force), number(row.slip),
-                    number(row.volume), number(row.k)});
+    rows.push_back({fmt::format("{}", row.cycles), plain_number(row.force), plain_number(row.slip),
+                    plain_number(row.volume), plain_number(row.k)});
   }
   return text_table(rows) + rest_line(p.rows.size(), pointwise_table_file);
 }
@@ -85,6 +79,10 @@ std::string pointwise_table(const PointwiseTable& p) {
 }  // namespace
 
 // Tables with a line for each row of the data, or where they are.
+std::string printable_heading(const std::string& name, const std::string& unit) {
+  return printable(present::heading(name, unit));
+}
+
 std::string row_tables(const PosteriorSummary& result, bool shown) {
   std::string out;
   std::vector<std::string> files;

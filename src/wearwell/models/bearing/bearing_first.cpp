@@ -4,14 +4,15 @@
 
 #include <set>
 
+#include "wearwell/input/columns.h"
+
 namespace wearwell::bearing {
 namespace {
 
 bool repeats(const Column& column) {
   std::set<std::string> seen;
   const std::size_t rows = column.is_number ? column.numbers.size() : column.text.size();
-  for (std::size_t i = 0; i < rows; ++i)
-    seen.insert(column.is_number ? fmt::format("{}", column.numbers[i]) : column.text[i]);
+  for (std::size_t i = 0; i < rows; ++i) seen.insert(cell_word(column, i));
   return seen.size() > 1 && seen.size() < rows;
 }
 
@@ -73,10 +74,8 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
   columns += HeadingGuesses::line("depth", *depth);
   const bool scatter = bearing && repeats(*bearing->column);
 
-  FirstStudy study;
-  const std::string name = toml_text(file);
-  study.text = fmt::format(
-      "title = \"Wear rate of bearings, from {}\"\n"
+  return headings.study(fmt::format(
+      "title = {}\n"
       "model = \"bearing-wear\"\n\n"
       "[data]\nfile = {}\n[data.columns]\n{}\n"
       "[conditions]                             # what is the same for all rows\n{}\n"
@@ -87,15 +86,10 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
       "# pressure = \"1.5 MPa\"\n# limit = \"80 um\"                        # when is it worn so "
       "deep?\n"
       "# risk = \"1 %\"                           # and when to inspect it?\n",
-      name.substr(1, name.size() - 2), name, columns, conditions,
+      toml_text("Wear rate of bearings, from " + file), toml_text(file), columns, conditions,
       scatter ? "[prior]\nk_scatter = { law = \"default\" }         # bearings differ; leave it "
                 "out if all have one wear rate\n"
-              : "");
-  study.taken = headings.taken;
-  study.guesses = headings.guesses;
-  for (const std::string& each : headings.left())
-    study.guesses.push_back(fmt::format("column '{}' is not used", each));
-  return study;
+              : ""));
 }
 
 }  // namespace wearwell::bearing

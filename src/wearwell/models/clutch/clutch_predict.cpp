@@ -44,7 +44,7 @@ class Reader {
     const Table all = stream_.columns();
     for (int c = 0; c < places; ++c) {
       columns_.push_back(find_labelled(all, names[c], dimensions[c]));
-      headings.push_back(columns_.back().heading);
+      headings.push_back(columns_.back().column);
     }
     std::vector<std::string> known_names(known.size());
     bool named = false;
@@ -103,7 +103,7 @@ class Reader {
               fmt::format("{}, row {}, column '{}': {} must be a whole number of at "
                           "least 1",
                           stream_.source(), batch.first_row + i + 1,
-                          columns_[static_cast<std::size_t>(c)].heading, raw[i]));
+                          columns_[static_cast<std::size_t>(c)].column, raw[i]));
       }
       return raw;
     };
@@ -126,12 +126,12 @@ class Reader {
     const double raw = batch.raw[static_cast<std::size_t>(c)][static_cast<std::size_t>(i)];
     throw InputError(fmt::format("{}, row {}, column '{}': {} {}", stream_.source(),
                                  batch.first_row + static_cast<std::size_t>(i) + 1,
-                                 columns_[static_cast<std::size_t>(c)].heading,
+                                 columns_[static_cast<std::size_t>(c)].column,
                                  std::isnan(raw) ? "no value;" : fmt::format("{}", raw), allowed));
   }
 
   ColumnStream stream_;
-  std::vector<LabelledColumn> columns_;
+  std::vector<ColumnChoice> columns_;
   ColumnStream::Batch chunk_;
   std::shared_ptr<const std::vector<std::string>> names_;
 };

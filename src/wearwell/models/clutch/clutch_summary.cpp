@@ -193,37 +193,40 @@ std::string sequences_csv(const ClutchResult& r) {
   return csv;
 }
 
-std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
-  std::string out = wrapped(printable(study.title), 0, 2) +
-                    fmt::format("{} cycles, {} weighings; {} points to model with, {} held out\n",
-                                study.campaign.cycles.size(), study.campaign.weighings.size(),
-                                r.points.size(), r.held_out.size());
-  if (study.simulated) out += "Simulated: the truth is known, no measurement stands behind it.\n";
-  const auto section = [&](const char* title, const std::vector<std::vector<std::string>>& rows) {
-    out += fmt::format("\n{}\n{}", title, text_table(rows));
-  };
-  const std::string trust = wrapped(printable(trust_line(r.checks)), 0, 2);
-  out += "\n" + trust;
-  std::vector<std::vector<std::string>> rows;
-  if (!r.lives.empty()) {
-    rows = {{"operating point", "worn", "cycles", "95 % scatter", "95 % full", "without run-in"}};
-    for (const NamedLife& each : r.lives) {
-      for (const LifeAtLevel& at : each.life.levels)
-        rows.push_back({each.name, fmt::format("{:.0f} %", 100 * at.level),
-                        fmt::format("{:.0f}", at.repetitions), in_words(at.scatter),
-                        in_words(at.full), fmt::format("{:.0f}", at.without_run_in)});
-    }
-    section("Life (cycles)", rows);
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string section(const char* title, const Rows& rows) {
+  return fmt::format("\n{}\n{}", title, text_table(rows));
+}
+
+std::string lives_text(const ClutchResult& r) {
+  if (r.lives.empty()) return "";
+  Rows rows = {
+      {"operating point", "worn", "cycles", "95 % scatter", "95 % full", "without run-in"}};
+  for (const NamedLife& each : r.lives) {
+    for (const LifeAtLevel& at : each.life.levels)
+      rows.push_back({each.name, fmt::format("{:.0f} %", 100 * at.level),
+                      fmt::format("{:.0f}", at.repetitions), in_words(at.scatter),
+                      in_words(at.full), fmt::format("{:.0f}", at.without_run_in)});
   }
-  rows = {{""}, {"fitted"}, {"standard error"}};
+  return section("Life (cycles)", rows);
+}
+
+std::string run_in_text(const ClutchResult& r) {
+  Rows rows = {{""}, {"fitted"}, {"standard error"}};
   for (int i = 0; i < RunInFit::size; ++i) {
     const RunInConstant& constant = run_in_constants[static_cast<std::size_t>(i)];
     rows[0].push_back(constant.name);
     rows[1].push_back(fmt::format("{:.4g}", r.run_in.parameters[i] / constant.si));
     rows[2].push_back(fmt::format("{:.2g}", std::sqrt(r.run_in.covariance(i, i)) / constant.si));
   }
-  section("Run-in (mm^3/MJ, MJ)", rows);
-  rows = {{"model", "r", "q", "terms", "R2", "R2p", "RMSE", "RMSEp"}};
+  return section("Run-in (mm^3/MJ, MJ)", rows);
+}
+
+std::string maps_text(const ClutchResult& r) {
+  Rows rows = {{"model", "r", "q", "terms", "R2", "R2p", "RMSE", "RMSEp"}};
   for (const WearMap& map : r.maps) {
     const bool surrogate = map.r > 0;
     rows.push_back({map.name, surrogate ? fmt::format("{:.1f}", map.r) : "-",
@@ -233,52 +236,74 @@ std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
                     fmt::format("{:.2f}", map.fit.rmse / mm3_per_MJ),
                     fmt::format("{:.2f}", map.fit.rmsep / mm3_per_MJ)});
   }
-  section("Wear rate (mm^3/MJ)", rows);
-  out += "selected terms:";
-  for (const std::string& name : term_names(r.maps.front())) out += " " + name;
+  std::string out = section("Wear rate (mm^3/MJ)", rows);
   const std::vector<std::string> selected = term_names(r.maps.front());
+  out += fmt::format("selected terms: {}", fmt::join(selected, " "));
   if (std::find(selected.begin(), selected.end(), "1") == selected.end())
     out += "\n(without the constant 1: the choice depends on where the inputs have their zero)";
   out += fmt::format("\nR2 of points left out of the whole search: {:.3f} +- {:.3f} ({} parts)",
                      r.nested.r2, r.nested.r2_error, r.nested.folds);
-  out += fmt::format(
-      "\nthe best by leave-one-out of {:.0f} submodels at each of {} pairs of exponents\n",
-      r.search.submodels, r.search.pairs.size());
-  rows = {{"sigma_w", "-log L", "AIC", "KS p", "Lilliefors p"}};
+  return out + fmt::format(
+                   "\nthe best by leave-one-out of {:.0f} submodels at each of {} pairs of "
+                   "exponents\n",
+                   r.search.submodels, r.search.pairs.size());
+}
+
+std::string scatter_text(const ClutchResult& r) {
+  Rows rows = {{"sigma_w", "-log L", "AIC", "KS p", "Lilliefors p"}};
   for (const ScatterFit& fit : r.scatter.candidates)
     rows.push_back({formula_of(fit.law.kind), fmt::format("{:.2f}", fit.negative_log_likelihood),
                     fmt::format("{:.2f}", fit.aic), fmt::format("{:.3f}", fit.kolmogorov.p),
                     fmt::format("{:.2f}", fit.lilliefors.p)});
-  section("Scatter", rows);
-  if (!r.validation.points.empty()) {
-    rows = {{"held-out points", "points", "R2", "RMSE [mm^3/MJ]"}};
-    const auto add = [&](const char* name, const Validation::Metrics& m) {
-      rows.push_back({name, fmt::format("{}", m.points), fmt::format("{:.3f}", m.r2),
-                      fmt::format("{:.2f}", m.rmse / mm3_per_MJ)});
-    };
-    add("all", r.validation.all);
-    if (r.validation.without_outliers.points < r.validation.all.points)
-      add("without outliers", r.validation.without_outliers);
-    section("Validation", rows);
+  return section("Scatter", rows);
+}
+
+std::string validation_text(const ClutchResult& r) {
+  if (r.validation.points.empty()) return "";
+  Rows rows = {{"held-out points", "points", "R2", "RMSE [mm^3/MJ]"}};
+  const auto add = [&](const char* name, const Validation::Metrics& m) {
+    rows.push_back({name, fmt::format("{}", m.points), fmt::format("{:.3f}", m.r2),
+                    fmt::format("{:.2f}", m.rmse / mm3_per_MJ)});
+  };
+  add("all", r.validation.all);
+  if (r.validation.without_outliers.points < r.validation.all.points)
+    add("without outliers", r.validation.without_outliers);
+  return section("Validation", rows);
+}
+
+std::string sequences_text(const ClutchResult& r) {
+  if (r.sequences.empty()) return "";
+  Rows rows = {
+      {"sequence", "cycles", "measured [mm^3]", "predicted", "error", "95 % scatter", "95 % full"}};
+  for (const SequenceResult& s : r.sequences) {
+    const auto& last = s.weighings.back();
+    rows.push_back({s.name, fmt::format("{}", last.cycle),
+                    fmt::format("{:.0f}", last.measured / mm3),
+                    fmt::format("{:.0f}", last.predicted / mm3), percent(s.final_error()),
+                    "+- " + percent(2 * last.sd / last.predicted),
+                    "+- " + percent(2 * last.full_sd / last.predicted)});
   }
-  if (!r.sequences.empty()) {
-    rows = {{"sequence", "cycles", "measured [mm^3]", "predicted", "error", "95 % scatter",
-             "95 % full"}};
-    for (const SequenceResult& s : r.sequences) {
-      const auto& last = s.weighings.back();
-      rows.push_back({s.name, fmt::format("{}", last.cycle),
-                      fmt::format("{:.0f}", last.measured / mm3),
-                      fmt::format("{:.0f}", last.predicted / mm3), percent(s.final_error()),
-                      "+- " + percent(2 * last.sd / last.predicted),
-                      "+- " + percent(2 * last.full_sd / last.predicted)});
-    }
-    section("Sequences, at their end", rows);
-  }
-  rows = {{"check", "verdict", "what was found"}};
+  return section("Sequences, at their end", rows);
+}
+
+std::string checks_text(const ClutchResult& r) {
+  Rows rows = {{"check", "verdict", "what was found"}};
   for (const Check& check : r.checks)
     rows.push_back({check.name, verdict_kind(check.verdict), check.detail});
-  out += "\nChecks\n" + text_table(rows, true);
-  out += "\n" + trust;
+  return "\nChecks\n" + text_table(rows, true);
+}
+
+}  // namespace
+
+std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
+  const std::string trust = wrapped(printable(trust_line(r.checks)), 0, 2);
+  std::string out = wrapped(printable(study.title), 0, 2) +
+                    fmt::format("{} cycles, {} weighings; {} points to model with, {} held out\n",
+                                study.campaign.cycles.size(), study.campaign.weighings.size(),
+                                r.points.size(), r.held_out.size());
+  if (study.simulated) out += "Simulated: the truth is known, no measurement stands behind it.\n";
+  out += "\n" + trust + lives_text(r) + run_in_text(r) + maps_text(r) + scatter_text(r) +
+         validation_text(r) + sequences_text(r) + checks_text(r) + "\n" + trust;
   return printable_lines(out);
 }
 

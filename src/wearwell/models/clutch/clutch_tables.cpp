@@ -18,15 +18,9 @@ namespace {
 /// A column in SI, temperatures in degrees Celsius.
 std::vector<double> column(const CampaignTable& from, const Input& input) {
   const ColumnChoice choice = from.numbers(input.name, input.si);
-  std::vector<double> values = si_numbers(from.table, choice);
-  if (input.value != &OperatingPoint::temperature) return values;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] < 0)
-      throw InputError(fmt::format("{}: {:.6g} is below absolute zero",
-                                   place(from.table, choice.column, i),
-                                   from_si(choice.unit, values[i])));
-    values[i] -= celsius_zero;
-  }
+  if (input.value != &OperatingPoint::temperature) return si_numbers(from.table, choice);
+  std::vector<double> values = kelvins(from.table, choice);
+  for (double& value : values) value -= celsius_zero;
   return values;
 }
 
@@ -141,8 +135,7 @@ ColumnChoice CampaignTable::numbers(const std::string& name, const std::string& 
   if (columns) {
     if (const auto choice = read_column(*columns, name, si, table)) return *choice;
   }
-  const LabelledColumn found = find_labelled(table, name, si);
-  return {found.heading, found.unit};
+  return find_labelled(table, name, si);
 }
 
 const Column& CampaignTable::words(const std::string& name) const {

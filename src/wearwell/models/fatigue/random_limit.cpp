@@ -40,7 +40,7 @@ LimitedLifeSlopes integral(const LimitedLife<double>& item, Outcome outcome, dou
     y.value = -infinity;  // an empty integral has no reference either
     return y;
   }
-  const auto mean = [&](Which which) { return sums[which] / sums[mass]; };
+  const auto mean = [&s = sums](Which which) { return s[which] / s[mass]; };
   y.by_log10_reversed = mean(of_w) / item.scale + mean(of_center) / item.b;
   y.by_log10_a = -mean(of_center) / item.b;
   y.by_b = -mean(of_center_center) / item.b;

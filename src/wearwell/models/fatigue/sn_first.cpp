@@ -71,10 +71,8 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
     headings.guesses.emplace_back(
         "no column says which tests were stopped unbroken: all count as failures");
 
-  FirstStudy study;
-  const std::string name = toml_text(file);
-  study.text = fmt::format(
-      "title = \"S-N curve, from {}\"\n"
+  return headings.study(fmt::format(
+      "title = {}\n"
       "model = \"sn\"\n\n"
       "[data]\nfile = {}\n[data.columns]\n{}\n"
       "[law]\nmean_stress = \"{}\"{}\n\n"
@@ -85,18 +83,13 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
       "{}# b_lives = [1, 10]                       # when 1 and 10 % have failed\n"
       "# required_life = \"1e6 cycles\"            # which alternating stress lets\n"
       "# reliability = [\"90 %\"]                  # such a share outlast that?\n",
-      name.substr(1, name.size() - 2), name, columns, means ? "goodman" : "none",
+      toml_text("S-N curve, from " + file), toml_text(file), columns, means ? "goodman" : "none",
       means ? "                   # or gerber, soderberg, morrow, swt, walker, none"
             : "                      # all tests at one mean stress or ratio",
       means ? "# log10_Sut = { law = \"normal\", mean = \"3 log10(MPa)\", sd = 0.02 }    # the "
               "strength of a tensile test\n"
             : "",
-      "types = \"all\"                            # lives under every stress that was tested\n");
-  study.taken = headings.taken;
-  study.guesses = headings.guesses;
-  for (const std::string& each : headings.left())
-    study.guesses.push_back(fmt::format("column '{}' is not used", each));
-  return study;
+      "types = \"all\"                            # lives under every stress that was tested\n"));
 }
 
 }  // namespace wearwell::fatigue

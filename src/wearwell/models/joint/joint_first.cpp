@@ -46,9 +46,8 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
   }
   const auto values = values_of(*cycles->column);
   const double last = values.empty() ? 1 : *std::max_element(values.begin(), values.end());
-  FirstStudy study;
-  study.text = fmt::format(
-      "title = \"Wear of a joint, from {0}\"\n"
+  return headings.study(fmt::format(
+      "title = {0}\n"
       "model = \"archard-joint\"\n\n"
       "[data]\nfile = {1}\n[data.columns]\n{2}{3}\n"
       "[likelihood]\nfamily = \"normal\"\n\n"
@@ -56,23 +55,14 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
       "answer:\n"
       "# [prior]\n# k = {{ law = \"lognormal\", median = \"1e-5 mm^3/(N m)\", log_sd = 2 }}\n\n"
       "[predict]\n{4}",
-      [&] {
-        std::string name = toml_text(file);
-        return name.substr(1, name.size() - 2);
-      }(),
-      toml_text(file), columns, conditions,
+      toml_text("Wear of a joint, from " + file), toml_text(file), columns, conditions,
       slip || work
           ? "# work_per_cycle = \"5 N m\"             # of cycles to come: then cycles = [...] and "
             "limit = \"...\"\n"
           : fmt::format("cycles = [{:.0f}]{}\n# limit = \"100 mm^3\"                  # when is it "
                         "reached?\n"
                         "# risk  = \"1 %\"                       # and when to inspect again\n",
-                        2 * last, "                         # twice what was run"));
-  study.taken = headings.taken;
-  study.guesses = headings.guesses;
-  for (const std::string& name : headings.left())
-    study.guesses.push_back(fmt::format("column '{}' is not used", name));
-  return study;
+                        2 * last, "                         # twice what was run")));
 }
 
 }  // namespace wearwell::joint

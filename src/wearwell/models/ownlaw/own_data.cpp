@@ -24,19 +24,14 @@ auto find(const Columns& columns, const std::string& name) {
   return at == columns.end() ? nullptr : &*at;
 }
 
-std::string cell(const Column& column, std::size_t row) {
-  return column.is_number ? fmt::format("{}", column.numbers[row]) : column.text[row];
-}
-
 LabelColumn read_labels(const Table& table, const std::string& name, const Column& column) {
   LabelColumn result{name, column.name, {}, {}};
   for (std::size_t i = 0; i < table.rows; ++i) {
-    const bool empty = column.is_number ? std::isnan(column.numbers[i]) : column.text[i].empty();
-    if (empty) {
+    const std::string text = cell_word(column, i);
+    if (text.empty()) {
       throw InputError(
           fmt::format("{}: no value; a label must not be empty", place(table, column.name, i)));
     }
-    const std::string text = cell(column, i);
     const auto at = std::find(result.levels.begin(), result.levels.end(), text);
     result.at.push_back(static_cast<int>(at - result.levels.begin()));
     if (at == result.levels.end()) result.levels.push_back(text);
@@ -76,7 +71,7 @@ Seen read_seen(const Table& table, const Column& column, std::size_t row) {
       {"runout", Seen::above},    {"run-out", Seen::above},    {"right", Seen::above},
       {"S", Seen::above},         {"1", Seen::above},          {"left", Seen::below},
       {"-1", Seen::below},        {"interval", Seen::between}, {"2", Seen::between}};
-  const std::string word = cell(column, row);
+  const std::string word = cell_word(column, row);
   for (const auto& [name, seen] : words) {
     if (word == name) return seen;
   }

@@ -354,7 +354,7 @@ class OwnLikelihood final : public LogDensity {
       if (scratch.linear) {
         scratch.rows.move_to(x.data());
         scratch.linear->move();
-        if (const auto sum = scratch.linear->sum_of_one()) return number(*sum);
+        if (const auto sum = scratch.linear->sum()) return number(*sum);
       }
       return number(rows_->integrate(x.data()).sum());
     }
@@ -372,7 +372,7 @@ class OwnLikelihood final : public LogDensity {
     if (scratch.linear) {
       scratch.rows.move_to(x.data());
       scratch.linear->move();
-      if (const auto all = scratch.linear->sum_of_one(gradient)) return number(*all);
+      if (const auto all = scratch.linear->sum(gradient)) return number(*all);
     }
     const double sum = law_->varies() ? number(rows_->integrate(x.data()).sum()) : value(x);
     if (!(sum > -infinity)) return sum;
@@ -403,7 +403,7 @@ class OwnLikelihood final : public LogDensity {
     if (scratch.linear) {
       scratch.rows.move_to(x.data());
       scratch.linear->move();
-      if (std::vector<double> each; scratch.linear->each_of_one(each)) return each;
+      if (std::vector<double> each; scratch.linear->each(each)) return each;
     }
     if (law_->varies()) return rows_->integrate(x.data()).log_likelihood;
     scratch.rows.move_to(x.data());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <regex>
 
+#include "wearwell/models/ownlaw/normal_unit.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
 // Longer than others: one special case of the likelihood, whose sums are all of one kind.
@@ -12,6 +13,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double half_log_two_pi = 0.91893853320467274178;
+
+using Matrix2 = Eigen::Matrix2d;
+using Vector2 = Eigen::Vector2d;
 
 bool has_cases(const OwnLaw& law) {
   static const std::regex cases(R"(\b(where|min|max|abs)\b|[<>=])");
@@ -282,25 +286,47 @@ struct LognormalUnit {
   }
 };
 
-// One effect that is normal: its steps are a z.
-double log_normal_unit(double top, double best, double bend, double a) {
-  const double b = 1 + bend * a * a;
-  return top - 0.5 * bend * best * best / b - 0.5 * std::log(b);
-}
-
 }  // namespace
 
-bool LinearUnits::each_of_one(std::vector<double>& log_likelihood) const {
-  if (effects_ != 1) return false;
-  const double s = rows_.population().scatter[0];
+bool LinearUnits::in_closed_form() const {
+  const auto& effects = law_.effects;
+  return std::none_of(effects.begin(), effects.end(), [](const auto& e) { return e.lognormal; });
+}
+
+Matrix2 LinearUnits::steps_of_z() const {
+  const Population& population = rows_.population();
+  Matrix2 A = Matrix2::Zero();
+  A(0, 0) = population.scatter[0] / width_[0];
+  if (effects_ == 1) return A;
+  const double r = population.correlation, a = population.scatter[1] / width_[1];
+  A(1, 0) = a * r;
+  A(1, 1) = a * std::sqrt(1 - r * r);
+  return A;
+}
+
+Vector2 LinearUnits::Parabola::at() const {
+  return {best[0], best[1]};
+}
+
+Matrix2 LinearUnits::Parabola::H() const {
+  Matrix2 H;
+  H << bend[0], bend[1], bend[1], bend[2];
+  return H;
+}
+
+bool LinearUnits::each(std::vector<double>& log_likelihood) const {
+  const bool closed = in_closed_form();
+  if (!closed && effects_ != 1) return false;
+  const Matrix2 A = steps_of_z();
   log_likelihood.assign(parabola_.size(), -infinity);
   for (std::size_t u = 0; u < parabola_.size(); ++u) {
     const Parabola& p = parabola_[u];
     if (!(p.top > -infinity)) continue;
-    if (!law_.effects[0].lognormal) {
-      log_likelihood[u] = log_normal_unit(p.top, p.best[0], p.bend[0], s / width_[0]);
+    if (closed) {
+      log_likelihood[u] = p.top + NormalUnit(p.at(), p.H(), A).log_integral;
       continue;
     }
+    const double s = rows_.population().scatter[0];
     const auto integral = LognormalUnit{p.best[0], p.bend[0], s}.log_integral(nullptr);
     if (!integral) return false;
     log_likelihood[u] = p.top + *integral - half_log_two_pi;
@@ -343,8 +369,46 @@ bool LinearUnits::integrate_one(latent::UnitIntegrals& result) const {
   return true;
 }
 
-std::optional<double> LinearUnits::sum_of_one(std::span<double> gradient) {
-  if (effects_ != 1) return {};
+std::optional<double> LinearUnits::sum(std::span<double> gradient) {
+  if (in_closed_form()) return sum_of_normal(gradient);
+  if (effects_ == 1) return sum_of_lognormal(gradient);
+  return {};
+}
+
+double LinearUnits::sum_of_normal(std::span<double> gradient) {
+  const Population& population = rows_.population();
+  const Matrix2 A = steps_of_z();
+  const double r = population.correlation, rest = std::sqrt(1 - r * r);
+  double sum = 0;
+  Population by;
+  for (std::size_t u = 0; u < parabola_.size(); ++u) {
+    const Parabola& p = parabola_[u];
+    if (!(p.top > -infinity)) return -infinity;
+    const Matrix2 H = p.H();
+    const NormalUnit unit(p.at(), H, A);
+    sum += p.top + unit.log_integral;
+    if (gradient.empty()) continue;
+    const Vector2 first = A * unit.mean;
+    const Matrix2 second = A * unit.square * A.transpose();
+    moments_[u] = {{first[0], first[1]}, {second(0, 0), second(0, 1), second(1, 1)}};
+    // By steps, as means: of the slope itself, and of it times z.
+    const Vector2 slope = -H * (first - p.at());
+    const Matrix2 slope_z = -H * (A * unit.square - p.at() * unit.mean.transpose());
+    by.middle[0] += slope[0] / width_[0];
+    by.scatter[0] += slope_z(0, 0) / width_[0];
+    if (effects_ == 1) continue;
+    by.middle[1] += slope[1] / width_[1];
+    by.scatter[1] += (r * slope_z(1, 0) + rest * slope_z(1, 1)) / width_[1];
+    if (law_.correlated) {
+      by.correlation +=
+          population.scatter[1] / width_[1] * (slope_z(1, 0) - r / rest * slope_z(1, 1));
+    }
+  }
+  if (!gradient.empty() && std::isfinite(sum)) add_gradient_of_moments(by, gradient);
+  return sum;
+}
+
+std::optional<double> LinearUnits::sum_of_lognormal(std::span<double> gradient) {
   const Population& population = rows_.population();
   const double s = population.scatter[0], middle = population.middle[0];
   const bool sloped = !gradient.empty();
@@ -355,18 +419,6 @@ std::optional<double> LinearUnits::sum_of_one(std::span<double> gradient) {
     const Parabola& p = parabola_[u];
     Moments& m = moments_[u];
     if (!(p.top > -infinity)) return -infinity;
-    if (!law_.effects[0].lognormal) {
-      // The effect's steps are normal: a z.
-      const double a = s / width_[0], b = 1 + p.bend[0] * a * a;
-      const double mean = p.bend[0] * a * p.best[0] / b;
-      sum += log_normal_unit(p.top, p.best[0], p.bend[0], a);
-      if (!sloped) continue;
-      const double square = mean * mean + 1 / b;
-      m = {{a * mean, 0}, {a * a * square, 0, 0}};
-      by.middle[0] -= p.bend[0] * (a * mean - p.best[0]) / width_[0];
-      by.scatter[0] -= p.bend[0] * (a * square - p.best[0] * mean) / width_[0];
-      continue;
-    }
     const LognormalUnit unit{p.best[0], p.bend[0], s};
     const auto integral = unit.log_integral(sloped ? &nodes : nullptr);
     if (!integral) return {};

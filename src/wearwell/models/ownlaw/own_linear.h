@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -32,12 +33,12 @@ class LinearUnits final : public latent::UnitTerms {
   void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
                 std::span<double> value, std::span<double> slope) override;
 
-  /// The sum of the units' log likelihoods, where one effect is integrated out unit by unit: the same
-  /// rule as latent::integrate with all that a parabola spares. Nothing where that does not settle.
-  /// With `gradient` that is added as well, where it settles.
-  std::optional<double> sum_of_one(std::span<double> gradient = {});
-  /// Each unit's instead; false where that does not settle or there are two effects.
-  bool each_of_one(std::vector<double>& log_likelihood) const;
+  /// The sum of the units' log likelihoods: in closed form where all effects are normal; of one
+  /// lognormal effect by the same rule as latent::integrate with all that a parabola spares. Nothing
+  /// elsewhere, or where that does not settle. With `gradient` that is added as well.
+  std::optional<double> sum(std::span<double> gradient = {});
+  /// Each unit's instead; false where `sum` gives nothing.
+  bool each(std::vector<double>& log_likelihood) const;
   /// With the nodes, where the one effect is lognormal; false elsewhere.
   bool integrate_one(latent::UnitIntegrals& result) const;
 
@@ -49,10 +50,16 @@ class LinearUnits final : public latent::UnitTerms {
   // the standard deviation is very small.
   struct Parabola {
     double top = 0, best[2] = {}, bend[3] = {};  // 00, 01, 11
+    Eigen::Vector2d at() const;
+    Eigen::Matrix2d H() const;
   };
   struct Moments {
     double first[2] = {}, second[3] = {};
   };
+  bool in_closed_form() const;
+  Eigen::Matrix2d steps_of_z() const;
+  double sum_of_normal(std::span<double> gradient);
+  std::optional<double> sum_of_lognormal(std::span<double> gradient);
   void fill(std::size_t c);
   void steps(const double* z, double* step, double* effect) const;
   void add_gradient_of_moments(const Population& by, std::span<double> gradient);

@@ -13,7 +13,6 @@ namespace wearwell::ownlaw {
 namespace {
 
 constexpr std::size_t most_points = 4000;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The ends of cells of equal width that fill the standard normal law, up to 1e-16 of it.
 struct NormalCells {

@@ -1,0 +1,148 @@
+#include "wearwell/models/joint/joint_predictions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wearwell/models/joint/work_history.h"
+
+namespace wearwell::joint {
+namespace {
+
+double largest(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+// Friction work against cycles. Where the work per cycle is constant, it is so past and to come.
+struct Course {
+  std::optional<double> rate;  // J a cycle, of what comes
+  WorkHistory history;
+};
+
+Course read_course(const std::optional<TomlReader>& predict, const JointData& data) {
+  std::optional<double> rate = data.work_per_cycle;
+  if (predict && !rate) {
+    if (const auto future = predict->quantity("work_per_cycle", "N m/cycle")) {
+      if (!(future->si() > 0)) predict->fail("work_per_cycle", "must be positive");
+      rate = future->si();
+    }
+  }
+  return {rate, data.work_per_cycle ? WorkHistory({}, {}, rate)
+                                    : WorkHistory(data.cycles, data.inspections.work, rate)};
+}
+
+struct Volumes {
+  Archard law;
+  ObservationFamily family;
+  Unit unit;
+
+  PredictionRequest at(double cycles, double work, std::optional<double> measured) const {
+    return {"cycles",
+            cycles,
+            "volume",
+            unit,
+            [law = law, work](const double* x) { return law.mean_volume(x, work); },
+            [](const double* x) { return x[1]; },
+            family,
+            measured};
+  }
+};
+
+void need_rate(const TomlReader& predict, const Course& course, const char* key) {
+  if (!course.rate)
+    predict.fail(key, "needs the work of future cycles; give predict.work_per_cycle");
+}
+
+// The curve ends after the last inspection or prediction, or somewhat after the limit.
+void add_curve(const std::optional<TomlReader>& predict, const Course& course,
+               const Volumes& volumes, const JointData& data, PosteriorStudy& study) {
+  constexpr int points = 32;
+  double end = largest(data.cycles);
+  if (predict && course.rate) {
+    for (const Quantity& cycles : predict->quantities("cycles", "cycle")) {
+      end = std::max(end, cycles.si());
+    }
+    if (const auto limit = predict->quantity("limit", "m^3")) {
+      const double k = least_squares(data.inspections).k;
+      const double reached = course.history.cycles_at(limit->si() / k);
+      if (reached > 0) end = std::max(end, std::min(reached, 3 * end));
+    }
+    end *= 1.1;
+  }
+  for (int i = 0; i <= points; ++i) {
+    const double cycles = end * std::max<double>(i, 1e-3) / points;
+    study.history.push_back(volumes.at(cycles, course.history.work_at(cycles), {}));
+  }
+}
+
+void add_volumes(const TomlReader& predict, const Course& course, const Volumes& volumes,
+                 const JointData& data, PosteriorStudy& study) {
+  const double seen = largest(data.cycles);
+  for (const Quantity& cycles : predict.quantities("cycles", "cycle")) {
+    need_rate(predict, course, "cycles");
+    if (!(cycles.si() >= 0)) predict.fail("cycles", "must be 0 or more");
+    std::optional<double> measured;
+    for (std::size_t i = 0; i < data.cycles.size(); ++i) {
+      if (data.cycles[i] == cycles.si()) measured = data.inspections.volume[i];
+    }
+    study.predictions.push_back(
+        volumes.at(cycles.si(), course.history.work_at(cycles.si()), measured));
+    study.reaches.push_back({fmt::format("the prediction at {:.6g} cycles", cycles.si()),
+                             fmt::format("the last inspection was after {:.6g} cycles", seen),
+                             cycles.si(), seen});
+  }
+}
+
+void add_life(const TomlReader& predict, const Course& course, const Archard& law,
+              const JointData& data, PosteriorStudy& study) {
+  const auto risk = predict.quantity("risk", "1");
+  if (risk && !(risk->si() > 0 && risk->si() < 1))
+    predict.fail("risk", "must lie between 0 and 1, as 0.05 or \"5 %\"");
+  const auto limit = predict.quantity("limit", "m^3");
+  if (!limit) {
+    if (risk) predict.fail("risk", "needs predict.limit");
+    return;
+  }
+  need_rate(predict, course, "limit");
+  if (!(limit->si() > 0)) predict.fail("limit", "must be positive");
+  const double most = largest(data.inspections.volume);
+  if (most > 0) {
+    study.reaches.push_back({fmt::format("the limit of {:.6g} {}", limit->value, limit->unit.text),
+                             fmt::format("the largest volume measured is {:.4g} {}",
+                                         from_si(data.volume_unit, most), data.volume_unit.text),
+                             limit->si(), most});
+  }
+  study.life = LifeRequest{
+      Unit{"1", 1, 0},
+      "cycles",
+      *limit,
+      largest(data.cycles),
+      risk ? risk->si() : 0.01,
+      [law, history = course.history, limit = limit->si()](const WeightedDraws& draws) {
+        return life_law(draws,
+                        [&](const double* x) { return history.cycles_at(law.work_at(x, limit)); });
+      }};
+}
+
+}  // namespace
+
+void add_predictions(const TomlReader& root, const Archard& law, ObservationFamily family,
+                     const JointData& data, PosteriorStudy& study) {
+  const auto predict = root.table("predict");
+  const Course course = read_course(predict, data);
+  const Volumes volumes{law, family, data.volume_unit};
+  study.stage_predictions = [volumes, cycles = data.cycles,
+                             inspections = data.inspections](std::size_t rows) {
+    std::vector<PredictionRequest> requests;
+    for (std::size_t i = rows - 1; i < std::min(rows + 1, cycles.size()); ++i) {
+      requests.push_back(volumes.at(cycles[i], inspections.work[i], inspections.volume[i]));
+    }
+    return requests;
+  };
+  add_curve(predict, course, volumes, data, study);
+  if (!predict) return;
+  add_volumes(*predict, course, volumes, data, study);
+  add_life(*predict, course, law, data, study);
+}
+
+}  // namespace wearwell::joint
