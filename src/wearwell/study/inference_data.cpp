@@ -134,11 +134,14 @@ Group sample_stats(const PosteriorSummary& result) {
   return group;
 }
 
-// "worn volume" is of the column whose values it has; columns of a law are named.
+// Columns of a law are named in what it measures; "worn volume" is the column that has its values.
 bool is_observed(const PosteriorStudy& study, const DataColumn& column) {
-  if (column.values == study.observed) return true;
   const std::string names = ", " + study.quantity + ",";
-  return names.find(", " + column.name + ",") != std::string::npos;
+  const auto named = [&](const DataColumn& each) {
+    return names.find(", " + each.name + ",") != std::string::npos;
+  };
+  const bool any = std::any_of(study.data_columns.begin(), study.data_columns.end(), named);
+  return any ? named(column) : column.values == study.observed;
 }
 
 Group data_group(const std::string& name, const PosteriorStudy& study,

@@ -1,4 +1,5 @@
 // Studies of laws in the user's own words, from file to answer.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -139,6 +140,40 @@ TEST_F(OwnStudy, LivesOfMachinesThatDiffer) {
     }
     EXPECT_NEAR(sum / static_cast<double>(chain.values.rows()), p, 0.012);
   }
+}
+
+// A unit in the heading is that of the column, as in every other trade; a plain column has none.
+TEST_F(OwnStudy, UnitsStandInHeadingsToo) {
+  write("wear.csv", "d [um],s [km],corrected [yes]\n1.1,1,1\n1.9,2,1\n3.2,3,2\n");
+  const auto study = [](const char* depth, const char* path) {
+    return fmt::format(R"toml(
+model = "law"
+[data]
+file = "wear.csv"
+[data.columns]
+depth = {}
+path = {}
+flag = "corrected [yes]"
+[likelihood.depth]
+family = "normal"
+mean = "k*path*flag^0"
+sd = "sigma"
+[prior]
+k = {{ law = "half-normal", scale = "1 um/km" }}
+sigma = {{ law = "half-normal", scale = "1 um" }}
+)toml",
+                       depth, path);
+  };
+  const char* const named_depth = "{ column = \"d [um]\", unit = \"um\" }";
+  const char* const named_path = "{ column = \"s [km]\", unit = \"km\" }";
+  const PosteriorSummary said = run(study(named_depth, named_path));
+  const PosteriorSummary read = run(study("\"d [um]\"", "\"s\""));
+  EXPECT_EQ(said.parameters[0].exact->mean, read.parameters[0].exact->mean);
+  EXPECT_EQ(said.data_fingerprint, read.data_fingerprint);
+  EXPECT_NEAR(read.parameters[0].exact->mean, 1.02, 0.1);
+  const std::string refused = refusal(study(named_depth, "{ column = \"s [km]\", unit = \"m\" }"));
+  EXPECT_NE(refused.find("'s [km]' is in km by its heading, and m is given"), std::string::npos)
+      << refused;
 }
 
 TEST_F(OwnStudy, WrongStudiesAreRefusedWithTheirPlace) {

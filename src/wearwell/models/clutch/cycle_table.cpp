@@ -14,24 +14,24 @@ namespace wearwell::clutch {
 namespace {
 
 Eigen::ArrayXd checked(const Table& table, const char* name, const char* si, bool positive) {
-  const LabelledColumn column = find_labelled(table, name, si);
-  const std::vector<double> values = si_numbers(table, column.heading, column.unit);
+  const ColumnChoice column = find_labelled(table, name, si);
+  const std::vector<double> values = si_numbers(table, column.column, column.unit);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (positive ? values[i] > 0 : values[i] >= 0) continue;
     throw InputError(
-        fmt::format("{}: {} {}", place(table, column.heading, i), from_si(column.unit, values[i]),
+        fmt::format("{}: {} {}", place(table, column.column, i), from_si(column.unit, values[i]),
                     positive ? "must be a positive number" : "is below absolute zero"));
   }
   return Eigen::Map<const Eigen::ArrayXd>(values.data(), std::ssize(values));
 }
 
 std::vector<double> whole(const Table& table, const char* name, const char* si, double most) {
-  const LabelledColumn column = find_labelled(table, name, si);
-  std::vector<double> values = si_numbers(table, column.heading, column.unit);
+  const ColumnChoice column = find_labelled(table, name, si);
+  std::vector<double> values = si_numbers(table, column.column, column.unit);
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i] >= 1 && values[i] <= most && values[i] == std::trunc(values[i])) continue;
     throw InputError(fmt::format("{}: {} must be a whole number of at least 1",
-                                 place(table, column.heading, i), values[i]));
+                                 place(table, column.column, i), values[i]));
   }
   return values;
 }

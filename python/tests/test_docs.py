@@ -1,0 +1,29 @@
+"""docs/python.md: every block of Python, in its order, in one namespace, where the examples are."""
+
+import os
+import re
+import warnings
+
+import wearwell as ww
+from conftest import source
+
+
+def test_every_block_runs(tmp_path, monkeypatch):
+    with open(os.path.join(source, "docs", "python.md")) as file:
+        text = file.read()
+    blocks = [(text[:m.start()].count("\n") + 2, m[1]) for m in re.finditer(r"```python\n(.*?)```", text, re.S)]
+    assert len(blocks) >= 8
+    os.symlink(os.path.join(source, "examples"), tmp_path / "examples")
+    monkeypatch.chdir(tmp_path)
+    space = {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        for line, block in blocks:
+            exec(compile("\n" * (line - 1) + block, "docs/python.md", "exec"), space)
+    assert sorted(os.listdir("joint-results"))[:2] == ["draws_1.csv", "draws_2.csv"]
+    assert space["joint"].trusted and space["left"].loc[0, "of"] == "joint J5"
+
+
+def test_readme_of_the_wheel():
+    with open(os.path.join(source, "python", "README.md")) as file:
+        assert "ww.fit" in file.read()

@@ -1,0 +1,130 @@
+"""Selections, comparisons, bearings and clutch cycles: the answers of the program."""
+
+import json
+import os
+import warnings
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import wearwell as ww
+
+
+def test_selection_is_the_programs(examples, wearwell, tmp_path):
+    table = os.path.join(examples, "select", "wear.csv")
+    _, out, _ = wearwell("select", table, "--response", "w", "--inputs", "Td,n,Mz", "--degree", 2, "--json")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        of_file = ww.select(table, "w", inputs=["Td", "n", "Mz"], degree=2)
+        frame = pd.read_csv(table, float_precision="round_trip")
+        of_frame = ww.select(frame, "w", inputs=["Td", "n", "Mz"], degree=2, report=True)
+    there = json.loads(out)
+    for found in (of_file, of_frame):
+        here = dict(found.summary)
+        assert found.trusted
+        for each in (here, there):
+            each.pop("seconds", None), each.pop("nodes", None)
+            each["data"].pop("files", None), each["data"].pop("file", None), each["data"].pop("sha1", None)
+        assert here == there
+    assert len(of_frame.models) == 10
+    of_frame.report(tmp_path / "page.html")
+    assert (tmp_path / "page.html").stat().st_size > 10_000
+    with pytest.raises(ww.InputError, match="report=True"):
+        of_file.report(tmp_path / "none.html")
+
+
+@pytest.mark.parametrize("options, message", [
+    ({"inputs": ["a"]}, "has no column 'a'|a"), ({"inputs": []}, "inputs"), ({"inputs": ["Td"], "criterion": "x"}, "x"),
+    ({"inputs": ["w"]}, "cannot explain itself"), ({"inputs": ["Td"], "degree": 0}, "degree")])
+def test_selections_that_are_refused(examples, options, message):
+    frame = pd.read_csv(os.path.join(examples, "select", "wear.csv"))
+    with pytest.raises(ValueError, match=message):
+        ww.select(frame, "w", **options)
+
+
+def test_comparison_is_the_programs(examples, wearwell, tmp_path):
+    folder = os.path.join(examples, "joint")
+    fits = {}
+    for name in ("normal_flat", "lognormal_flat"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ww.CheckWarning)
+            fits[name] = ww.fit(os.path.join(folder, f"{name}.toml"), seed=1, report=False)
+        fits[name].write(tmp_path / name)
+    _, out, _ = wearwell("compare", tmp_path / "normal_flat", tmp_path / "lognormal_flat", "--json")
+    both = ww.compare(*fits.values(), names=[str(tmp_path / name) for name in fits])
+    assert both.summary == json.loads(out)
+    mixed = ww.compare(tmp_path / "normal_flat", fits["lognormal_flat"])
+    assert {s["study"] for s in mixed.summary["studies"]} == {str(tmp_path / "normal_flat"), "b"}
+    with pytest.raises(ww.InputError, match="two fits"):
+        ww.compare(fits["normal_flat"])
+    with pytest.raises(ww.InputError, match="no such folder"):
+        ww.compare(tmp_path / "nowhere", fits["normal_flat"])
+
+
+def test_bearings_are_the_programs(wearwell):
+    inputs = {"radius": "10 mm", "clearance": "20 um", "rate": "1e-16 m^3/(N m) +- 10 %", "pressure": "2 MPa"}
+    for command, more in (("life", {"depth": "50 +- 5 um", "speed": "60 rpm"}), ("depth", {"revolutions": "1e6"}),
+                          ("pressure", {"depth": "50 um", "revolutions": 1_000_000})):
+        given = {**inputs, **more}
+        if command == "pressure":
+            del given["pressure"]
+        options = [x for k, v in given.items() for x in ("--" + k, v)]
+        code, out, error = wearwell("bearing", command, "--contact", "journal", *options, "--json", "--seed", 4)
+        assert code == 0, error
+        assert getattr(ww.bearing, command)("journal", seed=4, **given) == json.loads(out)
+    limited = ww.bearing.depth("journal", revolutions=1e6, limit="1 mm", **inputs)
+    assert "below the limit of 1 mm" in limited["margin"]
+    with pytest.raises(ww.InputError, match="did you mean 'radius'"):
+        ww.bearing.life("journal", radios="1 mm")
+    with pytest.raises(ww.InputError, match="--contact"):
+        ww.bearing.life("shaft", radius="1 mm")
+    with pytest.raises(ww.InputError, match="pressure is given"):
+        ww.bearing.pressure("journal", depth="50 um", revolutions="1e6", **inputs)
+
+
+@pytest.fixture(scope="module")
+def clutch(tmp_path_factory):
+    """The model of the clutch example, and cycles for it."""
+    from conftest import source
+
+    folder = tmp_path_factory.mktemp("clutch")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ww.CheckWarning)
+        ww.fit(os.path.join(source, "examples", "clutch", "study.toml"), report=False).write(folder / "results")
+    rng = np.random.default_rng(1)
+    with open(folder / "results" / "model.json") as file:
+        model = json.load(file)
+    return folder, model, rng
+
+
+def cycles_of(model, rng, n, plate="A"):
+    low, high = ([model["validity"][end][name] for name in ("slip_speed", "torque", "temperature", "closing_time")]
+                 for end in ("lowest", "highest"))
+    columns = {name: rng.uniform(a, b, n) for name, a, b in
+               zip(("slip_speed [rad/s]", "torque [N m]", "temperature [degC]", "closing_time [s]"), low, high)}
+    return pd.DataFrame({"plate": plate, "cycle": np.arange(1, n + 1), **columns, "energy [J]": rng.uniform(1e3, 2e3, n)})
+
+
+def test_clutch_cycles_are_the_programs(clutch, wearwell):
+    folder, model, rng = clutch
+    table = pd.concat([cycles_of(model, rng, 200, "A"), cycles_of(model, rng, 100, "B")])
+    table.to_csv(folder / "cycles.csv", index=False)
+    code, out, error = wearwell("clutch", "predict", folder / "results" / "model.json", folder / "cycles.csv", "--json")
+    assert code == 0, error
+    model_file = folder / "results" / "model.json"
+    of_file = ww.clutch.CycleSum(model_file).add(folder / "cycles.csv")
+    whole = ww.clutch.CycleSum(model_file).add(table)
+    parts = ww.clutch.CycleSum(model_file)
+    for start in range(0, len(table), 70):
+        parts.add(table.iloc[start:start + 70])
+    for found in (of_file, whole, parts):
+        assert found.summary == json.loads(out)
+    assert list(whole.plates.index) == ["A", "B"]
+    before = whole.summary
+    bad = table.iloc[:5].assign(cycle=[500, 501, 502, 7, 503])
+    with pytest.raises(ww.InputError, match="cycle"):
+        whole.add(bad)
+    assert whole.summary == before  # all of them or none
+    with pytest.raises(ww.InputError, match="row 2, column 'torque"):
+        whole.add(table.iloc[:3].assign(**{"torque [N m]": [1, -1, 1]}))

@@ -1,0 +1,184 @@
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Literal, NamedTuple, TypeVar
+
+import pandas
+
+from . import bearing as bearing, clutch as clutch
+
+__all__: list[str]
+__version__: str
+
+_Path = str | os.PathLike[str]
+_Quantity = Any  # a number, "5 mm^3", or a pint quantity
+_Prior = dict[str, Any]
+_Progress = bool | Callable[[str, int, int, float], object] | None
+_Method = Literal["nuts", "exact", "metropolis"] | None
+_F = TypeVar("_F", bound="Fit")
+
+class InputError(ValueError): ...
+class MachineError(OSError, RuntimeError): ...
+class NotTrusted(RuntimeError): ...
+class CheckWarning(UserWarning): ...
+
+class Check(NamedTuple):
+    name: str
+    verdict: str
+    detail: str
+    advice: str
+
+class Fit:
+    study: Study
+    summary: dict[str, Any]
+    checks: list[Check]
+    trusted: bool
+    seed: int
+    def require_trusted(self: _F) -> _F: ...
+    @property
+    def parameters(self) -> pandas.DataFrame: ...
+    @property
+    def predictions(self) -> pandas.DataFrame: ...
+    @property
+    def quantities(self) -> pandas.DataFrame: ...
+    @property
+    def lives(self) -> pandas.DataFrame: ...
+    @property
+    def draws(self) -> pandas.DataFrame: ...
+    @property
+    def sample_stats(self) -> pandas.DataFrame: ...
+    @property
+    def tables(self) -> dict[str, pandas.DataFrame]: ...
+    def ask(self, predict: Mapping[str, Any], level: float = ...) -> dict[str, Any]: ...
+    def predict(
+        self,
+        new: pandas.DataFrame | Mapping[str, Any],
+        level: float = ...,
+        kind: Literal["mean", "next", "unit"] = ...,
+        *,
+        along: str | None = ...,
+    ) -> pandas.DataFrame: ...
+    def life(
+        self,
+        limit: _Quantity | Mapping[str, _Quantity] | None = ...,
+        b: float | Sequence[float] = ...,
+        confidence: float = ...,
+        unit: str | None = ...,
+        survived: _Quantity | None = ...,
+        *,
+        along: str | None = ...,
+        given: Mapping[str, _Quantity] | None = ...,
+    ) -> pandas.DataFrame: ...
+    def write(self, folder: _Path) -> None: ...
+    def report(self, path: _Path) -> None: ...
+    def to_netcdf(self, path: _Path) -> None: ...
+    def to_datatree(self) -> Any: ...
+    def _repr_html_(self) -> str: ...
+    def __copy__(self: _F) -> _F: ...
+    def __deepcopy__(self: _F, memo: Any) -> _F: ...
+
+class Study:
+    toml: str
+    def __init__(
+        self,
+        law: str | Mapping[str, str],
+        data: Any,
+        *,
+        priors: Mapping[str, _Prior],
+        units: Mapping[str, Any] | None = ...,
+        unit: str | None = ...,
+        varies: str | Sequence[str] | Mapping[str, Any] | None = ...,
+        family: str = ...,
+        scatter: str | float | Mapping[str, Any] | None = ...,
+        likelihood: Mapping[str, Mapping[str, Any]] | None = ...,
+        constants: Mapping[str, _Quantity] | None = ...,
+        predict: Mapping[str, Any] | None = ...,
+        sampler: Mapping[str, Any] | None = ...,
+        title: str | None = ...,
+    ) -> None: ...
+    @classmethod
+    def from_toml(
+        cls,
+        text: str,
+        data: Mapping[str, Any] | None = ...,
+        *,
+        units: Mapping[str, Mapping[str, Any]] | None = ...,
+        folder: str = ...,
+        name: str = ...,
+    ) -> Study: ...
+    @classmethod
+    def from_file(cls, path: _Path) -> Study: ...
+    def in_words(self) -> str: ...
+    def fit(
+        self,
+        seed: int | None = ...,
+        *,
+        method: _Method = ...,
+        chains: int | None = ...,
+        warmup: int | None = ...,
+        draws: int | None = ...,
+        threads: int = ...,
+        report: bool = ...,
+        progress: _Progress = ...,
+    ) -> Fit: ...
+
+def fit(study: Study | _Path, seed: int | None = ..., **options: Any) -> Fit: ...
+def table(data: Any, *, units: Mapping[str, Any] | None = ..., name: str = ...) -> Any: ...
+
+class Selection:
+    summary: dict[str, Any]
+    trusted: bool
+    checks: list[Check]
+    def __init__(self, summary: str, text: str, models: str, page: str) -> None: ...
+    @property
+    def models(self) -> pandas.DataFrame: ...
+    def report(self, path: _Path) -> None: ...
+
+def select(
+    data: Any,
+    response: str,
+    *,
+    inputs: str | Sequence[str] = ...,
+    degree: int | None = ...,
+    terms: str | Sequence[str] = ...,
+    criterion: str = ...,
+    keep: int = ...,
+    near: float = ...,
+    force: str | Sequence[str] = ...,
+    weights: str = ...,
+    folds: int = ...,
+    nested: int | None = ...,
+    seed: int = ...,
+    time: float | None = ...,
+    threads: int = ...,
+    report: bool = ...,
+) -> Selection: ...
+
+class Comparison:
+    summary: dict[str, Any]
+    def __init__(self, summary: str, text: str, page: str) -> None: ...
+    def report(self, path: _Path) -> None: ...
+
+def compare(*fits: Fit | _Path, names: Sequence[str] | None = ...) -> Comparison: ...
+def flat(unit: Any, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
+def uniform(lower: _Quantity, upper: _Quantity) -> _Prior: ...
+def normal(mean: _Quantity, sd: _Quantity, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
+def lognormal(
+    median: _Quantity | None = ...,
+    log_sd: float | None = ...,
+    *,
+    mean: _Quantity | None = ...,
+    sd: _Quantity | None = ...,
+    lower: _Quantity | None = ...,
+    upper: _Quantity | None = ...,
+) -> _Prior: ...
+def half_normal(scale: _Quantity, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
+def half_cauchy(scale: _Quantity, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
+def exponential(mean: _Quantity, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
+def gamma(shape: float, scale: _Quantity, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
+def inverse_gamma(shape: float, scale: _Quantity, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
+def student_t(
+    df: float, location: _Quantity, scale: _Quantity, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...
+) -> _Prior: ...
+def beta(alpha: float, beta: float, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
+def jeffreys(unit: Any, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
+def default() -> _Prior: ...
