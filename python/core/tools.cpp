@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 
+#include "attended.h"
 #include "core.h"
 #include "wearwell/base/error.h"
 #include "wearwell/cli/selection_header.h"
@@ -25,9 +26,11 @@ py::tuple select(const std::variant<std::shared_ptr<Table>, std::string>& data, 
                  const std::string& criterion, int keep, double near, int folds, int nested,
                  std::uint64_t seed, double seconds, int threads, bool report) {
   std::string summary, text, models, page;
-  {
-    const py::gil_scoped_release release;
+  Attended attended(py::none{});
+  attended.run([&] {
     const ForkGuard guard;
+    std::atomic<bool> stop = false;
+    const std::stop_callback stopped(attended.stop(), [&] { stop = true; });
     const auto* table = std::get_if<std::shared_ptr<Table>>(&data);
     if (!table) asked.file = std::get<std::string>(data);
     SelectionResult result = table ? read_selection(asked, **table) : read_selection(asked);
@@ -43,18 +46,20 @@ py::tuple select(const std::variant<std::shared_ptr<Table>, std::string>& data, 
       search.prove_sizes = true;
       if (report) search.cloud = CloudKind::bins;
     }
+    search.stop = &stop;
     result.settings.folds = folds;
     result.settings.nested = nested;
     result.settings.seed = seed;
     result.selection =
         select_terms(result.design, result.observed, result.weights, result.settings);
+    result.settings.search.stop = nullptr;
     nlohmann::ordered_json json = to_json(selection_header(result));
     json.update(to_json(result), true);
     summary = json.dump(2) + "\n";
     text = selection_text(result);
     models = models_csv(result);
     if (report && !result.selection.search.models.empty()) page = selection_report(result);
-  }
+  });
   return py::make_tuple(summary, text, models, page);
 }
 

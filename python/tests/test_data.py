@@ -79,6 +79,8 @@ def kinds():
     yield "categories", frame.assign(joint=frame["joint"].astype("category"))
     yield "nullable", frame.assign(F=frame["F"].astype("Int64"), joint=frame["joint"].astype("string"))
     yield "masked", {**columns, "F": np.ma.masked_array(columns["F"], mask=False)}
+    yield "DuckDB relation", type("Relation", (), {"fetchnumpy": lambda self: {
+        n: np.ma.masked_array(v, mask=False) for n, v in columns.items()}})()
     yield "other columns beside", frame.assign(when=pd.Timestamp("2026-01-01"), note=None)
     yield "units in headings", frame.rename(columns={"F": "F [N]", "s": "s [m]", "V": "V [mm^3]"})
     yield "Arrow", Stream([(n, "u" if n == "joint" else "g", frame[n].tolist()) for n in frame], [10, 0, 8])

@@ -2,6 +2,8 @@
 
 import json
 import os
+import subprocess
+import sys
 import warnings
 
 import numpy as np
@@ -41,6 +43,25 @@ def test_selections_that_are_refused(examples, options, message):
     frame = pd.read_csv(os.path.join(examples, "select", "wear.csv"))
     with pytest.raises(ValueError, match=message):
         ww.select(frame, "w", **options)
+
+
+def test_interrupted_selection_stops(tmp_path):
+    """64 terms of noise: a search of years."""
+    code = """
+import os, signal, threading
+import numpy as np
+import wearwell as ww
+rng = np.random.default_rng(1)
+data = {f"x{i}": rng.normal(size=80) for i in range(60)}
+data["w"] = rng.normal(size=80)
+threading.Timer(2.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    ww.select(data, "w", terms=[f"x{i}" for i in range(60)])
+except KeyboardInterrupt:
+    print("stopped")
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=300)
+    assert done.stdout == "stopped\n", done.stderr
 
 
 def test_comparison_is_the_programs(examples, wearwell, tmp_path):
