@@ -1,0 +1,11 @@
+#pragma once
+
+#include "wearwell/models/ownlaw/own_asked.h"
+
+namespace wearwell::ownlaw {
+
+/// Reads predict.at: measurements to come of a new unit, and the paths ahead of all that were seen.
+/// Throws InputError.
+void read_path(const Asked& asked, PosteriorStudy& study);
+
+}  // namespace wearwell::ownlaw
