@@ -80,6 +80,19 @@ std::shared_ptr<const Path> make_path(std::shared_ptr<const OwnLaw> law, const T
   return path;
 }
 
+std::shared_ptr<const Path> make_trace(std::shared_ptr<const OwnLaw> law, const TomlReader& table,
+                                       const std::string& key,
+                                       const std::vector<law::Wanted>& wanted, std::size_t unit) {
+  auto path = std::make_shared<Path>();
+  path->symbols = law->row_symbols;
+  path->shared = law->shared;
+  path->program = law::compile(law->lines, wanted, path->symbols, true);
+  path->running =
+      continue_path(*law, table, key, path->program, conditions_of_unit(*law, unit, {}), unit);
+  path->law = std::move(law);
+  return path;
+}
+
 PathAt::PathAt(const Path& path)
     : path_(&path),
       population_at_(*path.law),

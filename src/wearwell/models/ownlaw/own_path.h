@@ -35,6 +35,11 @@ std::shared_ptr<const Path> make_path(std::shared_ptr<const OwnLaw> law, const T
                                       const Conditions& conditions,
                                       std::optional<std::size_t> unit = {});
 
+/// Expressions in each row of a unit until now (`PathAt::retrace`), whether or not they depend on rows before.
+std::shared_ptr<const Path> make_trace(std::shared_ptr<const OwnLaw> law, const TomlReader& table,
+                                       const std::string& key,
+                                       const std::vector<law::Wanted>& wanted, std::size_t unit);
+
 /// One thread's evaluation of a path.
 class PathAt {
  public:

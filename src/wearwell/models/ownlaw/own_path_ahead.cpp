@@ -29,17 +29,6 @@ class SharedPath {
   mutable tbb::enumerable_thread_specific<std::unique_ptr<PathAt>> own_;
 };
 
-bool has_path(const Measured& measured) {
-  switch (measured.form->family) {
-    case ResponseFamily::normal:
-    case ResponseFamily::lognormal:
-    case ResponseFamily::lognormal_by_moments:
-      return true;
-    default:
-      return false;
-  }
-}
-
 void add_measurement(const Asked& asked, const Measured& measured, std::shared_ptr<const Path> path,
                      double place, PosteriorStudy& study) {
   const ResponseFamily family = measured.form->family;
@@ -117,6 +106,17 @@ void request_paths(const Asked& asked, const Measured& measured,
 }
 
 }  // namespace
+
+bool has_path(const Measured& measured) {
+  switch (measured.form->family) {
+    case ResponseFamily::normal:
+    case ResponseFamily::lognormal:
+    case ResponseFamily::lognormal_by_moments:
+      return true;
+    default:
+      return false;
+  }
+}
 
 void read_path(const Asked& asked, PosteriorStudy& study) {
   const TomlReader& predict = asked.predict;

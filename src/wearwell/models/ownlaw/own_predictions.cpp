@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/models/ownlaw/own_asked.h"
+#include "wearwell/models/ownlaw/own_exhibits.h"
 #include "wearwell/models/ownlaw/own_life_law.h"
 #include "wearwell/models/ownlaw/own_limit.h"
 #include "wearwell/models/ownlaw/own_path_ahead.h"
@@ -54,6 +55,7 @@ class Predictions {
       read_life_law();
     }
     if (predict_.has("at")) read_path(asked_, study_);
+    if (asks_along) add_path_figures(asked_, study_);
     read_quantities();
   }
 

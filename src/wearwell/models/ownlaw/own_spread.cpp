@@ -118,7 +118,8 @@ class Part {
       any_seen_ |= each.unit.has_value();
       Spread spread;
       spread.ahead.resize(each.places.size());
-      if (each.trace) spread.traced.resize(each.path.ahead->running->history->rows());
+      trace_.push_back(each.trace ? std::make_unique<PathAt>(*each.trace) : nullptr);
+      if (each.trace) spread.traced.resize(each.trace->running->history->rows());
       spreads.push_back(std::move(spread));
     }
   }
@@ -133,7 +134,10 @@ class Part {
       const Effects& effects = known ? seen_ : fresh_;
       if (effects.count == 0) continue;
       at_[p]->at().move_to(x);
-      if (path.trace) trace(p, effects, weight);
+      if (trace_[p]) {
+        trace_[p]->move_to(x);
+        trace(p, effects, weight);
+      }
       look_ahead(p, x, effects, weight);
     }
   }
@@ -146,7 +150,7 @@ class Part {
   }
 
   void trace(std::size_t p, const Effects& effects, double weight) {
-    PathAt& at = at_[p]->at();
+    PathAt& at = *trace_[p];
     const std::size_t rows = spreads[p].traced.size();
     value_.resize(rows * effects.count);
     for (std::size_t i = 0; i < effects.count; ++i) {
@@ -208,7 +212,7 @@ class Part {
   bool any_seen_ = false;
   Effects fresh_, seen_;
   std::vector<std::unique_ptr<Crossing>> at_;
-  std::vector<std::unique_ptr<PathAt>> behind_;
+  std::vector<std::unique_ptr<PathAt>> behind_, trace_;
   std::vector<double> value_, place_, shift_;
 };
 

@@ -15,8 +15,8 @@ struct SpreadPath {
   LimitedPath::Seen path;  ///< `behind` and `now` of a seen one alone
   std::optional<std::size_t> unit;
   std::vector<double> places;  ///< along the axis, SI; of a seen one not before its last row
-  bool trace = false;          ///< the rows of a seen one until now as well
-  bool rising = true;          ///< the next three as in LimitedPath
+  std::shared_ptr<const Path> trace = {};  ///< the rows of a seen one until now, if asked for
+  bool rising = true;                      ///< the next three as in LimitedPath
   double begin = 0, scale = 1;
 };
 
