@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "wearwell/models/ownlaw/own_process_lives.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -41,8 +44,11 @@ void require_monotone(const Asked& asked, const TomlReader& table, const std::st
   }
 }
 
+using Lives = std::function<LimitedLives(const WeightedDraws&)>;
+
 void request_lives(const Asked& asked, const std::string& name, const Quantity& limit,
-                   std::shared_ptr<const LimitedPath> path, PosteriorStudy& study) {
+                   const std::shared_ptr<const LimitedPath>& path, Lives lives_of,
+                   PosteriorStudy& study) {
   const Unit& unit = asked.axis().unit.unit;
   const std::string at =
       joined(fmt::format("to {} = {}", name, in_words(limit)), asked.given.words);
@@ -58,8 +64,8 @@ void request_lives(const Asked& asked, const std::string& name, const Quantity& 
     each.is_life = true;
     each.safe_end = 0.05;
   }
-  group.from_draws = [rows = asked.rows, path](const WeightedDraws& draws) {
-    const LimitedLives lives = limited_lives(*rows, *path, draws);
+  group.from_draws = [path, lives_of](const WeightedDraws& draws) {
+    const LimitedLives lives = lives_of(draws);
     std::vector<QuantityQuantiles> all;
     const auto add = [&](const CellMixture& life) {
       const auto q = [&](double p) { return life.mass() > 1e-6 ? life.quantile(p) : 0; };
@@ -71,6 +77,74 @@ void request_lives(const Asked& asked, const std::string& name, const Quantity& 
     return all;
   };
   study.quantity_groups.push_back(std::move(group));
+}
+
+// A first passage is known where variances are in proportion to means.
+void require_proportion(const Asked& asked, const TomlReader& table, const std::string& name,
+                        const LimitedPath& path) {
+  PathAt at(*path.next);
+  at.move_to(asked.start.data());
+  const double places[] = {path.begin, path.begin + 0.3 * path.scale, path.begin + path.scale,
+                           path.begin + 3 * path.scale};
+  at.evaluate(4, nullptr, places);
+  const auto ratio = [&](std::size_t i) {
+    return at.output(1, i) * at.output(1, i) / std::abs(at.output(0, i));
+  };
+  const bool begins = at.output(0, 0) == 0 && at.output(1, 0) == 0;
+  const double size = ratio(2);
+  if (begins && std::abs(ratio(1) - size) < 1e-6 * size &&
+      std::abs(ratio(3) - size) < 1e-6 * size) {
+    return;
+  }
+  table.fail(name,
+             "is reached first at a time whose law is known only where the variance, sd^2, is in "
+             "proportion to the mean from the beginning on: give scale instead of sd, or the sd as "
+             "the root of what the mean is a multiple of");
+}
+
+// What reaches a limit in a study of a process is the process.
+void read_process_limit(const Asked& asked, const TomlReader& limits, const std::string& name,
+                        PosteriorStudy& study) {
+  const std::vector<Measured>& all = asked.law->measured;
+  auto asked_for = std::make_shared<ProcessLimit>();
+  while (asked_for->column < all.size() &&
+         !(all[asked_for->column].process && all[asked_for->column].column == name)) {
+    ++asked_for->column;
+  }
+  if (asked_for->column == all.size()) {
+    std::string columns;
+    for (const Measured& each : all) {
+      if (each.process) columns = joined(columns, each.column);
+    }
+    limits.fail(name, fmt::format("is no process: limits of this study are of {}, whose paths are "
+                                  "random about their means",
+                                  columns));
+  }
+  const Measured& measured = all[asked_for->column];
+  const std::vector<law::Wanted> wanted(measured.wanted.begin(), measured.wanted.begin() + 2);
+  LimitedPath& path = asked_for->path;
+  path.next = make_path(asked.law, limits, name, wanted, true, asked.common);
+  const Quantity limit = limits.required_quantity(name, law::si_text(measured.powers));
+  path.limit = limit.si();
+  set_reach(asked, path);
+  require_monotone(asked, limits, name, path);
+  if (!(path.rising ? path.limit > 0 : path.limit < 0)) {
+    limits.fail(name,
+                fmt::format("must lie {} 0, where paths begin, since their mean {}",
+                            path.rising ? "above" : "below", path.rising ? "grows" : "falls"));
+  }
+  if (measured.process->by_sd) require_proportion(asked, limits, name, path);
+  for (std::size_t u = 0; u < asked.law->units.size(); ++u) {
+    path.seen.push_back(seen_unit(asked, limits, name, wanted, u));
+    path.seen.back().behind.reset();  // it goes on from where its mean stands
+  }
+  const std::shared_ptr<const ProcessLimit> known = asked_for;
+  request_lives(
+      asked, name, limit, {known, &known->path},
+      [rows = asked.rows, known](const WeightedDraws& draws) {
+        return process_lives(*rows, *known, draws);
+      },
+      study);
 }
 
 }  // namespace
@@ -122,6 +196,7 @@ void read_limit(const Asked& asked, PosteriorStudy& study) {
                 "one limit at a time: limit = { wear = \"100 um\" }");
   }
   const std::string& name = names.front();
+  if (asked.law->has_process()) return read_process_limit(asked, limits, name, study);
   const std::vector<law::Wanted> wanted = {{"[predict] limit", name}};
   auto path = std::make_shared<LimitedPath>();
   path->next = make_path(asked.law, limits, name, wanted, true, asked.common);
@@ -135,7 +210,13 @@ void read_limit(const Asked& asked, PosteriorStudy& study) {
       path->seen.push_back(seen_unit(asked, limits, name, wanted, u));
     }
   }
-  request_lives(asked, name, limit, std::move(path), study);
+  const std::shared_ptr<const LimitedPath> known = path;
+  request_lives(
+      asked, name, limit, known,
+      [rows = asked.rows, known](const WeightedDraws& draws) {
+        return limited_lives(*rows, *known, draws);
+      },
+      study);
 }
 
 }  // namespace wearwell::ownlaw

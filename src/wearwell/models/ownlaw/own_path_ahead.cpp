@@ -108,6 +108,7 @@ void request_paths(const Asked& asked, const Measured& measured,
 }  // namespace
 
 bool has_path(const Measured& measured) {
+  if (measured.process) return false;
   switch (measured.form->family) {
     case ResponseFamily::normal:
     case ResponseFamily::lognormal:
