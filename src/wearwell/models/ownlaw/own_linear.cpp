@@ -57,7 +57,7 @@ bool is_linear(const OwnLaw& law, const std::vector<BoundColumn>& columns) {
   if (!law.varies() || has_cases(law)) return false;
   for (const BoundColumn& column : columns) {
     const bool normal = column.measured->form->family == ResponseFamily::normal;
-    if (!normal || !column.responses.plain) return false;
+    if (!normal || column.measured->process || !column.responses.plain) return false;
   }
   UnitRows rows(law, columns);
   const std::size_t d = law.effects.size();
