@@ -495,6 +495,10 @@ class OwnLikelihood final : public LogDensity {
     return counts;
   }
 
+  double unsettled(std::span<const double> x) const override {
+    return law_->varies() ? rows_->integrate(x.data()).unsettled : 0;
+  }
+
  private:
   using Scratch = OwnRows::Scratch;
 

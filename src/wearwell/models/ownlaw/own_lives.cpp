@@ -13,6 +13,7 @@ namespace wearwell::ownlaw {
 namespace {
 
 constexpr std::size_t most_points = 4000;
+constexpr double least_share = 1e-7;  // of a unit's posterior: nodes with less are left out
 
 // The ends of cells of equal width that fill the standard normal law, up to 1e-16 of it.
 struct NormalCells {
@@ -121,7 +122,7 @@ class Part {
     for (std::size_t u = 0; u < units; ++u) {
       nodes_.clear();
       for (const latent::Sweep& sweep : sweeps) {
-        if (!(sweep.weight[u] > 1e-9)) continue;
+        if (!(sweep.weight[u] > least_share)) continue;
         nodes_.push_back({sweep.weight[u], sweep.z[u * d], d > 1 ? sweep.z[u * d + 1] : 0});
       }
       std::sort(nodes_.begin(), nodes_.end(),
@@ -185,11 +186,7 @@ class Part {
       }
       ahead_[u].solve(1, z.empty() ? nullptr : z.data(), &level, &now);
     }
-    CellMixture one;
-    one.add(weight, a, b);
-    const CellMixture rest = one.beyond(now);
-    lives.passed[u] += weight - rest.mass();
-    lives.remaining[u].add(rest);
+    lives.passed[u] += weight - lives.remaining[u].add_beyond(weight, a, b, now);
   }
 
   struct Node {
