@@ -54,6 +54,8 @@ void add_measurement(const Asked& asked, const Measured& measured, std::shared_p
                                [=](const double* x) { return moments(x, 0).second; },
                                normal ? ObservationFamily::normal : ObservationFamily::lognormal,
                                {}};
+  const std::string& unit = asked.axis().unit.unit.text;
+  if (unit != "1" && unit != prediction.at_name) prediction.at_unit = unit;
   if (asked.law->varies()) {
     prediction.item = [=](const double* x, double z) { return moments(x, z).first; };
     prediction.mean_of = "median " + asked.noun;
