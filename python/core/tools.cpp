@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <optional>
 
@@ -12,6 +15,7 @@
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_predict.h"
 #include "wearwell/models/clutch/cycle_table.h"
+#include "wearwell/models/fatigue/rainflow.h"
 #include "wearwell/selection/data.h"
 #include "wearwell/selection/json.h"
 #include "wearwell/selection/report.h"
@@ -61,6 +65,38 @@ py::tuple select(const std::variant<std::shared_ptr<Table>, std::string>& data, 
     if (report && !result.selection.search.models.empty()) page = selection_report(result);
   });
   return py::make_tuple(summary, text, models, page);
+}
+
+/// Cycles and half cycles in the order in which they close: from, to, count.
+py::tuple rainflow(const py::array_t<double, py::array::forcecast>& signal, bool three_points,
+                   bool repeat) {
+  const auto view = signal.unchecked<1>();
+  std::vector<double> samples(static_cast<std::size_t>(view.shape(0)));
+  for (py::ssize_t i = 0; i < view.shape(0); ++i) {
+    samples[static_cast<std::size_t>(i)] = view(i);
+    if (!std::isfinite(view(i))) throw InputError(fmt::format("signal, row {}: no number", i + 1));
+  }
+  std::vector<double> from, to, count;
+  {
+    const py::gil_scoped_release release;
+    fatigue::Rainflow counted(
+        three_points ? fatigue::Counting::three_point : fatigue::Counting::four_point,
+        repeat ? fatigue::Residual::repeat : fatigue::Residual::half);
+    const auto take = [&](double a, double b, double n) {
+      from.push_back(a);
+      to.push_back(b);
+      count.push_back(n);
+    };
+    const auto point = [&](double p) { counted.add(p, take); };
+    fatigue::TurningPoints turns;
+    turns.add(samples, point);
+    turns.finish(point);
+    counted.finish(take);
+  }
+  const auto array = [](const std::vector<double>& values) {
+    return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+  };
+  return py::make_tuple(array(from), array(to), array(count));
 }
 
 py::tuple bearing_answer(const std::string& command, const std::string& contact,
@@ -141,6 +177,7 @@ void add_tools(py::module_& module) {
                return select(data, {{}, {}, response, inputs, degree, terms, weights, forced},
                              criterion, keep, near, folds, nested, seed, seconds, threads, report);
              });
+  module.def("rainflow", &rainflow);
   module.def("bearing", &bearing_answer);
   py::class_<Cycles>(module, "Cycles")
       .def(py::init<const std::string&, bool, bool>())

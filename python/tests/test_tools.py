@@ -149,3 +149,18 @@ def test_clutch_cycles_are_the_programs(clutch, wearwell):
     assert whole.summary == before  # all of them or none
     with pytest.raises(ww.InputError, match="row 2, column 'torque"):
         whole.add(table.iloc[:3].assign(**{"torque [N m]": [1, -1, 1]}))
+
+
+def test_rainflow_is_that_of_the_standard():
+    """ASTM E1049-85, figure 6: half cycles of 3, 4, 6, 8 (twice), 9 in all, and one cycle of 4."""
+    found = ww.rainflow([-2, 1, -3, 5, -1, 3, -4, 4, -2], method="three-point")
+    counts = found.groupby("range")["count"].sum().to_dict()
+    assert counts == {3.0: 0.5, 4.0: 1.5, 6.0: 0.5, 8.0: 1.0, 9.0: 0.5}
+    assert ww.rainflow([-2, 1, -3, 5, -1, 3, -4, 4, -2]).groupby("range")["count"].sum().to_dict() == counts
+    assert (ww.rainflow([0, 3, 1, 2, 0], residual="repeat")["count"] == 1).all()
+    assert len(ww.rainflow([1.0, 1.0])) == 0
+    for wrong, message in (([1.0, np.nan], "row 2"), (["a"], "no numbers"), (np.ones((2, 2)), "2 dimensions")):
+        with pytest.raises(ValueError, match=message):
+            ww.rainflow(wrong)
+    with pytest.raises(ValueError, match="method"):
+        ww.rainflow([1, 2], method="five-point")

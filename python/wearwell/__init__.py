@@ -28,12 +28,12 @@ from ._priors import (
     uniform,
 )
 from ._study import Study, fit, table
-from ._tools import Comparison, Selection, compare, select
+from ._tools import Comparison, Selection, compare, rainflow, select
 
 __version__ = _core.version
 
 __all__ = [
     "Check", "CheckWarning", "Comparison", "Fit", "InputError", "MachineError", "NotTrusted", "Selection", "Study",
     "bearing", "beta", "clutch", "compare", "default", "exponential", "fit", "flat", "gamma", "half_cauchy", "half_normal",
-    "inverse_gamma", "jeffreys", "lognormal", "normal", "select", "student_t", "table", "uniform",
+    "inverse_gamma", "jeffreys", "lognormal", "normal", "rainflow", "select", "student_t", "table", "uniform",
 ]

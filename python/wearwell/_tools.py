@@ -106,3 +106,25 @@ def compare(*fits, names=None):
                 path = os.fspath(each)
                 pairs.append((names[i] if names else path, path))
         return Comparison(*_core.compared(pairs))
+
+
+def rainflow(signal, *, method="four-point", residual="half"):
+    """Rainflow counting (ASTM E1049-85) of a load history, as ``wearwell rainflow`` counts it without classes: a frame of cycles
+    with their ends, range, mean, and count (1, or 0.5 of what closes no cycle).
+
+    signal: an array or a column of finite numbers, in any unit. method: "four-point" or "three-point"; residual: "half"
+    or "repeat" (the history is repeated, so that all cycles close).
+    """
+    import pandas
+
+    from ._data import _values
+
+    if method not in ("four-point", "three-point"):
+        raise InputError(f"method is {method!r}; it is 'four-point' or 'three-point'")
+    if residual not in ("half", "repeat"):
+        raise InputError(f"residual is {residual!r}; it is 'half' or 'repeat'")
+    values = _values(signal, "signal")
+    if isinstance(values, list):
+        raise InputError("signal holds no numbers")
+    start, end, count = _core.rainflow(values, method == "three-point", residual == "repeat")
+    return pandas.DataFrame({"from": start, "to": end, "range": abs(end - start), "mean": (start + end) / 2, "count": count})

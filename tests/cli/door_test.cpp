@@ -245,7 +245,7 @@ TEST_F(Door, SlipsInACommandLine) {
       {"check joint/study.toml --json", "wearwell check has no option --json (options: --help; "},
       {"new jiont x",
        "TRADE: 'jiont' is not possible; it is one of joint, bearing, clutch, fatigue, law, life, "
-       "accelerated; did you mean 'joint'?"},
+       "accelerated, degradation; did you mean 'joint'?"},
       {"new joint", "wearwell new: DIR is "},
       {"new joint joint", "joint is not empty"},
       {"compare joint", "DIR is given 1 times, and is needed 2 times at least"},

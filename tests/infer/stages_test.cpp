@@ -115,6 +115,31 @@ TEST(Stages, EachEndsTrust) {
   }
 }
 
+// Integrals within a likelihood that stay open are found at the points of the posterior: a little warns.
+TEST(Stages, OpenIntegralsWithinALikelihoodAreSaid) {
+  struct Open final : LogDensity {
+    explicit Open(double much) : left(much) {}
+    double left;
+    int dimension() const override { return 1; }
+    double value(std::span<const double> x) const override { return -0.5 * x[0] * x[0]; }
+    double value_and_gradient(std::span<const double> x, std::span<double> g) const override {
+      g[0] = -x[0];
+      return value(x);
+    }
+    double unsettled(std::span<const double> x) const override { return x[0] > 0 ? left : 0; }
+  };
+  for (const double left : {0.0, 1e-5, 0.1}) {
+    const Posterior posterior({parameter("a", -infinity, infinity, 1)},
+                              std::make_shared<Open>(left));
+    const Fit found = fit(posterior, exact_settings());
+    ASSERT_EQ(found.shortfalls.size(), left > 0 ? 1u : 0u);
+    if (left == 0) continue;
+    EXPECT_EQ(found.shortfalls[0].stage, Stage::effects);
+    EXPECT_EQ(found.shortfalls[0].verdict, left > 1e-3 ? Verdict::fail : Verdict::warn);
+    EXPECT_THAT(found.shortfalls[0].what, HasSubstr(" of 200 points"));
+  }
+}
+
 // With S the sum of squares about the line and flat priors sigma^2 has density sigma^-(n-2) exp(-S/2 sigma^2) d sigma.
 TEST(Stages, SmallDeviationsFromALineAreFound) {
   for (const double deviation : {1.0, 1e-2, 1e-4, 1e-7, 1e-9}) {

@@ -32,6 +32,10 @@ class LogDensity {
   /// How many observations each of these stands for, where some were seen alike; empty when each is
   /// one.
   virtual std::vector<int> pointwise_counts() const { return {}; }
+
+  /// What is left open of the value at `x`, where integrals within it did not come to the tolerance that
+  /// they promise; 0 elsewhere.
+  virtual double unsettled(std::span<const double>) const { return 0; }
 };
 
 }  // namespace wearwell

@@ -18,6 +18,12 @@ constexpr std::array<int, max_exact_dimension + 1> nodes_per_axis = {0, 10, 7, 5
 constexpr std::array<double, max_exact_dimension + 1> max_cell_mass = {0, 1. / 40, 1. / 80,
                                                                        1. / 400, 1. / 1000};
 
+// Who asks for fewer digits than studies do gets larger cells.
+double most_mass(int dimension, double tolerance) {
+  constexpr double of_studies = 1e-4;
+  return max_cell_mass[dimension] * std::max(1.0, tolerance / of_studies);
+}
+
 }  // namespace
 
 BoxIntegrator::BoxIntegrator(const Posterior& posterior, const Whitening& whitening,
@@ -174,17 +180,18 @@ void BoxIntegrator::add_grid(const Coordinates& lower, const Coordinates& upper,
 
 void BoxIntegrator::refine() {
   sum();
+  const double most = most_mass(d_, settings_.tolerance);
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry> queue;
   const auto priority = [&](const Cell& cell) {
     const double share = cell.mass / mass_;
-    return std::max(cell.error / control_, share > max_cell_mass[d_] ? share : 0.0);
+    return std::max(cell.error / control_, share > most ? share : 0.0);
   };
   for (std::size_t i = 0; i < cells_.size(); ++i) queue.emplace(priority(cells_[i]), i);
   while (failure_.empty() && !queue.empty()) {
     if (settings_.stop.stop_requested()) throw Cancelled();
     const auto [urgency, i] = queue.top();
-    if (error_ <= settings_.tolerance * control_ && urgency <= max_cell_mass[d_]) break;
+    if (error_ <= settings_.tolerance * control_ && urgency <= most) break;
     if (evaluations_ >= settings_.max_evaluations) {
       failure_ = fmt::format("no convergence in {} evaluations", evaluations_);
       break;

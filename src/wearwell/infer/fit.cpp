@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wearwell/infer/digits.h"
+#include "wearwell/infer/effects.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/surface.h"
 
@@ -201,7 +202,11 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
   if (fit.method == Method::exact && !fit.exact) fit.method = Method::nuts;
   draw_enough(posterior, settings, fit);
   fit.shortfalls = shortfalls(whole, shape, settings, fit, integral);
-  for (Shortfall& each : digits(whole, fit.whitening, fit.exact ? fit.exact->nodes : fit.pooled)) {
+  const WeightedDraws& points = fit.exact ? fit.exact->nodes : fit.pooled;
+  for (Shortfall& each : digits(whole, fit.whitening, points)) {
+    fit.shortfalls.push_back(std::move(each));
+  }
+  for (Shortfall& each : unsettled_effects(whole, points)) {
     fit.shortfalls.push_back(std::move(each));
   }
   return fit;

@@ -126,8 +126,8 @@ Check exact_agreement(const Posterior& posterior, const Fit& fit) {
       if (!(std::abs(distance) <= tolerated)) {
         findings.add(
             Verdict::fail,
-            fmt::format("the {} of {} is {:.1f} Monte Carlo standard errors from quadrature",
-                        what, posterior.parameters()[i].name, distance),
+            fmt::format("the {} of {} is {:.1f} Monte Carlo standard errors from quadrature", what,
+                        posterior.parameters()[i].name, distance),
             "Believe the numbers by quadrature, and draw more.");
       }
     }

@@ -16,6 +16,8 @@ const char* stage_name(Stage stage) {
       return "digits";
     case Stage::natural_mode:
       return "mode in the parameters' own units";
+    case Stage::effects:
+      return "integrals over effects";
   }
   return "";
 }

@@ -228,6 +228,7 @@ class Lattice {
   void run() {
     result_.log_likelihood.assign(units_, -infinity);
     result_.settled = true;
+    result_.unsettled = 0;
     used_ = 0;
     effects_ == 1 ? line() : plane();
     result_.sweeps.resize(used_);
@@ -302,15 +303,13 @@ class Lattice {
         finish(u, step);
         whose[u] = sums_[u].highest > -infinity && sums_[u].difference() > most_difference;
         again |= whose[u] != 0;
-        if (whose[u]) {  // all so far are the even nodes of the finer lattice
-          sums_[u].even += sums_[u].odd;
-          sums_[u].odd = 0;
-        }
       }
       if (!again) return;
-      if (halving == most_halvings) {
-        result_.settled = false;
-        return;
+      if (halving == most_halvings) return leave(whose);
+      for (std::size_t u = 0; u < units_; ++u) {
+        if (!whose[u]) continue;  // all so far are the even nodes of the finer lattice
+        sums_[u].even += sums_[u].odd;
+        sums_[u].odd = 0;
       }
       for (std::size_t n = 0; n < used_; ++n) {
         for (std::size_t u = 0; u < units_; ++u) {
@@ -319,6 +318,14 @@ class Lattice {
       }
       step *= 0.5;
       walk(whose, step, true);
+    }
+  }
+
+  // What these units still differ by is told.
+  void leave(const std::vector<std::uint8_t>& whose) {
+    result_.settled = false;
+    for (std::size_t u = 0; u < units_; ++u) {
+      if (whose[u]) result_.unsettled += sums_[u].difference();
     }
   }
 
@@ -352,10 +359,7 @@ class Lattice {
         again |= whose[u] != 0;
       }
       if (!again) return;
-      if (attempt == 4) {
-        result_.settled = false;
-        return;
-      }
+      if (attempt == 4) return leave(whose);
       step *= 0.6;
     }
   }

@@ -38,11 +38,13 @@ struct Sweep {
 /// mode, in units of the width there: of an analytic integrand that falls off at both ends it converges
 /// faster than any power of its step, and it does not mind an integrand that is no bell. It goes out
 /// until the integrand is e^-36 of its highest. The rule with every second node is an estimate beside
-/// it; where they differ the step is halved. `settled` is false where that did not end.
+/// it; where they differ the step is halved. `settled` is false where that did not end, and `unsettled` then
+/// what the two still differ by, relative, summed over the units of which that is so.
 struct UnitIntegrals {
   std::vector<double> log_likelihood;  ///< of each unit
   std::vector<Sweep> sweeps;
   bool settled = true;
+  double unsettled = 0;
 
   double sum() const;
 };

@@ -64,11 +64,20 @@ Data Program::bind(const Rows& rows) const {
 
 namespace {
 
+// Where the path of row i was before it.
+double place_before(const StateStart& start, const std::vector<double>& axis,
+                    const Data::Body& rows, std::size_t i) {
+  if (rows.starts[i] == 0) return axis[i - 1];
+  if (!rows.from.empty()) return rows.from[i];
+  return start.at_first_row ? axis[i] : start.at;
+}
+
 void check_axis(const Symbols& symbols, const StateStart& start, const std::vector<double>& axis,
-                const std::vector<std::uint8_t>& starts) {
+                const Data::Body& rows) {
+  const std::vector<std::uint8_t>& starts = rows.starts;
   const std::string& name = symbols.columns[static_cast<std::size_t>(start.axis)].name;
   for (std::size_t i = 0; i < axis.size(); ++i) {
-    const double least = starts[i] == 0 ? axis[i - 1] : start.at_first_row ? axis[i] : start.at;
+    const double least = place_before(start, axis, rows, i);
     if (axis[i] >= least) continue;
     throw InputError(
         starts[i] == 0
@@ -81,11 +90,10 @@ void check_axis(const Symbols& symbols, const StateStart& start, const std::vect
 }
 
 // The part of `axis` since the row before.
-void steps_along(const StateStart& start, const std::vector<double>& axis,
-                 const std::vector<std::uint8_t>& starts, std::vector<double>& steps) {
+void steps_along(const StateStart& start, const std::vector<double>& axis, const Data::Body& rows,
+                 std::vector<double>& steps) {
   for (std::size_t i = 0; i < axis.size(); ++i) {
-    const double before = starts[i] == 0 ? axis[i - 1] : start.at_first_row ? axis[i] : start.at;
-    steps[i] = axis[i] - before;
+    steps[i] = axis[i] - place_before(start, axis, rows, i);
   }
 }
 
@@ -101,6 +109,8 @@ void Program::bind(const Rows& rows, Data& data) const {
   for (const std::size_t path : rows.paths)
     if (path < rows.count) body.starts[path] = 1;
   if (rows.count > 0) body.starts[0] = 1;
+  body.from.assign(rows.from.begin(), rows.from.end());
+  body.repeats.assign(rows.repeats.begin(), rows.repeats.end());
   body.columns.resize(static_cast<std::size_t>(tape.data));
   for (auto& column : body.columns) column.resize(rows.count);
   body.labels.resize(symbols.labels.size());
@@ -121,10 +131,10 @@ void Program::bind(const Rows& rows, Data& data) const {
     std::copy(rows.columns[index].begin(), rows.columns[index].end(), to.begin());
     const bool along =
         body_->start.axis == leaf.index && (leaf.op == Op::step || !tape.states.empty());
-    if (along) check_axis(symbols, body_->start, to, body.starts);
+    if (along) check_axis(symbols, body_->start, to, body);
     if (leaf.op != Op::step) continue;
     const std::vector<double> axis = to;
-    steps_along(body_->start, axis, body.starts, to);
+    steps_along(body_->start, axis, body, to);
   }
   for (const Step& step : tape.row_steps) {
     if (step.op != Op::expand) continue;

@@ -208,7 +208,12 @@ class Compiler {
     step.index = lines_.start.axis;
     step.powers = graph_.intern(symbols_.columns[static_cast<std::size_t>(step.index)].powers);
     const int gain = graph_.make(Op::multiply, state_powers_, rate, graph_.add(step));
-    const int sum = graph_.make(Op::cum, state_powers_, gain);
+    Node running;
+    running.op = Op::cum;
+    running.a = gain;
+    running.value = whole_step;
+    running.powers = state_powers_;
+    const int sum = graph_.add(running);
     const Node& begin = graph_[beginning];
     if (begin.op == Op::constant && begin.value == 0) return sum;
     return graph_.make(Op::add, state_powers_, beginning, sum);
@@ -265,7 +270,7 @@ class Compiler {
 }  // namespace
 
 Program compile(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
-                const Symbols& symbols) {
+                const Symbols& symbols, bool continued) {
   check(symbols);
   auto body = std::make_shared<Program::Body>();
   body->symbols = symbols;
@@ -281,7 +286,10 @@ Program compile(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
   body->labels.resize(symbols.labels.size());
   const std::vector<bool> used = reachable(graph, body->roots);
   for (int i = 0; i < graph.size(); ++i) {
-    if (!used[static_cast<std::size_t>(i)] || graph[i].index < 0) continue;
+    if (!used[static_cast<std::size_t>(i)]) continue;
+    // A state runs along its axis whether its rate names it or not.
+    if (graph[i].op == Op::state) body->columns[static_cast<std::size_t>(body->start.axis)] = true;
+    if (graph[i].index < 0) continue;
     const auto index = static_cast<std::size_t>(graph[i].index);
     const Op op = graph[i].op;
     if (op == Op::column || op == Op::step || op == Op::axis_now) body->columns[index] = true;
@@ -299,7 +307,8 @@ Program compile(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
   }
   Graph best;
   const std::vector<int> roots = regrouped(graph, body->roots, body->start.axis, best);
-  body->tape = make_tape(best, roots, body->symbols, body->start);
+  body->tape = make_tape(best, roots, body->symbols, body->start, continued);
+  body->continued = continued;
   Program program;
   program.body_ = std::move(body);
   return program;

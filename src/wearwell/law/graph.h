@@ -19,10 +19,11 @@ struct Node {
   int a = -1, b = -1, c = -1;  ///< the nodes it works on, all before it; -1 for none
   int index = -1;              ///< of a column, label, slot, or parameter by row
   int level = -1;              ///< label_is, parameter: the level; pick: the label
-  double value = 0;            ///< of a constant; the exponent of whole_power
-  int powers = 0;              ///< its dimension: index into Graph::dimension
-  bool truth = false;          ///< true or false, as 1 or 0
-  bool any = false;            ///< the number 0 as written, which fits any dimension
+  double value =
+      0;           ///< of a constant; the exponent of whole_power; of cum: whole_step, if it is one
+  int powers = 0;  ///< its dimension: index into Graph::dimension
+  bool truth = false;  ///< true or false, as 1 or 0
+  bool any = false;    ///< the number 0 as written, which fits any dimension
   // What follows from these:
   bool rows = false;        ///< differs from row to row
   bool parametric = false;  ///< depends on parameters
@@ -32,6 +33,9 @@ struct Node {
   int depth = 0;
   int origin = -1;  ///< the text in which it was first met
 };
+
+/// Of a `cum` that sums up whole steps along the axis, of which a longer one is as good as two.
+inline constexpr double whole_step = 1;
 
 /// Typed expressions of a study, hash-consed: a node stands behind those that it works on. Constants
 /// are folded. Bounded in size and depth, whatever is written.

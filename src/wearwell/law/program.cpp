@@ -49,6 +49,20 @@ bool Program::has_paths() const {
   return body_->tape.has_paths;
 }
 
+Running Program::running() const {
+  const Tape& tape = body_->tape;
+  return {tape.runs.size(),     tape.sums,
+          tape.nested,          body_->start.axis >= 0,
+          !tape.states.empty(), body_->start.at_first_row,
+          body_->start.at};
+}
+
+void Program::carry(const Workspace& workspace, std::size_t row, std::span<double> carried) const {
+  const std::vector<int>& runs = body_->tape.runs;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    carried[i] = workspace.body_->at[static_cast<std::size_t>(runs[i])][row];
+}
+
 namespace {
 
 void prepare_state(const Tape& tape, Workspace::Body& work, const Data::Body& data,
@@ -60,6 +74,7 @@ void prepare_state(const Tape& tape, Workspace::Body& work, const Data::Body& da
   };
   work.state_rows.axis = work.at[static_cast<std::size_t>(plan.axis)];
   work.state_rows.starts = data.starts.data() + begin;
+  work.state_rows.from = data.from.empty() ? nullptr : data.from.data() + begin;
   work.state_rows.count = work.rows;
   work.state_rows.beginning = values(plan.beginning);
   for (std::size_t j = 0; j < plan.inputs.size(); ++j)
@@ -110,6 +125,11 @@ void Program::forward(const Data& data, std::size_t begin, std::size_t end, cons
   const auto at = [&](int cell) {
     return cell < 0 ? nullptr : work.at[static_cast<std::size_t>(cell)];
   };
+  const auto carried = [&](const Step& step) {
+    return step.run < 0 || inputs.carried.empty()
+               ? nullptr
+               : inputs.carried[static_cast<std::size_t>(step.run)];
+  };
   for (const Step& step : tape.number_steps) {
     double* out = &work.numbers[static_cast<std::size_t>(
         tape.cells[static_cast<std::size_t>(step.out)].slot)];
@@ -133,11 +153,20 @@ void Program::forward(const Data& data, std::size_t begin, std::size_t end, cons
       for (std::size_t i = 0; i < n; ++i) out[i] = known[label[i]];
     } else if (step.op == Op::cum) {
       running_sum(at(step.a), tape.cells[static_cast<std::size_t>(step.a)].uniform(),
-                  rows.starts.data() + begin, out, n);
+                  rows.starts.data() + begin, out, n, carried(step),
+                  step.run < 0 || rows.repeats.empty() || step.extra == whole_step
+                      ? nullptr
+                      : rows.repeats.data() + begin);
     } else if (step.op == Op::recurrence) {
-      recurrence(tape, work, rows, begin, step).forward(out);
+      Recurrence running = recurrence(tape, work, rows, begin, step);
+      if (const double* before = carried(step)) {
+        running.beginning = before;
+        running.uniform_beginning = false;
+      }
+      running.forward(out);
     } else {
       prepare_state(tape, work, rows, begin);
+      if (const double* before = carried(step)) work.state_rows.beginning = {before, false};
       work.solver->forward(work.state_rows, out);
     }
   }

@@ -43,6 +43,22 @@ struct Rows {
   std::vector<std::span<const double>> columns;  ///< as Symbols::columns; empty where not used
   std::vector<std::span<const int>> labels;      ///< as Symbols::labels; empty where not used
   std::vector<std::size_t> paths = {};
+  /// Where on the axis each path begins, by row (its first one counts), instead of where the law says.
+  std::vector<double> from = {};
+  /// How many rows alike each row stands for in the running sums (`cum`) of a program that may be
+  /// continued, not necessarily a whole number; ones where it is empty.
+  std::vector<double> repeats = {};
+};
+
+/// What runs along the paths of a program that may be continued.
+struct Running {
+  std::size_t count = 0;      ///< sums, states
+  bool sums = false;          ///< `cum` as it is written, which counts rows
+  bool nested = false;        ///< one of them depends on another
+  bool state = false;         ///< there is a state
+  bool solved = false;        ///< by steps, not in closed form
+  bool at_first_row = false;  ///< where it begins
+  double at = 0;              ///< elsewhere on the axis, SI
 };
 
 /// Rows bound to a program: what does not depend on parameters, computed once. Owns its numbers;
@@ -99,6 +115,9 @@ struct Inputs {
   /// For each parameter by row, in the order of Symbols::parameters, an entry for each row of the
   /// call (its first row first).
   std::span<const double* const> by_row = {};
+  /// What each thing that runs along a path is before the path's first row, an entry for each row of
+  /// the call (`Program::running().count` of them); empty where paths begin anew.
+  std::span<const double* const> carried = {};
 };
 
 /// Laws and outputs, compiled. Immutable and cheap to copy; evaluations are thread-safe, each thread
@@ -117,6 +136,11 @@ class Program {
   /// Whether any output depends on rows before its own. Then a call takes whole paths.
   bool has_paths() const;
 
+  /// Of a program that was compiled to be continued.
+  Running running() const;
+  /// After `forward`: what runs along the path of this row of the call, up to and with it.
+  void carry(const Workspace& workspace, std::size_t row, std::span<double> carried) const;
+
   /// Binds rows; throws InputError where a path is not sorted along the axis of a state, or begins
   /// before the state does. The second form takes the memory of what `data` held.
   Data bind(const Rows& rows) const;
@@ -132,7 +156,8 @@ class Program {
 
   /// After `forward` with the same arguments and with the adjoints filled: adds to `gradient` (as
   /// long as the parameters) the sum over rows of adjoint * d output / d parameter, and to
-  /// `by_row[p][row of the call]` the same for each parameter by row (null: not wanted).
+  /// `by_row[p][row of the call]` the same for each parameter by row (null: not wanted). Not of a path
+  /// that is continued.
   void reverse(const Data& data, std::size_t begin, std::size_t end, const Inputs& inputs,
                Workspace& workspace, std::span<double> gradient,
                std::span<double* const> by_row = {}) const;
@@ -149,15 +174,17 @@ class Program {
   std::string state_text() const;
 
  private:
-  friend Program compile(const std::vector<Line>&, const std::vector<Wanted>&, const Symbols&);
+  friend Program compile(const std::vector<Line>&, const std::vector<Wanted>&, const Symbols&,
+                         bool);
   struct Body;
   std::shared_ptr<const Body> body_;
 };
 
 /// Compiles the outputs `wanted` under the lines `law`, which may stand in any order. Every line is
 /// checked, whether an output uses it or not. Throws InputError with the expression, a caret below
-/// the place, both dimensions where they differ, and a hint.
+/// the place, both dimensions where they differ, and a hint. `continued`: paths may go on from where
+/// others stand (`Inputs::carried`), at some cost of speed.
 Program compile(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
-                const Symbols& symbols);
+                const Symbols& symbols, bool continued = false);
 
 }  // namespace wearwell::law

@@ -23,6 +23,7 @@ struct Program::Body {
   int rate = -1, beginning = -1;                  ///< nodes of the state, if there is one
   std::vector<bool> parameters, columns, labels;  ///< whether an output uses them
   Tape tape;
+  bool continued = false;
 };
 
 struct Data::Body {
@@ -30,6 +31,7 @@ struct Data::Body {
   std::vector<std::vector<double>> columns;  ///< by slot of Cell::data
   std::vector<std::vector<int>> labels;      ///< as Symbols::labels; of those that are picked by
   std::vector<std::uint8_t> starts;          ///< 1 where a path begins
+  std::vector<double> from, repeats;         ///< as in Rows, by row; empty without
 };
 
 struct Workspace::Body {

@@ -5,13 +5,16 @@
 
 namespace wearwell::law {
 
-/// The sums of x over the rows of each path up to its own; `starts` is 1 where a path begins.
+/// The sums of x over the rows of each path up to its own; `starts` is 1 where a path begins. `carried`
+/// is what the sum is before the first row of a path (null: 0), `repeats` how many rows alike each
+/// row stands for (null: one).
 inline void running_sum(const double* x, bool uniform, const std::uint8_t* starts, double* sum,
-                        std::size_t n) {
+                        std::size_t n, const double* carried = nullptr,
+                        const double* repeats = nullptr) {
   double so_far = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (starts[i] != 0) so_far = 0;
-    so_far += x[uniform ? 0 : i];
+    if (starts[i] != 0) so_far = carried == nullptr ? 0 : carried[i];
+    so_far += repeats == nullptr ? x[uniform ? 0 : i] : repeats[i] * x[uniform ? 0 : i];
     sum[i] = so_far;
   }
 }

@@ -111,6 +111,7 @@ struct StateSolver::Body {
         single_kept(1) {}
 
   double first(const StateRows& rows, std::size_t i) const {
+    if (rows.from != nullptr) return rows.from[i];
     return start.at_first_row ? rows.axis[i] : start.at;
   }
 

@@ -20,6 +20,7 @@ struct Values {
 struct StateRows {
   const double* axis = nullptr;          ///< sorted within a path
   const std::uint8_t* starts = nullptr;  ///< 1 where a path begins
+  const double* from = nullptr;  ///< where on the axis, at its first row; null: as the law says
   std::size_t count = 0;
   Values beginning;            ///< taken from the first row of a path
   std::vector<Values> inputs;  ///< as StatePlan::inputs; they hold up to their row

@@ -9,11 +9,12 @@ namespace {
 class Maker {
  public:
   Maker(const Graph& graph, const std::vector<int>& roots, const Symbols& symbols,
-        const StateStart& start)
+        const StateStart& start, bool continued)
       : graph_(graph),
         roots_(roots),
         symbols_(symbols),
         start_(start),
+        continued_(continued),
         slots_(slots(symbols)),
         cell_(static_cast<std::size_t>(graph.size()), -1) {}
 
@@ -88,7 +89,8 @@ class Maker {
 
   void place(int i) {
     const Node& node = graph_[i];
-    Cell::Home where = !node.rows ? Cell::number : node.parametric ? Cell::row : Cell::data;
+    const bool computed = node.parametric || (continued_ && node.by_path);
+    Cell::Home where = !node.rows ? Cell::number : computed ? Cell::row : Cell::data;
     if (node.op == Op::by_row) where = Cell::by_row;
     if (node.op == Op::state) prepare_state(node);
     if (node.by_label >= 0 && node.parametric) where = Cell::level;
@@ -122,11 +124,25 @@ class Maker {
     step.levels = levels_of(node.by_label);
     if (node.op == Op::state) tape_.states.back().out = at;
     if (node.op == Op::state || node.op == Op::recurrence) tape_.state = at;
+    if (continued_) note_run(node, step);
     (where == Cell::number  ? tape_.number_steps
      : where == Cell::data  ? tape_.bind_steps
      : where == Cell::level ? tape_.level_steps
                             : tape_.row_steps)
         .push_back(step);
+  }
+
+  void note_run(const Node& node, Step& step) {
+    if (node.op != Op::cum && node.op != Op::state && node.op != Op::recurrence) return;
+    step.run = static_cast<int>(tape_.runs.size());
+    tape_.runs.push_back(step.out);
+    tape_.sums |= node.op == Op::cum && node.value == 0;
+    std::vector<int> arguments;
+    for (const int each : {node.a, node.b, node.c})
+      if (each >= 0) arguments.push_back(each);
+    const std::vector<bool> within = reachable(graph_, arguments);
+    for (int i = 0; i < graph_.size(); ++i)
+      tape_.nested |= within[static_cast<std::size_t>(i)] && graph_[i].by_path;
   }
 
   int by_row_index(int parameter) const {
@@ -297,6 +313,7 @@ class Maker {
   const std::vector<int>& roots_;
   const Symbols& symbols_;
   StateStart start_;
+  bool continued_;
   std::vector<std::size_t> slots_;
   std::vector<int> cell_;
   std::map<int, int> expanded_;  ///< node known by label, and its cell over the rows
@@ -307,8 +324,8 @@ class Maker {
 }  // namespace
 
 Tape make_tape(const Graph& graph, const std::vector<int>& roots, const Symbols& symbols,
-               const StateStart& start) {
-  return Maker(graph, roots, symbols, start).run();
+               const StateStart& start, bool continued) {
+  return Maker(graph, roots, symbols, start, continued).run();
 }
 
 }  // namespace wearwell::law

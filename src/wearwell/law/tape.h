@@ -23,6 +23,7 @@ struct Step {
   Kernels kernels;
   int out = -1, a = -1, b = -1, c = -1;  ///< cells
   double extra = 0;
+  int run = -1;        ///< of what runs along a path (cum, state, recurrence): which
   int label = -1;      ///< expand
   int levels = 0;      ///< of the label: expand, and steps by label
   unsigned gives = 0;  ///< bit i: argument i takes an adjoint
@@ -79,10 +80,15 @@ struct Tape {
   std::vector<StatePlan> states;  ///< one or none; Op::state among the row steps runs it
   int state = -1;                 ///< the cell of the state, however it is computed; -1 without one
   bool has_paths = false;
+  // Of a program whose paths may be continued:
+  std::vector<int> runs;  ///< cells of what runs along a path
+  bool sums = false;      ///< `cum` as it is written, which counts rows
+  bool nested = false;    ///< what runs along a path depends on another that does
 };
 
-/// `graph` and its `roots` as `regrouped` makes them.
+/// `graph` and its `roots` as `regrouped` makes them. `continued`: what runs along a path is computed with
+/// the rows of a call, never when they are bound.
 Tape make_tape(const Graph& graph, const std::vector<int>& roots, const Symbols& symbols,
-               const StateStart& start);
+               const StateStart& start, bool continued = false);
 
 }  // namespace wearwell::law

@@ -11,7 +11,7 @@ namespace wearwell {
 Models all_models() {
   static const Model models[] = {
       joint::model(),  bearing::model(), clutch::model(),       fatigue::model(),
-      ownlaw::model(), ownlaw::life(),   ownlaw::accelerated(),
+      ownlaw::model(), ownlaw::life(),   ownlaw::accelerated(), ownlaw::degradation(),
   };
   return models;
 }

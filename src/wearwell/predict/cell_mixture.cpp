@@ -19,6 +19,18 @@ void CellMixture::add(const CellMixture& other) {
   cells_.insert(cells_.end(), other.cells_.begin(), other.cells_.end());
 }
 
+double CellMixture::add_beyond(double weight, double a, double b, double x) {
+  const double low = std::min(a, b), high = std::max(a, b);
+  if (low >= x || high == infinity || std::isnan(a) || std::isnan(b)) {
+    add(weight, low - x, high - x);
+    return weight;
+  }
+  if (!(high > x)) return 0;
+  const double rest = weight * (high - x) / (high - low);
+  add(rest, 0, high - x);
+  return rest;
+}
+
 double CellMixture::mass() const {
   double sum = 0;
   for (const Cell& cell : cells_) sum += cell.weight;
@@ -77,19 +89,6 @@ double CellMixture::quantile(double p) const {
     }
   }
   return 0.5 * (low + high);
-}
-
-CellMixture CellMixture::beyond(double x) const {
-  CellMixture rest;
-  rest.reserve(cells_.size());
-  for (const Cell& cell : cells_) {
-    if (cell.low >= x || cell.high == infinity || std::isnan(cell.high)) {
-      rest.add(cell.weight, cell.low - x, cell.high - x);
-    } else if (cell.high > x) {
-      rest.add(cell.weight * (cell.high - x) / (cell.high - cell.low), 0, cell.high - x);
-    }
-  }
-  return rest;
 }
 
 }  // namespace wearwell

@@ -12,15 +12,14 @@ class CellMixture {
   /// `a` and `b` in any order; NaN makes all that is asked NaN.
   void add(double weight, double a, double b);
   void add(const CellMixture& other);
+  /// Only what of such a cell lies beyond x, as a distance from x; returns its weight.
+  double add_beyond(double weight, double a, double b, double x);
 
   double mass() const;  ///< the sum of the weights
   /// The share of the mass up to x.
   double cdf(double x) const;
   /// The x with cdf(x) = p, 0 < p < 1; infinity where so much is never reached.
   double quantile(double p) const;
-
-  /// Only what lies beyond x, as a distance from x.
-  CellMixture beyond(double x) const;
 
  private:
   struct Cell {

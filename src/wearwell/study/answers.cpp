@@ -67,7 +67,7 @@ class Clauses {
   void prediction(const PosteriorSummary& result) {
     const PredictionSummary& p = result.predictions.back();
     all.push_back(
-        fmt::format("at {} {} the {}{} is {} (90 % interval {})", given(p.at, "1"), p.at_name,
+        fmt::format("at {} {} the {}{} is {} (90 % interval {})", given(p.at, "1"), p.at_word(),
                     result.quantity, p.mean_of.empty() ? "" : " of the " + p.mean_of,
                     number(p.best().mean, p.unit), range(p.best().ci05, p.best().ci95, p.unit)));
   }

@@ -4,6 +4,9 @@
 
 #include <iterator>
 
+#include "wearwell/input/csv_reader.h"
+#include "wearwell/present/table.h"
+
 namespace wearwell {
 namespace {
 
@@ -53,7 +56,11 @@ std::string draws_csv(const PosteriorSummary& result, std::size_t index) {
 }
 
 std::string predictions_csv(const PosteriorSummary& result) {
-  const std::string at = result.predictions.empty() ? "cycles" : result.predictions.front().at_name;
+  std::string at = "cycles";
+  if (!result.predictions.empty()) {
+    const PredictionSummary& first = result.predictions.front();
+    at = csv_cell(present::heading(first.at_name, first.at_unit.empty() ? "1" : first.at_unit));
+  }
   std::string out = fmt::format("rows,{},quantity,unit,mean,ci05,ci95,pi05,pi95,measured\n", at);
   for (const StageSummary& stage : result.stages)
     add_predictions(out, stage.rows, stage.predictions);

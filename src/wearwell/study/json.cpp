@@ -35,6 +35,7 @@ Json to_json(const std::vector<PredictionSummary>& predictions) {
     Json each = {{p.at_name, p.at}, {"quantity", p.quantity}, {"unit", p.unit}};
     each.update(to_json(p.drawn));
     if (p.measured) each["measured"] = *p.measured;
+    if (!p.at_unit.empty()) each["at_unit"] = p.at_unit;
     if (!p.mean_of.empty()) each.update({{"mean_of", p.mean_of}, {"pi_of", p.measured_of}});
     if (p.exact) each["exact"] = to_json(*p.exact);
     json.push_back(std::move(each));

@@ -95,7 +95,7 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   if (!result.predictions.empty()) {
     const PredictionSummary& p = result.predictions.back();
     tiles.push_back(
-        {fmt::format("{} at {} {}", html::capital(result.quantity), given(p.at), p.at_name),
+        {fmt::format("{} at {} {}", html::capital(result.quantity), given(p.at), p.at_word()),
          number(p.best().mean, 3), unit(p.unit),
          fmt::format("one measurement: {}", interval(p.best().pi05, p.best().pi95, p.unit, 3))});
   }

@@ -39,6 +39,7 @@ struct PredictionRequest {
       {};  ///< the mean of one item where items differ; the prediction interval is its
   /// Whose the mean and the prediction interval are, where these differ: "median bearing".
   std::string mean_of = {}, measured_of = {};
+  std::string at_unit = {};  ///< of `at`, where its name is not a unit: "h"
 };
 
 /// When a limit is reached.

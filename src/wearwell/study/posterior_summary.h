@@ -50,7 +50,10 @@ struct PredictionSummary {
   /// Whose the mean with its interval is, and whose the measurement: "median bearing", "new bearing"
   /// where items differ; else empty.
   std::string mean_of = {}, measured_of = {};
+  std::string at_unit = {};  ///< of `at`, where its name is not a unit: "h"
 
+  /// What follows the number in a sentence: "at 5000 cycles", "at 5000 h".
+  const std::string& at_word() const { return at_unit.empty() ? at_name : at_unit; }
   const Prediction& best() const { return exact ? *exact : drawn; }
 };
 

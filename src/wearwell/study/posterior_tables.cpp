@@ -29,7 +29,7 @@ Table prediction_rows(const char* id, const std::string& caption, const Predicti
   return {id,
           caption,
           {{"Rows", "1", given},
-           {first.at_name, "1", given},
+           {first.at_name, first.at_unit.empty() ? "1" : first.at_unit, given},
            {first.quantity, first.unit},
            interval_column("90 % of the " + (items ? first.mean_of : "mean"), first.unit),
            interval_column(

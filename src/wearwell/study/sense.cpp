@@ -97,8 +97,8 @@ Check sense_check(const PosteriorSummary& result) {
   }
   for (const PredictionSummary& each : result.predictions) {
     const Prediction& p = each.best();
-    sense.interval(fmt::format("the {} at {} {}", each.quantity, each.at, each.at_name), each.unit,
-                   p.ci05, p.ci95, {p.mean, p.pi05, p.pi95}, false);
+    sense.interval(fmt::format("the {} at {} {}", each.quantity, each.at, each.at_word()),
+                   each.unit, p.ci05, p.ci95, {p.mean, p.pi05, p.pi95}, false);
   }
   for (const QuantitySummary& each : result.quantities) {
     const QuantityQuantiles& q = each.best();

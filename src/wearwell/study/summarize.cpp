@@ -37,6 +37,7 @@ PredictionSummary summarize(const PredictionRequest& request, const Fit& fit, co
   if (request.measured) summary.measured = from_si(request.unit, *request.measured);
   summary.mean_of = request.mean_of;
   summary.measured_of = request.measured_of;
+  summary.at_unit = request.at_unit;
   return summary;
 }
 

@@ -129,7 +129,8 @@ std::string histogram_lines(const PosteriorSummary& result) {
 std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
   const PredictionSummary& first = predictions.front();
   std::vector<std::vector<std::string>> rows = {
-      {first.at_name, printable_heading(first.quantity, first.unit),
+      {printable_heading(first.at_name, first.at_unit.empty() ? "1" : first.at_unit),
+       printable_heading(first.quantity, first.unit),
        first.mean_of.empty() ? "mean wear 5 %..95 %" : first.mean_of + " 5 %..95 %",
        first.mean_of.empty() ? "measurement 5 %..95 %" : first.measured_of + " reads 5 %..95 %",
        "measured"}};

@@ -123,6 +123,18 @@ TEST_F(OwnLikelihoodTest, UnitsAsParabolasHaveTheNodesOfRowByRow) {
   }
 }
 
+// A path that jumps where the effect does: its integral is known to the width of a step only, and that is said.
+TEST_F(OwnLikelihoodTest, AnIntegralThatDoesNotSettleIsSaid) {
+  const std::string effect = "b = { law = \"lognormal\", log_sd = \"s + 0*rho + 0*r/a\" }\n";
+  const std::vector<double> x = {0.3 * um, 1.4 * um / h, 0.8 * um, 0.6, 1 * um, 0.1};
+  EXPECT_EQ(likelihood("a + b * t", effect)->unsettled(x), 0);
+  EXPECT_EQ(likelihood("where(t > 0, a + b * t, a)", effect)->unsettled(x), 0);
+  const double open =
+      likelihood("where(b > 1.5 [um/h], a + b * t, 2 * a + b * t)", effect)->unsettled(x);
+  EXPECT_GT(open, 1e-6);
+  EXPECT_LT(open, 0.5);
+}
+
 // Normal effects: the rows of a unit are jointly normal (dense covariance, by hand).
 TEST_F(OwnLikelihoodTest, TwoCorrelatedEffectsAreAJointNormalLaw) {
   const auto density = likelihood("a + b * t",

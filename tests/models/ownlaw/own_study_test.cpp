@@ -120,7 +120,7 @@ TEST_F(OwnStudy, WhatTheDataCannotTellApartIsNamedAndNotTrusted) {
 TEST_F(OwnStudy, LivesOfMachinesThatDiffer) {
   const PosteriorStudy study = wearwell::read_posterior_study(examples + "law/study.toml");
   const PosteriorSummary result = run_study(study, {Method::exact, 1, {}, 4000, {}}, {}, false);
-  ASSERT_EQ(result.quantities.size(), 14u);
+  ASSERT_EQ(result.quantities.size(), 22u);  // of them 8 paths ahead of machines at 50 km
   EXPECT_EQ(result.quantities[0].name, "mean_over_median");
   const QuantitySummary& life = result.quantities[1];
   EXPECT_EQ(life.name, "life");
@@ -174,6 +174,36 @@ sigma = {{ law = "half-normal", scale = "1 um" }}
   const std::string refused = refusal(study(named_depth, "{ column = \"s [km]\", unit = \"m\" }"));
   EXPECT_NE(refused.find("'s [km]' is in km by its heading, and m is given"), std::string::npos)
       << refused;
+}
+
+// Lasers of Meeker and Escobar (1998), straight paths: what is known of a path ahead is what is known of
+// the remaining life, seen along the other axis.
+TEST_F(OwnStudy, PathsAheadAndRemainingLivesAreOneThing) {
+  const PosteriorStudy study = wearwell::read_posterior_study(examples + "degradation/study.toml");
+  const PosteriorSummary result = run_study(study, {Method::exact, 1, {}, 50, {}}, {}, true);
+  const auto found = [&](const std::string& name, const std::string& of) {
+    for (const QuantitySummary& each : result.quantities) {
+      if (each.name == name && each.of == of) return each.best();
+    }
+    ADD_FAILURE() << name << " of " << of;
+    return QuantityQuantiles();
+  };
+  for (const char* laser : {"laser 3", "laser 7", "laser 13"}) {
+    const QuantityQuantiles path = found("increase", laser);
+    const QuantityQuantiles life = found("remaining life", laser);
+    EXPECT_NEAR(path.q05, 10 * 5000 / (4000 + life.q95), 5e-3) << laser;
+    EXPECT_NEAR(path.q50, 10 * 5000 / (4000 + life.q50), 5e-3) << laser;
+    EXPECT_NEAR(path.q95, 10 * 5000 / (4000 + life.q05), 5e-3) << laser;
+  }
+  EXPECT_EQ(found("remaining life", "laser 10").q95, 0);  // 12.21 % at 4000 h
+  // A figure of a new laser and one of each, with its readings and the limit.
+  const auto& figures = result.plots->exhibits.at("predictions");
+  ASSERT_EQ(figures.size(), 16u);
+  EXPECT_EQ(figures[0].title, "New laser");
+  EXPECT_EQ(figures[15].title, "Laser 15");
+  const std::string text = figures[15].specification.dump();
+  EXPECT_NE(text.find("6.62"), std::string::npos);
+  EXPECT_NE(text.find("limit"), std::string::npos);
 }
 
 TEST_F(OwnStudy, WrongStudiesAreRefusedWithTheirPlace) {

@@ -1,5 +1,6 @@
 #include "wearwell/models/fatigue/model.h"
 
+#include "wearwell/models/fatigue/commands.h"
 #include "wearwell/models/fatigue/sn_first.h"
 #include "wearwell/models/fatigue/sn_keys.h"
 #include "wearwell/models/fatigue/sn_study.h"
@@ -24,7 +25,7 @@ Model model() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_sn_study);
               },
-          .add_commands = nullptr,
+          .add_commands = add_commands,
           .keys = study_keys,
           .first_study = first_study};
 }

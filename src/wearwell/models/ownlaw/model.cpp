@@ -11,6 +11,8 @@ std::string_view life_study();
 std::string_view life_data();
 std::string_view accelerated_study();
 std::string_view accelerated_data();
+std::string_view degradation_study();
+std::string_view degradation_data();
 
 }  // namespace resource
 
@@ -47,6 +49,12 @@ Model accelerated() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::accelerated_study},
                                             {"device_a.csv", resource::accelerated_data}};
   return law_with("accelerated", example);
+}
+
+Model degradation() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::degradation_study},
+                                            {"laser.csv", resource::degradation_data}};
+  return law_with("degradation", example);
 }
 
 }  // namespace ownlaw

@@ -7,8 +7,9 @@ namespace wearwell::ownlaw {
 /// Laws in the user's own words, and what `wearwell new law` writes.
 Model model();
 
-/// The same model, with what `wearwell new life` and `new accelerated` write.
+/// The same model, with what `wearwell new life`, `new accelerated` and `new degradation` write.
 Model life();
 Model accelerated();
+Model degradation();
 
 }  // namespace wearwell::ownlaw

@@ -1,8 +1,14 @@
 #include "wearwell/models/ownlaw/own_law.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace wearwell::ownlaw {
+
+bool OwnLaw::has_process() const {
+  return std::any_of(measured.begin(), measured.end(),
+                     [](const Measured& each) { return each.process != nullptr; });
+}
 
 double Population::value(const OwnLaw& law, std::size_t i, const double* z) const {
   const double own =

@@ -8,6 +8,7 @@
 #include "wearwell/bayes/parameter.h"
 #include "wearwell/law/program.h"
 #include "wearwell/models/ownlaw/own_data.h"
+#include "wearwell/models/ownlaw/own_process.h"
 #include "wearwell/prob/response.h"
 
 namespace wearwell::ownlaw {
@@ -27,6 +28,8 @@ struct Measured {
   Unit unit;
   law::Powers powers;
   const ResponseForm* form = nullptr;
+  const ProcessForm* process =
+      nullptr;                        ///< where its increments are random; then `form` is its form
   std::optional<std::string> trials;  ///< the column of their numbers
   std::vector<law::Wanted> wanted;    ///< the slots that are given, as expressions
   std::vector<std::size_t> slot;      ///< of the form, for each of `wanted`
@@ -59,6 +62,10 @@ struct OwnLaw {
   std::optional<std::string> along;      ///< the column that is the axis of wear and life
 
   bool varies() const { return !effects.empty(); }
+  bool has_process() const;
+  /// Whether the likelihood's factors are units, not rows: where they differ, or a row's reading depends
+  /// on those before it.
+  bool by_unit() const { return varies() || has_process(); }
 };
 
 /// The population at one point of the parameters.

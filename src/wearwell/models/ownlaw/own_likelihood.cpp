@@ -42,7 +42,7 @@ BoundColumn bind_column(const OwnLaw& law, const Measured& measured, std::size_t
   for (std::size_t i = 0; i < measured.observed.rows.size(); ++i) {
     seen[measured.observed.rows[i]] = i;
   }
-  const bool paths = measured.program.has_paths();
+  const bool paths = measured.program.has_paths(), whole = paths || measured.process;
   BoundColumn bound;
   bound.measured = &measured;
   std::vector<std::size_t> which;
@@ -64,7 +64,7 @@ BoundColumn bind_column(const OwnLaw& law, const Measured& measured, std::size_t
   }
   RowColumns columns(law, which, measured.program);
   bound.most_rows = rows_of_call;
-  if (paths) {
+  if (whole) {
     for (std::size_t u = 0; u < law.units.size(); ++u) {
       if (bound.begin[u] < bound.begin[u + 1]) columns.rows.paths.push_back(bound.begin[u]);
       bound.most_rows = std::max(bound.most_rows, bound.begin[u + 1] - bound.begin[u]);
@@ -113,7 +113,7 @@ template <class Visit>
 void UnitRows::visit(std::span<const std::uint8_t> wanted, const Visit& visit) {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const BoundColumn& column = columns_[c];
-    const bool paths = column.measured->program.has_paths();
+    const bool paths = column.measured->program.has_paths() || column.measured->process;
     const std::size_t units = law_.units.size();
     for (std::size_t u = 0; u < units;) {
       if (!wanted[u]) {
@@ -162,9 +162,75 @@ void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool slope
   run(chunk, z);
   const BoundColumn& column = *chunk.column;
   const std::size_t n = chunk.end - chunk.begin;
+  if (column.measured->process) return forward_process(chunk, sloped);
   log_responses(column.measured->form->family, column.responses, chunk.begin, slots_,
                 {value_.data(), n},
                 sloped ? std::span(slope_.data(), most_response_slots * n) : std::span<double>());
+}
+
+// Unit by unit, of the rows that have a reading.
+void UnitRows::forward_process(const Chunk& chunk, bool sloped) {
+  const BoundColumn& column = *chunk.column;
+  const ProcessForm& form = *column.measured->process;
+  const std::size_t n = chunk.end - chunk.begin;
+  const bool noisy = !(slots_[2].uniform && slots_[2].at == &zero_);
+  static thread_local std::vector<std::size_t> rows;
+  static thread_local std::vector<double> reading, mean, spread, noise, value, slope;
+  std::fill_n(value_.begin(), n, 0.0);
+  if (sloped) std::fill_n(slope_.begin(), most_response_slots * n, 0.0);
+  for (std::size_t i = 0; i < n;) {
+    const std::size_t unit = column.unit[chunk.begin + i];
+    rows.clear();
+    for (; i < n && column.unit[chunk.begin + i] == unit; ++i) {
+      if (column.count[chunk.begin + i] > 0) rows.push_back(i);
+    }
+    reading.clear();
+    mean.clear();
+    spread.clear();
+    noise.clear();
+    for (const std::size_t row : rows) {
+      reading.push_back(column.responses.rows[chunk.begin + row].at);
+      mean.push_back(slots_[0][row]);
+      spread.push_back(slots_[1][row]);
+      if (noisy) noise.push_back(slots_[2][row]);
+    }
+    value.resize(rows.size());
+    slope.resize(sloped ? most_response_slots * rows.size() : 0);
+    process_terms(form, {reading, mean, spread, noise}, value, slope);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      value_[rows[k]] = value[k];
+      for (std::size_t s = 0; s < (sloped ? most_response_slots : 0); ++s) {
+        slope_[s * n + rows[k]] = slope[s * rows.size() + k];
+      }
+    }
+  }
+}
+
+std::vector<Standing> UnitRows::standings(std::span<const double> z, std::size_t c) {
+  std::vector<Standing> all(law_.units.size());
+  const BoundColumn& column = columns_[c];
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    if (chunk.index != c) return;
+    run(chunk, z);
+    const bool noisy = !(slots_[2].uniform && slots_[2].at == &zero_);
+    std::vector<double> reading, mean, spread, noise;
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
+      const std::size_t unit = column.unit[i], at = i - chunk.begin;
+      if (column.count[i] > 0) {
+        reading.push_back(column.responses.rows[i].at);
+        mean.push_back(slots_[0][at]);
+        spread.push_back(slots_[1][at]);
+        if (noisy) noise.push_back(slots_[2][at]);
+      }
+      if (i + 1 < chunk.end && column.unit[i + 1] == unit) continue;
+      all[unit] = standing(*column.measured->process, {reading, mean, spread, noise});
+      reading.clear();
+      mean.clear();
+      spread.clear();
+      noise.clear();
+    }
+  });
+  return all;
 }
 
 double UnitRows::weight_of(const Chunk& chunk, std::size_t i, const double* weight) const {
@@ -407,6 +473,12 @@ class OwnLikelihood final : public LogDensity {
     }
     if (law_->varies()) return rows_->integrate(x.data()).log_likelihood;
     scratch.rows.move_to(x.data());
+    if (law_->by_unit()) {
+      if (law_->units.size() < 2) return {};  // nothing else is left to predict it by
+      scratch.value.resize(law_->units.size());
+      scratch.rows.evaluate({}, all_, scratch.value, {});
+      return scratch.value;
+    }
     std::vector<double> all;
     for (const auto& column : scratch.rows.each_term({})) {
       all.insert(all.end(), column.begin(), column.end());
@@ -416,11 +488,15 @@ class OwnLikelihood final : public LogDensity {
 
   std::vector<int> pointwise_counts() const override {
     std::vector<int> counts;
-    if (law_->varies()) return counts;
+    if (law_->by_unit()) return counts;
     for (const Measured& each : law_->measured) {
       counts.insert(counts.end(), each.observed.counts.begin(), each.observed.counts.end());
     }
     return counts;
+  }
+
+  double unsettled(std::span<const double> x) const override {
+    return law_->varies() ? rows_->integrate(x.data()).unsettled : 0;
   }
 
  private:

@@ -66,6 +66,9 @@ class UnitRows final : public latent::UnitTerms {
   /// log density of each observation at z, by column, in the order of `Observed`.
   std::vector<std::vector<double>> each_term(std::span<const double> z);
 
+  /// Where the units' paths of column c, a process, stand after their last rows.
+  std::vector<Standing> standings(std::span<const double> z, std::size_t c);
+
   /// The slots of each observation at z, three each, by column in the order of `Observed`.
   std::vector<std::vector<double>> each_slot(std::span<const double> z);
 
@@ -79,6 +82,7 @@ class UnitRows final : public latent::UnitTerms {
   void run(const Chunk& chunk, std::span<const double> z);  // the slots alone
   void forward(const Chunk& chunk, std::span<const double> z, bool sloped);
   void fill_adjoints(const Chunk& chunk, const double* weight);
+  void forward_process(const Chunk& chunk, bool sloped);
   double weight_of(const Chunk& chunk, std::size_t i, const double* weight) const;
 
   const OwnLaw& law_;

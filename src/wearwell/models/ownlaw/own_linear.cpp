@@ -4,6 +4,7 @@
 #include <cmath>
 #include <regex>
 
+#include "wearwell/models/ownlaw/lognormal_unit.h"
 #include "wearwell/models/ownlaw/normal_unit.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
@@ -57,7 +58,7 @@ bool is_linear(const OwnLaw& law, const std::vector<BoundColumn>& columns) {
   if (!law.varies() || has_cases(law)) return false;
   for (const BoundColumn& column : columns) {
     const bool normal = column.measured->form->family == ResponseFamily::normal;
-    if (!normal || !column.responses.plain) return false;
+    if (!normal || column.measured->process || !column.responses.plain) return false;
   }
   UnitRows rows(law, columns);
   const std::size_t d = law.effects.size();
@@ -203,91 +204,6 @@ void LinearUnits::evaluate(std::span<const double> z, std::span<const std::uint8
   }
 }
 
-namespace {
-
-// Nodes of the finest rule in t: sinh(t) and log cosh(t); the coarser one takes every second.
-struct SinhNodes {
-  static constexpr int most = 600;
-  static constexpr double step = 0.05;
-  double place[most], stretch[most];
-
-  SinhNodes() {
-    for (int n = 0; n < most; ++n) {
-      place[n] = std::sinh(n * step);
-      stretch[n] = std::log(std::cosh(n * step));
-    }
-  }
-};
-
-// -h/2 (e^sz - 1 - best)^2 - z^2/2, and its slope and bend.
-struct LognormalUnit {
-  double best, h, s;
-
-  double at(double z) const {
-    const double off = std::exp(s * z) - 1 - best;
-    return -0.5 * h * off * off - 0.5 * z * z;
-  }
-  // Where it is highest, about, and the width there.
-  std::pair<double, double> bell() const {
-    const double top = 1 + best, informed = s * s * top * top * h;
-    double z = top > 0 ? std::log(top) / s * informed / (1 + informed) : 0, bend = 1;
-    if (!std::isfinite(z)) z = 0;
-    for (int step = 0; step < 12; ++step) {
-      const double e = std::exp(s * z), off = e - 1 - best, slope = -s * e * h * off - z;
-      bend = std::max(1 + s * s * e * h * (e + off), 0.5 * (1 + s * s * e * e * h));
-      const double move = std::clamp(slope / bend, -2.0, 2.0);
-      if (std::abs(slope) < 0.1 * std::sqrt(bend)) break;
-      z += move;
-    }
-    return {z, 1 / std::sqrt(bend)};
-  }
-  // Of the rule, the first to the right (1, 3, ...) and to the left (2, 4, ...) of node 0.
-  struct Node {
-    std::size_t place;
-    double z, log_f;
-  };
-  // log of the integral over z, without the constant of the normal law.
-  std::optional<double> log_integral(std::vector<Node>* kept) const {
-    // Steps of 0.1: with those of 0.2 even of a bell every second node is off by more than is asked.
-    for (const int stride : {2, 1}) {
-      if (const auto integral = by_rule(stride, kept)) return integral;
-    }
-    return {};
-  }
-
- private:
-  // Nothing where every second node does not tell the same.
-  std::optional<double> by_rule(int stride, std::vector<Node>* kept) const {
-    static const SinhNodes nodes;
-    constexpr double negligible = -36, most_difference = 3e-6;
-    const auto [center, width] = bell();
-    double highest = at(center), sums[2] = {1, 0};
-    if (kept) kept->assign(1, {0, center, highest});
-    for (const int sign : {1, -1}) {
-      for (int n = 1;; ++n) {
-        if (n * stride >= SinhNodes::most) return {};
-        const double z = center + sign * width * nodes.place[n * stride];
-        const double log_f = at(z) + nodes.stretch[n * stride];
-        if (!(log_f > highest + negligible)) break;
-        const auto place = static_cast<std::size_t>(sign > 0 ? 2 * n - 1 : 2 * n);
-        if (kept) kept->push_back({place, z, log_f});
-        if (log_f > highest) {
-          const double scale = std::exp(highest - log_f);
-          sums[0] *= scale;
-          sums[1] *= scale;
-          highest = log_f;
-        }
-        sums[n % 2] += std::exp(log_f - highest);
-      }
-    }
-    const double sum = sums[0] + sums[1];
-    if (!(std::abs(sums[0] - sums[1]) < most_difference * sum)) return {};
-    return highest + std::log(sum * SinhNodes::step * stride * width);
-  }
-};
-
-}  // namespace
-
 bool LinearUnits::in_closed_form() const {
   const auto& effects = law_.effects;
   return std::none_of(effects.begin(), effects.end(), [](const auto& e) { return e.lognormal; });
@@ -339,16 +255,17 @@ bool LinearUnits::integrate_one(latent::UnitIntegrals& result) const {
   const double s = rows_.population().scatter[0];
   const std::size_t units = parabola_.size();
   result.settled = true;
+  result.unsettled = 0;
   result.log_likelihood.assign(units, -infinity);
   std::size_t used = 0;
   static thread_local std::vector<LognormalUnit::Node> nodes;
   for (std::size_t u = 0; u < units; ++u) {
     const Parabola& p = parabola_[u];
     if (!(p.top > -infinity)) continue;
-    const auto integral = LognormalUnit{p.best[0], p.bend[0], s}.log_integral(&nodes);
+    const LognormalUnit unit{p.best[0], p.bend[0], s};
+    const auto integral = unit.log_integral(&nodes);
     if (!integral) return false;
     result.log_likelihood[u] = p.top + *integral - half_log_two_pi;
-    double sum = 0;
     for (const auto& node : nodes) {
       if (node.place >= result.sweeps.size()) result.sweeps.resize(node.place + 1);
       for (; used <= node.place; ++used) {
@@ -357,13 +274,10 @@ bool LinearUnits::integrate_one(latent::UnitIntegrals& result) const {
         result.sweeps[used].weight.assign(units, 0);
       }
       latent::Sweep& sweep = result.sweeps[node.place];
-      // log f here is the integrand's in t, with the stretch of its cell.
-      sweep.weight[u] = std::exp(node.log_f - *integral);
-      sum += sweep.weight[u];
+      sweep.weight[u] = node.weight;
       sweep.z[u] = node.z;
-      sweep.log_f[u] = p.top + LognormalUnit{p.best[0], p.bend[0], s}.at(node.z) - half_log_two_pi;
+      sweep.log_f[u] = p.top + unit.at(node.z, node.step) - half_log_two_pi;
     }
-    for (const auto& node : nodes) result.sweeps[node.place].weight[u] /= sum;
   }
   result.sweeps.resize(used);
   return true;
@@ -424,23 +338,17 @@ std::optional<double> LinearUnits::sum_of_lognormal(std::span<double> gradient) 
     if (!integral) return {};
     sum += p.top + *integral - half_log_two_pi;
     if (!sloped) continue;
-    double all = 0, highest = -infinity;
     m = {};
-    for (const auto& node : nodes) highest = std::max(highest, node.log_f);
     double by_middle = 0, by_scatter = 0;
     for (const auto& node : nodes) {
-      const double weight = std::exp(node.log_f - highest), e = std::exp(s * node.z);
-      const double slope = -weight * unit.h * (e - 1 - unit.best) * e;
-      all += weight;
-      m.first[0] += weight * (e - 1);
-      m.second[0] += weight * (e - 1) * (e - 1);
+      const double slope = -node.weight * unit.h * (node.step - unit.best) * (node.step + 1);
+      m.first[0] += node.weight * node.step;
+      m.second[0] += node.weight * node.step * node.step;
       by_middle += slope;
       by_scatter += slope * node.z;
     }
-    m.first[0] /= all;
-    m.second[0] /= all;
-    by.middle[0] += by_middle / all / middle;
-    by.scatter[0] += by_scatter / all;
+    by.middle[0] += by_middle / middle;
+    by.scatter[0] += by_scatter;
   }
   if (sloped && std::isfinite(sum)) add_gradient_of_moments(by, gradient);
   return sum;

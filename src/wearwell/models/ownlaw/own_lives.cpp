@@ -13,6 +13,7 @@ namespace wearwell::ownlaw {
 namespace {
 
 constexpr std::size_t most_points = 4000;
+constexpr double least_share = 1e-7;  // of a unit's posterior: nodes with less are left out
 
 // The ends of cells of equal width that fill the standard normal law, up to 1e-16 of it.
 struct NormalCells {
@@ -55,10 +56,12 @@ class Part {
   void solve(Crossing& crossing, const std::vector<double>& z, std::size_t count,
              std::vector<double>& place) {
     place.resize(count);
+    past_.resize(count);
     level_.assign(count, path_.limit);
     for (std::size_t at = 0; at < count; at += Path::most) {
       const std::size_t n = std::min(Path::most, count - at);
       crossing.solve(n, z.empty() ? nullptr : &z[at * effects()], &level_[at], &place[at]);
+      for (std::size_t i = 0; i < n; ++i) past_[at + i] = crossing.ahead(i);
     }
   }
 
@@ -107,7 +110,11 @@ class Part {
       for (std::size_t u = 0; u < units; ++u) {
         ahead_[u].at().move_to(x);
         solve(ahead_[u], {}, 1, place_);
-        add_remaining(u, x, {}, weight, place_[0], place_[0]);
+        if (path_.seen[u].ahead->goes_on()) {
+          add_ahead(u, weight, 0, 0);
+        } else {
+          add_remaining(u, x, {}, weight, place_[0], place_[0]);
+        }
       }
       return;
     }
@@ -115,7 +122,7 @@ class Part {
     for (std::size_t u = 0; u < units; ++u) {
       nodes_.clear();
       for (const latent::Sweep& sweep : sweeps) {
-        if (!(sweep.weight[u] > 1e-9)) continue;
+        if (!(sweep.weight[u] > least_share)) continue;
         nodes_.push_back({sweep.weight[u], sweep.z[u * d], d > 1 ? sweep.z[u * d + 1] : 0});
       }
       std::sort(nodes_.begin(), nodes_.end(),
@@ -141,9 +148,25 @@ class Part {
       for (std::size_t i = 0; i < nodes_.size(); ++i) {
         const double z[2] = {nodes_[i].z0, nodes_[i].z1};
         const std::size_t other = d == 1 ? i + 1 : i;
+        if (path_.seen[u].ahead->goes_on()) {
+          add_ahead(u, weight * nodes_[i].weight, i, other);
+          continue;
+        }
         add_remaining(u, x, {z, d}, weight * nodes_[i].weight, place_[i], place_[other]);
       }
     }
+  }
+
+  // A path that goes on from the unit's last row begins there; of a cell of which one end has passed the
+  // limit by then, the part that has.
+  void add_ahead(std::size_t u, double weight, std::size_t i, std::size_t j) {
+    const double now = path_.seen[u].now;
+    const bool first = past_[i] >= 0, second = past_[j] >= 0;
+    double left = first && second ? 0 : 1;
+    if (first != second)
+      left = past_[first ? j : i] / (past_[first ? j : i] - past_[first ? i : j]);
+    lives.passed[u] += weight * (1 - left);
+    if (left > 0) lives.remaining[u].add(weight * left, place_[i] - now, place_[j] - now);
   }
 
   // What lies beyond the unit's last row counts. Where conditions change, its path goes on from where
@@ -163,11 +186,7 @@ class Part {
       }
       ahead_[u].solve(1, z.empty() ? nullptr : z.data(), &level, &now);
     }
-    CellMixture one;
-    one.add(weight, a, b);
-    const CellMixture rest = one.beyond(now);
-    lives.passed[u] += weight - rest.mass();
-    lives.remaining[u].add(rest);
+    lives.passed[u] += weight - lives.remaining[u].add_beyond(weight, a, b, now);
   }
 
   struct Node {
@@ -179,7 +198,7 @@ class Part {
   std::vector<Crossing> ahead_;
   std::vector<std::unique_ptr<PathAt>> behind_;
   std::vector<Node> nodes_;
-  std::vector<double> z_, place_, level_, grid_;
+  std::vector<double> z_, place_, past_, level_, grid_;
 };
 
 }  // namespace
@@ -212,9 +231,20 @@ FewPoints::FewPoints(const WeightedDraws& draws, std::size_t most) {
   }
 }
 
+namespace {
+
+// Of paths that are dear, fewer.
+std::size_t points_of(const LimitedPath& path) {
+  const auto& any = path.next ? path.next : path.seen.front().ahead;
+  if (!any->goes_on()) return most_points;
+  return any->running->running.solved ? 200 : 1000;
+}
+
+}  // namespace
+
 LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
                            const WeightedDraws& draws) {
-  const FewPoints few(draws, most_points);
+  const FewPoints few(draws, points_of(path));
   // Always the same parts, whatever the number of threads: sums keep their order.
   constexpr std::size_t parts = 16;
   std::vector<LimitedLives> each(parts);

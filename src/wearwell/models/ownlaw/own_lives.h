@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/models/ownlaw/own_crossing.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
-#include "wearwell/models/ownlaw/own_path.h"
 #include "wearwell/predict/cell_mixture.h"
 
 namespace wearwell::ownlaw {

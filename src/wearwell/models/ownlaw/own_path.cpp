@@ -1,159 +1,94 @@
 #include "wearwell/models/ownlaw/own_path.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/nearest.h"
 
 namespace wearwell::ownlaw {
+
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-bool is_condition(const OwnLaw& law, const std::string& name) {
-  const auto column =
-      std::find_if(law.symbols.columns.begin(), law.symbols.columns.end(),
-                   [&](const law::ColumnSymbol& each) { return each.name == name; });
-  return column != law.symbols.columns.end() && !column->measured && law.along != name;
+// The axis becomes a number that is given by row, so that no row is bound anew while a life is searched.
+law::Symbols with_open_axis(law::Symbols symbols, const std::string& along) {
+  auto& columns = symbols.columns;
+  const auto axis = std::find_if(columns.begin(), columns.end(),
+                                 [&](const auto& each) { return each.name == along; });
+  symbols.parameters.push_back({axis->name, axis->powers, law::Scope::per_row, {}});
+  columns.erase(axis);
+  return symbols;
 }
 
-}  // namespace
-
-Conditions read_conditions(const TomlReader& table, const OwnLaw& law) {
-  Conditions result;
-  std::vector<std::string> words, known;
-  for (const law::ColumnSymbol& each : law.symbols.columns) {
-    if (is_condition(law, each.name)) known.push_back(each.name);
-  }
-  for (const law::LabelSymbol& each : law.symbols.labels) {
-    if (law.label != each.name) known.push_back(each.name);
-  }
-  for (const std::string& name : table.keys()) {
-    if (law.along == name) table.fail(name, "is the axis (predict.along); ask with predict.at");
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      table.fail(name, known.empty()
-                           ? "is no condition: no column of the data is one"
-                           : fmt::format("is no condition; possible are {} (nearest: '{}')",
-                                         fmt::join(known, ", "), nearest_name(name, known)));
-    }
-    if (const LabelColumn* label = law.data.label(name)) {
-      const std::string level = table.required_text(name);
-      const auto at = std::find(label->levels.begin(), label->levels.end(), level);
-      if (at == label->levels.end()) {
-        table.fail(name,
-                   fmt::format("'{}' is none of the data's; possible are {} (nearest: '{}')", level,
-                               fmt::join(label->levels, ", "), nearest_name(level, label->levels)));
-      }
-      result.labels[name] = static_cast<int>(at - label->levels.begin());
-      words.push_back(fmt::format("{} = {}", name, level));
-      continue;
-    }
-    const NumberColumn& column = *law.data.number(name);
-    const Quantity quantity = table.required_quantity(name, law::si_text(column.unit.powers));
-    result.numbers[name] = quantity.si();
-    words.push_back(fmt::format("{} = {:.6g}{}", name, quantity.value,
-                                quantity.unit.text == "1" ? "" : " " + quantity.unit.text));
-  }
-  result.words = fmt::format("{}", fmt::join(words, ", "));
-  return result;
-}
-
-Conditions conditions_of_unit(const OwnLaw& law, std::size_t unit, const Conditions& given) {
-  Conditions result = given;
-  const NumberColumn* axis = law.along ? law.data.number(*law.along) : nullptr;
-  std::optional<std::size_t> last;
-  for (const std::size_t row : law.order) {
-    if (law.unit_of_row[row] != unit) continue;
-    if (!last || !axis || axis->values[row] >= axis->values[*last]) last = row;
-  }
-  if (!last) return result;
-  for (const NumberColumn& each : law.data.numbers) {
-    if (is_condition(law, each.name)) result.numbers.try_emplace(each.name, each.values[*last]);
-  }
-  for (const LabelColumn& each : law.data.labels) {
-    if (law.label != each.name) result.labels.try_emplace(each.name, each.at[*last]);
-  }
-  return result;
-}
-
-Conditions common_conditions(const OwnLaw& law, const Conditions& given) {
-  Conditions result = given;
-  for (const NumberColumn& each : law.data.numbers) {
-    const bool same = std::all_of(each.values.begin(), each.values.end(),
-                                  [&](double x) { return x == each.values.front(); });
-    if (same && is_condition(law, each.name)) {
-      result.numbers.try_emplace(each.name, each.values.front());
-    }
-  }
-  for (const LabelColumn& each : law.data.labels) {
-    if (each.levels.size() == 1 && law.label != each.name) result.labels.try_emplace(each.name, 0);
-  }
-  return result;
-}
-
-std::shared_ptr<const Path> make_path(std::shared_ptr<const OwnLaw> law, const TomlReader& table,
-                                      const std::string& key,
-                                      const std::vector<law::Wanted>& wanted, bool along,
-                                      const Conditions& conditions) {
-  auto path = std::make_shared<Path>();
-  path->symbols = law->row_symbols;
-  path->shared = law->shared;
-  path->along = along;
-  if (along) {
-    // The axis becomes a number that is given by row, so that no row is bound anew while a life is
-    // searched.
-    auto& columns = path->symbols.columns;
-    const auto axis = std::find_if(columns.begin(), columns.end(),
-                                   [&](const auto& each) { return each.name == *law->along; });
-    path->symbols.parameters.push_back({axis->name, axis->powers, law::Scope::per_row, {}});
-    columns.erase(axis);
-  }
-  try {
-    path->program = law::compile(law->lines, wanted, path->symbols);
-  } catch (const InputError& error) {
-    table.fail(key, error.what());
-  }
-  if (path->program.has_paths()) {
-    table.fail(key,
-               "depends on rows before its own (cum, or a state): predictions along such a "
-               "path are not made yet");
-  }
+// Rows that are all alike.
+void bind_conditions(const OwnLaw& law, const TomlReader& table, const std::string& key,
+                     const Conditions& conditions, Path& path) {
   law::Rows rows;
   rows.count = Path::most;
   std::vector<std::vector<double>> numbers;
   std::vector<std::vector<int>> labels;
-  for (std::size_t c = 0; c < path->symbols.columns.size(); ++c) {
+  for (std::size_t c = 0; c < path.symbols.columns.size(); ++c) {
     numbers.emplace_back();
-    if (!path->program.uses_column(c)) continue;
-    const std::string& name = path->symbols.columns[c].name;
-    const auto at = conditions.numbers.find(name);
+    if (!path.program.uses_column(c)) continue;
+    const auto at = conditions.numbers.find(path.symbols.columns[c].name);
     if (at == conditions.numbers.end()) {
-      const NumberColumn& column = *law->data.number(name);
-      table.fail(key, fmt::format("needs predict.given.{}: it is not the same in all rows (write "
-                                  "given = {{ {} = \"{:.4g} {}\" }})",
-                                  name, name, from_si(column.unit.unit, column.values.front()),
-                                  column.unit.unit.text));
+      fail_without_condition(law, table, key, path.symbols.columns[c].name);
     }
     numbers.back().assign(Path::most, at->second);
   }
-  for (std::size_t c = 0; c < path->symbols.labels.size(); ++c) {
+  for (std::size_t c = 0; c < path.symbols.labels.size(); ++c) {
     labels.emplace_back();
-    if (!path->program.uses_label(c)) continue;
-    const std::string& name = path->symbols.labels[c].name;
-    const auto at = conditions.labels.find(name);
-    if (at == conditions.labels.end()) {
-      table.fail(key, fmt::format("needs predict.given.{}, one of {}", name,
-                                  fmt::join(path->symbols.labels[c].levels, ", ")));
-    }
+    if (!path.program.uses_label(c)) continue;
+    const auto at = conditions.labels.find(path.symbols.labels[c].name);
+    if (at == conditions.labels.end()) fail_without_label(table, key, path.symbols.labels[c]);
     labels.back().assign(Path::most, at->second);
   }
   for (const auto& each : numbers) rows.columns.emplace_back(each);
   for (const auto& each : labels) rows.labels.emplace_back(each);
-  path->data = path->program.bind(rows);
+  path.data = path.program.bind(rows);
+}
+
+}  // namespace
+
+std::shared_ptr<const Path> make_path(std::shared_ptr<const OwnLaw> law, const TomlReader& table,
+                                      const std::string& key,
+                                      const std::vector<law::Wanted>& wanted, bool along,
+                                      const Conditions& conditions,
+                                      std::optional<std::size_t> unit) {
+  auto path = std::make_shared<Path>();
+  path->symbols = law->row_symbols;
+  path->shared = law->shared;
+  try {
+    path->program = law::compile(law->lines, wanted, path->symbols, true);
+    const bool has_state = path->program.running().state;
+    if (along && !path->program.has_paths() && !has_state) {
+      path->along = true;
+      path->symbols = with_open_axis(std::move(path->symbols), *law->along);
+      path->program = law::compile(law->lines, wanted, path->symbols);
+    }
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
+  }
+  if (along && !path->along) {
+    path->running = continue_path(*law, table, key, path->program, conditions, unit);
+  } else if (path->program.has_paths()) {
+    table.fail(key,
+               "depends on rows before its own (cum, or a state), and no place on an axis is "
+               "asked for");
+  } else {
+    bind_conditions(*law, table, key, conditions, *path);
+  }
+  path->law = std::move(law);
+  return path;
+}
+
+std::shared_ptr<const Path> make_trace(std::shared_ptr<const OwnLaw> law, const TomlReader& table,
+                                       const std::string& key,
+                                       const std::vector<law::Wanted>& wanted, std::size_t unit) {
+  auto path = std::make_shared<Path>();
+  path->symbols = law->row_symbols;
+  path->shared = law->shared;
+  path->program = law::compile(law->lines, wanted, path->symbols, true);
+  path->running =
+      continue_path(*law, table, key, path->program, conditions_of_unit(*law, unit, {}), unit);
   path->law = std::move(law);
   return path;
 }
@@ -163,7 +98,16 @@ PathAt::PathAt(const Path& path)
       population_at_(*path.law),
       inner_(path.shared.size()),
       workspace_(path.program.workspace(Path::most)) {
-  for (std::size_t e = 0; e < path.law->effects.size(); ++e) effect_[e].resize(Path::most);
+  std::size_t most = Path::most;
+  if (path.running && path.running->history) {
+    most = std::max(most, path.running->history->rows());
+    history_workspace_ = path.program.workspace(path.running->history->rows());
+  }
+  if (path.goes_on() && path.running->history) {
+    carried_.assign(path.running->running.count, std::vector<double>(Path::most));
+    for (const auto& each : carried_) carried_at_.push_back(each.data());
+  }
+  for (std::size_t e = 0; e < path.law->effects.size(); ++e) effect_[e].resize(most);
 }
 
 void PathAt::move_to(const double* x) {
@@ -171,16 +115,54 @@ void PathAt::move_to(const double* x) {
   for (std::size_t i = 0; i < inner_.size(); ++i) inner_[i] = x[path_->shared[i]];
 }
 
-void PathAt::evaluate(std::size_t count, const double* z, const double* place) {
-  const std::size_t d = path_->law->effects.size();
+void PathAt::fill_effects(std::size_t count, const double* z) {
   static constexpr double middle[2] = {};
-  const double* by_row[3] = {};
-  std::size_t given = 0;
+  const std::size_t d = path_->law->effects.size();
   for (std::size_t e = 0; e < d; ++e) {
     for (std::size_t i = 0; i < count; ++i) {
       effect_[e][i] = population_.value(*path_->law, e, z ? z + i * d : middle);
     }
-    by_row[given++] = effect_[e].data();
+  }
+}
+
+void PathAt::retrace(const double* z) {
+  static constexpr double middle[2] = {};
+  const law::Data& history = *path_->running->history;
+  const std::size_t d = path_->law->effects.size();
+  const double* by_row[2] = {effect_[0].data(), effect_[1].data()};
+  for (std::size_t e = 0; e < d; ++e) {
+    std::fill_n(effect_[e].begin(), history.rows(),
+                population_.value(*path_->law, e, z ? z : middle));
+  }
+  path_->program.forward(history, 0, history.rows(), {inner_, {by_row, d}}, history_workspace_);
+}
+
+double PathAt::retraced(std::size_t o, std::size_t row) const {
+  const std::span<const double> values = history_workspace_.values(o);
+  return values[values.size() == 1 ? 0 : row];
+}
+
+void PathAt::stand(std::size_t count, const double* z) {
+  if (!path_->goes_on() || !path_->running->history) return;
+  const std::size_t d = path_->law->effects.size();
+  std::vector<double> last(carried_.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i == 0 || (d > 0 && z)) {
+      retrace(z && d > 0 ? z + i * d : nullptr);
+      path_->program.carry(history_workspace_, path_->running->history->rows() - 1, last);
+    }
+    for (std::size_t r = 0; r < last.size(); ++r) carried_[r][i] = last[r];
+  }
+}
+
+void PathAt::evaluate(std::size_t count, const double* z, const double* place) {
+  fill_effects(count, z);
+  const double* by_row[3] = {effect_[0].data(), effect_[1].data(), nullptr};
+  std::size_t given = path_->law->effects.size();
+  if (path_->running) {
+    path_->running->bind(path_->program, count, place, ahead_);
+    path_->program.forward(ahead_, 0, count, {inner_, {by_row, given}, carried_at_}, workspace_);
+    return;
   }
   if (path_->along) by_row[given++] = place;
   path_->program.forward(path_->data, 0, count, {inner_, {by_row, given}}, workspace_);
@@ -189,97 +171,6 @@ void PathAt::evaluate(std::size_t count, const double* z, const double* place) {
 double PathAt::output(std::size_t o, std::size_t i) const {
   const std::span<const double> values = workspace_.values(o);
   return values[values.size() == 1 ? 0 : i];
-}
-
-Crossing::Crossing(const Path& path, bool rising, double begin, double scale)
-    : at_(path),
-      effects_(path.law->effects.size()),
-      rising_(rising),
-      begin_(begin),
-      scale_(scale) {}
-
-// Outward from the scale until the level is passed, then within that by the rule of false position with
-// halved ends (Dowell and Jarratt 1971): of a straight path it is there at once.
-void Crossing::solve(std::size_t count, const double* z, const double* level, double* place) {
-  constexpr int most_outward = 60, most_inward = 120;
-  double low[Path::most] = {}, high[Path::most] = {}, at_low[Path::most] = {};
-  double at_high[Path::most] = {}, trial[Path::most] = {};
-  std::uint8_t state[Path::most] = {};  // 0 looks outward, 1 inward, 2 is done
-  int side[Path::most] = {};
-  const auto excess = [&](std::size_t i) {
-    const double y = at_.output(0, i) - level[i];
-    return rising_ ? y : -y;
-  };
-  std::fill_n(trial, count, begin_);
-  at_.evaluate(count, z, trial);
-  for (std::size_t i = 0; i < count; ++i) {
-    low[i] = begin_;
-    at_low[i] = excess(i);
-    state[i] = at_low[i] >= 0 ? 2 : 0;
-    place[i] = begin_;
-    trial[i] = begin_ + scale_;
-    // A path may be no number at its very beginning: log 0.
-    if (std::isnan(at_low[i]) || at_low[i] == -infinity) at_low[i] = -infinity;
-  }
-  for (int step = 0; step < most_outward + most_inward; ++step) {
-    if (std::all_of(state, state + count, [](auto s) { return s == 2; })) return;
-    at_.evaluate(count, z, trial);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (state[i] == 2) continue;
-      const double y = excess(i);
-      if (std::isnan(y)) {
-        place[i] = y;
-        state[i] = 2;
-        continue;
-      }
-      if (state[i] == 0) {
-        if (y >= 0) {
-          high[i] = trial[i];
-          at_high[i] = y;
-          state[i] = 1;
-        } else if (step >= most_outward) {
-          place[i] = infinity;
-          state[i] = 2;
-          continue;
-        } else {
-          low[i] = trial[i];
-          at_low[i] = y;
-          trial[i] = begin_ + (trial[i] - begin_) * (step < 10 ? 2 : 8);
-          continue;
-        }
-      } else if (y >= 0) {
-        high[i] = trial[i];
-        at_high[i] = y;
-        if (side[i] == 1) at_low[i] *= 0.5;
-        side[i] = 1;
-      } else {
-        low[i] = trial[i];
-        at_low[i] = y;
-        if (side[i] == -1) at_high[i] *= 0.5;
-        side[i] = -1;
-      }
-      const double size = std::max(std::abs(low[i]), std::abs(high[i]));
-      if (y == 0 || high[i] - low[i] <= 1e-11 * size || std::abs(y) <= 1e-13 * std::abs(level[i])) {
-        place[i] = trial[i];
-        state[i] = 2;
-        continue;
-      }
-      double next = std::isfinite(at_low[i])
-                        ? low[i] - at_low[i] * (high[i] - low[i]) / (at_high[i] - at_low[i])
-                        : 0.5 * (low[i] + high[i]);
-      if (!(next > low[i] && next < high[i]) || step % 8 == 7) next = 0.5 * (low[i] + high[i]);
-      if (!(next > low[i] && next < high[i])) {
-        place[i] = high[i];
-        state[i] = 2;
-        continue;
-      }
-      trial[i] = next;
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    if (state[i] == 1) place[i] = 0.5 * (low[i] + high[i]);
-    if (state[i] == 0) place[i] = infinity;
-  }
 }
 
 }  // namespace wearwell::ownlaw

@@ -39,6 +39,7 @@ struct Bounds {
 struct WrittenLikelihood {
   std::string column;
   const ResponseForm* form;
+  const ProcessForm* process;
   std::optional<std::string> trials;
   std::vector<std::pair<std::size_t, std::string>> slots;  // of the form, and the expression
 };
@@ -63,6 +64,7 @@ class Reader {
     compile_population();
     compile_measured();
     order_rows();
+    require_rising();
     require_failures();
     return law_;
   }
@@ -109,12 +111,16 @@ class Reader {
     for (const ResponseForm& form : response_forms()) {
       if (names.empty() || names.back() != form.name) names.emplace_back(form.name);
     }
+    for (const ProcessForm& each : process_forms()) {
+      if (names.back() != each.form.name) names.emplace_back(each.form.name);
+    }
     const auto family = table.choice("family", names);
     if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
     const ResponseForm* form = nullptr;
+    const ProcessForm* process = nullptr;
     std::vector<std::string> ways;
-    for (const ResponseForm& each : response_forms()) {
-      if (each.name != *family) continue;
+    const auto look_at = [&](const ResponseForm& each, const ProcessForm* of_process) {
+      if (each.name != *family) return;
       std::vector<std::string> needed;
       for (const SlotForm& slot : each.slots) {
         if (!slot.optional) needed.emplace_back(slot.name);
@@ -122,12 +128,21 @@ class Reader {
       ways.push_back(fmt::format("{}", fmt::join(needed, " and ")));
       const bool given = std::all_of(needed.begin(), needed.end(),
                                      [&](const std::string& name) { return table.has(name); });
-      if (given && !form) form = &each;
+      if (!given || form) return;
+      form = &each;
+      process = of_process;
+    };
+    for (const ResponseForm& each : response_forms()) look_at(each, nullptr);
+    for (const ProcessForm& each : process_forms()) look_at(each.form, &each);
+    if (process && process->process != Process::wiener && table.has("noise")) {
+      table.fail("noise", fmt::format("is not integrated out of a {}: readings are taken as they "
+                                      "are; a wiener-process has noise",
+                                      *family));
     }
     if (!form) {
       table.fail("family", fmt::format("{} needs {}", *family, fmt::join(ways, ", or ")));
     }
-    WrittenLikelihood result{column, form, {}, {}};
+    WrittenLikelihood result{column, form, process, {}, {}};
     for (std::size_t s = 0; s < form->slots.size(); ++s) {
       const std::string name(form->slots[s].name);
       if (!table.has(name)) continue;
@@ -165,10 +180,40 @@ class Reader {
     }
   }
 
+  // Where rows follow each other, the one column without a unit that no expression names says which
+  // of them belong together: otherwise it would be there for nothing.
+  std::optional<std::string> idle_column() const {
+    static const std::regex path(R"(\bcum\s*\(|\bd\s*\(\s*\w+\s*\)\s*/)");
+    bool follows = std::any_of(written_.begin(), written_.end(),
+                               [](const auto& each) { return each.process != nullptr; });
+    std::string all;
+    for (const std::string& text : texts_) all += text + "\n";
+    for (const law::Line& line : law_->lines) all += line.name + "\n";
+    follows |= std::regex_search(all, path);
+    if (!follows) return {};
+    if (const auto predict = root_.table("predict")) {
+      all += predict->text("along").value_or("") + "\n";
+    }
+    for (const WrittenLikelihood& each : written_) {
+      all += each.column + "\n" + each.trials.value_or("") + "\n";
+    }
+    for (const std::string& each : special_names) all += each + "\n";
+    const TomlReader columns = root_.required_table("data").required_table("columns");
+    std::optional<std::string> found;
+    for (const std::string& name : columns.keys()) {
+      if (!columns.is_text(name) && columns.required_table(name).has("unit")) continue;
+      if (std::regex_search(all, std::regex("\\b" + name + "\\b"))) continue;
+      if (found) return {};
+      found = name;
+    }
+    return found;
+  }
+
   std::vector<std::string> label_names() {
     std::vector<std::string> names;
     if (law_->label) names.push_back(*law_->label);
     names.emplace_back("status");
+    if (const auto unit = idle_column(); unit && !law_->label) names.push_back(*unit);
     static const std::regex indexed(R"(([A-Za-z_]\w*)\s*\[\s*([A-Za-z_]\w*)\s*\])");
     static const std::regex compared(R"re(([A-Za-z_]\w*)\s*(==|!=)\s*")re");
     static const std::regex compared_back(R"re("\s*(==|!=)\s*([A-Za-z_]\w*))re");
@@ -438,6 +483,17 @@ class Reader {
     take("upper", special.upper);
     take("entry", special.entry);
     take("count", special.count);
+    const auto process = std::find_if(written_.begin(), written_.end(),
+                                      [](const auto& each) { return each.process != nullptr; });
+    if (process != written_.end()) {
+      for (const auto& each :
+           {special.status, special.lower, special.upper, special.entry, special.count}) {
+        if (!each) continue;
+        root_.required_table("data").required_table("columns").fail(
+            *each, fmt::format("is not for a {}: each of its readings is one exact number",
+                               process->form->name));
+      }
+    }
     if (written_.size() > 1 &&
         (special.status || special.lower || special.upper || special.entry)) {
       const TomlReader columns = root_.required_table("data").required_table("columns");
@@ -470,6 +526,7 @@ class Reader {
                         column->unit.unit,
                         column->unit.powers,
                         written.form,
+                        written.process,
                         written.trials,
                         {},
                         {},
@@ -524,13 +581,14 @@ class Reader {
   }
 
   void order_rows() {
-    const bool paths = std::any_of(law_->measured.begin(), law_->measured.end(),
-                                   [](const Measured& m) { return m.program.has_paths(); });
+    const bool paths =
+        std::any_of(law_->measured.begin(), law_->measured.end(),
+                    [](const Measured& m) { return m.program.has_paths() || m.process; });
     const LabelColumn* label = law_->label ? law_->data.label(*law_->label) : nullptr;
     if (!label && paths && law_->symbols.labels.size() == 1) {
       label = law_->data.label(law_->symbols.labels.front().name);
     } else if (!label && paths && law_->symbols.labels.size() > 1) {
-      root_.fail("law", "which rows follow each other? There are several labels, and none varies");
+      root_.fail("data", "which rows follow each other? There are several labels, and none varies");
     }
     const std::size_t rows = law_->data.table.rows;
     law_->unit_of_row.assign(rows, 0);
@@ -555,6 +613,39 @@ class Reader {
       }
       return paths && axis->values[a] < axis->values[b];
     });
+  }
+
+  // A process that only rises has readings that do, along a unit's rows.
+  void require_rising() const {
+    if (!law_->has_process()) return;
+    const NumberColumn& axis = *law_->data.number(*law_->along);
+    for (const Measured& each : law_->measured) {
+      if (!each.process) continue;
+      const NumberColumn& column = *law_->data.number(each.column);
+      const bool noisy = each.wanted.size() > 2;
+      std::optional<std::size_t> before;
+      for (const std::size_t row : law_->order) {
+        if (std::isnan(column.values[row])) continue;
+        const bool first = !before || law_->unit_of_row[*before] != law_->unit_of_row[row];
+        const std::string where = place(law_->data.table, column.column, row);
+        const double y = column.values[row];
+        if (!noisy && !first && axis.values[*before] == axis.values[row]) {
+          throw InputError(
+              fmt::format("{}: two readings at one place: one of a {} without noise "
+                          "has no error, and there is one path",
+                          where, each.form->name));
+        }
+        if (each.process->process != Process::wiener &&
+            !(y > (first ? 0 : column.values[*before]))) {
+          throw InputError(fmt::format(
+              "{}: {:.6g} {} after {:.6g}: a {} only rises from row to row of a unit, from 0 on; a "
+              "wiener-process may fall, and has noise",
+              where, from_si(each.unit, y), each.unit.text,
+              first ? 0.0 : from_si(each.unit, column.values[*before]), each.form->name));
+        }
+        before = row;
+      }
+    }
   }
 
   // Lives without one failure have no upper end but their prior's.

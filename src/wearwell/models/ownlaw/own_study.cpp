@@ -153,7 +153,7 @@ NormalScore score(const Measured& measured, const Response& y, const double* slo
 std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
   const OwnLaw& law = rows->law();
   // Of units that differ each row would have to be seen in the light of those before it.
-  if (law.varies() || law.measured.size() > 1) return {};
+  if (law.by_unit() || law.measured.size() > 1) return {};
   const Measured& measured = law.measured.front();
   for (const Response& each : measured.observed.responses) {
     if (each.entry > -infinity) return {};
@@ -225,7 +225,11 @@ void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy
   study.meanings = meanings(*law);
   study.data_notes = notes(*law);
   tell_data(*law, study);
-  if (law->varies()) study.observation = *law->label;
+  if (law->varies()) {
+    study.observation = *law->label;
+  } else if (law->has_process()) {
+    study.observation = law->symbols.labels.size() == 1 ? law->symbols.labels.front().name : "unit";
+  }
   study.likelihood = [law, rows, likelihood](std::size_t count) {
     if (count == law->data.table.rows) return likelihood;
     return ownlaw::own_likelihood(std::make_shared<const OwnRows>(law, count));

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wearwell {
+
+/// A column of numbers to be written; NaN is no value.
+struct NumberColumn {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// A Parquet file of columns of equal length, as its bytes. Throws MachineError.
+std::string parquet_of(const std::vector<NumberColumn>& columns);
+
+}  // namespace wearwell

@@ -1,0 +1,17 @@
+#include "wearwell/models/fatigue/commands.h"
+
+#include <CLI/CLI.hpp>
+
+#include "wearwell/models/fatigue/command_parts.h"
+
+namespace wearwell::fatigue {
+
+void add_commands(CLI::App& app, int& exit_code) {
+  static_cast<void>(exit_code);
+  CLI::App* command = app.add_subcommand(
+      "fatigue", "Load histories: count their cycles, sum their damage, with its distribution");
+  command->require_subcommand(1);
+  add_rainflow_command(*command);
+}
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace wearwell::fatigue {
+
+/// `wearwell fatigue` and its subcommands.
+void add_commands(CLI::App& app, int& exit_code);
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "wearwell/models/fatigue/load_history.h"
+
+namespace wearwell::fatigue {
+
+/// A history half way, to go on from, and of which signal. Writing and reading loses no bit.
+struct SavedHistory {
+  std::string column, unit;
+  LoadHistory::State state;
+};
+
+std::string state_text(const SavedHistory& saved);
+/// Throws InputError that names the file and what is missing or wrong in it.
+SavedHistory read_history_state(const std::filesystem::path& file);
+
+/// "three-point", "four-point"; "half", "repeat".
+const char* counting_name(Counting counting);
+const char* residual_name(Residual residual);
+
+}  // namespace wearwell::fatigue

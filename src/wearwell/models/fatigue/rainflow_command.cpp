@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/lock_file.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/base/staged_file.h"
+#include "wearwell/base/unit.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/models/fatigue/command_parts.h"
+#include "wearwell/models/fatigue/history_report.h"
+#include "wearwell/models/fatigue/history_state.h"
+#include "wearwell/models/fatigue/signal_file.h"
+#include "wearwell/present/page.h"
+#include "wearwell/present/result_folder.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+struct RainflowOptions {
+  SignalChoice signal;
+  std::string method = "four-point", residual = "half";
+  int bins = 32;
+  double bin_width = 0;
+  std::filesystem::path state, output;
+  bool json = false;
+};
+
+// A state goes on as it was begun.
+LoadHistory begin(const RainflowOptions& options, const SignalFile& file,
+                  const CountingRule& rule) {
+  std::error_code ignored;
+  if (options.state.empty() || !std::filesystem::exists(options.state, ignored))
+    return LoadHistory(rule);
+  SavedHistory saved = read_history_state(options.state);
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: {}; go on as it was begun, or with another --state",
+                                 options.state.string(), what));
+  };
+  if (saved.unit != file.unit())
+    refuse(
+        fmt::format("the signal before was in '{}', this one is in '{}'", saved.unit, file.unit()));
+  const CountingRule& before = saved.state.rule;
+  if (!(before == rule))
+    refuse(fmt::format("it was counted with --method {} --residual {} --bin-width {}",
+                       counting_name(before.counting), residual_name(before.residual),
+                       before.class_width));
+  return LoadHistory(std::move(saved.state));
+}
+
+void refuse_without_cycles(const SignalFile& file, const LoadHistory::Counted& counted) {
+  if (!counted.classes.cells().empty()) return;
+  if (counted.samples == 1)
+    throw InputError(fmt::format("{}, column '{}' holds one sample: it has no cycle", file.source(),
+                                 file.column()));
+  throw InputError(fmt::format("{}, column '{}' is {} throughout: it has no cycle", file.source(),
+                               file.column(), counted.lowest));
+}
+
+void write_folder(const HistoryReport& report, ResultFolder& folder) {
+  folder.write("rainflow.json", history_json(report).dump(2) + "\n");
+  for (const present::Table& table :
+       {cycles_table(report), matrix_table(report), spectrum_table(report), levels_table(report)}) {
+    folder.write(fmt::format("tables/{}.csv", table.id), present::csv(table));
+    folder.write(fmt::format("tables/{}.parquet", table.id), parquet(table));
+  }
+  folder.write("report.html",
+               html_page({WEARWELL_VERSION, fmt::format("Load history {}", report.source),
+                          fmt::format("{}, {} samples", report.column, report.counted.samples),
+                          history_sections(report)}));
+  folder.commit();
+}
+
+void run(const RainflowOptions& options) {
+  refuse_overwriting({{"the history", options.signal.file}},
+                     {{"--state", options.state}, {"--output", options.output}});
+  const CountingRule rule{
+      options.method == "three-point" ? Counting::three_point : Counting::four_point,
+      options.residual == "half" ? Residual::half : Residual::repeat, options.bin_width};
+  std::optional<LockFile> lock;
+  const bool kept = !options.state.empty();
+  if (kept)
+    lock.emplace(options.state, [&] {
+      fmt::print(stderr, "waiting for another wearwell that goes on from {}\n",
+                 options.state.string());
+    });
+  SignalFile file(options.signal);
+  LoadHistory history = begin(options, file, rule);
+  std::optional<StagedFile> state;
+  if (kept) state.emplace(options.state);  // refused before the work, not after
+  std::optional<ResultFolder> folder;
+  if (!options.output.empty()) folder.emplace(options.output);
+  for (auto samples = file.next(); !samples.empty(); samples = file.next()) history.add(samples);
+
+  HistoryReport report{file.source(), file.column(),     file.unit(),
+                       rule,          history.counted(), static_cast<std::size_t>(options.bins)};
+  if (report.counted.samples == 0) throw InputError(fmt::format("{} has no rows", file.source()));
+  refuse_without_cycles(file, report.counted);
+  if (rule.class_width > 0 && report.counted.classes.width() > rule.class_width)
+    throw InputError(fmt::format("--bin-width: {} makes too many classes of ranges up to {}",
+                                 rule.class_width, report.counted.highest - report.counted.lowest));
+  if (state) state->write(state_text({file.column(), file.unit(), history.state()}));
+  if (folder) write_folder(report, *folder);
+  if (state) state->commit();
+  lock.reset();
+  if (options.json) {
+    fmt::print("{}\n", history_json(report).dump(2));
+  } else {
+    fmt::print("{}", history_text(report));
+    if (folder) fmt::print("Results are in {}\n", folder->path().string());
+  }
+}
+
+}  // namespace
+
+void add_rainflow_command(CLI::App& fatigue) {
+  CLI::App* command = fatigue.add_subcommand(
+      "rainflow", "Count the cycles of a load history after ASTM E1049; files may exceed memory");
+  const auto options = std::make_shared<RainflowOptions>();
+  command
+      ->add_option("FILE", options->signal.file,
+                   "samples, or peaks and valleys, in a column (CSV, Parquet, ...)")
+      ->required();
+  command->add_option("--column", options->signal.column,
+                      "heading of the load (default: the only column of numbers)");
+  command->add_option("--unit", options->signal.unit,
+                      "unit of the load, where its heading has none");
+  command->add_option("--time", options->signal.time,
+                      "a column of times: refuse a file in which samples are missing");
+  command->add_option("--method", options->method, "how cycles are found")
+      ->check(one_of({"three-point", "four-point"}))
+      ->capture_default_str();
+  command
+      ->add_option("--residual", options->residual,
+                   "ranges that close no cycle count half, or the history is repeated")
+      ->check(one_of({"half", "repeat"}))
+      ->capture_default_str();
+  CLI::Option* bins =
+      command->add_option("--bins", options->bins, "classes of range that are shown, at most")
+          ->check(CLI::Range(1, 1024))
+          ->capture_default_str();
+  command
+      ->add_option("--bin-width", options->bin_width,
+                   "width of these classes, in the unit of the load (default: a power of two)")
+      ->check(number_between(1e-300, 1e150))
+      ->excludes(bins);
+  command->add_option("--state", options->state,
+                      "go on from this file if it is there, and leave the state in it");
+  command->add_option("-o,--output", options->output,
+                      "folder for the page and the tables (CSV and Parquet)");
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->footer(
+      "Ranges are from valley to peak: twice the amplitude.\n\n"
+      "Examples:\n"
+      "  wearwell fatigue rainflow loads.csv --column stress\n"
+      "  wearwell fatigue rainflow loads.parquet --column sg1 --unit MPa --residual repeat -o "
+      "loads\n"
+      "  wearwell fatigue rainflow monday.csv --state week.json && \\\n"
+      "  wearwell fatigue rainflow tuesday.csv --state week.json");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,124 @@
+#include "wearwell/models/fatigue/signal_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/unit.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/heading.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+// A longer step than so many of the first is a gap.
+constexpr double longest_step = 1.5;
+// Ranges of larger numbers have no square that a double holds.
+constexpr double largest = 1e150;
+
+std::string unit_in(const Column& column) {
+  if (!column.unit.empty()) return column.unit;
+  const Heading stress = read_heading(column.name, "Pa");
+  if (!stress.unit.empty()) return stress.unit;
+  const Heading any = read_heading(column.name, "");
+  return any.certain ? any.unit : "";
+}
+
+bool is_time(const Column& column) {
+  const Heading heading = read_heading(column.name, "s");
+  if (heading.name == "time" || heading.name == "t") return true;
+  const auto unit = parse_unit(unit_in(column));
+  return unit && unit->dimension == Dimension{{"second", 1}};
+}
+
+}  // namespace
+
+SignalFile::SignalFile(const SignalChoice& choice) : stream_(choice.file) {
+  choose(choice);
+  std::vector<std::string> columns = {column_};
+  if (!choice.time.empty()) {
+    time_ = stream_.columns().column(choice.time).name;
+    columns.push_back(time_);
+  }
+  stream_.select(columns);
+}
+
+void SignalFile::choose(const SignalChoice& choice) {
+  const Table table = stream_.columns();
+  const Column* chosen = nullptr;
+  if (!choice.column.empty()) {
+    chosen = &table.column(choice.column);
+  } else {
+    std::vector<std::string> possible;
+    for (const Column& column : table.columns) {
+      if (!column.is_number || is_time(column) || column.name == choice.time) continue;
+      possible.push_back(fmt::format("'{}'", column.name));
+      chosen = &column;
+    }
+    if (possible.empty())
+      throw InputError(fmt::format("{} has no column of numbers that is a load", source()));
+    if (possible.size() > 1)
+      throw InputError(
+          fmt::format("{} has several columns: say which is the load: --column NAME, "
+                      "one of {}",
+                      source(), fmt::join(possible, ", ")));
+  }
+  column_ = chosen->name;
+  unit_ = unit_in(*chosen);
+  if (choice.unit.empty()) return;
+  const auto wanted = parse_unit(choice.unit);
+  if (!wanted) throw InputError(fmt::format("--unit: '{}' is no unit", choice.unit));
+  const auto said = unit_.empty() ? std::nullopt : parse_unit(unit_);
+  if (said && (said->dimension != wanted->dimension || said->scale != wanted->scale ||
+               said->offset != wanted->offset))
+    throw InputError(
+        fmt::format("{}, column '{}': the table says {} and --unit says {}; leave one "
+                    "of them out",
+                    source(), column_, unit_, choice.unit));
+  unit_ = choice.unit;
+}
+
+std::span<const double> SignalFile::next() {
+  if (!stream_.next(batch_)) return {};
+  const std::vector<double>& samples = batch_.columns.front();
+  bool good = true;
+  for (const double x : samples) good &= std::abs(x) < largest;
+  if (!good) {
+    std::size_t i = 0;
+    while (std::abs(samples[i]) < largest) ++i;
+    throw InputError(fmt::format(
+        "{}, row {}, column '{}': {}", source(), batch_.first_row + i + 1, column_,
+        std::isnan(samples[i])
+            ? "no value: a signal has no gaps, since nobody knows what happened in them; cut the "
+              "file there and count the parts"
+            : fmt::format("{} is no load that can be counted", samples[i])));
+  }
+  if (!time_.empty()) check_times();
+  return samples;
+}
+
+void SignalFile::check_times() {
+  const std::vector<double>& times = batch_.columns[1];
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto fail = [&](const std::string& what) {
+      throw InputError(fmt::format("{}, row {}, column '{}': {}", source(),
+                                   batch_.first_row + i + 1, time_, what));
+    };
+    if (!std::isfinite(times[i])) fail("no time");
+    if (last_time_) {
+      const double step = times[i] - *last_time_;
+      if (!(step > 0)) fail(fmt::format("{} does not come after {}", times[i], *last_time_));
+      if (!step_) step_ = step;
+      if (step > longest_step * *step_)
+        fail(
+            fmt::format("a gap: nothing between {} and {}, where the first step is {:.6g}; cut the "
+                        "file there and count the parts",
+                        *last_time_, times[i], *step_));
+    }
+    last_time_ = times[i];
+  }
+}
+
+}  // namespace wearwell::fatigue

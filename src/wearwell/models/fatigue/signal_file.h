@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "wearwell/input/column_stream.h"
+
+namespace wearwell::fatigue {
+
+/// Which column of which file, as a user says it.
+struct SignalChoice {
+  std::filesystem::path file;
+  std::string column = {};  ///< its heading; empty: the only one of numbers that is no time
+  std::string unit = {};    ///< where the heading has none
+  std::string time = {};    ///< a column of times by which gaps are found; empty for none
+};
+
+/// A load signal as it stands in a file, piece by piece. Throws InputError that names file, row and
+/// column: no such column or several, two units, no value (a gap), times that do not rise evenly.
+class SignalFile {
+ public:
+  explicit SignalFile(const SignalChoice& choice);
+
+  const std::string& source() const { return stream_.source(); }
+  const std::string& column() const { return column_; }
+  const std::string& unit() const { return unit_; }  ///< empty where nobody says
+
+  /// The next samples, in the file's unit; none at the end.
+  std::span<const double> next();
+
+ private:
+  void choose(const SignalChoice& choice);
+  void check_times();
+
+  ColumnStream stream_;
+  ColumnStream::Batch batch_;
+  std::string column_, unit_, time_;
+  std::optional<double> last_time_, step_;
+};
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,113 @@
+#include "wearwell/models/ownlaw/own_conditions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "wearwell/base/nearest.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+bool is_condition(const OwnLaw& law, const std::string& name) {
+  const auto column =
+      std::find_if(law.symbols.columns.begin(), law.symbols.columns.end(),
+                   [&](const law::ColumnSymbol& each) { return each.name == name; });
+  return column != law.symbols.columns.end() && !column->measured && law.along != name;
+}
+
+}  // namespace
+
+Conditions read_conditions(const TomlReader& table, const OwnLaw& law) {
+  Conditions result;
+  std::vector<std::string> words, known;
+  for (const law::ColumnSymbol& each : law.symbols.columns) {
+    if (is_condition(law, each.name)) known.push_back(each.name);
+  }
+  for (const law::LabelSymbol& each : law.symbols.labels) {
+    if (law.label != each.name) known.push_back(each.name);
+  }
+  for (const std::string& name : table.keys()) {
+    if (law.along == name) table.fail(name, "is the axis (predict.along); ask with predict.at");
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      table.fail(name, known.empty()
+                           ? "is no condition: no column of the data is one"
+                           : fmt::format("is no condition; possible are {} (nearest: '{}')",
+                                         fmt::join(known, ", "), nearest_name(name, known)));
+    }
+    if (const LabelColumn* label = law.data.label(name)) {
+      const std::string level = table.required_text(name);
+      const auto at = std::find(label->levels.begin(), label->levels.end(), level);
+      if (at == label->levels.end()) {
+        table.fail(name,
+                   fmt::format("'{}' is none of the data's; possible are {} (nearest: '{}')", level,
+                               fmt::join(label->levels, ", "), nearest_name(level, label->levels)));
+      }
+      result.labels[name] = static_cast<int>(at - label->levels.begin());
+      words.push_back(fmt::format("{} = {}", name, level));
+      continue;
+    }
+    const NumberColumn& column = *law.data.number(name);
+    const Quantity quantity = table.required_quantity(name, law::si_text(column.unit.powers));
+    result.numbers[name] = quantity.si();
+    words.push_back(fmt::format("{} = {:.6g}{}", name, quantity.value,
+                                quantity.unit.text == "1" ? "" : " " + quantity.unit.text));
+  }
+  result.words = fmt::format("{}", fmt::join(words, ", "));
+  return result;
+}
+
+Conditions conditions_of_unit(const OwnLaw& law, std::size_t unit, const Conditions& given) {
+  Conditions result = given;
+  const NumberColumn* axis = law.along ? law.data.number(*law.along) : nullptr;
+  std::optional<std::size_t> last;
+  for (const std::size_t row : law.order) {
+    if (law.unit_of_row[row] != unit) continue;
+    if (!last || !axis || axis->values[row] >= axis->values[*last]) last = row;
+  }
+  if (!last) return result;
+  for (const NumberColumn& each : law.data.numbers) {
+    if (!is_condition(law, each.name)) continue;
+    if (!result.numbers.try_emplace(each.name, each.values[*last]).second) continue;
+    const bool alike = std::all_of(each.values.begin(), each.values.end(),
+                                   [&](double x) { return x == each.values.front(); });
+    if (!alike) result.of_last_row.insert(each.name);
+  }
+  for (const LabelColumn& each : law.data.labels) {
+    if (law.label != each.name) result.labels.try_emplace(each.name, each.at[*last]);
+  }
+  return result;
+}
+
+Conditions common_conditions(const OwnLaw& law, const Conditions& given) {
+  Conditions result = given;
+  for (const NumberColumn& each : law.data.numbers) {
+    const bool same = std::all_of(each.values.begin(), each.values.end(),
+                                  [&](double x) { return x == each.values.front(); });
+    if (same && is_condition(law, each.name)) {
+      result.numbers.try_emplace(each.name, each.values.front());
+    }
+  }
+  for (const LabelColumn& each : law.data.labels) {
+    if (each.levels.size() == 1 && law.label != each.name) result.labels.try_emplace(each.name, 0);
+  }
+  return result;
+}
+
+void fail_without_condition(const OwnLaw& law, const TomlReader& table, const std::string& key,
+                            const std::string& column) {
+  const NumberColumn& numbers = *law.data.number(column);
+  table.fail(key, fmt::format("needs predict.given.{}: it is not the same in all rows (write "
+                              "given = {{ {} = \"{:.4g} {}\" }})",
+                              column, column, from_si(numbers.unit.unit, numbers.values.front()),
+                              numbers.unit.unit.text));
+}
+
+void fail_without_label(const TomlReader& table, const std::string& key,
+                        const law::LabelSymbol& label) {
+  table.fail(key, fmt::format("needs predict.given.{}, one of {}", label.name,
+                              fmt::join(label.levels, ", ")));
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,204 @@
+#include "wearwell/models/ownlaw/own_exhibits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/models/ownlaw/own_limit.h"
+#include "wearwell/models/ownlaw/own_path_ahead.h"
+#include "wearwell/models/ownlaw/own_spread.h"
+#include "wearwell/present/plot.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+namespace colour = plot::colour;
+using Numbers = std::vector<double>;
+
+constexpr std::size_t most_figures = 24, steps_ahead = 24, most_points = 200;
+
+// The readings of a unit, or of all, in the units of the figure.
+struct Readings {
+  Numbers place, value;
+};
+
+struct Drawing {
+  std::shared_ptr<const OwnRows> rows;
+  std::string along, noun, quantity;
+  Unit axis, unit;
+  std::vector<SpreadPath> paths;  // the first that of a new unit
+  std::vector<std::string> of;
+  std::vector<Readings> readings;
+  std::vector<Numbers> traced;  // places of rows, SI
+  std::optional<double> limit;  // SI
+  std::size_t left_out = 0;
+
+  std::vector<html::Figure> draw(const WeightedDraws& draws) const;
+  html::Figure figure(std::size_t i, const Spread& spread) const;
+  std::string caption(bool of_new) const;
+};
+
+Readings readings_of(const Asked& asked, const Measured& measured,
+                     std::optional<std::size_t> unit) {
+  Readings result;
+  for (std::size_t i = 0; i < measured.observed.rows.size(); ++i) {
+    const std::size_t row = measured.observed.rows[i];
+    if (unit && asked.law->unit_of_row[row] != *unit) continue;
+    if (measured.observed.responses[i].seen != Seen::exactly) continue;
+    result.place.push_back(from_si(asked.axis().unit.unit, asked.axis().values[row]));
+    result.value.push_back(from_si(measured.unit, measured.observed.responses[i].at));
+  }
+  return result;
+}
+
+std::string Drawing::caption(bool of_new) const {
+  if (!of_new) {
+    return "What its rows say of its own path, and how it goes on under the conditions asked for: "
+           "90 % of what is known of the path, without the scatter of a reading.";
+  }
+  std::string words = fmt::format(
+      "Where the path of a new {} runs with a probability of 90 %, under the conditions asked for, "
+      "with the readings of all.",
+      noun);
+  if (left_out > 0) words += fmt::format(" Paths of {} more are not drawn.", left_out);
+  return words;
+}
+
+html::Figure Drawing::figure(std::size_t i, const Spread& spread) const {
+  Numbers x, low, middle, high;
+  const auto add = [&](double place, const CellMixture& known) {
+    const double ends[] = {known.quantile(0.05), known.quantile(0.5), known.quantile(0.95)};
+    if (!std::all_of(ends, ends + 3, [](double each) { return std::isfinite(each); })) return;
+    x.push_back(from_si(axis, place));
+    low.push_back(from_si(unit, ends[0]));
+    middle.push_back(from_si(unit, ends[1]));
+    high.push_back(from_si(unit, ends[2]));
+  };
+  for (std::size_t k = 0; k < spread.traced.size(); ++k) add(traced[i][k], spread.traced[k]);
+  for (std::size_t k = 0; k < spread.ahead.size(); ++k) add(paths[i].places[k], spread.ahead[k]);
+  const Readings& seen = readings[i];
+  std::vector<plot::Json> marks = {
+      plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour::wide, "90 % of the path", 0.35}),
+      plot::line({{"x", x}, {"y", middle}, {along, x}, {quantity, middle}},
+                 {colour::posterior, "median path"}),
+      plot::points(
+          {{"x", seen.place}, {"y", seen.value}, {along, seen.place}, {quantity, seen.value}},
+          {colour::measured, "readings", 1, 0, false, 35})};
+  if (limit) {
+    marks.push_back(
+        plot::horizontal_line(from_si(unit, *limit), {colour::limit, "limit", 1, 1.5, true}));
+  }
+  const bool of_new = !paths[i].unit;
+  return {fmt::format("path-{}-{}", quantity, i), html::capital(of[i]), caption(of_new),
+          plot::plot(fmt::format("{} of {} along {}", quantity, of[i], along),
+                     {fmt::format("{} [{}]", along, axis.text)},
+                     {fmt::format("{} [{}]", quantity, unit.text)}, marks, of_new ? 280 : 200)};
+}
+
+std::vector<html::Figure> Drawing::draw(const WeightedDraws& draws) const {
+  const std::vector<Spread> known = spreads(*rows, paths, draws, most_points);
+  std::vector<html::Figure> figures;
+  for (std::size_t i = 0; i < known.size(); ++i) figures.push_back(figure(i, known[i]));
+  return figures;
+}
+
+// As far as what is asked for, and the median life.
+double horizon(const Asked& asked, const LimitedPath& path, bool limited) {
+  double farthest = path.begin + 1.2 * path.scale;
+  for (const Quantity& at :
+       asked.predict.quantities("at", law::si_text(asked.axis().unit.powers))) {
+    farthest = std::max(farthest, at.si());
+  }
+  if (!limited) return farthest;
+  Crossing crossing(*path.next, path.rising, path.begin, path.scale);
+  crossing.at().move_to(asked.start.data());
+  double life = 0;
+  crossing.solve(1, nullptr, &path.limit, &life);
+  if (!std::isfinite(life)) return farthest;
+  const double beyond = path.begin + 1.3 * (life - path.begin);
+  return std::max(farthest, std::min(beyond, path.begin + 5 * path.scale));
+}
+
+void add_unit(const Asked& asked, const Measured& measured, const LimitedPath& axis, double far,
+              std::optional<std::size_t> unit, Drawing& drawing) {
+  const std::vector<law::Wanted> wanted = {measured.wanted.front()};
+  SpreadPath path{{axis.next, {}, 0}, unit, {}};
+  Numbers traced;
+  double from = axis.begin;
+  if (unit) {
+    path.path = seen_unit(asked, asked.predict, "along", wanted, *unit);
+    path.trace = make_trace(asked.law, asked.predict, "along", wanted, *unit);
+    from = path.path.now;
+    for (std::size_t row = 0; row < asked.law->data.table.rows; ++row) {
+      if (asked.law->unit_of_row[row] == *unit) traced.push_back(asked.axis().values[row]);
+    }
+    std::stable_sort(traced.begin(), traced.end());
+  }
+  for (std::size_t i = unit ? 0 : 1; i <= steps_ahead; ++i) {
+    const double share = static_cast<double>(i) / steps_ahead;
+    path.places.push_back(from + share * std::max(far - from, 0.1 * axis.scale));
+  }
+  path.rising = axis.rising;
+  path.begin = axis.begin;
+  path.scale = axis.scale;
+  drawing.paths.push_back(std::move(path));
+  drawing.of.push_back(unit ? asked.unit(*unit) : "new " + asked.noun);
+  drawing.readings.push_back(readings_of(asked, measured, unit));
+  drawing.traced.push_back(std::move(traced));
+}
+
+// The limit, where it is one of the path of what is measured.
+std::optional<double> limit_of(const Asked& asked, const Path& path) {
+  const auto limits = asked.predict.table("limit");
+  if (!limits) return {};
+  const std::string name = limits->keys().front();
+  const auto limited =
+      make_path(asked.law, *limits, name, {{"[predict] limit", name}}, true, asked.common);
+  if (limited->program.text(0) != path.program.text(0)) return {};
+  return limits->required_quantity(name, law::si_text(limited->program.outputs()[0].powers)).si();
+}
+
+std::shared_ptr<const Drawing> drawing_of(const Asked& asked, const Measured& measured) {
+  auto drawing = std::make_shared<Drawing>();
+  drawing->rows = asked.rows;
+  drawing->along = asked.axis().name;
+  drawing->noun = asked.noun;
+  drawing->quantity = measured.column;
+  drawing->axis = asked.axis().unit.unit;
+  drawing->unit = measured.unit;
+  LimitedPath path;
+  path.next =
+      make_path(asked.law, asked.predict, "along", {measured.wanted.front()}, true, asked.common);
+  set_reach(asked, path);
+  drawing->limit = limit_of(asked, *path.next);
+  path.limit = drawing->limit.value_or(0);
+  const double far = horizon(asked, path, drawing->limit.has_value());
+  add_unit(asked, measured, path, far, {}, *drawing);
+  if (!asked.law->label && !path.next->goes_on()) return drawing;
+  const std::size_t units = asked.law->units.size(), drawn = std::min(units, most_figures);
+  for (std::size_t u = 0; u < drawn; ++u) add_unit(asked, measured, path, far, u, *drawing);
+  drawing->left_out = units - drawn;
+  return drawing;
+}
+
+}  // namespace
+
+void add_path_figures(const Asked& asked, PosteriorStudy& study) {
+  std::vector<std::shared_ptr<const Drawing>> all;
+  for (const Measured& measured : asked.law->measured) {
+    if (has_path(measured)) all.push_back(drawing_of(asked, measured));
+  }
+  if (all.empty()) return;
+  study.exhibits = [all](const Fit& fit) {
+    std::map<std::string, std::vector<html::Figure>> figures;
+    for (const auto& each : all) {
+      for (html::Figure& figure : each->draw(fit.exact ? fit.exact->nodes : fit.pooled)) {
+        figures["predictions"].push_back(std::move(figure));
+      }
+    }
+    return figures;
+  };
+}
+
+}  // namespace wearwell::ownlaw

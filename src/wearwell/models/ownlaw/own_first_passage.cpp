@@ -1,0 +1,112 @@
+#include "wearwell/models/ownlaw/own_first_passage.h"
+
+#include <boost/math/special_functions/erf.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+
+#include "wearwell/bayes/normal_score.h"
+#include "wearwell/math/root.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr double low_log = -9, high_log = 14, step_log = 0.05;  // of distance/scale
+constexpr int places = 461;
+
+double score(int edge) {
+  return -4 + 0.4 * edge;
+}
+
+// exp(e + x^2/2) Phi(-x), x > 0.
+double scaled_tail(double e, double x) {
+  if (x < 10) return std::exp(e + 0.5 * x * x) * normal_cdf(-x);
+  // Laplace's continued fraction of Mills' ratio.
+  double fraction = x;
+  for (int k = 40; k > 0; --k) fraction = x + k / fraction;
+  return std::exp(e) / (2.50662827463100050 * fraction);
+}
+
+// The probability that a path with scale 1 has gone `d` by the time its mean is m.
+double passed(Process process, double m, double d) {
+  if (process == Process::gamma) return boost::math::gamma_q(m, d);
+  const bool wiener = process == Process::wiener;
+  const double r = std::sqrt(wiener ? m : d), off = (m - d) / r;
+  const double tail = scaled_tail(-0.5 * off * off, (m + d) / r);
+  return wiener ? normal_cdf(off) + tail : normal_cdf(off) - tail;
+}
+
+// Of a process with scale 1.
+double unit_quantile(Process process, double d, double p) {
+  if (d > 1e6) return d - std::sqrt(2 * d) * boost::math::erfc_inv(2 * p);
+  // On the logarithm: it may be far below the distance where the scale is large.
+  const double root =
+      solve_increasing([&](double x) { return passed(process, std::exp(x), d) - p; }, std::log(d),
+                       0.5 / std::sqrt(1 + d), {.absolute = 1e-11}, -600, 600);
+  return std::exp(root);
+}
+
+}  // namespace
+
+double passage_quantile(Process process, double distance, double scale, double p) {
+  return scale * unit_quantile(process, distance / scale, p);
+}
+
+PassageTable::PassageTable(Process process) : process_(process) {
+  for (int i = 0; i < places; ++i) {
+    for (int k = 0; k < edges; ++k) {
+      log_mean_.push_back(
+          std::log(unit_quantile(process, std::exp(low_log + i * step_log), normal_cdf(score(k)))));
+    }
+  }
+}
+
+const PassageTable& PassageTable::of(Process process) {
+  if (process == Process::wiener) {
+    static const PassageTable wiener(process);
+    return wiener;
+  }
+  if (process == Process::gamma) {
+    static const PassageTable gamma(process);
+    return gamma;
+  }
+  static const PassageTable inverse_gaussian(process);
+  return inverse_gaussian;
+}
+
+const std::vector<double>& PassageTable::weights() {
+  static const std::vector<double> all = [] {
+    std::vector<double> shares;
+    double sum = 0;
+    for (int k = 0; k + 1 < edges; ++k) {
+      shares.push_back(normal_cdf(score(k + 1)) - normal_cdf(score(k)));
+      sum += shares.back();
+    }
+    for (double& each : shares) each /= sum;
+    return shares;
+  }();
+  return all;
+}
+
+void PassageTable::look_up(double distance, double scale, double* mean) const {
+  const double x = (std::log(distance / scale) - low_log) / step_log;
+  if (!(x >= 1 && x < places - 3)) {
+    for (int k = 0; k < edges; ++k) {
+      mean[k] = passage_quantile(process_, distance, scale, normal_cdf(score(k)));
+    }
+    return;
+  }
+  // The cubic through four neighbours.
+  const auto i = static_cast<std::size_t>(x);
+  const double t = x - static_cast<double>(i);
+  const double weight[] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
+                           -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
+  for (int k = 0; k < edges; ++k) {
+    double sum = 0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      sum += weight[j] * log_mean_[(i + j - 1) * edges + static_cast<std::size_t>(k)];
+    }
+    mean[k] = scale * std::exp(sum);
+  }
+}
+
+}  // namespace wearwell::ownlaw

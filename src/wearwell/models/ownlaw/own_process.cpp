@@ -1,0 +1,191 @@
+#include "wearwell/models/ownlaw/own_process.h"
+
+#include <algorithm>
+#include <boost/math/special_functions/digamma.hpp>
+#include <cmath>
+#include <limits>
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double log_two_pi = 1.8378770664093454836;
+
+// What a row adds: means, variances, and what is known of its reading.
+struct Step {
+  double mean, variance, noise_variance;
+};
+
+Step step_of(const ProcessForm& form, const ProcessRows& rows, std::size_t i) {
+  const double before = i > 0 ? rows.mean[i - 1] : 0;
+  const double dm = rows.mean[i] - before, s = rows.spread[i];
+  const double earlier = i > 0 ? rows.spread[i - 1] : 0;
+  const double noise = rows.noise.empty() ? 0 : rows.noise[i];
+  return {dm, form.by_sd ? s * s - earlier * earlier : s * dm, noise * noise};
+}
+
+// Kalman's recursion: before a row the path is normal, its reading tells the rest.
+struct Filtered {
+  double off, predicted, all, at, variance;  // reading less forecast; variances; then the path
+};
+
+Filtered filter(const Step& step, double reading, double at, double variance) {
+  Filtered f;
+  f.off = reading - (at + step.mean);
+  f.predicted = variance + step.variance;
+  f.all = f.predicted + step.noise_variance;
+  const double gain = f.all > 0 ? f.predicted / f.all : 0;
+  f.at = at + step.mean + gain * f.off;
+  f.variance = f.all > 0 ? f.predicted * step.noise_variance / f.all : 0;
+  return f;
+}
+
+void fail(std::span<double> value, std::span<double> slope) {
+  std::fill(value.begin(), value.end(), 0.0);
+  value[0] = -infinity;
+  std::fill(slope.begin(), slope.end(), 0.0);
+}
+
+// Gives the derivative by the mean of a step, and by its variance, to the slots.
+class Slopes {
+ public:
+  Slopes(const ProcessForm& form, const ProcessRows& rows, std::span<double> slope)
+      : form_(form), rows_(rows), slope_(slope), n_(rows.mean.size()) {
+    std::fill(slope.begin(), slope.end(), 0.0);
+  }
+  void give(std::size_t i, double by_mean, double by_variance, double by_noise_variance) {
+    if (form_.by_sd) {
+      slope_[n_ + i] += 2 * rows_.spread[i] * by_variance;
+      if (i > 0) slope_[n_ + i - 1] -= 2 * rows_.spread[i - 1] * by_variance;
+    } else {
+      const double dm = rows_.mean[i] - (i > 0 ? rows_.mean[i - 1] : 0);
+      slope_[n_ + i] += dm * by_variance;
+      by_mean += rows_.spread[i] * by_variance;
+    }
+    slope_[i] += by_mean;
+    if (i > 0) slope_[i - 1] -= by_mean;
+    if (!rows_.noise.empty()) slope_[2 * n_ + i] += 2 * rows_.noise[i] * by_noise_variance;
+  }
+
+ private:
+  const ProcessForm& form_;
+  const ProcessRows& rows_;
+  std::span<double> slope_;
+  std::size_t n_;
+};
+
+void wiener_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
+                  std::span<double> slope) {
+  const std::size_t n = rows.reading.size();
+  static thread_local std::vector<Filtered> all;
+  all.clear();
+  double at = 0, variance = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Step step = step_of(form, rows, i);
+    const Filtered f = filter(step, rows.reading[i], at, variance);
+    if (!(step.variance >= 0) || !(f.all > 0) || !std::isfinite(f.off)) return fail(value, slope);
+    value[i] = -0.5 * (log_two_pi + std::log(f.all) + f.off * f.off / f.all);
+    at = f.at;
+    variance = f.variance;
+    all.push_back(f);
+  }
+  if (slope.empty()) return;
+  Slopes slopes(form, rows, slope);
+  double by_at = 0, by_variance = 0;  // of the path after the row
+  for (std::size_t i = n; i-- > 0;) {
+    const Filtered& f = all[i];
+    const double gain = f.predicted / f.all;
+    const double by_off = by_at * gain - f.off / f.all;
+    const double by_gain = by_at * f.off - by_variance * f.predicted;
+    const double by_all = -0.5 / f.all + 0.5 * f.off * f.off / (f.all * f.all) -
+                          by_gain * f.predicted / (f.all * f.all);
+    by_variance = by_variance * (1 - gain) + by_gain / f.all + by_all;
+    by_at -= by_off;
+    slopes.give(i, by_at, by_variance, by_all);
+  }
+}
+
+// Increments that are seen as they are. Where the mean stands still, so does the path.
+void growing_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
+                   std::span<double> slope) {
+  const bool gamma = form.process == Process::gamma;
+  Slopes slopes(form, rows, slope.empty() ? std::span<double>() : slope);
+  for (std::size_t i = 0; i < rows.reading.size(); ++i) {
+    const double dm = rows.mean[i] - (i > 0 ? rows.mean[i - 1] : 0), u = rows.spread[i];
+    const double dy = rows.reading[i] - (i > 0 ? rows.reading[i - 1] : 0);
+    value[i] = 0;
+    if (dm == 0 && dy == 0) continue;
+    if (!(dm > 0 && dy > 0 && u > 0 && std::isfinite(dm))) return fail(value, slope);
+    double by_mean = 0, by_scale = 0;
+    if (gamma) {
+      const double a = dm / u, log_dy = std::log(dy / u);
+      value[i] = (a - 1) * log_dy - dy / u - std::log(u) - std::lgamma(a);
+      if (!slope.empty()) {
+        const double psi = boost::math::digamma(a);
+        by_mean = (log_dy - psi) / u;
+        by_scale = -a / u * (log_dy - psi) + (dy / u - a) / u;
+      }
+    } else {
+      const double off = dy - dm;
+      value[i] =
+          std::log(dm) - 0.5 * (log_two_pi + std::log(u * dy * dy * dy)) - off * off / (2 * u * dy);
+      by_mean = 1 / dm + off / (u * dy);
+      by_scale = -0.5 / u + off * off / (2 * u * u * dy);
+    }
+    if (slope.empty()) continue;
+    const std::size_t n = rows.mean.size();
+    slope[i] += by_mean;
+    if (i > 0) slope[i - 1] -= by_mean;
+    slope[n + i] += by_scale;
+  }
+}
+
+}  // namespace
+
+std::span<const ProcessForm> process_forms() {
+  constexpr SlotKind place = SlotKind::place, size = SlotKind::size;
+  static const std::vector<ProcessForm> forms = {
+      {Process::wiener,
+       false,
+       {"wiener-process",
+        ResponseFamily::normal,
+        {{"mean", place}, {"scale", size}, {"noise", size, true}}}},
+      {Process::wiener,
+       true,
+       {"wiener-process",
+        ResponseFamily::normal,
+        {{"mean", place}, {"sd", size}, {"noise", size, true}}}},
+      {Process::gamma,
+       false,
+       {"gamma-process", ResponseFamily::normal, {{"mean", place}, {"scale", size}}}},
+      {Process::inverse_gaussian,
+       false,
+       {"inverse-gaussian-process", ResponseFamily::normal, {{"mean", place}, {"scale", size}}}},
+  };
+  return forms;
+}
+
+void process_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
+                   std::span<double> slope) {
+  if (rows.reading.empty()) return;
+  form.process == Process::wiener ? wiener_terms(form, rows, value, slope)
+                                  : growing_terms(form, rows, value, slope);
+}
+
+Standing standing(const ProcessForm& form, const ProcessRows& rows) {
+  Standing stands;
+  for (std::size_t i = 0; i < rows.reading.size(); ++i) {
+    stands.mean = rows.mean[i];
+    if (form.process == Process::wiener) {
+      const Filtered f =
+          filter(step_of(form, rows, i), rows.reading[i], stands.at, stands.variance);
+      stands.at = f.at;
+      stands.variance = f.variance;
+    } else {
+      stands.at = rows.reading[i];
+    }
+  }
+  return stands;
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,195 @@
+#include "wearwell/models/ownlaw/own_process_lives.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+
+#include "wearwell/bayes/normal_score.h"
+#include "wearwell/models/ownlaw/own_first_passage.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr std::size_t most_points = 400;
+constexpr double least_share = 1e-4;  // of a unit's posterior: nodes with less are left out
+constexpr int strata = 12;            // of where a path stands that readings do not tell exactly
+
+double normal_quantile(double p) {
+  return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
+}
+
+// Middles of cells of a unit's effect that is not known yet, of even width.
+struct NewUnits {
+  std::vector<double> z, weight;
+
+  explicit NewUnits(std::size_t effects) {
+    const double width = effects == 1 ? 0.25 : 0.5, farthest = 4;
+    std::vector<double> at, share;
+    double sum = 0;
+    for (double x = -farthest; x < farthest + 0.5 * width; x += width) {
+      at.push_back(x);
+      share.push_back(normal_cdf(x + 0.5 * width) - normal_cdf(x - 0.5 * width));
+      sum += share.back();
+    }
+    for (double& each : share) each /= sum;
+    if (effects == 0) {
+      weight = {1};
+    } else if (effects == 1) {
+      z = at;
+      weight = share;
+    } else {
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        for (std::size_t j = 0; j < at.size(); ++j) {
+          z.insert(z.end(), {at[i], at[j]});
+          weight.push_back(share[i] * share[j]);
+        }
+      }
+    }
+  }
+};
+
+// One thread's part: some points of the posterior, one after the other.
+class Part {
+ public:
+  Part(const OwnRows& rows, const ProcessLimit& limit)
+      : rows_(rows),
+        limit_(limit),
+        form_(*rows.law().measured[limit.column].process),
+        table_(PassageTable::of(form_.process)),
+        effects_(rows.law().effects.size()),
+        fresh_(effects_) {
+    const LimitedPath& path = limit.path;
+    sign_ = path.rising ? 1 : -1;
+    next_.emplace(*path.next, path.rising, path.begin, path.scale);
+    for (const LimitedPath::Seen& each : path.seen) {
+      ahead_.emplace_back(*each.ahead, path.rising, path.begin, path.scale);
+    }
+    lives.remaining.resize(path.seen.size());
+    lives.passed.assign(path.seen.size(), 0);
+  }
+
+  void add(const double* x, double weight) {
+    next_->at().move_to(x);
+    for (std::size_t i = 0; i < fresh_.weight.size(); ++i) {
+      const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
+      add_passage(*next_, z, limit_.path.begin, 0, sign_ * limit_.path.limit,
+                  weight * fresh_.weight[i], false, lives.next);
+    }
+    if (!limit_.path.seen.empty()) add_seen(x, weight);
+  }
+
+  LimitedLives lives;
+
+ private:
+  // The scale of a path at z; where its standard deviation is given, by what it is far along.
+  double scale_at(Crossing& crossing, const double* z, double from) {
+    const double place = std::max(from, limit_.path.begin + limit_.path.scale);
+    crossing.at().stand(1, z);
+    crossing.at().evaluate(1, z, &place);
+    const double mean = crossing.at().output(0, 0), spread = crossing.at().output(1, 0);
+    return form_.by_sd ? spread * spread / std::abs(mean) : spread;
+  }
+
+  // From where the mean is `mean` on, until the path has gone on by `distance` (upwards; all signs are those
+  // of a path that rises).
+  void add_passage(Crossing& crossing, const double* z, double from, double mean, double distance,
+                   double weight, bool counted_from, CellMixture& to) {
+    constexpr int edges = PassageTable::edges;
+    double level[edges + 1], place[edges + 1], means[edges];
+    table_.look_up(distance, scale_at(crossing, z, from), means);
+    level[edges] = sign_ * mean;
+    for (int k = 0; k < edges; ++k) level[k] = sign_ * (mean + means[k]);
+    std::vector<double> same(effects_ * (edges + 1));
+    for (std::size_t i = 0; i < same.size(); ++i) same[i] = z[i % effects_];
+    crossing.solve(edges + 1, same.empty() ? nullptr : same.data(), level, place);
+    const double start = counted_from ? place[edges] : 0;
+    for (int k = 0; k + 1 < edges; ++k) {
+      to.add(weight * PassageTable::weights()[static_cast<std::size_t>(k)], place[k] - start,
+             place[k + 1] - start);
+    }
+  }
+
+  void add_seen(const double* x, double weight) {
+    for (Crossing& each : ahead_) each.at().move_to(x);
+    UnitRows& units = rows_.mine().rows;
+    units.move_to(x);
+    if (effects_ == 0) {
+      const std::vector<Standing> all = units.standings({}, limit_.column);
+      for (std::size_t u = 0; u < ahead_.size(); ++u) add_unit(u, nullptr, all[u], weight);
+      return;
+    }
+    for (const latent::Sweep& sweep : rows_.integrate(x).sweeps) {
+      const bool any = std::any_of(sweep.weight.begin(), sweep.weight.end(),
+                                   [](double w) { return w > least_share; });
+      if (!any) continue;
+      const std::vector<Standing> all = units.standings(sweep.z, limit_.column);
+      for (std::size_t u = 0; u < ahead_.size(); ++u) {
+        if (!(sweep.weight[u] > least_share)) continue;
+        add_unit(u, &sweep.z[u * effects_], all[u], weight * sweep.weight[u]);
+      }
+    }
+  }
+
+  void add_unit(std::size_t u, const double* z, const Standing& stands, double weight) {
+    const double mean = sign_ * stands.mean, now = limit_.path.seen[u].now;
+    const double left = sign_ * (limit_.path.limit - stands.at);
+    const double sd = std::sqrt(stands.variance);
+    if (!(sd > 0)) {
+      if (left <= 0) {
+        lives.passed[u] += weight;
+      } else {
+        add_passage(ahead_[u], z, now, mean, left, weight, true, lives.remaining[u]);
+      }
+      return;
+    }
+    const double below = normal_cdf(left / sd);  // it has not reached the limit
+    lives.passed[u] += weight * (1 - below);
+    if (!(below > 1e-6)) return;
+    for (int k = 0; k < strata; ++k) {
+      const double distance = left - sd * normal_quantile(below * (k + 0.5) / strata);
+      if (!(distance > 0)) continue;
+      add_passage(ahead_[u], z, now, mean, distance, weight * below / strata, true,
+                  lives.remaining[u]);
+    }
+  }
+
+  const OwnRows& rows_;
+  const ProcessLimit& limit_;
+  const ProcessForm& form_;
+  const PassageTable& table_;
+  std::size_t effects_;
+  NewUnits fresh_;
+  double sign_ = 1;
+  std::optional<Crossing> next_;
+  std::vector<Crossing> ahead_;
+};
+
+}  // namespace
+
+LimitedLives process_lives(const OwnRows& rows, const ProcessLimit& limit,
+                           const WeightedDraws& draws) {
+  const FewPoints few(draws, most_points);
+  constexpr std::size_t parts = 16;  // whatever the number of threads: sums keep their order
+  std::vector<LimitedLives> each(parts);
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
+    Part part(rows, limit);
+    const std::size_t n = few.weights.size();
+    for (std::size_t i = p * n / parts; i < (p + 1) * n / parts; ++i) {
+      part.add(few.values.row(static_cast<Eigen::Index>(i)).data(), few.weights[i]);
+    }
+    each[p] = std::move(part.lives);
+  });
+  LimitedLives all = std::move(each[0]);
+  for (std::size_t p = 1; p < parts; ++p) {
+    all.next.add(each[p].next);
+    for (std::size_t u = 0; u < limit.path.seen.size(); ++u) {
+      all.remaining[u].add(each[p].remaining[u]);
+      all.passed[u] += each[p].passed[u];
+    }
+  }
+  return all;
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "wearwell/models/ownlaw/own_lives.h"
+
+namespace wearwell::ownlaw {
+
+/// When the path of a process first reaches a limit.
+struct ProcessLimit {
+  std::size_t column = 0;  ///< of OwnLaw::measured
+  LimitedPath
+      path;  ///< of its mean (output 0) with its scale or sd (output 1); `limit` is the process's
+};
+
+/// Lives over a posterior: first passages of paths that begin at 0, and of those seen, given where they stand
+/// after their last row (not beyond the limit).
+LimitedLives process_lives(const OwnRows& rows, const ProcessLimit& limit,
+                           const WeightedDraws& draws);
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,210 @@
+// Paths with random increments, against R (tests/golden/process.R), differences and brute force.
+#include "wearwell/models/ownlaw/own_process.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/posterior_study.h"
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
+#include "wearwell/models/ownlaw/own_first_passage.h"
+#include "wearwell/study/run_study.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+const ProcessForm& form_of(Process process, bool by_sd = false) {
+  for (const ProcessForm& each : process_forms()) {
+    if (each.process == process && each.by_sd == by_sd) return each;
+  }
+  throw std::logic_error("no such form");
+}
+
+double sum_at(const ProcessForm& form, const std::vector<double>& y,
+              const std::vector<std::vector<double>>& slots, std::vector<double>* slope = nullptr) {
+  std::vector<double> value(y.size());
+  if (slope) slope->resize(3 * y.size());
+  process_terms(form, {y, slots[0], slots[1], slots[2]}, value,
+                slope ? std::span<double>(*slope) : std::span<double>());
+  double sum = 0;
+  for (const double each : value) sum += each;
+  return sum;
+}
+
+// Every slot of every row, by differences.
+TEST(OwnProcess, SlopesAreThoseOfTheSum) {
+  const std::vector<double> y = {0.8, 1.1, 2.9, 3.3};
+  const std::vector<double> mean = {0.7, 1.5, 2.4, 3.6}, scale = {0.5, 0.4, 0.5, 0.7},
+                            sd = {0.3, 0.5, 0.55, 0.8}, noise = {0.2, 0.1, 0.3, 0.25};
+  struct Case {
+    const ProcessForm& form;
+    bool by_sd, noisy;
+  };
+  for (const Case& each :
+       {Case{form_of(Process::wiener), false, true}, Case{form_of(Process::wiener), false, false},
+        Case{form_of(Process::wiener, true), true, true},
+        Case{form_of(Process::gamma), false, false},
+        Case{form_of(Process::inverse_gaussian), false, false}}) {
+    std::vector<std::vector<double>> slots = {mean, each.by_sd ? sd : scale,
+                                              each.noisy ? noise : std::vector<double>()};
+    std::vector<double> slope;
+    const double at = sum_at(each.form, y, slots, &slope);
+    EXPECT_DOUBLE_EQ(at, sum_at(each.form, y, slots));
+    for (std::size_t s = 0; s < (each.noisy ? 3u : 2u); ++s) {
+      for (std::size_t i = 0; i < y.size(); ++i) {
+        const double kept = slots[s][i], h = 1e-5;
+        slots[s][i] = kept + h;
+        const double above = sum_at(each.form, y, slots);
+        slots[s][i] = kept - h;
+        const double by_difference = (above - sum_at(each.form, y, slots)) / (2 * h);
+        slots[s][i] = kept;
+        EXPECT_NEAR(slope[s * y.size() + i], by_difference, 1e-6 * (1 + std::abs(by_difference)))
+            << each.form.form.name << s << i;
+      }
+    }
+  }
+}
+
+// tests/golden/process.R
+TEST(OwnProcess, FirstPassagesAreThoseOfR) {
+  const double golden[][6] = {{10, 0.05, 0.05, 8.8810874, 8.8765135, 8.8642169},
+                              {10, 0.05, 0.5, 9.9750726, 10.016662, 10.024928},
+                              {10, 0.05, 0.95, 11.203942, 11.201928, 11.18603},
+                              {2, 1.5, 0.05, 0.44941925, 0.43134959, 0.51438973},
+                              {2, 1.5, 0.5, 1.4684651, 2.4781402, 2.5669132},
+                              {2, 1.5, 0.95, 5.3630109, 5.9144264, 5.1819959},
+                              {0.3, 2, 0.05, 0.01100103, 0.068952644, 0.079445215},
+                              {0.3, 2, 0.5, 0.07348561, 0.81253538, 0.70120379},
+                              {0.3, 2, 0.95, 1.3188735, 2.8280731, 1.776628}};
+  for (const auto& row : golden) {
+    int column = 3;
+    for (const Process each : {Process::wiener, Process::gamma, Process::inverse_gaussian}) {
+      EXPECT_NEAR(passage_quantile(each, row[0], row[1], row[2]) / row[column], 1, 1e-7)
+          << row[0] << " " << row[2] << " " << column;
+      ++column;
+    }
+  }
+}
+
+TEST(OwnProcess, TheTableOfFirstPassagesIsTheSame) {
+  for (const Process each : {Process::wiener, Process::gamma, Process::inverse_gaussian}) {
+    const PassageTable& table = PassageTable::of(each);
+    for (const double distance : {1e-5, 0.0123, 0.7, 5.0, 137.0, 4e5, 3e7}) {
+      double mean[PassageTable::edges];
+      table.look_up(distance, 1, mean);
+      for (int k = 0; k < PassageTable::edges; k += 5) {
+        const double p = 0.5 * std::erfc((4 - 0.4 * k) / std::sqrt(2.0));
+        EXPECT_NEAR(mean[k] / passage_quantile(each, distance, 1, p), 1, 2e-5)
+            << distance << " " << k;
+      }
+    }
+  }
+}
+
+class OwnProcessStudy : public ScratchTest {
+ protected:
+  PosteriorSummary run(const std::string& text) const {
+    return run_study(wearwell::read_posterior_study(write("study.toml", text)),
+                     {Method::exact, 1, {}, 50, {}}, {}, false);
+  }
+  std::string lasers(const std::string& family, const std::string& spread,
+                     const std::string& predict = "") const {
+    const auto to = folder() / "laser.csv";
+    if (!std::filesystem::exists(to)) {
+      std::filesystem::copy_file(PROJECT_SOURCE_DIR "/examples/degradation/laser.csv", to);
+    }
+    return "model = \"law\"\n[data]\nfile = \"laser.csv\"\n[data.columns]\n"
+           "increase = { column = \"increase_percent\", unit = \"%\" }\n"
+           "time = { column = \"hours\", unit = \"h\" }\nlaser = \"laser\"\n"
+           "[likelihood.increase]\nfamily = \"" +
+           family + "\"\nmean = \"rate * time\"\n" + spread +
+           "[prior]\nrate = { law = \"flat\", unit = \"%/h\" }\nu = { law = \"flat\", unit = "
+           "\"%\" }\n[predict]\nalong = \"time\"\n" +
+           predict;
+  }
+};
+
+// tests/golden/process.R; densities of readings in per cent there, of 240 plain numbers here.
+TEST_F(OwnProcessStudy, ModesOfTheLasersAreThoseOfR) {
+  const double per_cent = 240 * std::log(100.0);
+  const PosteriorSummary gamma = run(lasers("gamma-process", "scale = \"u\"\n"));
+  ASSERT_EQ(gamma.mode->problem, "");
+  EXPECT_NEAR(gamma.mode->parameters[0].value, 0.0020371667, 2e-9);
+  EXPECT_NEAR(gamma.mode->parameters[1].value, 0.070849331, 2e-7);
+  EXPECT_NEAR(gamma.mode->log_likelihood - per_cent, 69.609359, 2e-6);
+  const PosteriorSummary inverse = run(lasers("inverse-gaussian-process", "scale = \"u\"\n"));
+  ASSERT_EQ(inverse.mode->problem, "");
+  EXPECT_NEAR(inverse.mode->parameters[0].value, 0.0020371667, 2e-9);
+  EXPECT_NEAR(inverse.mode->parameters[1].value, 0.076159479, 2e-7);
+  EXPECT_NEAR(inverse.mode->log_likelihood - per_cent, 75.033857, 2e-6);
+  // Each laser is left out, not each reading.
+  ASSERT_TRUE(gamma.loo.has_value());
+  EXPECT_EQ(gamma.loo->loo.terms.size(), 15u);
+}
+
+// With noise, by the dense covariance of each laser (R), in both ways of writing it.
+TEST_F(OwnProcessStudy, AWienerProcessWithNoiseIsAJointNormalLaw) {
+  const double per_cent = 240 * std::log(100.0);
+  const auto value = [&](const std::string& spread, double u) {
+    const PosteriorStudy study =
+        wearwell::read_posterior_study(write("study.toml", lasers("wiener-process", spread)));
+    const std::vector<double> x = {0.002e-2 / 3600, u};
+    return study.likelihood(study.data_rows)->value(x) - per_cent;
+  };
+  EXPECT_NEAR(value("scale = \"u\"\nnoise = \"0.1 [%]\"\n", 0.05e-2), 21.92832982, 1e-7);
+  EXPECT_NEAR(value("scale = \"u\"\n", 0.05e-2), 29.46228652, 1e-7);
+  // sd^2 = scale * mean, 0.05 % of 0.002 %/h, at 1 h.
+  EXPECT_NEAR(value("sd = \"u * sqrt(time/1 [h])\"\nnoise = \"0.1 [%]\"\n", 0.01e-2), 21.92832982,
+              1e-7);
+}
+
+// Lives at one point of the parameters: those of the law; of a laser that was seen, from its last reading.
+TEST_F(OwnProcessStudy, LivesAreFirstPassages) {
+  for (const Process process : {Process::wiener, Process::gamma, Process::inverse_gaussian}) {
+    const std::string name(form_of(process).form.name);
+    const PosteriorStudy study = wearwell::read_posterior_study(
+        write("study.toml", lasers(name, "scale = \"u\"\n", "limit = { increase = \"10 %\" }\n")));
+    WeightedDraws draws;
+    draws.values.resize(1, 2);
+    draws.values << 0.002e-2 / 3600, 0.07e-2;
+    draws.weights.setOnes(1);
+    const auto lives = study.quantity_groups.front().from_draws(draws);
+    ASSERT_EQ(lives.size(), 16u);
+    const auto hours = [&](double distance, double p) {
+      return passage_quantile(process, distance, 0.07, p) / 0.002;
+    };
+    const auto expect = [&](const QuantityQuantiles& life, double distance) {
+      EXPECT_NEAR(life.q05 / 3600 / hours(distance, 0.05), 1, 4e-3) << name;
+      EXPECT_NEAR(life.q50 / 3600 / hours(distance, 0.5), 1, 4e-3) << name;
+      EXPECT_NEAR(life.q95 / 3600 / hours(distance, 0.95), 1, 4e-3) << name;
+    };
+    expect(lives[0], 10);
+    expect(lives[3], 10 - 6.88);
+    EXPECT_EQ(lives[10].q95, 0);  // 12.21 %
+  }
+}
+
+TEST_F(OwnProcessStudy, WhatIsNoProcessIsRefused) {
+  const auto refusal = [&](const std::string& text) {
+    return message_of<InputError>(
+        [&] { wearwell::read_posterior_study(write("study.toml", text)).in_words(); });
+  };
+  EXPECT_NE(refusal(lasers("gamma-process", "scale = \"u\"\nnoise = \"0.1 [%]\"\n"))
+                .find("not integrated out"),
+            std::string::npos);
+  EXPECT_NE(refusal(lasers("wiener-process", "scale = \"u\"\n", "limit = { rate = \"10 %/h\" }\n"))
+                .find("limits of this study are of increase"),
+            std::string::npos);
+  EXPECT_NE(refusal(lasers("wiener-process", "sd = \"u * time/1 [h]\"\n",
+                           "limit = { increase = \"10 %\" }\n"))
+                .find("in proportion to the mean"),
+            std::string::npos);
+  write("laser.csv", "laser,hours,increase_percent\n1,10,0.5\n1,20,0.4\n2,10,0.1\n2,20,0.3\n");
+  EXPECT_NE(refusal(lasers("gamma-process", "scale = \"u\"\n")).find("0.4 % after 0.5: a gamma"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace wearwell::ownlaw
