@@ -10,8 +10,8 @@ namespace wearwell {
 
 Models all_models() {
   static const Model models[] = {
-      joint::model(),  bearing::model(), clutch::model(),       fatigue::model(),
-      ownlaw::model(), ownlaw::life(),   ownlaw::accelerated(),
+      joint::model(),      bearing::model(), clutch::model(), fatigue::model(),
+      fatigue::spectrum(), ownlaw::model(),  ownlaw::life(),  ownlaw::accelerated(),
   };
   return models;
 }

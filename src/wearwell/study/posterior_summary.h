@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "wearwell/infer/loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/predict/prediction.h"
+#include "wearwell/present/section.h"
 #include "wearwell/study/plots.h"
 
 namespace wearwell {
@@ -201,6 +204,14 @@ struct QuadratureSummary {
   std::size_t nodes = 0;
 };
 
+/// What a trade adds to its result beside what all studies have.
+struct TradeAddition {
+  nlohmann::ordered_json body = {};  ///< keys of summary.json
+  /// At the end of the section of the report that has this id.
+  std::map<std::string, std::vector<present::Block>> blocks = {};
+  std::string text = {};  ///< for a terminal, after the design values; lines end with newlines
+};
+
 struct PosteriorSummary {
   std::string version;
   std::string title, model, equation, data_file;
@@ -229,6 +240,7 @@ struct PosteriorSummary {
   std::optional<QuadratureSummary> quadrature{};
   std::string quantity{};  ///< what is measured and predicted, "worn volume"
   std::string curve{};     ///< the law with its numbers, a clause; empty where it has no use
+  TradeAddition added{};
 };
 
 }  // namespace wearwell

@@ -172,6 +172,7 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   result.predictions = summarize(study.predictions, final);
   result.quantities = summarize_quantities(study, final);
   result.pointwise = study.pointwise;
+  if (study.addition && proper(final)) result.added = study.addition(final);
   result.log_evidence = final.exact ? final.exact->log_evidence : std::nullopt;
   result.checks = all_checks(study, posterior, final, loo);
   result.posterior_draws = in_units(study, std::move(final.draws));

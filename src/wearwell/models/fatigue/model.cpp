@@ -10,10 +10,21 @@ namespace resource {
 
 std::string_view fatigue_study();
 std::string_view fatigue_data();
+std::string_view spectrum_study();
+std::string_view spectrum_data();
+std::string_view spectrum_loads();
 
 }  // namespace resource
 
 namespace fatigue {
+
+namespace {
+
+std::unique_ptr<const Study> read(const TomlReader& root, const Source& source) {
+  return read_posterior_study(root, source, read_sn_study);
+}
+
+}  // namespace
 
 Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::fatigue_study},
@@ -21,13 +32,18 @@ Model model() {
   return {.key = "sn",
           .trade = "fatigue",
           .example = example,
-          .read =
-              [](const TomlReader& root, const Source& source) {
-                return read_posterior_study(root, source, read_sn_study);
-              },
+          .read = read,
           .add_commands = add_commands,
           .keys = study_keys,
           .first_study = first_study};
+}
+
+Model spectrum() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::spectrum_study},
+                                            {"tests.csv", resource::spectrum_data},
+                                            {"loads.csv", resource::spectrum_loads}};
+  return {
+      .key = "sn", .trade = "spectrum", .example = example, .read = read, .add_commands = nullptr};
 }
 
 }  // namespace fatigue
