@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "support/golden.h"
 #include "support/run_command.h"
 #include "support/scratch.h"
 
@@ -178,6 +179,29 @@ TEST_F(FatigueLife, RefusesWhatMayBeMisread) {
               HasSubstr("at least 1"));
   EXPECT_THAT(refused("life res bare.csv --unit MPa --block 350"), HasSubstr("350 km"));
   EXPECT_THAT(refused("life nothing bare.csv"), HasSubstr("no such folder"));
+}
+
+// tests/golden/staircase.R: the same posterior on a grid in R.
+TEST_F(FatigueHistory, StaircaseAsInR) {
+  const CommandResult fit = run_command("cd '" + folder().string() +
+                                        "'; '" WEARWELL_BINARY "' fit '" PROJECT_SOURCE_DIR
+                                        "/examples/staircase/study.toml' --method exact --json");
+  EXPECT_LE(fit.exit_code, 1) << fit.err;
+  const json summary = json::parse(fit.out);
+  std::map<std::string, double> golden;
+  for (const auto& row : read_golden("staircase.csv")) golden[row[0]] = std::stod(row[1]);
+  const json& limit = summary["parameters"]["log10_limit"]["exact"];
+  const json& sigma = summary["parameters"]["sigma_limit"]["exact"];
+  EXPECT_NEAR(limit["mean"], golden.at("mean_limit"), 2e-5);
+  EXPECT_NEAR(limit["sd"], golden.at("sd_limit"), 2e-5);
+  EXPECT_NEAR(sigma["mean"], golden.at("mean_sigma"), 4e-5);
+  EXPECT_NEAR(sigma["sd"], golden.at("sd_sigma"), 4e-5);
+  EXPECT_NEAR(summary["quantities"][1]["exact"]["bound"], golden.at("limit90_q10"), 0.15);
+  const json& classical = summary["staircase"]["dixon_mood"];
+  EXPECT_NEAR(classical["mean"], golden.at("dm_mean"), 1e-6);
+  EXPECT_NEAR(classical["sd"], golden.at("dm_sd"), 1e-6);
+  // One more test never tells less than nothing.
+  for (const json& test : summary["staircase"]["next_test"]) EXPECT_LE(test["sd_ratio"], 1 + 1e-9);
 }
 
 }  // namespace

@@ -10,8 +10,9 @@ namespace wearwell {
 
 Models all_models() {
   static const Model models[] = {
-      joint::model(),      bearing::model(), clutch::model(), fatigue::model(),
-      fatigue::spectrum(), ownlaw::model(),  ownlaw::life(),  ownlaw::accelerated(),
+      joint::model(),   bearing::model(),    clutch::model(),
+      fatigue::model(), fatigue::spectrum(), fatigue::staircase(),
+      ownlaw::model(),  ownlaw::life(),      ownlaw::accelerated(),
   };
   return models;
 }

@@ -4,12 +4,15 @@
 #include "wearwell/models/fatigue/sn_first.h"
 #include "wearwell/models/fatigue/sn_keys.h"
 #include "wearwell/models/fatigue/sn_study.h"
+#include "wearwell/models/fatigue/staircase_study.h"
 
 namespace wearwell {
 namespace resource {
 
 std::string_view fatigue_study();
 std::string_view fatigue_data();
+std::string_view staircase_study();
+std::string_view staircase_data();
 std::string_view spectrum_study();
 std::string_view spectrum_data();
 std::string_view spectrum_loads();
@@ -36,6 +39,19 @@ Model model() {
           .add_commands = add_commands,
           .keys = study_keys,
           .first_study = first_study};
+}
+
+Model staircase() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::staircase_study},
+                                            {"tests.csv", resource::staircase_data}};
+  return {.key = "staircase",
+          .trade = "staircase",
+          .example = example,
+          .read =
+              [](const TomlReader& root, const Source& source) {
+                return read_posterior_study(root, source, read_staircase_study);
+              },
+          .add_commands = nullptr};
 }
 
 Model spectrum() {

@@ -7,7 +7,10 @@ namespace wearwell::fatigue {
 /// Fatigue lives, S-N curves: model = "sn".
 Model model();
 
-/// The same model, with what `wearwell new spectrum` writes: tests and a load history.
+/// Fatigue limits from up-and-down tests: model = "staircase".
+Model staircase();
+
+/// The model of S-N curves, with what `wearwell new spectrum` writes: tests and a load history.
 Model spectrum();
 
 }  // namespace wearwell::fatigue
