@@ -67,7 +67,7 @@ TEST_F(Door, SlipsInAStudy) {
       // the model
       {"joint", "archard-joint", "joint",
        "slip.toml:4:9: model: 'joint' is not possible; it is one of archard-joint, bearing-wear, "
-       "clutch-wear, sn, law (nearest: 'archard-joint')"},
+       "clutch-wear, sn, staircase, law (nearest: 'archard-joint')"},
       {"joint", "^model", "modle", "slip.toml:4:9: modle: unknown key; did you mean 'model'?"},
       {"joint", "^model.*", "",
        "model: is missing: it is one of archard-joint, bearing-wear, clutch-wear, sn"},
@@ -212,6 +212,7 @@ TEST_F(Door, SlipsInACommandLine) {
   const std::pair<const char*, const char*> slips[] = {
       {"fti joint/study.toml",
        "'fti' is no command of wearwell; did you mean 'fit'? (commands: fit, bearing, clutch, "
+       "fatigue, "
        "select, check, compare, new, report, help, version; see wearwell help)"},
       {"Fit joint/study.toml", "did you mean 'fit'?"},
       {"joint/study.toml", "'joint/study.toml' is no command of wearwell (commands: fit, "},
@@ -244,8 +245,8 @@ TEST_F(Door, SlipsInACommandLine) {
        "\"joint_wear.csv\""},
       {"check joint/study.toml --json", "wearwell check has no option --json (options: --help; "},
       {"new jiont x",
-       "TRADE: 'jiont' is not possible; it is one of joint, bearing, clutch, fatigue, law, life, "
-       "accelerated, degradation; did you mean 'joint'?"},
+       "TRADE: 'jiont' is not possible; it is one of joint, bearing, clutch, fatigue, spectrum, "
+       "staircase, law, life, accelerated, degradation; did you mean 'joint'?"},
       {"new joint", "wearwell new: DIR is "},
       {"new joint joint", "joint is not empty"},
       {"compare joint", "DIR is given 1 times, and is needed 2 times at least"},

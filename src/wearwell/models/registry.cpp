@@ -10,8 +10,9 @@ namespace wearwell {
 
 Models all_models() {
   static const Model models[] = {
-      joint::model(),  bearing::model(), clutch::model(),       fatigue::model(),
-      ownlaw::model(), ownlaw::life(),   ownlaw::accelerated(), ownlaw::degradation(),
+      joint::model(),        bearing::model(),      clutch::model(), fatigue::model(),
+      fatigue::spectrum(),   fatigue::staircase(),  ownlaw::model(), ownlaw::life(),
+      ownlaw::accelerated(), ownlaw::degradation(),
   };
   return models;
 }

@@ -228,6 +228,7 @@ Json posterior_json(const PosteriorSummary& result) {
                           {"nodes", result.quadrature->nodes}};
   }
   if (result.log_evidence) json["log_evidence"] = *result.log_evidence;
+  if (!result.added.body.is_null()) json.update(result.added.body);
   return json;
 }
 

@@ -256,9 +256,16 @@ Section method_section(const PosteriorSummary& result, const Plots& plots) {
 
 std::vector<Section> report_sections(const PosteriorSummary& result) {
   const Plots& plots = *result.plots;
-  return {verdict_section(result, plots),   prediction_section(result, plots),
-          parameter_section(result, plots), fit_section(result, plots),
-          check_section(result, plots),     method_section(result, plots)};
+  std::vector<Section> sections = {
+      verdict_section(result, plots),   prediction_section(result, plots),
+      parameter_section(result, plots), fit_section(result, plots),
+      check_section(result, plots),     method_section(result, plots)};
+  for (Section& section : sections) {
+    const auto added = result.added.blocks.find(section.id);
+    if (added == result.added.blocks.end()) continue;
+    section.blocks.insert(section.blocks.end(), added->second.begin(), added->second.end());
+  }
+  return sections;
 }
 
 }  // namespace wearwell

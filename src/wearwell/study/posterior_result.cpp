@@ -39,6 +39,9 @@ Result posterior_result(PosteriorSummary summary) {
     if (s.pointwise) add(pointwise_table(*s.pointwise));
     if (!s.stages.empty()) add(stage_table(s));
     if (s.coverage) add(coverage_table(*s.coverage));
+    for (const auto& [section, blocks] : s.added.blocks) {
+      for (const present::Table* table : present::tables({{section, "", blocks}})) add(*table);
+    }
   }
   result.text = [shared](const TerminalStyle& style) { return terminal_summary(*shared, style); };
   result.posterior = shared;

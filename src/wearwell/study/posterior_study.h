@@ -134,7 +134,8 @@ struct PosteriorStudy : Study {
   std::function<std::vector<Check>(const Fit&)> checks;
   std::function<CoverageTable(const WeightedDraws&)> coverage;  ///< of single tests; may be empty
   std::function<std::map<std::string, std::vector<html::Figure>>(const Fit&)> exhibits;
-  SamplerChoice sampler;  ///< as the study file says
+  std::function<TradeAddition(const Fit&)> addition;  ///< may be empty
+  SamplerChoice sampler;                              ///< as the study file says
   NutsSettings nuts;
   MetropolisSettings metropolis;
 };

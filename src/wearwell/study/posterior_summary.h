@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "wearwell/infer/loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/predict/prediction.h"
+#include "wearwell/present/section.h"
 #include "wearwell/study/plots.h"
 
 namespace wearwell {
@@ -206,6 +209,14 @@ struct QuadratureSummary {
   std::size_t nodes = 0;
 };
 
+/// What a trade adds to its result beside what all studies have.
+struct TradeAddition {
+  nlohmann::ordered_json body = {};  ///< keys of summary.json
+  /// At the end of the section of the report that has this id.
+  std::map<std::string, std::vector<present::Block>> blocks = {};
+  std::string text = {};  ///< for a terminal, after the design values; lines end with newlines
+};
+
 struct PosteriorSummary {
   std::string version;
   std::string title, model, equation, data_file;
@@ -235,6 +246,7 @@ struct PosteriorSummary {
   std::string quantity{};  ///< what is measured and predicted, "worn volume"
   std::string curve{};     ///< the law with its numbers, a clause; empty where it has no use
   std::shared_ptr<const Fit> fit{};  ///< nodes and pooled draws, for what is asked later; no draws
+  TradeAddition added{};
 };
 
 }  // namespace wearwell

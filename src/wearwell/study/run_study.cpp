@@ -118,6 +118,7 @@ PosteriorSummary described(const PosteriorStudy& study, const FitSettings& setti
   result.predictions = summarize(study.predictions, fit);
   result.quantities = summarize_quantities(study, fit);
   result.pointwise = study.pointwise;
+  if (study.addition && proper(fit)) result.added = study.addition(fit);
   if (study.life) result.life = summarize(*study.life, fit);
   if (study.coverage) result.coverage = study.coverage(nodes);
   if (fit.exact) {

@@ -303,6 +303,7 @@ std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle
   if (result.life) out += "\nLife\n" + life_lines(*result.life);
   if (!result.predictions.empty()) out += "\nPredictions\n" + prediction_table(result.predictions);
   out += bound_table(result.quantities) + quantity_table(result.quantities);
+  if (!result.added.text.empty()) out += "\n" + result.added.text;
   out += "\nParameters\n" + parameter_table(result);
   if (style.histograms) {
     out += '\n';

@@ -90,11 +90,11 @@ TEST(OwnProcess, FirstPassagesAreThoseOfR) {
 
 TEST(OwnProcess, TheTableOfFirstPassagesIsTheSame) {
   for (const Process each : {Process::wiener, Process::gamma, Process::inverse_gaussian}) {
-    const PassageTable& table = PassageTable::of(each);
+    const ScoreTable& table = ScoreTable::passages(each);
     for (const double distance : {1e-5, 0.0123, 0.7, 5.0, 137.0, 4e5, 3e7}) {
-      double mean[PassageTable::edges];
+      double mean[ScoreTable::edges];
       table.look_up(distance, 1, mean);
-      for (int k = 0; k < PassageTable::edges; k += 5) {
+      for (int k = 0; k < ScoreTable::edges; k += 5) {
         const double p = 0.5 * std::erfc((4 - 0.4 * k) / std::sqrt(2.0));
         EXPECT_NEAR(mean[k] / passage_quantile(each, distance, 1, p), 1, 2e-5)
             << distance << " " << k;
@@ -160,6 +160,54 @@ TEST_F(OwnProcessStudy, AWienerProcessWithNoiseIsAJointNormalLaw) {
               1e-7);
 }
 
+// A rate of its own for each laser and random steps: the integral over each one's rate by the trapezoidal
+// rule, wide and fine.
+TEST_F(OwnProcessStudy, UnitsThatDifferTakeRandomSteps) {
+  for (const auto& [process, noise] :
+       {std::pair(Process::gamma, 0.0), {Process::inverse_gaussian, 0.0}, {Process::wiener, 0.1}}) {
+    const ProcessForm& form = form_of(process);
+    const std::string noisy = noise > 0 ? "noise = \"0.1 [%]\"\n" : "";
+    const std::string text =
+        lasers(std::string(form.form.name), "scale = \"u\"\n" + noisy) +
+        "[varies.laser]\nrate = { law = \"lognormal\", log_sd = \"0.25 + 0*u/1 [%]\" }\n";
+    const PosteriorStudy study = wearwell::read_posterior_study(write("study.toml", text));
+    const auto density = study.likelihood(study.data_rows);
+    std::vector<double> x = {0.002e-2 / 3600, 0.05e-2};
+    double expected = 0;
+    for (std::size_t u = 0; u < 15; ++u) {
+      std::vector<double> y, mean, scale(16, 0.05), error(noise > 0 ? 16 : 0, noise), value(16);
+      for (std::size_t i = 0; i < 16; ++i) y.push_back(100 * study.observed[16 * u + i]);
+      std::vector<double> terms;
+      double highest = -INFINITY;
+      for (int k = -1200; k <= 1200; ++k) {
+        const double z = 0.005 * k, rate = 0.002 * std::exp(0.25 * z);
+        mean.clear();
+        for (std::size_t i = 0; i < 16; ++i)
+          mean.push_back(rate * 250 * static_cast<double>(i + 1));
+        process_terms(form, {y, mean, scale, error}, value, {});
+        double sum = -0.5 * z * z - 0.5 * std::log(2 * M_PI);
+        for (const double each : value) sum += each;
+        terms.push_back(sum);
+        highest = std::max(highest, sum);
+      }
+      double integral = 0;
+      for (const double each : terms) integral += 0.005 * std::exp(each - highest);
+      expected += highest + std::log(integral) + 16 * std::log(100.0);
+    }
+    EXPECT_NEAR(density->value(x), expected, 1e-5) << form.form.name;
+    std::vector<double> gradient(2);
+    density->value_and_gradient(x, gradient);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double at = x[i], h = 1e-4 * at;
+      x[i] = at + h;
+      const double above = density->value(x);
+      x[i] = at - h;
+      EXPECT_NEAR(gradient[i] * at, (above - density->value(x)) / (2 * h) * at, 1e-3);
+      x[i] = at;
+    }
+  }
+}
+
 // Lives at one point of the parameters: those of the law; of a laser that was seen, from its last reading.
 TEST_F(OwnProcessStudy, LivesAreFirstPassages) {
   for (const Process process : {Process::wiener, Process::gamma, Process::inverse_gaussian}) {
@@ -184,6 +232,45 @@ TEST_F(OwnProcessStudy, LivesAreFirstPassages) {
     expect(lives[3], 10 - 6.88);
     EXPECT_EQ(lives[10].q95, 0);  // 12.21 %
   }
+}
+
+// Where a path is by then, and when it first gets there, are one thing of a path that only rises.
+TEST_F(OwnProcessStudy, PathsAheadAreThoseOfTheProcess) {
+  for (const Process process : {Process::wiener, Process::gamma, Process::inverse_gaussian}) {
+    const std::string name(form_of(process).form.name);
+    const PosteriorStudy study = wearwell::read_posterior_study(
+        write("study.toml", lasers(name, "scale = \"u\"\n", "at = [\"5000 h\"]\n")));
+    WeightedDraws draws;
+    draws.values.resize(1, 2);
+    draws.values << 0.002e-2 / 3600, 0.07e-2;
+    draws.weights.setOnes(1);
+    const auto paths = study.quantity_groups.front().from_draws(draws);
+    ASSERT_EQ(paths.size(), 16u);
+    const auto expect = [&](const QuantityQuantiles& path, double from, double hours) {
+      for (const auto& [value, p] :
+           {std::pair(path.q05, 0.05), {path.q50, 0.5}, {path.q95, 0.95}}) {
+        const double grown = 100 * value - from, mean = 0.002 * hours;
+        if (process == Process::wiener) {
+          const double off = (grown - mean) / std::sqrt(0.07 * mean);
+          EXPECT_NEAR(0.5 * std::erfc(-off / std::sqrt(2.0)), p, 2e-3);
+        } else {
+          EXPECT_NEAR(passage_quantile(process, grown, 0.07, 1 - p) / mean, 1, 4e-3) << name << p;
+        }
+      }
+    };
+    expect(paths[0], 0, 5000);
+    expect(paths[3], 6.88, 1000);
+  }
+}
+
+TEST_F(OwnProcessStudy, PathsOfAProcessAreDrawn) {
+  const PosteriorSummary result = run_study(
+      wearwell::read_posterior_study(PROJECT_SOURCE_DIR "/examples/degradation/steps.toml"),
+      {Method::exact, 1, {}, 1000, {}}, {}, true);
+  const auto& figures = result.plots->exhibits.at("predictions");
+  ASSERT_EQ(figures.size(), 16u);
+  EXPECT_EQ(figures[3].title, "Laser 3");
+  EXPECT_NE(figures[3].specification.dump().find("limit"), std::string::npos);
 }
 
 TEST_F(OwnProcessStudy, WhatIsNoProcessIsRefused) {

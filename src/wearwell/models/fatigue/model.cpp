@@ -4,16 +4,30 @@
 #include "wearwell/models/fatigue/sn_first.h"
 #include "wearwell/models/fatigue/sn_keys.h"
 #include "wearwell/models/fatigue/sn_study.h"
+#include "wearwell/models/fatigue/staircase_study.h"
 
 namespace wearwell {
 namespace resource {
 
 std::string_view fatigue_study();
 std::string_view fatigue_data();
+std::string_view staircase_study();
+std::string_view staircase_data();
+std::string_view spectrum_study();
+std::string_view spectrum_data();
+std::string_view spectrum_loads();
 
 }  // namespace resource
 
 namespace fatigue {
+
+namespace {
+
+std::unique_ptr<const Study> read(const TomlReader& root, const Source& source) {
+  return read_posterior_study(root, source, read_sn_study);
+}
+
+}  // namespace
 
 Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::fatigue_study},
@@ -21,13 +35,31 @@ Model model() {
   return {.key = "sn",
           .trade = "fatigue",
           .example = example,
-          .read =
-              [](const TomlReader& root, const Source& source) {
-                return read_posterior_study(root, source, read_sn_study);
-              },
+          .read = read,
           .add_commands = add_commands,
           .keys = study_keys,
           .first_study = first_study};
+}
+
+Model staircase() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::staircase_study},
+                                            {"tests.csv", resource::staircase_data}};
+  return {.key = "staircase",
+          .trade = "staircase",
+          .example = example,
+          .read =
+              [](const TomlReader& root, const Source& source) {
+                return read_posterior_study(root, source, read_staircase_study);
+              },
+          .add_commands = nullptr};
+}
+
+Model spectrum() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::spectrum_study},
+                                            {"tests.csv", resource::spectrum_data},
+                                            {"loads.csv", resource::spectrum_loads}};
+  return {
+      .key = "sn", .trade = "spectrum", .example = example, .read = read, .add_commands = nullptr};
 }
 
 }  // namespace fatigue

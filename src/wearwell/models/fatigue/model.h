@@ -7,4 +7,10 @@ namespace wearwell::fatigue {
 /// Fatigue lives, S-N curves: model = "sn".
 Model model();
 
+/// Fatigue limits from up-and-down tests: model = "staircase".
+Model staircase();
+
+/// The model of S-N curves, with what `wearwell new spectrum` writes: tests and a load history.
+Model spectrum();
+
 }  // namespace wearwell::fatigue

@@ -112,7 +112,7 @@ void run(const RainflowOptions& options) {
     fmt::print("{}\n", history_json(report).dump(2));
   } else {
     fmt::print("{}", history_text(report));
-    if (folder) fmt::print("Results are in {}\n", folder->path().string());
+    if (folder) fmt::print("Results are in {}\n", options.output.string());
   }
 }
 

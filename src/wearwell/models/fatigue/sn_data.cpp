@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/models/fatigue/read_outcome.h"
 #include "wearwell/models/fatigue/spring.h"
 
 namespace wearwell {
@@ -153,6 +154,8 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
   return stresses;
 }
 
+}  // namespace
+
 Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t row) {
   static const std::vector<std::pair<std::string, Outcome>> words = {
       {"failure", Outcome::failure},   {"F", Outcome::failure}, {"0", Outcome::failure},
@@ -175,8 +178,6 @@ Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t
                   "codes 0, 1, -1, 2) (nearest: '{}')",
                   place(table, choice.column, row), word, nearest_name(word, names)));
 }
-
-}  // namespace
 
 Unit life_unit(Unit unit) {
   if (is_number(unit)) unit.text = unit.text == "1" ? "cycles" : unit.text + " cycles";

@@ -58,9 +58,9 @@ LognormalUnit::Bell LognormalUnit::bell() const {
   return {z, 1 / std::sqrt(bend)};
 }
 
-std::optional<double> LognormalUnit::log_integral(std::vector<Node>* kept) const {
+std::optional<double> LognormalUnit::log_integral(std::vector<Node>* kept, double gap) const {
   const Bell about = bell();
-  if (const auto integral = by_even_steps(about, kept)) return integral;
+  if (const auto integral = by_even_steps(about, gap, kept)) return integral;
   // Steps of 0.1: with those of 0.2 even of a bell every second node is off by more than is asked.
   for (const int stride : {2, 1}) {
     if (const auto integral = by_rule(about, stride, kept)) return integral;
@@ -70,10 +70,12 @@ std::optional<double> LognormalUnit::log_integral(std::vector<Node>* kept) const
 
 // The trapezoidal rule in z itself, all nodes at once, between the ends that it cannot lie beyond: where
 // log f is no less than its highest less `fallen`, both the rows' share of that and z^2/2 are bounded.
-std::optional<double> LognormalUnit::by_even_steps(const Bell& bell,
+std::optional<double> LognormalUnit::by_even_steps(const Bell& bell, double gap,
                                                    std::vector<Node>* kept) const {
-  constexpr int most = 120;
-  constexpr double gap = 0.45, fallen = 30;
+  constexpr int most = 160;
+  constexpr double fallen = 30;
+  // The rule errs by about the square of what every second node of it does.
+  constexpr double most_of_half = 3e-5;
   const double room = 2 * (fallen - at(bell.center)), far = std::sqrt(room);
   const double reach = std::sqrt(room / h), least = 1 + best - reach;
   const double left = least > 0 ? std::max(-far, std::log(least) / s) : -far;
@@ -98,7 +100,7 @@ std::optional<double> LognormalUnit::by_even_steps(const Bell& bell,
   for (int i = 0; i < count; i += 2) even += f[i];
   for (int i = 1; i < count; i += 2) odd += f[i];
   const double sum = even + odd;
-  if (!(std::abs(even - odd) < most_difference * sum)) return {};
+  if (!(std::abs(even - odd) < most_of_half * sum)) return {};
   if (kept) {
     kept->clear();
     for (int i = 0; i < count; ++i) {

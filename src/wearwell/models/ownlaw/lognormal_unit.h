@@ -24,16 +24,19 @@ struct LognormalUnit {
     return -0.5 * h * (step - best) * (step - best) - 0.5 * z * z;
   }
 
+  /// Between nodes, in widths at the mode: enough for the integral, and what lives are spread over.
+  static constexpr double coarse = 0.6, fine = 0.25;
+
   /// log of the integral of exp(at(z)) dz, without the constant of the normal law; nothing where a rule and
   /// every second node of it do not tell the same. `kept` takes the nodes.
-  std::optional<double> log_integral(std::vector<Node>* kept) const;
+  std::optional<double> log_integral(std::vector<Node>* kept, double gap = coarse) const;
 
  private:
   struct Bell {
     double center, width;
   };
   Bell bell() const;
-  std::optional<double> by_even_steps(const Bell& bell, std::vector<Node>* kept) const;
+  std::optional<double> by_even_steps(const Bell& bell, double gap, std::vector<Node>* kept) const;
   std::optional<double> by_rule(const Bell& bell, int stride, std::vector<Node>* kept) const;
 };
 

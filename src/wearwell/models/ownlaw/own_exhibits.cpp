@@ -7,6 +7,7 @@
 
 #include "wearwell/models/ownlaw/own_limit.h"
 #include "wearwell/models/ownlaw/own_path_ahead.h"
+#include "wearwell/models/ownlaw/own_process_spread.h"
 #include "wearwell/models/ownlaw/own_spread.h"
 #include "wearwell/present/plot.h"
 
@@ -33,6 +34,7 @@ struct Drawing {
   std::vector<Numbers> traced;  // places of rows, SI
   std::optional<double> limit;  // SI
   std::size_t left_out = 0;
+  std::optional<ProcessLimit> process;  // with the mean of a process
 
   std::vector<html::Figure> draw(const WeightedDraws& draws) const;
   html::Figure figure(std::size_t i, const Spread& spread) const;
@@ -97,10 +99,16 @@ html::Figure Drawing::figure(std::size_t i, const Spread& spread) const {
 }
 
 std::vector<html::Figure> Drawing::draw(const WeightedDraws& draws) const {
-  const std::vector<Spread> known = spreads(*rows, paths, draws, most_points);
+  const std::vector<Spread> known = process ? process_spreads(*rows, *process, paths, draws)
+                                            : spreads(*rows, paths, draws, most_points);
   std::vector<html::Figure> figures;
   for (std::size_t i = 0; i < known.size(); ++i) figures.push_back(figure(i, known[i]));
   return figures;
+}
+
+// The path; of a process with what its steps scatter by.
+std::vector<law::Wanted> path_slots(const Measured& measured) {
+  return {measured.wanted.begin(), measured.wanted.begin() + (measured.process ? 2 : 1)};
 }
 
 // As far as what is asked for, and the median life.
@@ -122,16 +130,19 @@ double horizon(const Asked& asked, const LimitedPath& path, bool limited) {
 
 void add_unit(const Asked& asked, const Measured& measured, const LimitedPath& axis, double far,
               std::optional<std::size_t> unit, Drawing& drawing) {
-  const std::vector<law::Wanted> wanted = {measured.wanted.front()};
+  const std::vector<law::Wanted> wanted = path_slots(measured);
   SpreadPath path{{axis.next, {}, 0}, unit, {}};
   Numbers traced;
   double from = axis.begin;
   if (unit) {
     path.path = seen_unit(asked, asked.predict, "along", wanted, *unit);
-    path.trace = make_trace(asked.law, asked.predict, "along", wanted, *unit);
+    if (measured.process) path.path.behind.reset();
+    if (!measured.process)
+      path.trace = make_trace(asked.law, asked.predict, "along", wanted, *unit);
     from = path.path.now;
     for (std::size_t row = 0; row < asked.law->data.table.rows; ++row) {
-      if (asked.law->unit_of_row[row] == *unit) traced.push_back(asked.axis().values[row]);
+      if (path.trace && asked.law->unit_of_row[row] == *unit)
+        traced.push_back(asked.axis().values[row]);
     }
     std::stable_sort(traced.begin(), traced.end());
   }
@@ -149,10 +160,14 @@ void add_unit(const Asked& asked, const Measured& measured, const LimitedPath& a
 }
 
 // The limit, where it is one of the path of what is measured.
-std::optional<double> limit_of(const Asked& asked, const Path& path) {
+std::optional<double> limit_of(const Asked& asked, const Measured& measured, const Path& path) {
   const auto limits = asked.predict.table("limit");
   if (!limits) return {};
   const std::string name = limits->keys().front();
+  if (measured.process) {
+    if (name != measured.column) return {};
+    return limits->required_quantity(name, law::si_text(measured.powers)).si();
+  }
   const auto limited =
       make_path(asked.law, *limits, name, {{"[predict] limit", name}}, true, asked.common);
   if (limited->program.text(0) != path.program.text(0)) return {};
@@ -169,13 +184,17 @@ std::shared_ptr<const Drawing> drawing_of(const Asked& asked, const Measured& me
   drawing->unit = measured.unit;
   LimitedPath path;
   path.next =
-      make_path(asked.law, asked.predict, "along", {measured.wanted.front()}, true, asked.common);
+      make_path(asked.law, asked.predict, "along", path_slots(measured), true, asked.common);
   set_reach(asked, path);
-  drawing->limit = limit_of(asked, *path.next);
+  drawing->limit = limit_of(asked, measured, *path.next);
   path.limit = drawing->limit.value_or(0);
   const double far = horizon(asked, path, drawing->limit.has_value());
   add_unit(asked, measured, path, far, {}, *drawing);
-  if (!asked.law->label && !path.next->goes_on()) return drawing;
+  if (measured.process) {
+    const auto column = static_cast<std::size_t>(&measured - asked.law->measured.data());
+    drawing->process = ProcessLimit{column, path};
+  }
+  if (!asked.law->label && !path.next->goes_on() && !measured.process) return drawing;
   const std::size_t units = asked.law->units.size(), drawn = std::min(units, most_figures);
   for (std::size_t u = 0; u < drawn; ++u) add_unit(asked, measured, path, far, u, *drawing);
   drawing->left_out = units - drawn;
@@ -187,7 +206,7 @@ std::shared_ptr<const Drawing> drawing_of(const Asked& asked, const Measured& me
 void add_path_figures(const Asked& asked, PosteriorStudy& study) {
   std::vector<std::shared_ptr<const Drawing>> all;
   for (const Measured& measured : asked.law->measured) {
-    if (has_path(measured)) all.push_back(drawing_of(asked, measured));
+    if (has_path(measured) || measured.process) all.push_back(drawing_of(asked, measured));
   }
   if (all.empty()) return;
   study.exhibits = [all](const Fit& fit) {

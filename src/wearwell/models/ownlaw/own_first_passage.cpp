@@ -1,5 +1,6 @@
 #include "wearwell/models/ownlaw/own_first_passage.h"
 
+#include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
@@ -51,29 +52,57 @@ double passage_quantile(Process process, double distance, double scale, double p
   return scale * unit_quantile(process, distance / scale, p);
 }
 
-PassageTable::PassageTable(Process process) : process_(process) {
+double increment_quantile(Process process, double mean, double scale, double p) {
+  const double m = mean / scale;
+  if (process == Process::wiener) {
+    return mean - scale * std::sqrt(2 * m) * boost::math::erfc_inv(2 * p);
+  }
+  if (m > 1e6) return increment_quantile(Process::wiener, mean, scale, p);
+  if (process == Process::gamma) return scale * boost::math::gamma_p_inv(m, p);
+  const auto below = [&](double log_x) {
+    const double x = std::exp(log_x), r = std::sqrt(x), off = (x - m) / r;
+    return normal_cdf(off) + scaled_tail(-0.5 * off * off, (x + m) / r);
+  };
+  const double root = solve_increasing([&](double x) { return below(x) - p; }, std::log(m),
+                                       0.5 / std::sqrt(1 + m), {.absolute = 1e-11}, -600, 600);
+  return scale * std::exp(root);
+}
+
+ScoreTable::ScoreTable(Process process, Quantile quantile)
+    : process_(process), quantile_(quantile) {
+  constexpr double least = 1e-300;
   for (int i = 0; i < places; ++i) {
     for (int k = 0; k < edges; ++k) {
-      log_mean_.push_back(
-          std::log(unit_quantile(process, std::exp(low_log + i * step_log), normal_cdf(score(k)))));
+      const double value =
+          quantile(process, std::exp(low_log + i * step_log), 1, normal_cdf(score(k)));
+      log_value_.push_back(std::log(std::max(value, least)));
     }
   }
 }
 
-const PassageTable& PassageTable::of(Process process) {
+const ScoreTable& ScoreTable::passages(Process process) {
   if (process == Process::wiener) {
-    static const PassageTable wiener(process);
+    static const ScoreTable wiener(process, passage_quantile);
     return wiener;
   }
   if (process == Process::gamma) {
-    static const PassageTable gamma(process);
+    static const ScoreTable gamma(process, passage_quantile);
     return gamma;
   }
-  static const PassageTable inverse_gaussian(process);
+  static const ScoreTable inverse_gaussian(process, passage_quantile);
   return inverse_gaussian;
 }
 
-const std::vector<double>& PassageTable::weights() {
+const ScoreTable& ScoreTable::increments(Process process) {
+  if (process == Process::gamma) {
+    static const ScoreTable gamma(process, increment_quantile);
+    return gamma;
+  }
+  static const ScoreTable inverse_gaussian(Process::inverse_gaussian, increment_quantile);
+  return inverse_gaussian;
+}
+
+const std::vector<double>& ScoreTable::weights() {
   static const std::vector<double> all = [] {
     std::vector<double> shares;
     double sum = 0;
@@ -87,11 +116,11 @@ const std::vector<double>& PassageTable::weights() {
   return all;
 }
 
-void PassageTable::look_up(double distance, double scale, double* mean) const {
-  const double x = (std::log(distance / scale) - low_log) / step_log;
+void ScoreTable::look_up(double size, double scale, double* values) const {
+  const double x = (std::log(size / scale) - low_log) / step_log;
   if (!(x >= 1 && x < places - 3)) {
     for (int k = 0; k < edges; ++k) {
-      mean[k] = passage_quantile(process_, distance, scale, normal_cdf(score(k)));
+      values[k] = quantile_(process_, size, scale, normal_cdf(score(k)));
     }
     return;
   }
@@ -103,9 +132,9 @@ void PassageTable::look_up(double distance, double scale, double* mean) const {
   for (int k = 0; k < edges; ++k) {
     double sum = 0;
     for (std::size_t j = 0; j < 4; ++j) {
-      sum += weight[j] * log_mean_[(i + j - 1) * edges + static_cast<std::size_t>(k)];
+      sum += weight[j] * log_value_[(i + j - 1) * edges + static_cast<std::size_t>(k)];
     }
-    mean[k] = scale * std::exp(sum);
+    values[k] = scale * std::exp(sum);
   }
 }
 

@@ -14,19 +14,26 @@ namespace wearwell::ownlaw {
 ///   inverse_gaussian  P = Phi((m - d)/r) - exp(2 m/scale) Phi(-(m + d)/r), r^2 = scale d
 double passage_quantile(Process process, double distance, double scale, double p);
 
-/// The same at normal scores -4, -3.6 .. 4 from a table, to a relative 1e-5.
-class PassageTable {
+/// The p-quantile of what a path grows by while its mean grows by `mean` above 0, in the same terms.
+double increment_quantile(Process process, double mean, double scale, double p);
+
+/// Either of them at normal scores -4, -3.6 .. 4 from a table, to a relative 2e-5.
+class ScoreTable {
  public:
-  static const PassageTable& of(Process process);
+  static const ScoreTable& passages(Process process);
+  static const ScoreTable& increments(Process process);
   static constexpr int edges = 21;
   /// Of the scores: the weight of the cell from edge k to k + 1; they sum to 1.
   static const std::vector<double>& weights();
-  void look_up(double distance, double scale, double* mean) const;
+  /// Of a distance, or of a mean.
+  void look_up(double size, double scale, double* values) const;
 
  private:
-  explicit PassageTable(Process process);
+  using Quantile = double (*)(Process, double size, double scale, double p);
+  ScoreTable(Process process, Quantile quantile);
   Process process_;
-  std::vector<double> log_mean_;  // by distance, then edge
+  Quantile quantile_;
+  std::vector<double> log_value_;  // by size, then edge
 };
 
 }  // namespace wearwell::ownlaw

@@ -91,6 +91,19 @@ class LifeLaw::AtPoint {
     return sum;
   }
 
+  // Density over survival; of one law in logarithms, so that it stays a number far in the tail.
+  double hazard(double life) const {
+    double failing = 0, left = 0, one = 0;
+    for (std::size_t i = 0; i < size(); ++i) {
+      const double density = log_response_value(life_.family_, {.at = life}, slots(i));
+      const double survival = log_survival(life_.family_, life, slots(i));
+      failing += weight(i) * std::exp(density);
+      left += weight(i) * std::exp(survival);
+      one = std::exp(density - survival);
+    }
+    return size() == 1 ? one : failing / left;
+  }
+
   double quantile(double p) const {
     if (size() == 1) return wearwell::quantile(life_.family_, p, slots(0));
     const double middle = wearwell::quantile(life_.family_, 0.5, slots(size() / 2));
@@ -103,6 +116,12 @@ class LifeLaw::AtPoint {
   PathAt path_;
   std::vector<double> slots_;
 };
+
+std::string per_unit(const Unit& unit) {
+  if (unit.text == "1") return "1";
+  const bool one = unit.text.find_first_of(" */.^") == std::string::npos;
+  return one ? "1/" + unit.text : "1/(" + unit.text + ")";
+}
 
 LifeLaw::LifeLaw(std::shared_ptr<const Path> slots, const Measured& measured)
     : slots_(std::move(slots)),
@@ -165,6 +184,14 @@ Distribution LifeLaw::survival(const WeightedDraws& draws, double life) const {
   return {points(draws), [&](const double* x) {
             at.move_to(x);
             return 1 - at.cdf(life);
+          }};
+}
+
+Distribution LifeLaw::hazard(const WeightedDraws& draws, double life) const {
+  AtPoint at(*this);
+  return {points(draws), [&](const double* x) {
+            at.move_to(x);
+            return at.hazard(life);
           }};
 }
 

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "wearwell/bayes/weighted_draws.h"
 #include "wearwell/models/ownlaw/own_path.h"
 
 namespace wearwell::ownlaw {
+
+/// "1/h" of "h", "1/(1e6 cycles)" of "1e6 cycles".
+std::string per_unit(const Unit& unit);
 
 /// A life as a family of a likelihood gives it, under conditions: what follows from it over a posterior.
 class LifeLaw {
@@ -36,6 +40,8 @@ class LifeLaw {
   Distribution quantile(const WeightedDraws& draws, double p) const;
   /// The share of all that outlasts a life.
   Distribution survival(const WeightedDraws& draws, double life) const;
+  /// The rate at which those fail that have come so far, per SI unit of life.
+  Distribution hazard(const WeightedDraws& draws, double life) const;
   /// The median life over that of `other`.
   Distribution ratio(const WeightedDraws& draws, const LifeLaw& other) const;
 

@@ -263,7 +263,7 @@ bool LinearUnits::integrate_one(latent::UnitIntegrals& result) const {
     const Parabola& p = parabola_[u];
     if (!(p.top > -infinity)) continue;
     const LognormalUnit unit{p.best[0], p.bend[0], s};
-    const auto integral = unit.log_integral(&nodes);
+    const auto integral = unit.log_integral(&nodes, LognormalUnit::fine);
     if (!integral) return false;
     result.log_likelihood[u] = p.top + *integral - half_log_two_pi;
     for (const auto& node : nodes) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/models/ownlaw/own_limit.h"
+#include "wearwell/models/ownlaw/own_process_spread.h"
 #include "wearwell/models/ownlaw/own_spread.h"
 
 namespace wearwell::ownlaw {
@@ -84,19 +85,28 @@ void request_paths(const Asked& asked, const Measured& measured,
     path.scale = axis.scale;
     if (!path.places.empty()) paths->push_back(std::move(path));
   };
-  const std::vector<law::Wanted> wanted = {measured.wanted.front()};
+  const std::vector<law::Wanted> wanted(measured.wanted.begin(),
+                                        measured.wanted.begin() + (measured.process ? 2 : 1));
   if (of_new) add({{axis.next, {}, 0}, {}, {}}, "new " + asked.noun);
-  if (asked.law->label || axis.next->goes_on()) {
+  if (asked.law->label || axis.next->goes_on() || measured.process) {
     for (std::size_t u = 0; u < asked.law->units.size(); ++u) {
       add({seen_unit(asked, asked.predict, "at", wanted, u), u, {}}, asked.unit(u));
     }
   }
   if (paths->empty()) return;
-  group.from_draws = [rows = asked.rows, paths](const WeightedDraws& draws) {
+  std::shared_ptr<const ProcessLimit> process;
+  if (measured.process) {
+    const auto column = static_cast<std::size_t>(&measured - asked.law->measured.data());
+    process = std::make_shared<const ProcessLimit>(ProcessLimit{column, axis});
+  }
+  group.from_draws = [rows = asked.rows, paths, process](const WeightedDraws& draws) {
     std::vector<QuantityQuantiles> all;
     const bool dear =
         paths->front().path.ahead->goes_on() && paths->front().path.ahead->running->running.solved;
-    for (const Spread& spread : spreads(*rows, *paths, draws, dear ? 200 : most_points)) {
+    const std::vector<Spread> known = process
+                                          ? process_spreads(*rows, *process, *paths, draws)
+                                          : spreads(*rows, *paths, draws, dear ? 200 : most_points);
+    for (const Spread& spread : known) {
       for (const CellMixture& each : spread.ahead) {
         const double middle = each.quantile(0.5);
         all.push_back({each.quantile(0.05), middle, each.quantile(0.95), 0, 0, middle});
@@ -133,7 +143,7 @@ void read_path(const Asked& asked, PosteriorStudy& study) {
                              at.si(), most});
   }
   for (const Measured& measured : asked.law->measured) {
-    if (!has_path(measured)) {
+    if (!has_path(measured) && !measured.process) {
       predict.fail("at", fmt::format("measurements to come are predicted of the normal and the "
                                      "lognormal family, not of {}",
                                      measured.form->name));
@@ -149,8 +159,8 @@ void read_path(const Asked& asked, PosteriorStudy& study) {
                         from_si(axis.unit.unit, path.next->running->begin), axis.unit.unit.text));
       }
     }
-    // Of two effects there is no one number that tells a new unit from the median one.
-    const bool plain = asked.law->effects.size() < 2;
+    // Of a process, and of two effects, there is no one number that tells a new unit from the median one.
+    const bool plain = asked.law->effects.size() < 2 && !measured.process;
     for (const Quantity& at : places) {
       if (plain) add_measurement(asked, measured, path.next, at.si(), study);
     }

@@ -44,7 +44,7 @@ class Predictions {
     }
     if (predict_.has("limit")) {
       read_limit(asked_, study_);
-      for (const char* key : {"b_lives", "survival_to", "accelerated"}) {
+      for (const char* key : {"b_lives", "survival_to", "hazard_at", "accelerated"}) {
         if (predict_.has(key)) {
           predict_.fail(key,
                         "is for a likelihood of a life; beside predict.limit lives are "
@@ -79,10 +79,11 @@ class Predictions {
       percents.push_back(value);
     }
     if (percents.empty()) percents = {1, 10};
-    const std::vector<Quantity> survival =
-        predict_.quantities("survival_to", law::si_text(measured.powers));
+    const std::string si = law::si_text(measured.powers);
+    const std::vector<Quantity> survival = predict_.quantities("survival_to", si);
+    const std::vector<Quantity> hazard = predict_.quantities("hazard_at", si);
     if (measured.form->counted) {
-      for (const char* key : {"b_lives", "survival_to", "accelerated"}) {
+      for (const char* key : {"b_lives", "survival_to", "hazard_at", "accelerated"}) {
         if (predict_.has(key)) predict_.fail(key, "is for lives, not for counts");
       }
       return;
@@ -111,6 +112,10 @@ class Predictions {
     for (const Quantity& each : survival) {
       bounded("survival to " + in_words(each), given_words_, Unit{"%", 0.01, 0});
     }
+    const Unit rate{per_unit(measured.unit), 1 / measured.unit.scale, 0};
+    for (const Quantity& each : hazard) {
+      group.requests.push_back(request("hazard at " + in_words(each), noun_, given_words_, rate));
+    }
     if (fast) {
       group.requests.push_back(request("acceleration factor", noun_,
                                        fmt::format("{} over {}", given_words_, fast_words),
@@ -136,6 +141,7 @@ class Predictions {
       for (const Quantity& each : survival) {
         add(life->survival(draws, each.si()), 1 - next.cdf(each.si()));
       }
+      for (const Quantity& each : hazard) add(life->hazard(draws, each.si()), {});
       if (fast) add(life->ratio(draws, *fast), {});
       return all;
     };

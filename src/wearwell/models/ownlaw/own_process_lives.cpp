@@ -57,7 +57,7 @@ class Part {
       : rows_(rows),
         limit_(limit),
         form_(*rows.law().measured[limit.column].process),
-        table_(PassageTable::of(form_.process)),
+        table_(ScoreTable::passages(form_.process)),
         effects_(rows.law().effects.size()),
         fresh_(effects_) {
     const LimitedPath& path = limit.path;
@@ -96,7 +96,7 @@ class Part {
   // of a path that rises).
   void add_passage(Crossing& crossing, const double* z, double from, double mean, double distance,
                    double weight, bool counted_from, CellMixture& to) {
-    constexpr int edges = PassageTable::edges;
+    constexpr int edges = ScoreTable::edges;
     double level[edges + 1], place[edges + 1], means[edges];
     table_.look_up(distance, scale_at(crossing, z, from), means);
     level[edges] = sign_ * mean;
@@ -106,7 +106,7 @@ class Part {
     crossing.solve(edges + 1, same.empty() ? nullptr : same.data(), level, place);
     const double start = counted_from ? place[edges] : 0;
     for (int k = 0; k + 1 < edges; ++k) {
-      to.add(weight * PassageTable::weights()[static_cast<std::size_t>(k)], place[k] - start,
+      to.add(weight * ScoreTable::weights()[static_cast<std::size_t>(k)], place[k] - start,
              place[k + 1] - start);
     }
   }
@@ -158,7 +158,7 @@ class Part {
   const OwnRows& rows_;
   const ProcessLimit& limit_;
   const ProcessForm& form_;
-  const PassageTable& table_;
+  const ScoreTable& table_;
   std::size_t effects_;
   NewUnits fresh_;
   double sign_ = 1;

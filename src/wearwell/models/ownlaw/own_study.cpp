@@ -9,6 +9,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/models/ownlaw/identified.h"
+#include "wearwell/models/ownlaw/life_paper.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/models/ownlaw/own_predictions.h"
 #include "wearwell/models/ownlaw/own_reader.h"
@@ -239,6 +240,7 @@ void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy
     return std::vector<Check>{ownlaw::identified(*rows, rows->law().parameters, fit)};
   };
   ownlaw::read_own_predictions(root, law, rows, study);
+  ownlaw::show_life_paper(root, law, study);
 }
 
 }  // namespace wearwell

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "wearwell/models/fatigue/sn_law.h"
+
+namespace wearwell::fatigue {
+
+/// Cycles of one stress, Pa.
+struct LoadCycle {
+  Stress stress;
+  double count = 0;
+};
+using LoadCycles = std::vector<LoadCycle>;
+
+/// How damage is summed: each cycle takes 1/N of the life, N of the S-N curve, and below its knee
+///
+///   original    nothing (Palmgren 1924, Miner 1945)
+///   elementary  as if there were no knee
+///   haibach     by a slope of 2k - 1 (Haibach 1970)
+///   liu_zenner  by a line of slope (k + 3.6)/2 through the curve at the largest stress of the
+///               history, down to half of the knee's stress, and nothing below (Liu and Zenner 1992)
+///
+/// where k = -1/b is the curve's slope.
+enum class MinerRule { original, elementary, haibach, liu_zenner };
+
+/// Where the curve has its knee: at so many cycles, or at a fully reversed amplitude [Pa].
+struct Knee {
+  std::optional<double> life, stress;
+  bool any() const { return life || stress; }
+};
+
+struct DamageRule {
+  MinerRule miner = MinerRule::elementary;
+  Knee knee = {};
+};
+
+/// The damage of one block of cycles, for one point x of the posterior. Items differ: one at place z
+/// of the standard law of lives has the life of the curve times 10^(sigma z), at every stress.
+/// Laws on a logarithmic scale only (SnLaw::logarithmic).
+class BlockDamage {
+ public:
+  BlockDamage(const SnLaw& law, const double* x, const DamageRule& rule, const LoadCycles& cycles);
+
+  /// log10 of the damage to an item at place z; with a random fatigue limit at place `limit` of its
+  /// law. -infinity where no cycle does harm, infinity where one reaches the strength.
+  double log10_damage(double z, double limit = 0) const;
+
+  /// The share of the damage to the item at place 0 that each of the cycles does, in the order that
+  /// they have; all 0 where nothing does harm.
+  std::vector<double> shares(const LoadCycles& cycles) const;
+
+ private:
+  double knee(double z) const;
+  double log10_damage_of_one(double log10_reversed, double knee_at) const;
+
+  const SnLaw& law_;
+  const double* x_;
+  DamageRule rule_;
+  double slope_, below_slope_ = 0;  // above and below the knee
+  std::vector<double> given_;       // log10 of the reversed stress, as the cycles are given
+  std::vector<double> log10_reversed_, count_;  // from the largest stress down
+  std::vector<double> above_, below_;           // running sums by the two slopes
+  double top_ = 0;
+  bool fatal_ = false;
+};
+
+}  // namespace wearwell::fatigue

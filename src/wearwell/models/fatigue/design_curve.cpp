@@ -1,0 +1,290 @@
+#include "wearwell/models/fatigue/design_curve.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/models/fatigue/life.h"
+#include "wearwell/present/plain.h"
+#include "wearwell/present/text_table.h"
+#include "wearwell/study/plot_study.h"
+
+namespace wearwell {
+namespace {
+
+using fatigue::LifeTest;
+using fatigue::MeanStress;
+using fatigue::Outcome;
+using fatigue::SnLaw;
+using fatigue::Stress;
+using fatigue::StressLine;
+using present::Table;
+
+constexpr std::size_t table_points = 21, shown_points = 3;
+// A random limit makes a mixture of each point of the posterior.
+constexpr std::size_t table_points_with_limit = 9;
+constexpr Eigen::Index most_draws = 4000, most_draws_with_limit = 600;
+
+std::string with_unit(const SnData& data, double si) {
+  return fmt::format("{:.4g} {}", from_si(data.stress_unit, si), data.stress_unit.text);
+}
+
+// One stress: lives [cycles] by the posterior and by the standards, for each level.
+struct At {
+  double stress = 0;  // Pa, alternating
+  double median = 0;
+  std::vector<double> posterior, iso, owen;
+  double band = 0;  // lower end of E739's 95 % band of the median
+};
+
+double logarithm(const SnLaw& law, const Stress& stress) {
+  // Known constants only: standard_fit says so.
+  const double x[] = {0, 0, 0, 0, 0, 0, 0};
+  return law.correction == MeanStress::none ? std::log10(stress.alternating)
+                                            : law.log10_reversed(x, stress);
+}
+
+std::vector<At> curve_points(const SnLaw& law, const SnData& data, const WeightedDraws& draws,
+                             const StandardFit& standard) {
+  double low = INFINITY, high = 0;
+  for (const LifeTest& test : data.tests) {
+    low = std::min(low, test.stress.alternating);
+    high = std::max(high, test.stress.alternating);
+  }
+  const StressLine line = line_of_tests(law, data);
+  const auto& levels = design_levels();
+  std::vector<At> points(!(high > low) ? 1 : law.limit ? table_points_with_limit : table_points);
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    At& at = points[i];
+    const double share =
+        points.size() == 1 ? 0 : static_cast<double>(i) / static_cast<double>(points.size() - 1);
+    at.stress = i == 0 ? high : i + 1 == points.size() ? low : high * std::pow(low / high, share);
+    const Stress stress = line.at(at.stress);
+    const auto outlasted = [&](double reliability, double p) {
+      const Distribution life(draws, [&](const double* x) {
+        return fatigue::life_quantile(law, x, stress, 1 - reliability);
+      });
+      return fatigue::cycles(law, life.quantile(p));
+    };
+    at.median = outlasted(0.5, 0.5);
+    for (const DesignLevel& level : levels) {
+      at.posterior.push_back(outlasted(level.reliability, 1 - level.confidence));
+      if (!standard.line) continue;
+      const double x = logarithm(law, stress);
+      at.iso.push_back(std::pow(
+          10, fatigue::iso_12107_limit(*standard.line, x, level.reliability, level.confidence)));
+      at.owen.push_back(std::pow(
+          10, fatigue::owen_limit(*standard.line, x, level.reliability, level.confidence)));
+    }
+    if (standard.line)
+      at.band = std::pow(10, fatigue::astm_e739_band(*standard.line, logarithm(law, stress), 0.95));
+  });
+  return points;
+}
+
+Table curves_table(const SnData& data, const std::vector<At>& points) {
+  const std::string unit = data.life_unit.text;
+  Table table{"design-curves",
+              "Design curves: lives that such a share outlasts, with such confidence",
+              {{"curve"},
+               {"alternating stress", data.stress_unit.text},
+               {"life", unit},
+               {"ISO 12107", unit},
+               {"Owen", unit}}};
+  const auto life = [&](double cycles) { return from_si(data.life_unit, cycles); };
+  const auto& levels = design_levels();
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    for (const At& at : points) {
+      table.rows.push_back(
+          {levels[l].name, from_si(data.stress_unit, at.stress), life(at.posterior[l]), {}, {}});
+      if (at.iso.empty()) continue;
+      table.rows.back()[3] = life(at.iso[l]);
+      table.rows.back()[4] = life(at.owen[l]);
+    }
+  }
+  return table;
+}
+
+std::string difference(const SnLaw& law, const StandardFit& standard) {
+  if (!standard.line)
+    return fmt::format("ISO 12107, ASTM E739 and Owen's factor do not apply: {}.",
+                       standard.why_not);
+  std::string text = fmt::format("ISO 12107 and Owen fit a straight line to the {} failures alone",
+                                 standard.failures);
+  if (standard.left_out > 0)
+    text += fmt::format(" and leave out {} test{} that did not fail, which are long-lived ones",
+                        standard.left_out, standard.left_out == 1 ? "" : "s");
+  text += "; they know nothing before the tests, where the posterior knows its priors";
+  if (law.limit) text += ", and no fatigue limit, toward which the posterior's curve bends";
+  return text +
+         ". ISO 12107 takes the uncertainty of the line for scatter, Owen's factor is exact.";
+}
+
+// Scatter ranges as FKM and DIN 50100 tell them: 10 to 90 %, in life and in stress.
+struct ScatterRange {
+  double n05, n50, n95, s05, s50, s95, k05, k50, k95;
+};
+ScatterRange scatter_range(const SnLaw& law, const WeightedDraws& draws) {
+  const double width = quantile(law.standard(), 0.9) - quantile(law.standard(), 0.1);
+  const Distribution life(draws, [&](const double* x) { return width * x[law.sigma_index()]; });
+  const Distribution stress(draws,
+                            [&](const double* x) { return -x[1] * width * x[law.sigma_index()]; });
+  const Distribution slope(draws, [](const double* x) { return -1 / x[1]; });
+  const auto of = [](const Distribution& d, double p) { return std::pow(10, d.quantile(p)); };
+  return {of(life, 0.05),       of(life, 0.5),       of(life, 0.95),
+          of(stress, 0.05),     of(stress, 0.5),     of(stress, 0.95),
+          slope.quantile(0.05), slope.quantile(0.5), slope.quantile(0.95)};
+}
+
+std::string text_of(const SnData& data, const std::vector<At>& points, const std::string& why) {
+  const auto& levels = design_levels();
+  std::vector<std::vector<std::string>> rows = {{""}};
+  for (const DesignLevel& level : levels) rows[0].push_back(level.name);
+  const auto add = [&](const std::string& name, const std::vector<double>& lives) {
+    rows.push_back({"  " + name});
+    for (const double life : lives)
+      rows.back().push_back(plain_number(from_si(data.life_unit, life)));
+  };
+  const std::size_t step = std::max<std::size_t>(1, (points.size() - 1) / (shown_points - 1));
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    const At& at = points[i];
+    rows.push_back({"at " + with_unit(data, at.stress)});
+    add("posterior", at.posterior);
+    if (at.iso.empty()) continue;
+    add("ISO 12107", at.iso);
+    add("Owen", at.owen);
+  }
+  return fmt::format("Design curves, life [{}]\n", data.life_unit.text) + text_table(rows) +
+         wrapped(why, 2, 4);
+}
+
+nlohmann::ordered_json json_of(const SnData& data, const std::vector<At>& points,
+                               const StandardFit& standard, const std::string& why) {
+  using Json = nlohmann::ordered_json;
+  const auto life = [&](double cycles) { return from_si(data.life_unit, cycles); };
+  Json curves = Json::array();
+  const auto& levels = design_levels();
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    Json rows = Json::array();
+    for (const At& at : points) {
+      Json row = {{"stress", from_si(data.stress_unit, at.stress)},
+                  {"life", life(at.posterior[l])}};
+      if (!at.iso.empty()) {
+        row["iso_12107"] = life(at.iso[l]);
+        row["owen"] = life(at.owen[l]);
+      }
+      rows.push_back(std::move(row));
+    }
+    curves.push_back({{"name", levels[l].name},
+                      {"reliability", levels[l].reliability},
+                      {"confidence", levels[l].confidence},
+                      {"points", std::move(rows)}});
+  }
+  Json json = {{"curves", std::move(curves)}, {"why", why}};
+  if (standard.line) {
+    // As ASTM E739 writes it, log10 N = A + B log10 S, in the table's own units.
+    const fatigue::FittedLine& line = *standard.line;
+    const double shift = std::log10(data.stress_unit.scale);
+    json["astm_e739"] = {
+        {"A", line.intercept + line.slope * shift - std::log10(data.life_unit.scale)},
+        {"B", line.slope},
+        {"sd", line.sd},
+        {"failures", standard.failures},
+        {"left_out", standard.left_out}};
+  }
+  return json;
+}
+
+}  // namespace
+
+const std::vector<DesignLevel>& design_levels() {
+  static const std::vector<DesignLevel> levels = {{"90/90", 0.9, 0.9},
+                                                  {"B-basis", 0.9, 0.95},
+                                                  {"A-basis", 0.99, 0.95},
+                                                  {"97.7/90", 0.977, 0.9}};
+  return levels;
+}
+
+StressLine line_of_tests(const SnLaw& law, const SnData& data) {
+  StressLine line;
+  double tests = 0;
+  bool one_ratio = true;
+  const Stress& first = data.tests.front().stress;
+  for (const LifeTest& test : data.tests) {
+    line.mean += test.count * test.stress.mean;
+    tests += test.count;
+    one_ratio = one_ratio && std::abs(test.stress.mean / test.stress.alternating -
+                                      first.mean / first.alternating) < 1e-6;
+  }
+  line.mean /= tests;
+  // Tests of one stress ratio are told at it, others at their common mean stress.
+  if (one_ratio && data.tests.size() > 1 && law.correction != MeanStress::none)
+    line = {0, (first.mean - first.alternating) / (first.mean + first.alternating)};
+  return line;
+}
+
+StandardFit standard_fit(const SnLaw& law, const SnData& data) {
+  StandardFit fit;
+  if (law.family != fatigue::LifeFamily::log10_normal) {
+    fit.why_not = "they take log10 life as normal, which this study does not";
+    return fit;
+  }
+  if (law.has_strength() || law.has_gamma()) {
+    fit.why_not = "what a mean stress does is unknown here, and they know one stress only";
+    return fit;
+  }
+  std::vector<double> x, y;
+  for (const LifeTest& test : data.tests) {
+    if (test.outcome != Outcome::failure) {
+      fit.left_out += test.count;
+      continue;
+    }
+    for (int i = 0; i < test.count; ++i) {
+      x.push_back(logarithm(law, test.stress));
+      y.push_back(std::log10(test.life));
+    }
+  }
+  fit.failures = static_cast<int>(x.size());
+  const auto [least, most] = std::minmax_element(x.begin(), x.end());
+  if (x.size() < 3 || !(*most - *least > 1e-9)) {
+    fit.why_not = "they need three failures at two stresses";
+    return fit;
+  }
+  if (!std::all_of(x.begin(), x.end(), [](double each) { return std::isfinite(each); })) {
+    fit.why_not = "a test has no fully reversed stress";
+    return fit;
+  }
+  fit.line = fatigue::fit_line(x, y);
+  return fit;
+}
+
+void add_design_curves(const SnLaw& law, const SnData& data, const Fit& fit, TradeAddition& added) {
+  const WeightedDraws draws = thinned(fit.exact ? fit.exact->nodes : fit.pooled,
+                                      law.limit ? most_draws_with_limit : most_draws);
+  const StandardFit standard = standard_fit(law, data);
+  const std::vector<At> points = curve_points(law, data, draws, standard);
+  const std::string why = difference(law, standard);
+  std::vector<present::Block>& blocks = added.blocks["predictions"];
+  blocks.push_back({present::Prose{
+      "Design curves: 90/90, B-basis (90 % with 95 % confidence), A-basis (99 % with 95 %) and "
+      "97.7 % with 90 % (FKM's probability of survival). " +
+      why}});
+  blocks.push_back({curves_table(data, points)});
+  added.text += text_of(data, points, why);
+  added.body["design_curves"] = json_of(data, points, standard, why);
+  if (!law.logarithmic()) return;
+  const ScatterRange t = scatter_range(law, draws);
+  present::Table table{"scatter",
+                       "Slope and scatter ranges, 10 to 90 % of items (FKM, DIN 50100)",
+                       {{"of"}, {"5 %"}, {"50 %"}, {"95 %"}}};
+  table.rows = {{"slope k", t.k05, t.k50, t.k95},
+                {"T_N, of lives", t.n05, t.n50, t.n95},
+                {"T_S, of stresses", t.s05, t.s50, t.s95}};
+  blocks.push_back({table});
+  added.body["design_curves"]["scatter"] = {
+      {"k", {t.k05, t.k50, t.k95}}, {"T_N", {t.n05, t.n50, t.n95}}, {"T_S", {t.s05, t.s50, t.s95}}};
+}
+
+}  // namespace wearwell

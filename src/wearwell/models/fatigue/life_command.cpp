@@ -1,0 +1,213 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/models/fatigue/command_parts.h"
+#include "wearwell/models/fatigue/load_life_report.h"
+#include "wearwell/present/page.h"
+#include "wearwell/present/result_folder.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+// So many stresses and draws give the digits that are told.
+constexpr std::size_t most_cycles = 2048, most_cycles_with_limit = 512;
+constexpr Eigen::Index most_draws = 4000, most_draws_with_limit = 2000;
+
+struct LoadLifeOptions {
+  std::filesystem::path result, output;
+  SignalChoice signal;
+  std::string method = "four-point", residual = "half", scale, rule, knee, block;
+  std::string damage_sum = "1 x/ 1.34";
+  std::vector<double> b_lives = {1, 10, 50};
+  double confidence = 90;
+  bool json = false;
+};
+
+Knee read_knee(const std::string& text) {
+  Knee knee;
+  if (text.empty()) return knee;
+  const auto unit = parse_unit(text);
+  const bool stress = unit && unit->dimension == parse_unit("Pa")->dimension;
+  const double value = option_value("--knee", text, stress ? "Pa" : "cycle", Allowed::positive);
+  (stress ? knee.stress : knee.life) = value;
+  return knee;
+}
+
+// "0.7", or "0.7 x/ 1.5".
+DamageSum read_damage_sum(const std::string& text) {
+  const std::size_t at = text.find("x/");
+  DamageSum sum{option_value("--damage-sum", text.substr(0, at), "1", Allowed::positive), 1};
+  if (at == std::string::npos) return sum;
+  sum.factor = option_value("--damage-sum", text.substr(at + 2), "1", Allowed::positive);
+  if (sum.factor < 1)
+    throw InputError(
+        fmt::format("--damage-sum: the factor {} must be at least 1: two in three lie "
+                    "between the median divided by it and times it",
+                    sum.factor));
+  return sum;
+}
+
+MinerRule read_rule(const std::string& text, const SnLaw& law, const Knee& knee) {
+  if (text.empty()) {
+    if (knee.any())
+      throw InputError("--knee: say what happens below it: --rule original, haibach or liu-zenner");
+    return law.limit ? MinerRule::original : MinerRule::elementary;
+  }
+  const auto& names = miner_rule_names();
+  const auto rule =
+      static_cast<MinerRule>(std::find(names.begin(), names.end(), text) - names.begin());
+  if (rule == MinerRule::elementary && knee.any())
+    throw InputError("--knee: --rule elementary has none; leave one of them out");
+  return rule;
+}
+
+// What a block stands for: "350 km", "8 h".
+void read_block_length(const std::string& text, LoadLifeReport& report) {
+  if (text.empty()) return;
+  const std::size_t at = text.find_first_not_of("0123456789.eE+- ");
+  const std::string unit = at == std::string::npos ? "" : text.substr(at);
+  const auto parsed = unit.empty() ? std::nullopt : parse_unit(unit);
+  if (!parsed)
+    throw InputError(
+        fmt::format("--block: '{}' must be a number with a unit, like '350 km', '8 h' "
+                    "or '1 cycle'",
+                    text));
+  report.per_block = option_value("--block", text.substr(0, at), "1", Allowed::positive);
+  report.unit = unit;
+}
+
+// Evenly among all.
+Points thinned(const Points& draws, Eigen::Index most) {
+  if (draws.rows() <= most) return draws;
+  Points few(most, draws.cols());
+  for (Eigen::Index i = 0; i < most; ++i) few.row(i) = draws.row(i * draws.rows() / most);
+  return few;
+}
+
+// By which the damage at the mean of the posterior changes where classes are fewer.
+double reduction(const SnResult& result, const DamageRule& rule, const LoadCycles& all,
+                 const LoadCycles& few) {
+  const Eigen::VectorXd mean = result.draws.colwise().mean();
+  const double before = BlockDamage(result.law, mean.data(), rule, all).log10_damage(0);
+  const double after = BlockDamage(result.law, mean.data(), rule, few).log10_damage(0);
+  return before == after ? 0 : std::abs(std::expm1((after - before) * std::log(10.0)));
+}
+
+void write_folder(const LoadLifeReport& report, ResultFolder& folder) {
+  const std::vector<present::Section> sections = load_life_sections(report);
+  folder.write("life.json", load_life_json(report).dump(2) + "\n");
+  for (const present::Table* table : present::tables(sections))
+    folder.write(fmt::format("tables/{}.csv", table->id), present::csv(*table));
+  folder.write("report.html", html_page({WEARWELL_VERSION, "Life under a load history",
+                                         report.result.title, sections}));
+  folder.commit();
+}
+
+int run(const LoadLifeOptions& options) {
+  refuse_overwriting({{"the results", options.result}, {"the history", options.signal.file}},
+                     {{"--output", options.output}});
+  LoadLifeReport report{read_sn_result(options.result), {}, {}, 0, {}, {}};
+  const SnLaw& law = report.result.law;
+  LoadQuestion& question = report.question;
+  question.rule.knee = read_knee(options.knee);
+  question.rule.miner = read_rule(options.rule, law, question.rule.knee);
+  question.sum = read_damage_sum(options.damage_sum);
+  question.percents = options.b_lives;
+  question.confidence = options.confidence / 100;
+  read_block_length(options.block, report);
+  const bool with_mean = law.correction != MeanStress::none;
+  report.block =
+      read_block({options.signal,
+                  {options.method == "three-point" ? Counting::three_point : Counting::four_point,
+                   options.residual == "half" ? Residual::half : Residual::repeat, 0},
+                  options.scale,
+                  with_mean});
+  std::optional<ResultFolder> folder;
+  if (!options.output.empty()) folder.emplace(options.output);
+  report.cycles =
+      reduced(report.block.cycles, law.limit ? most_cycles_with_limit : most_cycles, with_mean);
+  report.result.draws =
+      thinned(report.result.draws, law.limit ? most_draws_with_limit : most_draws);
+  report.life = load_life(report.result, report.cycles, question);
+  report.reduction = reduction(report.result, question.rule, report.block.cycles, report.cycles);
+  if (folder) write_folder(report, *folder);
+  if (options.json) {
+    fmt::print("{}\n", load_life_json(report).dump(2));
+  } else {
+    fmt::print("{}", load_life_text(report));
+    if (folder) fmt::print("Results are in {}\n", options.output.string());
+  }
+  return report.result.trusted ? 0 : 1;
+}
+
+}  // namespace
+
+void add_life_command(CLI::App& fatigue, int& exit_code) {
+  CLI::App* command = fatigue.add_subcommand(
+      "life", "Damage and life under a load history, as distributions, from a fitted S-N study");
+  const auto options = std::make_shared<LoadLifeOptions>();
+  command->add_option("RESULT", options->result, "folder that wearwell fit wrote of a model \"sn\"")
+      ->required();
+  command
+      ->add_option("HISTORY", options->signal.file,
+                   "one block: a signal, or counted cycles (range or amplitude, mean, cycles)")
+      ->required();
+  command->add_option("--column", options->signal.column,
+                      "of a signal: heading of the load (default: the only column of numbers)");
+  command->add_option("--unit", options->signal.unit,
+                      "unit of the load, where its heading has none");
+  command->add_option("--scale", options->scale,
+                      "from the load to stress, like '0.35 MPa/N'; of a strain '206 GPa'");
+  command->add_option("--method", options->method, "of a signal: how cycles are found")
+      ->check(one_of({"three-point", "four-point"}))
+      ->capture_default_str();
+  command
+      ->add_option("--residual", options->residual,
+                   "ranges that close no cycle count half, or the history is repeated")
+      ->check(one_of({"half", "repeat"}))
+      ->capture_default_str();
+  command
+      ->add_option("--rule", options->rule,
+                   "how damage is summed (default: elementary; original with a random limit)")
+      ->check(one_of(miner_rule_names()));
+  command->add_option(
+      "--knee", options->knee,
+      "where the curve bends: '2e6 cycles', or a fully reversed amplitude '150 MPa'");
+  command
+      ->add_option("--damage-sum", options->damage_sum,
+                   "at failure: a number, or a median and the factor that holds two in three")
+      ->capture_default_str();
+  command->add_option("--block", options->block,
+                      "what one block stands for: '350 km', '8 h'; lives are told in it");
+  command->add_option("--b-lives", options->b_lives, "percentages failed")
+      ->check(number_between(1e-4, 99.9999))
+      ->capture_default_str();
+  command->add_option("--confidence", options->confidence, "of the lower bounds, %")
+      ->check(number_between(1, 99.99))
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "folder for the page and the tables");
+  command->add_flag("--json", options->json, "print one JSON object");
+  command->footer(
+      "Rules below the knee: original no damage; haibach slope 2k - 1; liu-zenner slope (k + "
+      "3.6)/2 "
+      "down to half\nof it; elementary has no knee. A damage sum of '1 x/ 1.34' is Wirsching's: "
+      "median 1, 30 % scatter.\n\n"
+      "Examples:\n"
+      "  wearwell fatigue life study-results loads.csv --column stress --block '350 km'\n"
+      "  wearwell fatigue life study-results loads.csv --rule haibach --knee '2e6 cycles'\n"
+      "  wearwell fatigue life study-results cycles.csv --damage-sum '0.5 x/ 2' --json\n\n"
+      "Exit codes: 0 done; 1 the study is not trusted; 2 the request is wrong, nothing written.");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,240 @@
+#include "wearwell/models/fatigue/load_cycles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/unit.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/heading.h"
+#include "wearwell/models/fatigue/history_state.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+const Dimension& stress_dimension() {
+  static const Dimension pascal = parse_unit("Pa")->dimension;
+  return pascal;
+}
+
+// From the unit of the load to Pa.
+double to_pascal(const std::string& unit, const std::string& scale, const std::string& where) {
+  const auto load = parse_unit(unit.empty() ? "1" : unit);
+  if (!load) throw InputError(fmt::format("{}: '{}' is no unit", where, unit));
+  if (scale.empty()) {
+    if (unit.empty())
+      throw InputError(
+          fmt::format("{} has no unit: say it in the heading, \"stress [MPa]\", or by "
+                      "--unit MPa",
+                      where));
+    if (load->dimension == stress_dimension()) return load->scale;
+    const bool strain = load->dimension.empty();
+    throw InputError(
+        fmt::format("{} is in {}, which is {}, no stress; say how it makes stress: --scale '{}'",
+                    where, unit, strain ? "a strain or a plain number" : "a load",
+                    strain ? "206 GPa" : fmt::format("0.35 MPa/{}", unit)));
+  }
+  std::size_t end = 0;
+  double factor = 0;
+  try {
+    factor = std::stod(scale, &end);
+  } catch (const std::exception&) {
+    throw InputError(fmt::format("--scale: '{}' does not begin with a number", scale));
+  }
+  const std::string text = scale.substr(std::min(scale.size(), scale.find_first_not_of(' ', end)));
+  const auto per = parse_unit(text.empty() ? "1" : text);
+  if (!per) throw InputError(fmt::format("--scale: '{}' is no unit", text));
+  Dimension product = per->dimension;
+  for (const auto& [base, power] : load->dimension) {
+    if ((product[base] += power) == 0) product.erase(base);
+  }
+  if (product != stress_dimension())
+    throw InputError(fmt::format("--scale: {} times a load in {} is no stress", scale,
+                                 unit.empty() ? "1" : unit));
+  if (!(std::abs(factor) > 0 && std::isfinite(factor)) || load->offset != 0 || per->offset != 0)
+    throw InputError(fmt::format("--scale: {} is no factor", scale));
+  return factor * per->scale * load->scale;
+}
+
+const Column* named(const Table& table, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    for (const Column& column : table.columns) {
+      if (column.name == name || read_heading(column.name, "Pa").name == name) return &column;
+    }
+  }
+  return nullptr;
+}
+
+std::string unit_in(const Column& column, const std::string& given) {
+  if (!given.empty()) return given;
+  if (!column.unit.empty()) return column.unit;
+  const Heading stress = read_heading(column.name, "Pa");
+  if (!stress.unit.empty()) return stress.unit;
+  const Heading any = read_heading(column.name, "");
+  return any.certain ? any.unit : "";
+}
+
+double largest_amplitude(const LoadCycles& cycles) {
+  double largest = 0;
+  for (const LoadCycle& each : cycles) largest = std::max(largest, each.stress.alternating);
+  return largest;
+}
+
+Block counted_signal(const BlockChoice& choice) {
+  SignalFile file(choice.signal);
+  const double pascal = to_pascal(file.unit(), choice.scale,
+                                  fmt::format("{}, column '{}'", file.source(), file.column()));
+  LoadHistory history(choice.rule);
+  for (auto samples = file.next(); !samples.empty(); samples = file.next()) history.add(samples);
+  const LoadHistory::Counted counted = history.counted();
+  if (counted.classes.cells().empty())
+    throw InputError(fmt::format(
+        "{}, column '{}' holds {}: it has no cycle", file.source(), file.column(),
+        counted.samples == 1 ? "one sample" : fmt::format("{} throughout", counted.lowest)));
+  Block block;
+  for (const CycleClass& each : counted.classes.classes()) {
+    block.cycles.push_back({{0.5 * std::abs(pascal) * each.range, pascal * each.mean}, each.count});
+    block.count += each.count;
+  }
+  block.told =
+      fmt::format("{} samples of {}, column '{}'; {} rainflow counting, {}", counted.samples,
+                  file.source(), file.column(), counting_name(choice.rule.counting),
+                  choice.rule.residual == Residual::half ? "the residual in half cycles"
+                                                         : "the history repeated");
+  return block;
+}
+
+// A table with a row for each class of cycles.
+class CountedTable {
+ public:
+  CountedTable(const BlockChoice& choice, Table table) : choice_(choice), table_(std::move(table)) {
+    size_ = named(table_, {"range", "stress_range"});
+    amplitude_ = named(table_, {"amplitude", "alternating_stress", "stress_amplitude"});
+    count_ = named(table_, {"cycles", "count", "n"});
+    mean_ = named(table_, {"mean", "mean_stress"});
+    ratio_ = named(table_, {"stress_ratio", "R"});
+  }
+
+  bool is_one() const { return (size_ || amplitude_) && count_; }
+  bool doubtful() const { return (size_ || amplitude_ || count_) && !is_one(); }
+  std::string doubt() const {
+    if (count_)
+      return fmt::format(
+          "column '{}' counts cycles, but no column is called range or amplitude: is "
+          "what is counted a range (from valley to peak) or an amplitude (half of "
+          "it)? Name it so; or, of a signal, say which: --column NAME",
+          count_->name);
+    return fmt::format(
+        "column '{}' may be a signal or a class of counted cycles: of a signal say "
+        "which: --column NAME; of counted cycles add a column 'cycles'",
+        (size_ ? size_ : amplitude_)->name);
+  }
+
+  Block read() const {
+    if (size_ && amplitude_)
+      throw InputError(
+          fmt::format("{} has '{}' and '{}': a range is twice an amplitude; leave one "
+                      "out",
+                      table_.source, size_->name, amplitude_->name));
+    if (choice_.with_mean && (mean_ != nullptr) == (ratio_ != nullptr))
+      throw InputError(
+          fmt::format("{}: the study's law asks for the mean stress: give a column "
+                      "'mean' or 'stress_ratio', one of them",
+                      table_.source));
+    const Column& size = size_ ? *size_ : *amplitude_;
+    const double factor = (size_ ? 0.5 : 1) * std::abs(pascal(size));
+    const double mean_factor = mean_ ? pascal(*mean_) : 0;
+    Block block;
+    for (std::size_t i = 0; i < table_.rows; ++i) {
+      const double count = cell(*count_, i);
+      if (!(count >= 0)) fail(*count_, i, "is no count of cycles");
+      const double amplitude = factor * cell(size, i);
+      if (!(amplitude > 0)) fail(size, i, "must be positive");
+      double mean = mean_ && choice_.with_mean ? mean_factor * cell(*mean_, i) : 0;
+      if (ratio_ && choice_.with_mean) {
+        const double r = cell(*ratio_, i);
+        if (!(r < 1)) fail(*ratio_, i, "must be less than 1 (smallest over largest stress)");
+        mean = amplitude * (1 + r) / (1 - r);
+      }
+      block.cycles.push_back({{amplitude, mean}, count});
+      block.count += count;
+    }
+    if (!(block.count > 0)) throw InputError(fmt::format("{} counts no cycle", table_.source));
+    block.told = fmt::format("{} classes of counted cycles of {}, by {} '{}'", table_.rows,
+                             table_.source, size_ ? "the range" : "the amplitude", size.name);
+    return block;
+  }
+
+ private:
+  double pascal(const Column& column) const {
+    return to_pascal(unit_in(column, choice_.signal.unit), choice_.scale,
+                     fmt::format("{}, column '{}'", table_.source, column.name));
+  }
+  double cell(const Column& column, std::size_t row) const {
+    const double value = cell_number(table_, column, row);
+    if (!std::isfinite(value)) fail(column, row, "is no number");
+    return value;
+  }
+  [[noreturn]] void fail(const Column& column, std::size_t row, const char* what) const {
+    throw InputError(
+        fmt::format("{}: '{}' {}", place(table_, column.name, row), cell_word(column, row), what));
+  }
+
+  const BlockChoice& choice_;
+  Table table_;
+  const Column *size_, *amplitude_, *count_, *mean_, *ratio_;
+};
+
+}  // namespace
+
+Block read_block(const BlockChoice& choice) {
+  if (choice.signal.column.empty()) {
+    const CountedTable headings(choice, ColumnStream(choice.signal.file).columns());
+    if (headings.is_one()) return CountedTable(choice, read_table(choice.signal.file)).read();
+    if (headings.doubtful())
+      throw InputError(fmt::format("{}: {}", choice.signal.file.string(), headings.doubt()));
+  }
+  return counted_signal(choice);
+}
+
+LoadCycles reduced(const LoadCycles& cycles, std::size_t most, bool with_mean) {
+  LoadCycles result = cycles;
+  if (!with_mean) {
+    for (LoadCycle& each : result) each.stress.mean = 0;
+  }
+  double width = std::ldexp(largest_amplitude(cycles), -24);
+  while (width > 0) {
+    std::map<std::pair<long long, long long>, std::size_t> places;
+    LoadCycles wide;
+    for (const LoadCycle& each : result) {
+      const auto [at, fresh] = places.emplace(
+          std::pair{static_cast<long long>(std::floor(each.stress.alternating / width)),
+                    static_cast<long long>(std::floor(each.stress.mean / width))},
+          wide.size());
+      if (fresh) {
+        wide.push_back(each);
+        continue;
+      }
+      LoadCycle& cell = wide[at->second];
+      cell.count += each.count;
+      if (!(cell.count > 0)) continue;
+      const double share = each.count / cell.count;
+      cell.stress.alternating += share * (each.stress.alternating - cell.stress.alternating);
+      cell.stress.mean += share * (each.stress.mean - cell.stress.mean);
+    }
+    result = std::move(wide);
+    if (result.size() <= most) break;
+    width *= 2;
+  }
+  std::sort(result.begin(), result.end(), [](const LoadCycle& a, const LoadCycle& b) {
+    return a.stress.alternating > b.stress.alternating;
+  });
+  return result;
+}
+
+}  // namespace wearwell::fatigue

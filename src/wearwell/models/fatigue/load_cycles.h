@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+
+#include "wearwell/models/fatigue/damage.h"
+#include "wearwell/models/fatigue/load_history.h"
+#include "wearwell/models/fatigue/signal_file.h"
+
+namespace wearwell::fatigue {
+
+/// Where the cycles of one block stand: a signal, which is counted, or a table of counted cycles with
+/// columns `range` or `amplitude`, `mean` or `stress_ratio`, and `cycles` (or `count`).
+struct BlockChoice {
+  SignalChoice signal;  ///< with a column named it is a signal
+  CountingRule rule;
+  std::string scale;      ///< "0.35 MPa/N": from load to stress; empty for none
+  bool with_mean = true;  ///< whether the mean stress matters
+};
+
+struct Block {
+  LoadCycles cycles;
+  double count = 0;  ///< of all cycles
+  std::string told;  ///< what was read, a sentence
+};
+
+/// Throws InputError: neither kind or both, no unit, a strain or a force without a scale, amplitude and
+/// range not told apart, no mean where it matters, a count or an amplitude that is none.
+Block read_block(const BlockChoice& choice);
+
+/// Cycles of at most so many stresses: near ones become one of their mean. Without `with_mean` the
+/// mean stress is left out.
+LoadCycles reduced(const LoadCycles& cycles, std::size_t most, bool with_mean);
+
+}  // namespace wearwell::fatigue

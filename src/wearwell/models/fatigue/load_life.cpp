@@ -1,0 +1,313 @@
+#include "wearwell/models/fatigue/load_life.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/fatigue/life.h"
+#include "wearwell/predict/cell_mixture.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double negligible = 1e-9;
+constexpr double golden = 0.6180339887498949;  // its multiples are the most even modulo 1
+constexpr std::size_t sums_per_draw = 4, limits_per_draw = 16;
+constexpr double most_decades = 300;
+
+double clamped(double log10) {
+  return log10 == infinity ? log10 : std::clamp(log10, -most_decades, most_decades);
+}
+
+void refuse_what_has_no_sum(const SnLaw& law, const DamageRule& rule) {
+  if (!law.logarithmic())
+    throw InputError(
+        "the study's lives are normal in cycles (likelihood.family = \"normal\"): under small "
+        "stresses a scatter in cycles has no meaning, and damage no sum; fit log10-normal or "
+        "weibull");
+  if (law.limit && rule.miner != MinerRule::original)
+    throw InputError(
+        "the study has a random fatigue limit of its own, toward which its curve bends: only "
+        "--rule "
+        "original goes with it; for another rule fit without law.fatigue_limit and give --knee");
+  if (law.limit && rule.knee.any())
+    throw InputError("--knee: the study has a fatigue limit of its own; leave --knee out");
+  if (!law.limit && rule.miner != MinerRule::elementary && !rule.knee.any())
+    throw InputError(
+        "--rule: the study's curve has no knee, so say where it is: --knee '2e6 cycles' or --knee "
+        "'150 MPa'; or take --rule elementary, which has none");
+}
+
+// One point of the posterior.
+struct Drawn {
+  std::vector<double> b;  // log10 of blocks to a damage sum of 1, by percent
+  double median = 0;      // of the item at place 0, log10 of blocks to a sum of 1
+  // Cells of items: weight, log10 of blocks to a sum of 1 at either end.
+  struct Cell {
+    double weight, low, high;
+  };
+  std::vector<Cell> cells;
+};
+
+// Places of items, from tail to tail.
+std::vector<double> edges(StandardLaw law, std::size_t count) {
+  const double first = quantile(law, negligible), last = quantile(law, 1 - negligible);
+  std::vector<double> at;
+  for (std::size_t i = 0; i <= count; ++i)
+    at.push_back(std::lerp(first, last, static_cast<double>(i) / static_cast<double>(count)));
+  return at;
+}
+
+class Draws {
+ public:
+  Draws(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question)
+      : result_(result),
+        cycles_(cycles),
+        question_(question),
+        places_(edges(result.law.standard(), result.law.limit ? 48 : 128)) {}
+
+  /// `where` takes the shares of the cycles.
+  Drawn operator()(Eigen::Index i, std::vector<double>& where) const {
+    const SnLaw& law = result_.law;
+    const double* x = result_.draws.row(i).data();
+    const BlockDamage damage(law, x, question_.rule, cycles_);
+    Drawn drawn;
+    drawn.median = clamped(-damage.log10_damage(0));
+    add_shares(damage, where);
+    if (law.limit) {
+      add_items_of_limits(damage, i, x, drawn);
+    } else {
+      add_items(
+          1, [&](double z) { return -damage.log10_damage(z); }, drawn);
+      for (const double percent : question_.percents)
+        drawn.b.push_back(clamped(-damage.log10_damage(quantile(law.standard(), percent / 100))));
+    }
+    return drawn;
+  }
+
+ private:
+  void add_shares(const BlockDamage& damage, std::vector<double>& where) const {
+    const std::vector<double> shares = damage.shares(cycles_);
+    for (std::size_t c = 0; c < shares.size(); ++c) where[c] += shares[c];
+  }
+
+  template <class Life>
+  void add_items(double weight, const Life& life, Drawn& drawn) const {
+    const StandardLaw law = result_.law.standard();
+    double below = 0, before = clamped(life(places_.front()));
+    for (std::size_t j = 1; j < places_.size(); ++j) {
+      const double through = j + 1 == places_.size() ? 1 : cdf(law, places_[j]);
+      const double here = clamped(life(places_[j]));
+      drawn.cells.push_back({weight * (through - below), before, here});
+      below = through;
+      before = here;
+    }
+  }
+
+  // Limits in strata; their places move from draw to draw.
+  void add_items_of_limits(const BlockDamage& damage, Eigen::Index i, const double* x,
+                           Drawn& drawn) const {
+    const SnLaw& law = result_.law;
+    double whole = 0;
+    const double shift = std::modf((static_cast<double>(i) + 0.5) * golden, &whole);
+    const double sigma = x[law.sigma_index()];
+    for (std::size_t j = 0; j < limits_per_draw; ++j) {
+      const double p = (static_cast<double>(j) + shift) / limits_per_draw;
+      const double base = -damage.log10_damage(0, quantile(*law.limit, p));
+      add_items(
+          1.0 / limits_per_draw, [&](double z) { return base + sigma * z; }, drawn);
+    }
+    MixedLife lives(law.family);
+    const std::vector<double> limits = edges(*law.limit, 100);
+    double below = 0;
+    for (std::size_t j = 1; j < limits.size(); ++j) {
+      const double through = j + 1 == limits.size() ? 1 : cdf(*law.limit, limits[j]);
+      lives.add(through - below,
+                clamped(-damage.log10_damage(0, 0.5 * (limits[j - 1] + limits[j]))), sigma);
+      below = through;
+    }
+    for (const double percent : question_.percents)
+      drawn.b.push_back(std::log10(lives.quantile(percent / 100)));
+  }
+
+  const SnResult& result_;
+  const LoadCycles& cycles_;
+  const LoadQuestion& question_;
+  std::vector<double> places_;
+};
+
+// Of as many damage sums as there are draws and more, each as likely.
+double log10_sum(const DamageSum& sum, std::size_t draw, std::size_t j) {
+  double whole = 0;
+  const auto index = static_cast<double>(draw * sums_per_draw + j);
+  const double p = std::modf((index + 0.5) * golden, &whole);
+  return std::log10(sum.median) +
+         std::log10(sum.factor) * quantile(StandardLaw::normal, std::clamp(p, 1e-12, 1 - 1e-12));
+}
+
+double power(double log10) {
+  return log10 <= -most_decades ? 0 : std::pow(10, log10);
+}
+
+// R's type 7, where some are infinite.
+double sorted_quantile(const std::vector<double>& sorted, double p) {
+  const double at = static_cast<double>(sorted.size() - 1) * p, below = std::floor(at);
+  const auto i = static_cast<std::size_t>(below);
+  if (at == below || sorted[i] == sorted[i + 1]) return sorted[i];
+  return sorted[i + 1] == infinity ? infinity : std::lerp(sorted[i], sorted[i + 1], at - below);
+}
+
+void add_lives(const std::vector<Drawn>& drawn, const LoadQuestion& question, LoadLife& life) {
+  CellMixture next, damage;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    const double shift = log10_sum(question.sum, i, 0);
+    for (const Drawn::Cell& cell : drawn[i].cells) {
+      next.add(cell.weight, cell.low + shift, cell.high + shift);
+      damage.add(cell.weight, std::max(-cell.high, -most_decades), -cell.low);
+    }
+  }
+  life.next05 = power(next.quantile(0.05));
+  life.next50 = power(next.quantile(0.5));
+  life.next95 = power(next.quantile(0.95));
+  life.damage05 = power(damage.quantile(0.05));
+  life.damage50 = power(damage.quantile(0.5));
+  life.damage95 = power(damage.quantile(0.95));
+  const double low = next.quantile(0.001), high = next.quantile(0.999);
+  for (int i = 0; std::isfinite(low) && std::isfinite(high) && i <= 60; ++i) {
+    const double at = std::lerp(low, high, i / 60.0);
+    life.cdf.emplace_back(at, next.cdf(at));
+  }
+  for (std::size_t p = 0; p < question.percents.size(); ++p) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      for (std::size_t j = 0; j < sums_per_draw; ++j)
+        all.push_back(drawn[i].b[p] + log10_sum(question.sum, i, j));
+    }
+    std::sort(all.begin(), all.end());
+    const auto at = [&](double q) { return power(sorted_quantile(all, q)); };
+    life.lives.push_back({question.percents[p], at(0.05), at(0.5), at(0.95),
+                          at(1 - question.confidence),
+                          power(next.quantile(question.percents[p] / 100))});
+  }
+}
+
+void add_contributions(const SnResult& result, const std::vector<Drawn>& drawn,
+                       const LoadQuestion& question, LoadLife& life) {
+  Eigen::VectorXd y(std::ssize(drawn));
+  double items = 0;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    // Mean and variance over items, whose cells are narrow.
+    double weight = 0, mean = 0, square = 0;
+    for (const Drawn::Cell& cell : drawn[i].cells) {
+      const double at = 0.5 * (cell.low + cell.high);
+      weight += cell.weight;
+      mean += cell.weight * at;
+      square += cell.weight * at * at;
+    }
+    if (!std::isfinite(square) || !std::isfinite(drawn[i].median)) return;
+    mean /= weight;
+    items += (square / weight - mean * mean) / static_cast<double>(drawn.size());
+    y[static_cast<Eigen::Index>(i)] = mean;
+  }
+  const double of_posterior = (y.array() - y.mean()).square().mean();
+  const double of_sum = std::pow(std::log10(question.sum.factor), 2);
+  const double all = of_posterior + of_sum + items;
+  life.sd = std::sqrt(all);
+  if (!(all > 0)) return;
+  const std::vector<double> shares = variance_shares(result.draws, y);
+  for (std::size_t i = 0; i < result.parameters.size(); ++i)
+    life.contributions.push_back({result.parameters[i], shares[i] * of_posterior / all});
+  if (shares.back() * of_posterior > 0.005 * all)
+    life.contributions.push_back(
+        {"these together, beyond straight lines", shares.back() * of_posterior / all});
+  life.contributions.push_back({"scatter from item to item", items / all});
+  life.contributions.push_back({"the damage sum at failure", of_sum / all});
+}
+
+void add_extrapolation(const SnResult& result, const LoadCycles& cycles, LoadLife& life) {
+  constexpr double slack = 1e-9;
+  const TestedSpan& tested = result.tested;
+  const double room = slack * (std::abs(tested.mean_low) + std::abs(tested.mean_high));
+  for (std::size_t c = 0; c < cycles.size(); ++c) {
+    const Stress& stress = cycles[c].stress;
+    if (stress.alternating > tested.alternating_high * (1 + slack)) life.above += life.shares[c];
+    if (stress.alternating < tested.alternating_low * (1 - slack)) life.below += life.shares[c];
+    if (result.law.correction != MeanStress::none &&
+        (stress.mean < tested.mean_low - room || stress.mean > tested.mean_high + room))
+      life.beyond_mean += life.shares[c];
+  }
+}
+
+}  // namespace
+
+LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question) {
+  refuse_what_has_no_sum(result.law, question.rule);
+  const Draws draw(result, cycles, question);
+  std::vector<Drawn> drawn(static_cast<std::size_t>(result.draws.rows()));
+  // Sums of shares by blocks, so that no thread changes their order.
+  constexpr std::size_t block = 64;
+  std::vector<std::vector<double>> sums((drawn.size() + block - 1) / block,
+                                        std::vector<double>(cycles.size(), 0));
+  tbb::parallel_for(std::size_t{0}, sums.size(), [&](std::size_t b) {
+    for (std::size_t i = b * block; i < std::min(drawn.size(), (b + 1) * block); ++i)
+      drawn[i] = draw(static_cast<Eigen::Index>(i), sums[b]);
+  });
+  LoadLife life;
+  life.draws = drawn.size();
+  life.shares.assign(cycles.size(), 0);
+  for (const auto& sum : sums) {
+    for (std::size_t c = 0; c < sum.size(); ++c)
+      life.shares[c] += sum[c] / static_cast<double>(drawn.size());
+  }
+  add_extrapolation(result, cycles, life);
+  add_lives(drawn, question, life);
+  add_contributions(result, drawn, question, life);
+  return life;
+}
+
+std::vector<double> variance_shares(const Points& x, const Eigen::VectorXd& y) {
+  const auto d = static_cast<std::size_t>(x.cols());
+  const auto n = static_cast<double>(x.rows());
+  // In units of their standard deviations; a column that does not vary explains nothing.
+  Eigen::MatrixXd z = x.rowwise() - x.colwise().mean();
+  for (Eigen::Index c = 0; c < z.cols(); ++c) {
+    const double sd = std::sqrt(z.col(c).squaredNorm() / n);
+    z.col(c) *= sd > 0 ? 1 / sd : 0;
+  }
+  const Eigen::VectorXd centered = y.array() - y.mean();
+  const double variance = centered.squaredNorm() / n;
+  std::vector<double> shares(d + 1, 0);
+  if (!(variance > 0)) return shares;
+  const Eigen::MatrixXd covariance = z.transpose() * z / n;
+  const Eigen::VectorXd with_y = z.transpose() * centered / n;
+  // What each set of columns explains.
+  std::vector<double> explained(std::size_t{1} << d, 0);
+  for (std::size_t set = 1; set < explained.size(); ++set) {
+    std::vector<Eigen::Index> in;
+    for (std::size_t c = 0; c < d; ++c) {
+      if (set >> c & 1) in.push_back(static_cast<Eigen::Index>(c));
+    }
+    const Eigen::MatrixXd part = covariance(in, in);
+    const Eigen::VectorXd to_y = with_y(in);
+    explained[set] = to_y.dot(part.completeOrthogonalDecomposition().solve(to_y)) / variance;
+  }
+  // Shapley: what a column adds, over all orders in which they may come.
+  std::vector<double> orders(d + 1, 1);
+  for (std::size_t i = 1; i <= d; ++i) orders[i] = orders[i - 1] * static_cast<double>(i);
+  for (std::size_t c = 0; c < d; ++c) {
+    for (std::size_t set = 0; set < explained.size(); ++set) {
+      if (set >> c & 1) continue;
+      const auto size = static_cast<std::size_t>(__builtin_popcountll(set));
+      shares[c] += orders[size] * orders[d - size - 1] / orders[d] *
+                   (explained[set | std::size_t{1} << c] - explained[set]);
+    }
+  }
+  shares[d] = std::max(0.0, 1 - explained.back());
+  return shares;
+}
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wearwell/models/fatigue/damage.h"
+#include "wearwell/models/fatigue/sn_result.h"
+
+namespace wearwell::fatigue {
+
+/// The damage sum at which an item fails: lognormal with this median, two in three within a factor of
+/// it; a factor of 1 is a known sum.
+struct DamageSum {
+  double median = 1;
+  double factor = 1;
+};
+
+struct LoadQuestion {
+  DamageRule rule = {};
+  DamageSum sum = {};
+  std::vector<double> percents = {1, 10, 50};  ///< of the B-lives
+  double confidence = 0.9;                     ///< of lower bounds
+};
+
+/// When a percentage of all items has failed: how well it is known, in blocks.
+struct BlockLife {
+  double percent = 0;
+  double q05 = 0, q50 = 0, q95 = 0;
+  double bound = 0;  ///< exceeded with the confidence
+  double next = 0;   ///< of the next item, all that is unknown averaged in
+};
+
+/// Of the variance of log10 life.
+struct Contribution {
+  std::string name;
+  double share = 0;
+};
+
+/// Damage and life under a history, over posterior, scatter of items and damage sum. Infinite where
+/// nothing does harm.
+struct LoadLife {
+  std::vector<BlockLife> lives;
+  double next05 = 0, next50 = 0, next95 = 0;        ///< life of the next item, blocks
+  double damage05 = 0, damage50 = 0, damage95 = 0;  ///< of one block, to the next item
+  std::vector<std::pair<double, double>> cdf;       ///< log10 of blocks, probability: the next item
+  double sd = 0;                                    ///< of log10 life
+  std::vector<Contribution> contributions;          ///< none where some items never fail
+  /// Shares of the damage, in the mean over the posterior: by cycles of an alternating stress above
+  /// and below all that were tested, and of a mean stress beyond.
+  double above = 0, below = 0, beyond_mean = 0;
+  std::vector<double> shares;  ///< of the damage, by each of the cycles
+  std::size_t draws = 0;       ///< of the posterior
+};
+
+/// Cycles are few (load_cycles.h, reduced). Throws InputError for a law that damage cannot be summed
+/// with, or a rule that the law has no knee for.
+LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question);
+
+/// Shares of the variance of `y` that the columns of `x` bring, where these depend on each other:
+/// Shapley's values of the best linear predictors (Song, Nelson and Staum 2016), and last what no
+/// linear predictor explains. They sum to 1.
+std::vector<double> variance_shares(const Points& x, const Eigen::VectorXd& y);
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,144 @@
+#include "wearwell/models/fatigue/sn_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/input/json_reader.h"
+#include "wearwell/study/saved_result.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// By the order of LifeFamily and of StandardLaw.
+constexpr const char* families[] = {"log10-normal", "weibull", "normal"};
+constexpr const char* limit_families[] = {"normal", "smallest-extreme-value"};
+
+TestedSpan span_of(const LifeTests& tests) {
+  TestedSpan span{INFINITY, 0, INFINITY, -INFINITY, INFINITY, 0};
+  for (const LifeTest& test : tests) {
+    span.alternating_low = std::min(span.alternating_low, test.stress.alternating);
+    span.alternating_high = std::max(span.alternating_high, test.stress.alternating);
+    span.mean_low = std::min(span.mean_low, test.stress.mean);
+    span.mean_high = std::max(span.mean_high, test.stress.mean);
+    span.life_low = std::min(span.life_low, test.life);
+    span.life_high = std::max({span.life_high, test.life, test.until});
+    span.tests += test.count;
+    span.failures += test.outcome == Outcome::failure ? test.count : 0;
+  }
+  return span;
+}
+
+SnLaw read_law(const JsonReader& json) {
+  SnLaw law;
+  const auto correction = mean_stress_named(json.at("mean_stress").text());
+  if (!correction) json.at("mean_stress").fail("is no correction of the mean stress");
+  law.correction = *correction;
+  const std::string family = json.at("family").one_of({families[0], families[1], families[2]});
+  law.family = family == families[0]   ? LifeFamily::log10_normal
+               : family == families[1] ? LifeFamily::weibull
+                                       : LifeFamily::normal;
+  if (const auto strength = json.find("strength")) law.strength = strength->positive();
+  if (const auto gamma = json.find("gamma")) law.gamma = gamma->number();
+  if (json.at("fatigue_limit").one_of({"none", "random"}) == "random")
+    law.limit =
+        json.at("limit_family").one_of({limit_families[0], limit_families[1]}) == limit_families[0]
+            ? StandardLaw::normal
+            : StandardLaw::smallest_extreme_value;
+  return law;
+}
+
+std::pair<double, double> read_span(const JsonReader& json, const Unit& unit) {
+  const std::vector<double> ends = json.numbers();
+  if (ends.size() != 2 || ends[0] > ends[1]) json.fail("should be two numbers, the smaller first");
+  return {to_si(unit, ends[0]), to_si(unit, ends[1])};
+}
+
+// The dimension of a parameter.
+std::string si_of(const std::string& name) {
+  return name.starts_with("log10_") ? "log10(Pa)" : "1";
+}
+
+}  // namespace
+
+nlohmann::ordered_json sn_json(const SnLaw& law, const SnData& data) {
+  Json json = {{"mean_stress", mean_stress_names()[static_cast<std::size_t>(law.correction)]},
+               {"family", families[static_cast<int>(law.family)]},
+               {"fatigue_limit", law.limit ? "random" : "none"}};
+  if (law.limit) json["limit_family"] = limit_families[*law.limit == StandardLaw::normal ? 0 : 1];
+  if (law.strength) json["strength"] = *law.strength;
+  if (law.gamma) json["gamma"] = *law.gamma;
+  const TestedSpan span = span_of(data.tests);
+  const auto stress = [&](double si) { return from_si(data.stress_unit, si); };
+  json["stress_unit"] = data.stress_unit.text;
+  json["life_unit"] = data.life_unit.text;
+  json["tested"] = {
+      {"tests", span.tests},
+      {"failures", span.failures},
+      {"alternating", {stress(span.alternating_low), stress(span.alternating_high)}},
+      {"mean", {stress(span.mean_low), stress(span.mean_high)}},
+      {"life", {from_si(data.life_unit, span.life_low), from_si(data.life_unit, span.life_high)}}};
+  return json;
+}
+
+SnResult read_sn_result(const std::filesystem::path& folder) {
+  const SavedResult saved = read_saved_result(folder);
+  const std::filesystem::path file = summary_file(folder);
+  if (saved.header.model != "sn")
+    throw InputError(
+        fmt::format("{}: its model is \"{}\"; a life under a load history needs an "
+                    "S-N curve, model \"sn\"",
+                    folder.string(), saved.header.model));
+  const Json summary = read_json(file);
+  const JsonReader root(summary, file);
+  const auto json = root.find("fatigue");
+  if (!json)
+    throw InputError(
+        fmt::format("{} has no \"fatigue\": an earlier wearwell wrote it; fit the study "
+                    "again",
+                    file.string()));
+  SnResult result{saved.header.title,
+                  saved.header.equation,
+                  saved.header.trusted,
+                  read_law(*json),
+                  {},
+                  read_unit(json->at("stress_unit").text(), "Pa"),
+                  {},
+                  {}};
+  const JsonReader tested = json->at("tested");
+  TestedSpan& span = result.tested;
+  std::tie(span.alternating_low, span.alternating_high) =
+      read_span(tested.at("alternating"), result.stress_unit);
+  std::tie(span.mean_low, span.mean_high) = read_span(tested.at("mean"), result.stress_unit);
+  std::tie(span.life_low, span.life_high) =
+      read_span(tested.at("life"), life_unit(read_unit(json->at("life_unit").text(), "cycle")));
+  span.tests = static_cast<int>(tested.at("tests").integer(1, 1 << 30));
+  span.failures = static_cast<int>(tested.at("failures").integer(0, span.tests));
+
+  Eigen::Index rows = 0;
+  for (const Chain& chain : saved.draws) rows += chain.values.rows();
+  const auto columns = std::ssize(saved.parameters);
+  if (columns != result.law.dimension())
+    throw InputError(
+        fmt::format("{}: {} parameters do not make the law that it names", file.string(), columns));
+  result.draws.resize(rows, columns);
+  Eigen::Index at = 0;
+  for (const Chain& chain : saved.draws) {
+    result.draws.middleRows(at, chain.values.rows()) = chain.values;
+    at += chain.values.rows();
+  }
+  for (Eigen::Index c = 0; c < columns; ++c) {
+    const ParameterSummary& parameter = saved.parameters[static_cast<std::size_t>(c)];
+    result.parameters.push_back(parameter.name);
+    if (result.law.family == LifeFamily::normal) continue;  // of no use here
+    const Unit unit = read_unit(parameter.unit, si_of(parameter.name));
+    for (double& value : result.draws.col(c)) value = to_si(unit, value);
+  }
+  return result;
+}
+
+}  // namespace wearwell::fatigue

@@ -1,0 +1,262 @@
+#include "wearwell/models/fatigue/staircase_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "wearwell/base/error.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/prior.h"
+#include "wearwell/math/root.h"
+#include "wearwell/models/fatigue/read_outcome.h"
+#include "wearwell/models/fatigue/staircase.h"
+#include "wearwell/present/plain.h"
+#include "wearwell/present/text_table.h"
+
+namespace wearwell {
+namespace {
+
+using fatigue::StairTest;
+
+struct StairData {
+  std::vector<StairTest> tests;
+  Unit unit;
+  StandardLaw limit = StandardLaw::normal;
+  std::vector<double> reliabilities = {0.5, 0.9};
+  double credible_level = 0.9;
+};
+
+void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& study,
+                StairData& data) {
+  const TomlReader section = root.required_table("data");
+  const TomlReader columns = section.required_table("columns");
+  const Table table = read_table(section, source);
+  const ColumnChoice stress = required_column(columns, "alternating_stress", "Pa", table);
+  const auto status = read_word_column(columns, "status", table);
+  if (!status) columns.fail("status", "is missing: which tests failed, and which did not?");
+  const auto count = read_column(columns, "count", "1", table);
+  const std::vector<double> stresses = si_numbers(table, stress);
+  const std::vector<double> counts = count ? si_numbers(table, *count) : std::vector<double>();
+  data.unit = stress.unit;
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    require(stresses[i] > 0, table, stress, i, "positive");
+    const fatigue::Outcome outcome = read_outcome(table, *status, i);
+    if (outcome != fatigue::Outcome::failure && outcome != fatigue::Outcome::runout)
+      throw InputError(fmt::format("{}: a staircase knows failure and runout only",
+                                   place(table, status->column, i)));
+    const double n = count ? counts[i] : 1;
+    if (count)
+      require(n >= 1 && n <= 1e6 && n == std::floor(n), table, *count, i,
+              "a whole number of at least 1");
+    data.tests.push_back({stresses[i], outcome == fatigue::Outcome::failure, static_cast<int>(n)});
+    study.observed.insert(
+        study.observed.end(),
+        {stresses[i], static_cast<double>(outcome == fatigue::Outcome::failure), n});
+  }
+  study.data_columns.push_back({"alternating_stress", "Pa", stress.unit, stresses, true});
+  study.data_layout = table.layout;
+  study.data_rows = data.tests.size();
+}
+
+void read_wishes(const TomlReader& root, StairData& data) {
+  if (const auto law = root.table("law")) {
+    const std::vector<std::string> families = {"normal", "smallest-extreme-value"};
+    if (law->choice("limit_family", families) == families[1])
+      data.limit = StandardLaw::smallest_extreme_value;
+  }
+  const auto predict = root.table("predict");
+  if (!predict) return;
+  const auto share = [&](const char* key, const Quantity& quantity) {
+    if (!(quantity.si() > 0 && quantity.si() < 1))
+      predict->fail(key, "must lie between 0 and 1 (or 0 % and 100 %)");
+    return quantity.si();
+  };
+  if (predict->has("reliability")) data.reliabilities.clear();
+  for (const Quantity& each : predict->quantities("reliability", "1"))
+    data.reliabilities.push_back(share("reliability", each));
+  if (const auto level = predict->quantity("credible_level", "1"))
+    data.credible_level = share("credible_level", *level);
+}
+
+double log10_limit(const StairData& data, const double* x, double reliability) {
+  return x[0] + x[1] * quantile(data.limit, 1 - reliability);
+}
+
+// The stress [Pa] that the next item bears with this probability.
+double next_limit(const StairData& data, const WeightedDraws& draws, double reliability) {
+  const auto excess = [&](double log10) {
+    double broken = 0;
+    for (Eigen::Index i = 0; i < draws.values.rows(); ++i)
+      broken +=
+          draws.weights[i] * cdf(data.limit, (log10 - draws.values(i, 0)) / draws.values(i, 1));
+    return broken - (1 - reliability);
+  };
+  return std::pow(10, solve_increasing(excess, std::log10(data.tests[0].stress), 0.1,
+                                       {.absolute = 1e-9}, -300, 300));
+}
+
+void add_limits(const StairData& data, PosteriorStudy& study) {
+  const double most = *std::max_element(data.reliabilities.begin(), data.reliabilities.end());
+  for (const double reliability : data.reliabilities) {
+    QuantityRequest request{};
+    request.name = "fatigue limit";
+    request.of = "specimen";
+    request.at = fmt::format("for {:.6g} % to survive", 100 * reliability);
+    request.unit = data.unit;
+    request.credible_level = data.credible_level;
+    request.safe_end = 0.05;
+    request.headline = reliability == most;
+    study.quantity_groups.push_back(
+        {{request}, [=](const WeightedDraws& draws) {
+           const Distribution limit(
+               draws, [&](const double* x) { return log10_limit(data, x, reliability); });
+           const auto at = [&](double p) { return std::pow(10, limit.quantile(p)); };
+           QuantityQuantiles q{at(0.05), at(0.5), at(0.95), 0, 0, 0};
+           q.predictive = next_limit(data, draws, reliability);
+           q.bound = at(1 - data.credible_level);
+           return std::vector<QuantityQuantiles>{q};
+         }});
+  }
+}
+
+// What one more test under a stress would leave unknown of the limit that is asked about.
+struct NextTest {
+  double stress = 0, failure = 0;  // Pa, its probability
+  double sd = 0;                   // of log10 of the limit, expected after it
+};
+
+std::vector<NextTest> next_tests(const StairData& data, const WeightedDraws& draws,
+                                 double reliability, double& before) {
+  std::set<double> stresses;
+  for (const StairTest& test : data.tests) stresses.insert(test.stress);
+  const double low = *stresses.begin(), high = *stresses.rbegin();
+  const double step = (high - low) / std::max<double>(1, static_cast<double>(stresses.size()) - 1);
+  if (step > 0 && low > step) stresses.insert(low - step);
+  if (step > 0) stresses.insert(high + step);
+  std::vector<NextTest> tests;
+  for (const double stress : stresses) {
+    // Weight, mean and square of the limit: all, and those of an item that fails.
+    double sums[2][3] = {};
+    for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
+      const double* x = draws.values.row(i).data();
+      const double y = log10_limit(data, x, reliability), w = draws.weights[i];
+      const double fails = cdf(data.limit, (std::log10(stress) - x[0]) / x[1]);
+      for (int k = 0; k < 2; ++k) {
+        const double weight = k == 0 ? w * fails : w * (1 - fails);
+        sums[k][0] += weight;
+        sums[k][1] += weight * y;
+        sums[k][2] += weight * y * y;
+      }
+    }
+    NextTest test{stress, sums[0][0], 0};
+    double variance = 0;
+    for (const auto& s : sums) variance += s[0] > 0 ? s[2] - s[1] * s[1] / s[0] : 0;
+    test.sd = std::sqrt(std::max(0.0, variance));
+    const double mean = sums[0][1] + sums[1][1];
+    before = std::sqrt(std::max(0.0, sums[0][2] + sums[1][2] - mean * mean));
+    tests.push_back(test);
+  }
+  return tests;
+}
+
+TradeAddition addition(const StairData& data, const WeightedDraws& draws) {
+  TradeAddition added;
+  const auto in_unit = [&](double si) { return from_si(data.unit, si); };
+  const fatigue::DixonMood classical = fatigue::dixon_mood(data.tests);
+  const std::string told =
+      classical.problem.empty()
+          ? fmt::format(
+                "Dixon and Mood (1948), by the {} alone: mean {:.5g} {}, standard deviation "
+                "{:.3g} {}{}. With few tests its standard deviation is mostly too small, and "
+                "it has no interval.",
+                classical.of_failures ? "failures" : "run-outs", in_unit(classical.mean),
+                data.unit.text, in_unit(classical.sd), data.unit.text,
+                classical.crude_sd ? " (only 0.53 of a step: all that it says here)" : "")
+          : fmt::format("Dixon and Mood's estimate does not apply: {}.", classical.problem);
+  const double most = *std::max_element(data.reliabilities.begin(), data.reliabilities.end());
+  double before = 0;
+  const std::vector<NextTest> tests = next_tests(data, draws, most, before);
+  present::Table table{
+      "next-test",
+      fmt::format("What one more test would tell of the limit for {:.6g} %", 100 * most),
+      {{"at", data.unit.text},
+       {"fails", "%", present::digits(3)},
+       {"less spread of log10 limit", "%", present::digits(3)}}};
+  std::vector<std::vector<std::string>> rows = {
+      {"  at [" + data.unit.text + "]", "fails [%]", "spread of the limit, less [%]"}};
+  for (const NextTest& test : tests) {
+    const double less = 100 * (1 - test.sd / before);
+    table.rows.push_back({in_unit(test.stress), 100 * test.failure, less});
+    rows.push_back({"  " + plain_number(in_unit(test.stress), 5),
+                    plain_number(100 * test.failure, 2), plain_number(less, 2)});
+  }
+  added.blocks["predictions"] = {{present::Prose{told}}, {table}};
+  added.text =
+      "Beside it\n" + wrapped(told, 2, 4) + "\n" +
+      fmt::format("One more test, what it would tell of the limit for {:.6g} %\n", 100 * most) +
+      text_table(rows);
+  nlohmann::ordered_json json;
+  if (classical.problem.empty()) {
+    json["dixon_mood"] = {{"mean", in_unit(classical.mean)},
+                          {"sd", in_unit(classical.sd)},
+                          {"unit", data.unit.text},
+                          {"crude_sd", classical.crude_sd}};
+  } else {
+    json["dixon_mood"] = {{"problem", classical.problem}};
+  }
+  json["next_test"] = nlohmann::ordered_json::array();
+  for (const NextTest& test : tests)
+    json["next_test"].push_back({{"stress", in_unit(test.stress)},
+                                 {"failure", test.failure},
+                                 {"sd_ratio", test.sd / before}});
+  added.body["staircase"] = std::move(json);
+  return added;
+}
+
+}  // namespace
+
+void read_staircase_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
+  StairData data;
+  read_wishes(root, data);
+  read_tests(root, source, study, data);
+  if (study.stages) root.required_table("update").fail("stages", "is not for model \"staircase\"");
+  double mean = 0, tests = 0, failed = 0;
+  for (const StairTest& test : data.tests) {
+    mean += test.count * std::log10(test.stress);
+    tests += test.count;
+    failed += test.failed ? test.count : 0;
+  }
+  mean /= tests;
+  const auto priors = root.table("prior");
+  const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
+    spec.fallback = std::move(fallback);
+    return read_prior(root, priors, spec);
+  };
+  study.parameters.push_back(read({"log10_limit", "log10(Pa)", -INFINITY, INFINITY, mean},
+                                  {"normal", Normal{mean - std::log10(data.unit.scale), 0.3},
+                                   fmt::format("log10({})", data.unit.text)}));
+  study.parameters.push_back(
+      read({"sigma_limit", "1", 0, INFINITY, 0.03}, {"half-normal", Normal{0, 0.1}, "1", 0}));
+  study.meanings = {"logarithm of the median fatigue limit",
+                    "scatter of the logarithm of the fatigue limit"};
+  study.equation =
+      data.limit == StandardLaw::normal
+          ? "a test fails when the stress is above its item's limit; log10 of the limit is normal"
+          : "a test fails when the stress is above its item's limit; log10 of the limit has a "
+            "smallest extreme value law";
+  study.quantity = "outcome";
+  study.data_notes = {
+      fmt::format("{:.0f} tests: {:.0f} failures, {:.0f} run-outs", tests, failed, tests - failed)};
+  study.likelihood = [=](std::size_t rows) {
+    return fatigue::staircase_likelihood(
+        data.limit, {data.tests.begin(), data.tests.begin() + static_cast<std::ptrdiff_t>(rows)});
+  };
+  add_limits(data, study);
+  study.addition = [=](const Fit& fit) {
+    return addition(data, fit.exact ? fit.exact->nodes : fit.pooled);
+  };
+}
+
+}  // namespace wearwell

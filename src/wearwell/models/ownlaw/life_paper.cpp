@@ -1,0 +1,331 @@
+#include "wearwell/models/ownlaw/life_paper.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/models/ownlaw/own_life_law.h"
+#include "wearwell/models/ownlaw/own_path.h"
+#include "wearwell/present/plot.h"
+#include "wearwell/prob/plotting_positions.h"
+#include "wearwell/prob/standard_law.h"
+#include "wearwell/study/plot_study.h"
+
+// Longer than others: paper, points, lines and bands share one scale.
+namespace wearwell::ownlaw {
+namespace {
+
+using Numbers = std::vector<double>;
+
+constexpr std::size_t most_conditions = 6, curve_points = 40;
+constexpr Eigen::Index few_draws = 1000;
+
+// On which a law of the family is a straight line.
+struct Paper {
+  const char* name;
+  StandardLaw law;
+  bool straight = true;  // false: this family bends on it
+
+  double height(double p) const { return quantile(law, p); }
+};
+
+Paper paper_of(ResponseFamily family) {
+  switch (family) {
+    case ResponseFamily::weibull:
+    case ResponseFamily::exponential:
+      return {"Weibull", StandardLaw::smallest_extreme_value};
+    case ResponseFamily::smallest_extreme_value:
+      return {"smallest-extreme-value", StandardLaw::smallest_extreme_value};
+    case ResponseFamily::largest_extreme_value:
+      return {"largest-extreme-value", StandardLaw::largest_extreme_value};
+    case ResponseFamily::loglogistic:
+      return {"loglogistic", StandardLaw::logistic};
+    case ResponseFamily::lognormal:
+    case ResponseFamily::lognormal_by_moments:
+    case ResponseFamily::log10_normal:
+      return {"lognormal", StandardLaw::normal};
+    case ResponseFamily::gamma:
+    case ResponseFamily::inverse_gaussian:
+      return {"lognormal", StandardLaw::normal, false};
+    case ResponseFamily::student_t:
+      return {"normal", StandardLaw::normal, false};
+    default:
+      return {"normal", StandardLaw::normal};
+  }
+}
+
+// Observations under one condition, and the law there.
+struct Group {
+  Conditions conditions;
+  std::vector<Response> responses;
+  std::vector<int> counts;
+  std::shared_ptr<const LifeLaw> life;
+};
+
+// What the law depends on, of a row.
+Conditions conditions_of_row(const OwnLaw& law, std::size_t row) {
+  const law::Program& program = law.measured.front().program;
+  Conditions found;
+  std::vector<std::string> words;
+  for (std::size_t c = 0; c < law.row_symbols.columns.size(); ++c) {
+    if (!program.uses_column(c)) continue;
+    const NumberColumn& column = *law.data.number(law.row_symbols.columns[c].name);
+    found.numbers[column.name] = column.values[row];
+    const std::string& unit = column.unit.unit.text;
+    words.push_back(fmt::format("{} = {:.6g}{}", column.name,
+                                from_si(column.unit.unit, column.values[row]),
+                                unit == "1" ? "" : " " + unit));
+  }
+  for (std::size_t c = 0; c < law.row_symbols.labels.size(); ++c) {
+    if (!program.uses_label(c)) continue;
+    const LabelColumn& column = *law.data.label(law.row_symbols.labels[c].name);
+    found.labels[column.name] = column.at[row];
+    words.push_back(fmt::format("{} = {}", column.name,
+                                column.levels[static_cast<std::size_t>(column.at[row])]));
+  }
+  found.words = fmt::format("{}", fmt::join(words, ", "));
+  return found;
+}
+
+// None where there are more conditions than a figure shows.
+std::vector<Group> groups_of(const TomlReader& root, const std::shared_ptr<const OwnLaw>& law) {
+  const Measured& measured = law->measured.front();
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < measured.observed.rows.size(); ++i) {
+    const Conditions own = conditions_of_row(*law, measured.observed.rows[i]);
+    auto at = std::find_if(groups.begin(), groups.end(), [&](const Group& each) {
+      return each.conditions.numbers == own.numbers && each.conditions.labels == own.labels;
+    });
+    if (at == groups.end()) {
+      if (groups.size() == most_conditions) return {};
+      groups.push_back({own, {}, {}, {}});
+      at = groups.end() - 1;
+    }
+    at->responses.push_back(measured.observed.responses[i]);
+    at->counts.push_back(measured.observed.counts[i]);
+  }
+  for (Group& each : groups) {
+    each.life = std::make_shared<const LifeLaw>(
+        make_path(law, root, "likelihood", measured.wanted, false, each.conditions), measured);
+  }
+  return groups;
+}
+
+const char* colour_of(std::size_t group) {
+  constexpr const char* colours[] = {plot::colour::chains[0], plot::colour::chains[1],
+                                     plot::colour::chains[2], plot::colour::chains[3],
+                                     plot::colour::limit,     plot::colour::prior};
+  return colours[group];
+}
+
+class Drawing {
+ public:
+  Drawing(const OwnLaw& law, const std::vector<Group>& groups, const Fit& fit)
+      : measured_(law.measured.front()),
+        varies_(law.varies()),
+        groups_(groups),
+        paper_(paper_of(measured_.form->family)),
+        draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled, few_draws)) {
+    for (const Group& group : groups) {
+      for (const Response& each : group.responses) {
+        for (const double y : {each.at, each.until}) {
+          if (!std::isfinite(y) || (positive() && !(y > 0)) || (y == 0 && y == each.until))
+            continue;
+          low_ = std::min(low_, y);
+          high_ = std::max(high_, y);
+        }
+      }
+      positions_.push_back(plotting_positions(group.responses, group.counts));
+      for (const PlottingPosition& each : positions_.back()) {
+        least_ = std::min(least_, 0.5 * each.p);
+        most_ = std::max(most_, 1 - 0.5 * (1 - each.p));
+      }
+    }
+    const double room = positive() ? std::max(1.5, std::pow(high_ / low_, 0.15))
+                                   : 0.1 * std::max(high_ - low_, 1e-9 * std::abs(high_));
+    low_ = positive() ? low_ / room : low_ - room;
+    high_ = positive() ? high_ * room : high_ + room;
+    for (std::size_t i = 0; i < curve_points; ++i) {
+      const double share = static_cast<double>(i) / (curve_points - 1);
+      at_.push_back(positive() ? low_ * std::pow(high_ / low_, share)
+                               : std::lerp(low_, high_, share));
+    }
+  }
+
+  html::Figure paper() const {
+    std::vector<plot::Json> marks;
+    // Shares as a paper has them.
+    for (const double percent : {0.01, 0.1, 1., 5., 10., 20., 50., 80., 90., 99., 99.9}) {
+      const double p = percent / 100;
+      if (p < least_ || p > most_) continue;
+      marks.push_back(
+          plot::horizontal_line(paper_.height(p), {plot::colour::prior, "", 0.35, 0.5}));
+      marks.push_back(plot::text(shown(high_), paper_.height(p), fmt::format("{:g} %", percent),
+                                 plot::colour::prior));
+    }
+    for (std::size_t g = 0; g < groups_.size(); ++g) add_law(g, marks);
+    for (std::size_t g = 0; g < groups_.size(); ++g) add_points(g, marks);
+    return {"probability-paper", fmt::format("Probability plot on {} paper", paper_.name),
+            caption(),
+            plot::plot(fmt::format("Share that has failed against {}, on {} paper",
+                                   measured_.column, paper_.name),
+                       axis(),
+                       {"Share that has failed",
+                        false,
+                        paper_.height(least_),
+                        paper_.height(most_),
+                        {},
+                        false},
+                       marks, 380, true)};
+  }
+
+  html::Figure hazard() const {
+    std::vector<plot::Json> marks;
+    const double per = measured_.unit.scale;
+    double least = INFINITY, most = 0;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const std::vector<Numbers> bands = over_places([&](double life) {
+        const Distribution known = groups_[g].life->hazard(draws_, life);
+        return Numbers{per * known.quantile(0.05), per * known.quantile(0.5),
+                       per * known.quantile(0.95)};
+      });
+      Numbers x, low, middle, high;
+      for (std::size_t i = 0; i < at_.size(); ++i) {
+        if (!std::isfinite(bands[i][0]) || !(bands[i][0] > 0) || !std::isfinite(bands[i][2]))
+          continue;
+        x.push_back(shown(at_[i]));
+        low.push_back(bands[i][0]);
+        middle.push_back(bands[i][1]);
+        high.push_back(bands[i][2]);
+        least = std::min(least, middle.back());
+        most = std::max(most, middle.back());
+      }
+      if (x.empty()) continue;
+      marks.push_back(plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour_of(g), "", 0.25}));
+      marks.push_back(plot::line({{"x", x}, {"y", middle}, {"hazard", middle}},
+                                 {colour_of(g), label(g), 1, 2}));
+    }
+    const std::string unit = measured_.unit.text == "1"
+                                 ? ""
+                                 : fmt::format(" [{}]", html::unit(per_unit(measured_.unit)));
+    return {"hazard", "Hazard: the rate at which those fail that have come so far",
+            "The line is the posterior median, the band holds 90 %.",
+            plot::plot(fmt::format("Hazard against {}", measured_.column), axis(),
+                       {"Hazard" + unit, true, least > 0 ? least / 5 : 1e-12, 5 * most}, marks, 280,
+                       true)};
+  }
+
+ private:
+  bool positive() const { return measured_.form->positive; }
+  double shown(double y) const { return from_si(measured_.unit, y); }
+  plot::Axis axis() const {
+    const std::string unit = html::unit(measured_.unit.text);
+    return {html::capital(measured_.column) + (unit.empty() ? "" : fmt::format(" [{}]", unit)),
+            positive(), shown(low_), shown(high_)};
+  }
+  std::string label(std::size_t g) const {
+    const std::string& words = groups_[g].conditions.words;
+    return words.empty() ? "fitted law" : words;
+  }
+
+  template <class F>
+  std::vector<Numbers> over_places(const F& f) const {
+    std::vector<Numbers> all(at_.size());
+    tbb::parallel_for(std::size_t{0}, at_.size(), [&](std::size_t i) { all[i] = f(at_[i]); });
+    return all;
+  }
+
+  void add_law(std::size_t g, std::vector<plot::Json>& marks) const {
+    const std::vector<Numbers> bands = over_places([&](double life) {
+      const Distribution left = groups_[g].life->survival(draws_, life);
+      const auto failed = [&](double q) {
+        return paper_.height(std::clamp(1 - left.quantile(q), 0.1 * least_, 1 - 0.1 * (1 - most_)));
+      };
+      return Numbers{failed(0.95), failed(0.5), failed(0.05)};
+    });
+    Numbers x, low, middle, high;
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+      if (std::isnan(bands[i][1])) continue;
+      x.push_back(shown(at_[i]));
+      low.push_back(bands[i][0]);
+      middle.push_back(bands[i][1]);
+      high.push_back(bands[i][2]);
+    }
+    if (x.empty()) return;
+    marks.push_back(plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour_of(g), "", 0.22}));
+    marks.push_back(plot::line({{"x", x}, {"y", middle}}, {colour_of(g), label(g), 1, 2}));
+  }
+
+  void add_points(std::size_t g, std::vector<plot::Json>& marks) const {
+    Numbers x, y, percent;
+    for (const PlottingPosition& each : positions_[g]) {
+      x.push_back(shown(each.at));
+      y.push_back(paper_.height(each.p));
+      percent.push_back(100 * each.p);
+    }
+    if (x.empty()) return;
+    const bool alone = groups_.size() == 1;
+    marks.push_back(plot::points(
+        {{"x", x}, {"y", y}, {measured_.column, x}, {"failed [%]", percent}},
+        {alone ? plot::colour::measured : colour_of(g), alone ? "observed" : "", 1, 0, false, 60}));
+  }
+
+  std::string caption() const {
+    bool intervals = false, censored = false, none = false;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      for (const Response& each : groups_[g].responses) {
+        intervals |= each.seen == Seen::below || each.seen == Seen::between;
+        censored |= each.seen == Seen::above;
+      }
+      none |= positions_[g].empty();
+    }
+    std::string words = paper_.straight
+                            ? "A law of this family is a straight line here"
+                            : fmt::format("The {} law bends on this paper", measured_.form->name);
+    words +=
+        ". Lines are posterior medians of the share that has failed by then, bands hold 90 %. ";
+    words += intervals
+                 ? "Points are Turnbull's estimate, at the upper ends of the intervals where it "
+                   "has a step."
+             : censored ? "Points are Kaplan and Meier's estimate, each half way up its step; "
+                          "run-outs have no point, but count in the steps of others."
+                        : "Points stand at (i - 1/2)/n.";
+    if (none) words += " Where nothing failed, or entries come with intervals, there is no point.";
+    if (varies_) words += " Units differ, and the line is that of all units together.";
+    return words;
+  }
+
+  const Measured& measured_;
+  bool varies_;
+  const std::vector<Group>& groups_;
+  Paper paper_;
+  WeightedDraws draws_;
+  std::vector<std::vector<PlottingPosition>> positions_;
+  double low_ = INFINITY, high_ = -INFINITY, least_ = 0.05, most_ = 0.95;
+  Numbers at_;
+};
+
+}  // namespace
+
+void show_life_paper(const TomlReader& root, std::shared_ptr<const OwnLaw> law,
+                     PosteriorStudy& study) {
+  const Measured& measured = law->measured.front();
+  if (law->along || law->measured.size() > 1 || measured.form->counted ||
+      measured.program.has_paths() || measured.observed.failures == 0) {
+    return;
+  }
+  const auto groups = std::make_shared<const std::vector<Group>>(groups_of(root, law));
+  if (groups->empty()) return;
+  study.exhibits = [law, groups, before = study.exhibits](const Fit& fit) {
+    auto exhibits = before ? before(fit) : std::map<std::string, std::vector<html::Figure>>();
+    const Drawing drawing(*law, *groups, fit);
+    exhibits["verdict"].push_back(drawing.paper());
+    exhibits["predictions"].push_back(drawing.hazard());
+    return exhibits;
+  };
+}
+
+}  // namespace wearwell::ownlaw

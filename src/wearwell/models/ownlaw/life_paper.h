@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/models/ownlaw/own_law.h"
+#include "wearwell/study/posterior_study.h"
+
+namespace wearwell::ownlaw {
+
+/// Of a study whose likelihood is of a life: its observations on probability paper of their family with the
+/// fitted law and its band under each of up to six conditions, and the hazard. Adds to what the study shows.
+void show_life_paper(const TomlReader& root, std::shared_ptr<const OwnLaw> law,
+                     PosteriorStudy& study);
+
+}  // namespace wearwell::ownlaw

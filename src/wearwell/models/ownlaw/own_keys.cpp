@@ -1,0 +1,84 @@
+#include "wearwell/models/ownlaw/own_keys.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "wearwell/prob/response.h"
+#include "wearwell/study/posterior_keys.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+// One entry a name, with the families that have a slot of it.
+StudyKeys slot_keys() {
+  std::vector<std::pair<std::string, std::vector<std::string>>> slots;
+  for (const ResponseForm& form : response_forms()) {
+    for (const SlotForm& slot : form.slots) {
+      const std::string name(slot.name), family(form.name);
+      auto at = std::find_if(slots.begin(), slots.end(),
+                             [&](const auto& each) { return each.first == name; });
+      if (at == slots.end()) at = slots.insert(slots.end(), {name, {}});
+      if (at->second.empty() || at->second.back() != family) at->second.push_back(family);
+    }
+  }
+  StudyKeys keys;
+  for (const auto& [name, families] : slots) {
+    keys.push_back({"likelihood.*." + name, fmt::format("\"{}\"", name == "mean" ? "wear" : name),
+                    fmt::format("expression or number, of {}", fmt::join(families, ", "))});
+  }
+  return keys;
+}
+
+}  // namespace
+
+StudyKeys law_keys() {
+  StudyKeys keys = posterior_keys();
+  add_keys(
+      keys,
+      {{"data.columns.*", "{ column = \"h_um\", unit = \"um\" }",
+        "what expressions call `*`; `status`, `lower`, `upper`, `count` and `entry` say how much "
+        "is "
+        "known of an observation"},
+       {"constants.*", "\"50 mm^2\"", "a number with its unit, or a plain one"},
+       {"law.*", "\"k * work / area\"",
+        "intermediate value, or a state by its rate `\"d(depth)/d(distance)\"` ([law.md](law.md))"},
+       {"likelihood.*", "{ family = \"normal\", mean = \"wear\", sd = \"sigma\" }",
+        "one table a measured column"},
+       needed_key("likelihood.*.family", "\"normal\"", "law of its scatter")});
+  add_keys(keys, slot_keys());
+  add_keys(
+      keys,
+      {needed_key("likelihood.*.trials", "\"trials\"", "column of their numbers", {},
+                  {".family=binomial"}),
+       {"prior.*", "{ law = \"lognormal\", median = \"1e-6 mm^3/(N m)\", log_sd = 2 }",
+        "one a parameter; `k` or `\"k[PTFE]\"` of one of each level"},
+       {"varies.*", "{ k = { law = \"lognormal\", log_sd = \"k_scatter\" } }",
+        "what differs from level to level of this label"},
+       {"varies.*.*", "{ law = \"lognormal\", log_sd = \"k_scatter\" }", "of this parameter"},
+       needed_key("varies.*.*.law", "\"lognormal\"", "how it lies about the one of its name"),
+       needed_key("varies.*.*.log_sd", "\"k_scatter\"", "expression, of a lognormal law", {},
+                  {".law=lognormal"}),
+       needed_key("varies.*.*.sd", "\"a_scatter\"", "expression, of a normal law", {},
+                  {".law=normal"}),
+       {"varies.*.correlation", "\"rho\"", "of two that vary"},
+       {"predict.along", "\"distance\"", "column that is the axis of wear and life"},
+       {"predict.at", "[\"10 km\", \"50 km\"]", "measurements to come there"},
+       {"predict.given.*", "\"20 N\"",
+        "a condition; what is not named must be the same in all rows"},
+       {"predict.limit.*", "\"100 um\"", "when this expression reaches it: lives"},
+       {"predict.b_lives", "[1, 10]", "percentages that have failed, of a likelihood of a life"},
+       {"predict.survival_to", "\"1000 h\"", "share that outlasts it, one or several"},
+       {"predict.hazard_at", "\"1000 h\"", "rate at which those fail that have come so far"},
+       {"predict.credible_level", "0.9", "of lower bounds"},
+       {"predict.accelerated.*", "\"80 degC\"",
+        "conditions of a test, for the acceleration factor"},
+       {"predict.quantities.*", "\"exp(k_scatter^2/2)\"",
+        "any function of the parameters; or with its unit:"},
+       {"predict.quantities.*.value", "\"k * 20 [N]\"", "expression"},
+       {"predict.quantities.*.unit", "\"mm^3/m\"", "to report in"}});
+  return keys;
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,146 @@
+#include "wearwell/models/ownlaw/own_process_spread.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+
+#include "wearwell/models/ownlaw/own_first_passage.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr std::size_t most_points = 100, most_points_of_effects = 25;
+constexpr double least_share = 2e-3;  // of a unit's posterior: nodes with less are left out
+constexpr int cells = 12;             // of a new unit's effect, of equal probability
+
+double normal_quantile(double p) {
+  return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
+}
+
+// One thread's part: some points of the posterior, one after the other.
+class Part {
+ public:
+  Part(const OwnRows& rows, const ProcessLimit& mean, const std::vector<SpreadPath>& paths)
+      : rows_(rows),
+        column_(mean.column),
+        form_(*rows.law().measured[mean.column].process),
+        effects_(rows.law().effects.size()),
+        paths_(paths) {
+    for (const SpreadPath& each : paths) {
+      at_.push_back(
+          std::make_unique<Crossing>(*each.path.ahead, each.rising, each.begin, each.scale));
+      spreads.emplace_back();
+      spreads.back().ahead.resize(each.places.size());
+    }
+  }
+
+  void add(const double* x, double weight) {
+    for (auto& each : at_) each->at().move_to(x);
+    UnitRows& units = rows_.mine().rows;
+    units.move_to(x);
+    add_new(weight);
+    if (effects_ == 0) {
+      const std::vector<Standing> all = units.standings({}, column_);
+      for (std::size_t p = 0; p < paths_.size(); ++p) add_seen(p, nullptr, all, weight);
+      return;
+    }
+    for (const latent::Sweep& sweep : rows_.integrate(x).sweeps) {
+      std::vector<Standing> all;
+      for (std::size_t p = 0; p < paths_.size(); ++p) {
+        if (!paths_[p].unit || !(sweep.weight[*paths_[p].unit] > least_share)) continue;
+        if (all.empty()) all = units.standings(sweep.z, column_);
+        add_seen(p, &sweep.z[*paths_[p].unit * effects_], all,
+                 weight * sweep.weight[*paths_[p].unit]);
+      }
+    }
+  }
+
+  std::vector<Spread> spreads;
+
+ private:
+  // Effects of a new unit in cells of equal probability.
+  void add_new(double weight) {
+    std::vector<double> z(effects_);
+    const int each = effects_ == 0 ? 1 : cells, count = effects_ > 1 ? each * each : each;
+    for (int k = 0; k < count; ++k) {
+      if (effects_ > 0) z[0] = normal_quantile((k % each + 0.5) / each);
+      if (effects_ > 1) z[1] = normal_quantile((k / each + 0.5) / each);
+      for (std::size_t p = 0; p < paths_.size(); ++p) {
+        if (!paths_[p].unit) look_ahead(p, z.data(), 0, {}, weight / count);
+      }
+    }
+  }
+
+  void add_seen(std::size_t p, const double* z, const std::vector<Standing>& all, double weight) {
+    if (!paths_[p].unit) return;
+    const Standing& stands = all[*paths_[p].unit];
+    // Under other conditions the mean goes on from the place where it is as far.
+    double place = 0;
+    at_[p]->solve(1, z, &stands.mean, &place);
+    look_ahead(p, z, place - paths_[p].path.now, stands, weight);
+  }
+
+  void look_ahead(std::size_t p, const double* z, double shift, const Standing& stands,
+                  double weight) {
+    constexpr int edges = ScoreTable::edges;
+    PathAt& at = at_[p]->at();
+    at.stand(1, z);
+    for (std::size_t k = 0; k < paths_[p].places.size(); ++k) {
+      const double place = paths_[p].places[k] + shift;
+      at.evaluate(1, z, &place);
+      const double mean = at.output(0, 0), spread = at.output(1, 0);
+      const double scale = form_.by_sd ? spread * spread / std::abs(mean) : spread;
+      const double grown = mean - stands.mean;
+      double step[edges] = {};
+      if (form_.process == Process::wiener) {
+        // The path where it stands and its growth are both normal.
+        const double sd = std::sqrt(stands.variance + scale * std::abs(grown));
+        for (int e = 0; e < edges; ++e) step[e] = grown + sd * (-4 + 0.4 * e);
+      } else if (grown > 0) {
+        ScoreTable::increments(form_.process).look_up(grown, scale, step);
+      }
+      for (int e = 0; e + 1 < edges; ++e) {
+        spreads[p].ahead[k].add(weight * ScoreTable::weights()[static_cast<std::size_t>(e)],
+                                stands.at + step[e], stands.at + step[e + 1]);
+      }
+    }
+  }
+
+  const OwnRows& rows_;
+  std::size_t column_;
+  const ProcessForm& form_;
+  std::size_t effects_;
+  const std::vector<SpreadPath>& paths_;
+  std::vector<std::unique_ptr<Crossing>> at_;
+};
+
+}  // namespace
+
+std::vector<Spread> process_spreads(const OwnRows& rows, const ProcessLimit& mean,
+                                    const std::vector<SpreadPath>& paths,
+                                    const WeightedDraws& draws) {
+  const FewPoints few(draws, rows.law().varies() ? most_points_of_effects : most_points);
+  constexpr std::size_t parts = 16;  // whatever the number of threads: sums keep their order
+  std::vector<std::vector<Spread>> each(parts);
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
+    Part part(rows, mean, paths);
+    const std::size_t n = few.weights.size();
+    for (std::size_t i = p * n / parts; i < (p + 1) * n / parts; ++i) {
+      part.add(few.values.row(static_cast<Eigen::Index>(i)).data(), few.weights[i]);
+    }
+    each[p] = std::move(part.spreads);
+  });
+  std::vector<Spread> all = std::move(each[0]);
+  for (std::size_t p = 1; p < parts; ++p) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      for (std::size_t k = 0; k < all[i].ahead.size(); ++k) {
+        all[i].ahead[k].add(each[p][i].ahead[k]);
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,107 @@
+// Published maximum likelihood fits of lives, from the file of a study to its likelihood
+// (tests/golden/own_law.R computes them a second time).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scratch.h"
+#include "wearwell/infer/maximize.h"
+#include "wearwell/models/ownlaw/own_likelihood.h"
+#include "wearwell/models/ownlaw/own_reader.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+class PublishedLives : public ScratchTest {
+ protected:
+  std::shared_ptr<const LogDensity> likelihood(const std::string& file, const std::string& text) {
+    std::filesystem::copy_file(PROJECT_SOURCE_DIR "/" + file, folder() / "d.csv");
+    const Source source =
+        source_of(write("study.toml", "model = \"law\"\n[data]\nfile = \"d.csv\"\n" + text));
+    const TomlReader root = TomlReader::parse(source.study);
+    const auto law = read_own_law(root, source);
+    return own_likelihood(std::make_shared<const OwnRows>(law, law->data.table.rows));
+  }
+};
+
+Maximum climb(const LogDensity& density, const std::vector<double>& start,
+              const std::vector<double>& unit, double lowest = -INFINITY) {
+  const auto n = static_cast<Eigen::Index>(start.size());
+  return maximize(density, Eigen::Map<const Eigen::VectorXd>(start.data(), n),
+                  Eigen::Map<const Eigen::VectorXd>(unit.data(), n),
+                  {Eigen::VectorXd::Constant(n, lowest), Eigen::VectorXd::Constant(n, INFINITY)});
+}
+
+std::string alloy(const std::string& shape, const std::string& priors) {
+  return R"toml(
+[data.columns]
+life = "kcycles"
+stress = { column = "stress", unit = "ksi" }
+status = "status"
+[law]
+x = "log(stress / 100 [ksi])"
+mu = "b0 + b1 * x + b2 * x^2"
+[likelihood.life]
+family = "weibull"
+scale = "exp(mu)"
+shape = ")toml" +
+         shape +
+         "\"\n[prior]\nb0 = { law = \"flat\" }\nb1 = { law = \"flat\" }\nb2 = { law = \"flat\" "
+         "}\n" +
+         priors;
+}
+
+// Meeker and Escobar (1998), nickel-base super alloy with four run-outs, log stress in ksi: 217.61, -85.52, 8.483, 0.375, -93.38.
+TEST_F(PublishedLives, QuadraticWeibullRegression) {
+  const auto density =
+      likelihood("tests/golden/superalloy.csv", alloy("1/sigma", "sigma = { law = \"flat\" }\n"));
+  const Maximum found = climb(*density, {3, -7, 5, 0.5}, {1, 1, 1, 0.1});
+  ASSERT_TRUE(found.converged);
+  const double center = std::log(100.0);  // where the square is counted from here
+  const double b2 = found.x[2], b1 = found.x[1] - 2 * center * b2;
+  const double b0 = found.x[0] - center * b1 - center * center * b2;
+  EXPECT_NEAR(b0, 217.611143, 2e-2);
+  EXPECT_NEAR(b1, -85.522376, 1e-2);
+  EXPECT_NEAR(b2, 8.482727, 1e-3);
+  EXPECT_NEAR(found.x[3], 0.374740, 1e-5);
+  EXPECT_NEAR(found.value, -93.381881, 2e-6);
+}
+
+// The same with a scale of log life that falls with stress.
+TEST_F(PublishedLives, QuadraticWeibullRegressionWithAScaleThatDependsOnStress) {
+  const auto density = likelihood(
+      "tests/golden/superalloy.csv",
+      alloy("exp(-(s0 + s1 * x))", "s0 = { law = \"flat\" }\ns1 = { law = \"flat\" }\n"));
+  const Maximum found = climb(*density, {3, -7, 5, -0.7, 0}, {1, 1, 1, 0.3, 0.3});
+  ASSERT_TRUE(found.converged);
+  const double expected[] = {3.635940, -7.503421, 9.665032, -0.947862, -1.175712};
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(found.x[i], expected[i], 1e-4 * std::abs(expected[i])) << i;
+  EXPECT_NEAR(found.value, -92.580896, 2e-6);
+}
+
+// The ball bearings with a threshold: the maximum within. Towards the first life the likelihood has no bound.
+TEST_F(PublishedLives, WeibullWithThreshold) {
+  const auto density = likelihood("examples/life/bearings.csv", R"toml(
+[data.columns]
+life = "million_revolutions"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+threshold = "gamma"
+[prior]
+eta = { law = "flat" }
+beta = { law = "flat" }
+gamma = { law = "flat" }
+)toml");
+  const Maximum found = climb(*density, {70, 1.8, 10}, {10, 0.2, 2}, 1e-3);
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 63.880047, 2e-3);
+  EXPECT_NEAR(found.x[1], 1.594299, 5e-5);
+  EXPECT_NEAR(found.x[2], 14.875916, 1e-3);
+  EXPECT_NEAR(found.value, -112.850189, 2e-6);
+}
+
+}  // namespace
+}  // namespace wearwell::ownlaw
