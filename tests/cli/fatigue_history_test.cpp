@@ -112,6 +112,27 @@ class FatigueLife : public FatigueHistory {
   }
 };
 
+// Without a report the tables of the design curves are there all the same.
+TEST_F(FatigueHistory, DesignCurvesWithoutAReport) {
+  const CommandResult fit =
+      run_command("cd '" + folder().string() + "'; '" WEARWELL_BINARY "' fit '" + example +
+                  "study.toml' --method exact --no-report --json -o out");
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  EXPECT_TRUE(fs::exists(folder() / "out/tables/design-curves.csv"));
+  const json curves = json::parse(fit.out)["design_curves"];
+  ASSERT_EQ(curves["curves"].size(), 4u);
+  for (const json& curve : curves["curves"]) {
+    double before = 0;
+    for (const json& point : curve["points"]) {  // from the highest stress down lives grow
+      EXPECT_GT(point["life"], before);
+      before = point["life"];
+      // One run-out among 25, weak priors: the standards come near.
+      EXPECT_NEAR(point["life"].get<double>() / point["owen"].get<double>(), 1, 0.15);
+    }
+  }
+  EXPECT_EQ(curves["astm_e739"]["left_out"], 1);
+}
+
 // Life under so many equal cycles is what the study itself says of that stress.
 TEST_F(FatigueLife, OfConstantAmplitudeIsTheStudys) {
   write("cycles.csv", "amplitude [MPa],stress_ratio,cycles\n400,-1,1000\n");

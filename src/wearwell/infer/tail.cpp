@@ -1,5 +1,7 @@
 #include "wearwell/infer/tail.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -222,12 +224,11 @@ std::vector<Tail> tails(const Posterior& posterior, const Mode& mode) {
   const bool all_proper =
       std::all_of(posterior.parameters().begin(), posterior.parameters().end(),
                   [](const Parameter& parameter) { return parameter.prior.proper; });
-  std::vector<Tail> all;
-  for (int i = 0; i < posterior.dimension(); ++i) {
-    for (const bool outward : {false, true}) {
-      all.push_back(measure(posterior, mode, i, outward, all_proper));
-    }
-  }
+  // Each walk is its own; they take most of the time where a likelihood costs much.
+  std::vector<Tail> all(2 * static_cast<std::size_t>(posterior.dimension()));
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
+    all[k] = measure(posterior, mode, static_cast<int>(k / 2), k % 2 == 1, all_proper);
+  });
   return all;
 }
 

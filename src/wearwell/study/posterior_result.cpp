@@ -40,7 +40,8 @@ Result posterior_result(PosteriorSummary summary) {
     if (!s.stages.empty()) add(stage_table(s));
     if (s.coverage) add(coverage_table(*s.coverage));
     for (const auto& [section, blocks] : s.added.blocks) {
-      for (const present::Table* table : present::tables({{section, "", blocks}})) add(*table);
+      const std::vector<present::Section> sections = {{section, "", blocks}};
+      for (const present::Table* table : present::tables(sections)) add(*table);
     }
   }
   result.text = [shared](const TerminalStyle& style) { return terminal_summary(*shared, style); };
