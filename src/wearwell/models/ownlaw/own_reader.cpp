@@ -13,6 +13,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/prior.h"
+#include "wearwell/models/ownlaw/own_order.h"
 
 // Longer than others: the sections of one study file, each of which needs the names of those before.
 namespace wearwell::ownlaw {
@@ -63,9 +64,9 @@ class Reader {
     read_effects();
     compile_population();
     compile_measured();
-    order_rows();
-    require_rising();
-    require_failures();
+    order_rows(*law_, root_);
+    require_rising(*law_);
+    require_failures(*law_);
     return law_;
   }
 
@@ -577,89 +578,6 @@ class Reader {
       if (measured || (law_->label && law_->population.uses_parameter(s))) continue;
       const std::string& name = law_->symbols.parameters[s].name;
       priors.fail(name, "has no part in any likelihood: nothing would be learnt of it");
-    }
-  }
-
-  void order_rows() {
-    const bool paths =
-        std::any_of(law_->measured.begin(), law_->measured.end(),
-                    [](const Measured& m) { return m.program.has_paths() || m.process; });
-    const LabelColumn* label = law_->label ? law_->data.label(*law_->label) : nullptr;
-    if (!label && paths && law_->symbols.labels.size() == 1) {
-      label = law_->data.label(law_->symbols.labels.front().name);
-    } else if (!label && paths && law_->symbols.labels.size() > 1) {
-      root_.fail("data", "which rows follow each other? There are several labels, and none varies");
-    }
-    const std::size_t rows = law_->data.table.rows;
-    law_->unit_of_row.assign(rows, 0);
-    if (label) {
-      law_->units = label->levels;
-      law_->unit_of_row.assign(label->at.begin(), label->at.end());
-    } else {
-      law_->units = {""};
-    }
-    const NumberColumn* axis = law_->along ? law_->data.number(*law_->along) : nullptr;
-    if (paths && !axis) {
-      root_.required_table("predict").fail("along",
-                                           "is missing: the column along which a unit's "
-                                           "rows follow each other");
-    }
-    if (axis) law_->data.require_complete(*axis);
-    law_->order.resize(rows);
-    std::iota(law_->order.begin(), law_->order.end(), std::size_t{0});
-    std::stable_sort(law_->order.begin(), law_->order.end(), [&](std::size_t a, std::size_t b) {
-      if (law_->unit_of_row[a] != law_->unit_of_row[b]) {
-        return law_->unit_of_row[a] < law_->unit_of_row[b];
-      }
-      return paths && axis->values[a] < axis->values[b];
-    });
-  }
-
-  // A process that only rises has readings that do, along a unit's rows.
-  void require_rising() const {
-    if (!law_->has_process()) return;
-    const NumberColumn& axis = *law_->data.number(*law_->along);
-    for (const Measured& each : law_->measured) {
-      if (!each.process) continue;
-      const NumberColumn& column = *law_->data.number(each.column);
-      const bool noisy = each.wanted.size() > 2;
-      std::optional<std::size_t> before;
-      for (const std::size_t row : law_->order) {
-        if (std::isnan(column.values[row])) continue;
-        const bool first = !before || law_->unit_of_row[*before] != law_->unit_of_row[row];
-        const std::string where = place(law_->data.table, column.column, row);
-        const double y = column.values[row];
-        if (!noisy && !first && axis.values[*before] == axis.values[row]) {
-          throw InputError(
-              fmt::format("{}: two readings at one place: one of a {} without noise "
-                          "has no error, and there is one path",
-                          where, each.form->name));
-        }
-        if (each.process->process != Process::wiener &&
-            !(y > (first ? 0 : column.values[*before]))) {
-          throw InputError(fmt::format(
-              "{}: {:.6g} {} after {:.6g}: a {} only rises from row to row of a unit, from 0 on; a "
-              "wiener-process may fall, and has noise",
-              where, from_si(each.unit, y), each.unit.text,
-              first ? 0.0 : from_si(each.unit, column.values[*before]), each.form->name));
-        }
-        before = row;
-      }
-    }
-  }
-
-  // Lives without one failure have no upper end but their prior's.
-  void require_failures() const {
-    for (const Measured& each : law_->measured) {
-      if (each.form->counted || each.observed.failures > 0) continue;
-      for (const Parameter& parameter : law_->parameters) {
-        if (parameter.prior.proper) continue;
-        throw InputError(
-            fmt::format("{}: no row of '{}' is a failure: then every parameter needs a proper "
-                        "prior, and that of "
-                        "{} is {}",
-                        law_->data.table.source, each.column, parameter.name, parameter.law));
-      }
     }
   }
 

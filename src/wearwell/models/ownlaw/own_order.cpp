@@ -1,0 +1,93 @@
+#include "wearwell/models/ownlaw/own_order.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "wearwell/base/error.h"
+
+namespace wearwell::ownlaw {
+
+void order_rows(OwnLaw& law, const TomlReader& root) {
+  const bool paths = std::any_of(law.measured.begin(), law.measured.end(), [](const Measured& m) {
+    return m.program.has_paths() || m.process;
+  });
+  const LabelColumn* label = law.label ? law.data.label(*law.label) : nullptr;
+  if (!label && paths && law.symbols.labels.size() == 1) {
+    label = law.data.label(law.symbols.labels.front().name);
+  } else if (!label && paths && law.symbols.labels.size() > 1) {
+    root.fail("data", "which rows follow each other? There are several labels, and none varies");
+  }
+  const std::size_t rows = law.data.table.rows;
+  law.unit_of_row.assign(rows, 0);
+  if (label) {
+    law.units = label->levels;
+    law.unit_of_row.assign(label->at.begin(), label->at.end());
+  } else {
+    law.units = {""};
+  }
+  const NumberColumn* axis = law.along ? law.data.number(*law.along) : nullptr;
+  if (paths && !axis) {
+    root.required_table("predict").fail("along",
+                                        "is missing: the column along which a unit's "
+                                        "rows follow each other");
+  }
+  if (axis) law.data.require_complete(*axis);
+  law.order.resize(rows);
+  std::iota(law.order.begin(), law.order.end(), std::size_t{0});
+  std::stable_sort(law.order.begin(), law.order.end(), [&](std::size_t a, std::size_t b) {
+    if (law.unit_of_row[a] != law.unit_of_row[b]) {
+      return law.unit_of_row[a] < law.unit_of_row[b];
+    }
+    return paths && axis->values[a] < axis->values[b];
+  });
+}
+
+void require_rising(const OwnLaw& law) {
+  if (!law.has_process()) return;
+  const NumberColumn& axis = *law.data.number(*law.along);
+  for (const Measured& each : law.measured) {
+    if (!each.process) continue;
+    const NumberColumn& column = *law.data.number(each.column);
+    const bool noisy = each.wanted.size() > 2;
+    std::optional<std::size_t> before;
+    for (const std::size_t row : law.order) {
+      if (std::isnan(column.values[row])) continue;
+      const bool first = !before || law.unit_of_row[*before] != law.unit_of_row[row];
+      const std::string where = place(law.data.table, column.column, row);
+      const double y = column.values[row];
+      if (!noisy && !first && axis.values[*before] == axis.values[row]) {
+        throw InputError(
+            fmt::format("{}: two readings at one place: one of a {} without noise "
+                        "has no error, and there is one path",
+                        where, each.form->name));
+      }
+      if (each.process->process != Process::wiener && !(y > (first ? 0 : column.values[*before]))) {
+        throw InputError(fmt::format(
+            "{}: {:.6g} {} after {:.6g}: a {} only rises from row to row of a unit, from 0 on; a "
+            "wiener-process may fall, and has noise",
+            where, from_si(each.unit, y), each.unit.text,
+            first ? 0.0 : from_si(each.unit, column.values[*before]), each.form->name));
+      }
+      before = row;
+    }
+  }
+}
+
+void require_failures(const OwnLaw& law) {
+  for (const Measured& each : law.measured) {
+    if (each.form->counted || each.observed.failures > 0) continue;
+    for (const Parameter& parameter : law.parameters) {
+      if (parameter.prior.proper) continue;
+      throw InputError(
+          fmt::format("{}: no row of '{}' is a failure: then every parameter needs a proper "
+                      "prior, and that of "
+                      "{} is {}",
+                      law.data.table.source, each.column, parameter.name, parameter.law));
+    }
+  }
+}
+
+}  // namespace wearwell::ownlaw
