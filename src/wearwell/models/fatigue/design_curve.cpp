@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/models/fatigue/life.h"
+#include "wearwell/models/fatigue/sn_result.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/plot_study.h"
@@ -260,7 +261,9 @@ StandardFit standard_fit(const SnLaw& law, const SnData& data) {
   return fit;
 }
 
-void add_design_curves(const SnLaw& law, const SnData& data, const Fit& fit, TradeAddition& added) {
+TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) {
+  TradeAddition added;
+  added.body["fatigue"] = fatigue::sn_json(law, data);
   const WeightedDraws draws = thinned(fit.exact ? fit.exact->nodes : fit.pooled,
                                       law.limit ? most_draws_with_limit : most_draws);
   const StandardFit standard = standard_fit(law, data);
@@ -274,7 +277,7 @@ void add_design_curves(const SnLaw& law, const SnData& data, const Fit& fit, Tra
   blocks.push_back({curves_table(data, points)});
   added.text += text_of(data, points, why);
   added.body["design_curves"] = json_of(data, points, standard, why);
-  if (!law.logarithmic()) return;
+  if (!law.logarithmic()) return added;
   const ScatterRange t = scatter_range(law, draws);
   present::Table table{"scatter",
                        "Slope and scatter ranges, 10 to 90 % of items (FKM, DIN 50100)",
@@ -285,6 +288,7 @@ void add_design_curves(const SnLaw& law, const SnData& data, const Fit& fit, Tra
   blocks.push_back({table});
   added.body["design_curves"]["scatter"] = {
       {"k", {t.k05, t.k50, t.k95}}, {"T_N", {t.n05, t.n50, t.n95}}, {"T_S", {t.s05, t.s50, t.s95}}};
+  return added;
 }
 
 }  // namespace wearwell

@@ -32,9 +32,9 @@ struct StandardFit {
 };
 StandardFit standard_fit(const fatigue::SnLaw& law, const SnData& data);
 
-/// Design curves with the standards' own numbers beside them, scatter ranges T_N and T_S, and why they
-/// differ: tables, a sentence, keys of summary.json under "design_curves".
-void add_design_curves(const fatigue::SnLaw& law, const SnData& data, const Fit& fit,
-                       TradeAddition& added);
+/// What an S-N study adds to its result: under "fatigue" what `wearwell fatigue life` goes on from, under
+/// "design_curves" the curves with the standards' own numbers beside them, scatter ranges T_N and T_S,
+/// and why they differ; the same as tables and text.
+TradeAddition sn_addition(const fatigue::SnLaw& law, const SnData& data, const Fit& fit);
 
 }  // namespace wearwell

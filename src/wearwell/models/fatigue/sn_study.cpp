@@ -12,7 +12,6 @@
 #include "wearwell/models/fatigue/sn_exhibits.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/models/fatigue/sn_predictions.h"
-#include "wearwell/models/fatigue/sn_result.h"
 #include "wearwell/models/fatigue/sn_scores.h"
 
 namespace wearwell {
@@ -341,12 +340,7 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
                        from_si(data.stress_unit, std::pow(10, log10_a)), data.stress_unit.text, b);
   };
   study.coverage = [=](const WeightedDraws& draws) { return sn_coverage(law, data, draws); };
-  study.addition = [=](const Fit& fit) {
-    TradeAddition added;
-    added.body["fatigue"] = fatigue::sn_json(law, data);
-    add_design_curves(law, data, fit, added);
-    return added;
-  };
+  study.addition = [=](const Fit& fit) { return sn_addition(law, data, fit); };
   study.exhibits = [=](const Fit& fit) { return sn_exhibits(law, data, predictions, fit); };
   study.checks = [=](const Fit& fit) { return sn_checks(law, data, predictions, fit); };
 }
