@@ -65,23 +65,25 @@ class StudyKeysTest : public ScratchTest {
     write("wear.csv",
           "cycles,volume,work,force,slip,depth,bearing,radius,clearance,contact,pressure,length,"
           "revolutions,speed,time,alternating_stress,R,mean_stress,max_stress,min_stress,amplitude,"
-          "mean,cycles_until,status,count,type\n"
+          "mean,cycles_until,status,count,type,trials\n"
           "100,5,1,60,6,10,A,10,25,stationary,1,20,1000,60,1,300,-1,10,300,-300,5,10,200,failure,1,"
-          "A\n"
+          "A,9\n"
           "1000,9,8,61,60,20,B,10,25,stationary,1,20,3000,60,3,250,-1,10,250,-250,4,10,2000,"
-          "failure,2,B\n"
+          "failure,2,B,9\n"
           "9000,40,70,60,540,60,B,10,25,stationary,1,20,9000,60,9,200,-1,10,200,-200,3,10,9900,"
-          "runout,1,B\n");
+          "runout,1,B,9\n");
     write("cycle.csv", "force,ds\n60,1\n61,1\n60,1\n61,1\n");
     write("positions.csv",
           "cycles,dx,dy\n100,0.01,0\n100,0,0.01\n100,-0.01,0\n100,0,-0.01\n9000,0.05,0\n9000,0,"
           "0.05\n9000,-0.05,0\n9000,0,-0.05\n");
-    for (const char* name : {"joint", "bearing", "fatigue", "clutch", "spring"}) {
+    for (const char* name :
+         {"joint", "bearing", "fatigue", "clutch", "spring", "law", "life", "accelerated"}) {
       for (const auto& entry :
            fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / name))
         if (!fs::exists(folder() / entry.path().filename()))
           fs::copy(entry.path(), folder() / entry.path().filename());
     }
+    fs::copy(fs::path(PROJECT_SOURCE_DIR) / "examples/law/wear.csv", folder() / "law.csv");
   }
 
   // Reads as `read_study` does, and keeps what was asked for.
@@ -162,6 +164,12 @@ const std::vector<Start>& starts() {
        {{"conditions.S_ut", "\"1200 MPa\""},
         {"predict.reliability", "\"90 %\""},
         {"predict.stress_ratio", "-1"}}},
+      {"law",
+       {{"data.columns.depth", "{ column = \"depth\", unit = \"um\" }"},
+        {"likelihood.depth.mean", "\"a\""},
+        {"likelihood.depth.sd", "\"s\""},
+        {"prior.a", "{ law = \"normal\", mean = \"20 um\", sd = \"20 um\" }"},
+        {"prior.s", "{ law = \"half-normal\", scale = \"20 um\" }"}}},
   };
   return all;
 }
@@ -246,6 +254,36 @@ limit = "100 mm^3"
   const auto with_law = [&](const std::string& law) {
     return joint("[prior]\nk = " + law + "\nsigma = { law = \"flat\", unit = \"mm^3\" }\n");
   };
+  // One family after the other, of depths that grow with time; what a law does not use is refused.
+  const auto own_law = [](const std::string& family, const std::string& slots,
+                          const std::string& more) {
+    std::string priors;
+    const std::pair<const char*, const char*> all_priors[] = {
+        {"a", "{ law = \"lognormal\", median = \"10 um\", log_sd = 1 }"},
+        {"b", "{ law = \"lognormal\", median = \"5 um/h\", log_sd = 1 }"},
+        {"c", "{ law = \"half-normal\", scale = \"9 um\" }"},
+        {"q", "{ law = \"half-normal\", scale = 1 }"},
+        {"r", "{ law = \"half-normal\", scale = \"5 um\" }"},
+        {"u", "{ law = \"uniform\", lower = -1, upper = 1 }"}};
+    for (const auto& [name, prior] : all_priors) {
+      const bool used = std::string("ab").find(name) != std::string::npos ||
+                        (slots + more).find(fmt::format("\"{}\"", name)) != std::string::npos;
+      if (used) priors += fmt::format("{} = {}\n", name, prior);
+    }
+    return fmt::format(R"toml(model = "law"
+[data]
+file = "wear.csv"
+[data.columns]
+depth = {{ column = "depth", unit = "um" }}
+time = {{ column = "time", unit = "h" }}
+bearing = "bearing"
+[likelihood.depth]
+family = "{}"
+{}
+[prior]
+{}{})toml",
+                       family, slots, priors, more);
+  };
   static const std::vector<std::pair<const char*, std::string>> all = {
       {"archard-joint",
        joint(
@@ -279,6 +317,33 @@ sigma = { law = "flat", unit = "mm^3" }
 work_per_cycle = "5 N m"
 cycles = [10000]
 )toml"},
+      {"law", own_law("normal", "mean = \"a + b * time\"\nsd = \"c\"", R"toml([varies.bearing]
+a = { law = "normal", sd = "r" }
+b = { law = "lognormal", log_sd = "q" }
+correlation = "u"
+[predict]
+along = "time"
+[predict.quantities]
+rate = { value = "b", unit = "um/h" }
+)toml")},
+      {"law", own_law("lognormal", "median = \"a + b * time\"\nlog_sd = \"q\"", "")},
+      {"law", own_law("log10-normal", "median = \"a + b * time\"\nlog10_sd = \"q\"", "")},
+      {"law", own_law("student-t", "df = 4\nlocation = \"a + b * time\"\nscale = \"c\"", "")},
+      {"law", own_law("weibull", "scale = \"a + b * time\"\nshape = \"q\"\nthreshold = \"1 [um]\"",
+                      "[predict]\ngiven = { time = \"2 h\" }\nhazard_at = \"9 um\"\n")},
+      {"law", R"toml(model = "law"
+[data]
+file = "wear.csv"
+[data.columns]
+failed = "count"
+trials = "trials"
+[likelihood.failed]
+family = "binomial"
+probability = "p"
+trials = "trials"
+[prior]
+p = { law = "beta", alpha = 2, beta = 2 }
+)toml"},
   };
   return all;
 }
@@ -288,12 +353,17 @@ void add_examples(std::vector<std::pair<std::string, std::string>>& studies) {
                                                       {"bearing", "bearing-wear"},
                                                       {"fatigue", "sn"},
                                                       {"spring", "sn"},
-                                                      {"clutch", "clutch-wear"}};
+                                                      {"clutch", "clutch-wear"},
+                                                      {"law", "law"},
+                                                      {"life", "law"},
+                                                      {"accelerated", "law"}};
   for (const auto& [folder, model] : folders) {
     for (const auto& entry :
          fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / folder)) {
-      if (entry.path().extension() == ".toml" && entry.path().filename() != "truth.toml")
-        studies.emplace_back(model, read_text_file(entry.path()).text);
+      if (entry.path().extension() != ".toml" || entry.path().filename() == "truth.toml") continue;
+      std::string text = read_text_file(entry.path()).text;
+      if (folder == "law") text = std::regex_replace(text, std::regex("wear\\.csv"), "law.csv");
+      studies.emplace_back(model, text);
     }
   }
 }
@@ -311,7 +381,7 @@ std::string kinds_of(const StudyKey& key, const Asked& asked) {
   if (key.path.starts_with("prior.") && !key.path.starts_with("prior.*"))
     return "law with its keys";
   const bool of_unknown = key.path.starts_with("prior.*") || key.path.ends_with("half_width.*");
-  if (of_unknown && (kinds.size() > 1 || kinds.begin()->starts_with("text like")))
+  if (of_unknown && !kinds.empty() && (kinds.size() > 1 || kinds.begin()->starts_with("text like")))
     return "as the unknown";
   return fmt::format("{}", fmt::join(kinds, " or "));
 }

@@ -1,5 +1,6 @@
 #include "wearwell/models/ownlaw/model.h"
 
+#include "wearwell/models/ownlaw/own_keys.h"
 #include "wearwell/models/ownlaw/own_study.h"
 
 namespace wearwell {
@@ -28,7 +29,8 @@ Model law_with(std::string_view trade, std::span<const ExampleFile> example) {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_law_study);
               },
-          .add_commands = nullptr};
+          .add_commands = nullptr,
+          .keys = law_keys};
 }
 
 }  // namespace

@@ -101,7 +101,9 @@ class Reader {
     if (const auto predict = root_.table("predict")) {
       if (const auto quantities = predict->table("quantities")) {
         for (const std::string& key : quantities->keys()) {
-          texts_.push_back(expression(*quantities, key));
+          texts_.push_back(quantities->is_text(key)
+                               ? quantities->required_text(key)
+                               : quantities->required_table(key).required_text("value"));
         }
       }
     }
