@@ -132,7 +132,10 @@ class Fit:
 
     @functools.cached_property
     def lives(self):
-        """Lives among the quantities, and the life to the limit of a study that has one."""
+        """Lives among the quantities, and the life to the limit of a study that has one. InputError for a clutch, whose lives
+        are in fit.summary["life"] and fit.tables, each with two intervals."""
+        if "sampler" not in self.summary:
+            self._need("life", "lives of this form")
         rows = [row for row in _lives_and_quantities(self.summary) if row["is_life"]]
         if "life" in self.summary:
             life = self.summary["life"]
@@ -302,10 +305,11 @@ class Fit:
                f"<p><b>{html.escape(self.summary['title'])}</b>: {word}</p>"]
         out += [f"<p>{html.escape(f'{c.name}: {c.detail}. {c.advice}'.rstrip())}</p>"
                 for c in self.checks if c.verdict != "pass"]
-        if "parameters" in self.summary:
+        posterior = "sampler" in self.summary
+        if posterior:
             shown = self.parameters[["unit", "mean", "sd", "q05", "q50", "q95"]]
             out.append(shown.to_html(float_format=lambda x: f"{x:.4g}", border=0))
-        if len(self.lives):
+        if posterior and len(self.lives):
             out.append(self.lives[["name", "of", "at", "unit", "q05", "q50", "q95", "b10"]].to_html(
                 float_format=lambda x: f"{x:.4g}", border=0, index=False))
         out.append("</div>")

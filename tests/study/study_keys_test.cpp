@@ -329,6 +329,8 @@ rate = { value = "b", unit = "um/h" }
       {"law", own_law("lognormal", "median = \"a + b * time\"\nlog_sd = \"q\"", "")},
       {"law", own_law("log10-normal", "median = \"a + b * time\"\nlog10_sd = \"q\"", "")},
       {"law", own_law("student-t", "df = 4\nlocation = \"a + b * time\"\nscale = \"c\"", "")},
+      {"law", own_law("wiener-process", "mean = \"a + b * time\"\nscale = \"c\"\nnoise = \"r\"",
+                      "[predict]\nalong = \"time\"\n")},
       {"law", own_law("weibull", "scale = \"a + b * time\"\nshape = \"q\"\nthreshold = \"1 [um]\"",
                       "[predict]\ngiven = { time = \"2 h\" }\nhazard_at = \"9 um\"\n")},
       {"law", R"toml(model = "law"

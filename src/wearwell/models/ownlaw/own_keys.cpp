@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "wearwell/models/ownlaw/own_process.h"
 #include "wearwell/prob/response.h"
 #include "wearwell/study/posterior_keys.h"
 
@@ -14,7 +15,7 @@ namespace {
 // One entry a name, with the families that have a slot of it.
 StudyKeys slot_keys() {
   std::vector<std::pair<std::string, std::vector<std::string>>> slots;
-  for (const ResponseForm& form : response_forms()) {
+  const auto add = [&](const ResponseForm& form) {
     for (const SlotForm& slot : form.slots) {
       const std::string name(slot.name), family(form.name);
       auto at = std::find_if(slots.begin(), slots.end(),
@@ -22,7 +23,9 @@ StudyKeys slot_keys() {
       if (at == slots.end()) at = slots.insert(slots.end(), {name, {}});
       if (at->second.empty() || at->second.back() != family) at->second.push_back(family);
     }
-  }
+  };
+  for (const ResponseForm& each : response_forms()) add(each);
+  for (const ProcessForm& each : process_forms()) add(each.form);
   StudyKeys keys;
   for (const auto& [name, families] : slots) {
     keys.push_back({"likelihood.*." + name, fmt::format("\"{}\"", name == "mean" ? "wear" : name),
