@@ -192,22 +192,23 @@ std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum,
         "scatter_high [mm^3]{},outside\n",
         sum.with_replicates() ? ",sd_full [mm^3],full_low [mm^3],full_high [mm^3]" : ""));
   }
-  using BatchPointer = std::shared_ptr<Batch>;
-  const auto read = [&](tbb::flow_control& control) {
-    auto batch = std::make_shared<Batch>();
-    if (!reader.next(*batch)) {
-      control.stop();
-      return BatchPointer();
-    }
-    return batch;
+  // Owned here: oneTBB does not free what it holds when a stage throws. Batches leave in the order
+  // in which they came, so that the place of the next one is free.
+  std::vector<Batch> batches(batches_in_flight);
+  std::size_t read_so_far = 0;
+  const auto read = [&](tbb::flow_control& control) -> Batch* {
+    Batch* batch = &batches[read_so_far++ % batches_in_flight];
+    if (reader.next(*batch)) return batch;
+    control.stop();
+    return nullptr;
   };
-  const auto evaluate = [&](BatchPointer batch) {
+  const auto evaluate = [&](Batch* batch) {
     reader.convert(*batch);
     sum.rates(batch->cycles, batch->rates);
     return batch;
   };
   std::shared_ptr<const std::vector<std::string>> named;
-  const auto add = [&](const BatchPointer& batch) {
+  const auto add = [&](const Batch* batch) {
     CycleSum::Trace steps;
     if (batch->names && batch->names != named) sum.name_plates(*batch->names);
     named = batch->names;
@@ -223,9 +224,9 @@ std::size_t sum_cycles(const std::filesystem::path& file, CycleSum& sum,
   arena.execute([&] {
     tbb::parallel_pipeline(
         batches_in_flight,
-        tbb::make_filter<void, BatchPointer>(tbb::filter_mode::serial_in_order, read) &
-            tbb::make_filter<BatchPointer, BatchPointer>(tbb::filter_mode::parallel, evaluate) &
-            tbb::make_filter<BatchPointer, void>(tbb::filter_mode::serial_in_order, add));
+        tbb::make_filter<void, Batch*>(tbb::filter_mode::serial_in_order, read) &
+            tbb::make_filter<Batch*, Batch*>(tbb::filter_mode::parallel, evaluate) &
+            tbb::make_filter<Batch*, void>(tbb::filter_mode::serial_in_order, add));
   });
   if (rows == 0) throw InputError(fmt::format("{} has no rows", reader.source()));
   return rows;
