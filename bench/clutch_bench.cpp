@@ -1,12 +1,11 @@
 // The clutch trade at full size: the paper's 900 exact searches, and cycles per second of `wearwell
 // clutch predict` from a Parquet file.
 #include <benchmark/benchmark.h>
-#include <duckdb.h>
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <stdexcept>
+#include <string>
 
+#include "parquet_file.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_predict.h"
 #include "wearwell/models/clutch/clutch_study.h"
@@ -44,51 +43,26 @@ BENCHMARK(searches_900)
 
 constexpr long long cycles_per_plate = 50'000;
 
-/// Cycles of so many plates, all within the range of validity, as Parquet in the temporary folder.
-class Fleet {
- public:
-  explicit Fleet(long long cycles)
-      : file_(std::filesystem::temp_directory_path() / "wearwell-bench-fleet.parquet") {
-    duckdb_database database = nullptr;
-    duckdb_connection connection = nullptr;
-    if (duckdb_open(nullptr, &database) != DuckDBSuccess ||
-        duckdb_connect(database, &connection) != DuckDBSuccess)
-      throw std::runtime_error("cannot start DuckDB");
-    // Conditions from a multiplicative hash of the row: the same in every run.
-    const std::string query = fmt::format(
-        "copy (select cast(plate as integer) as plate, cycle, s as \"slip_speed [rad/s]\", m as "
-        "\"torque [N m]\", t as \"temperature [degC]\", c as \"closing_time [s]\", m*s*c/2 as "
-        "\"energy [J]\" from (select i // {0} + 1 as plate, i % {0} + 1 as cycle, "
-        "130 + ((i * 2654435761) % 1000003) / 1000003.0 * 160 as s, "
-        "26 + ((i * 40503 + 7) % 1000003) / 1000003.0 * 48 as m, "
-        "121 + ((i * 69069 + 5) % 1000003) / 1000003.0 * 118 as t, "
-        "1 + ((i * 1103515 + 3) % 1000003) / 1000003.0 * 2.3 as c from range({1}) r(i))) "
-        "to '{2}' (format parquet)",
-        cycles_per_plate, cycles, file_.string());
-    const bool done = duckdb_query(connection, query.c_str(), nullptr) == DuckDBSuccess;
-    duckdb_disconnect(&connection);
-    duckdb_close(&database);
-    if (!done) throw std::runtime_error("cannot write " + file_.string());
-  }
-  ~Fleet() {
-    std::error_code ignored;
-    std::filesystem::remove(file_, ignored);
-  }
-  Fleet(const Fleet&) = delete;
-  Fleet& operator=(const Fleet&) = delete;
-
-  const std::filesystem::path& file() const { return file_; }
-
- private:
-  std::filesystem::path file_;
-};
+// Cycles of so many plates, all within the range of validity. Conditions from a multiplicative hash
+// of the row: the same in every run.
+std::string fleet_of(long long cycles) {
+  return fmt::format(
+      "select cast(plate as integer) as plate, cycle, s as \"slip_speed [rad/s]\", m as "
+      "\"torque [N m]\", t as \"temperature [degC]\", c as \"closing_time [s]\", m*s*c/2 as "
+      "\"energy [J]\" from (select i // {0} + 1 as plate, i % {0} + 1 as cycle, "
+      "130 + ((i * 2654435761) % 1000003) / 1000003.0 * 160 as s, "
+      "26 + ((i * 40503 + 7) % 1000003) / 1000003.0 * 48 as m, "
+      "121 + ((i * 69069 + 5) % 1000003) / 1000003.0 * 118 as t, "
+      "1 + ((i * 1103515 + 3) % 1000003) / 1000003.0 * 2.3 as c from range({1}) r(i))",
+      cycles_per_plate, cycles);
+}
 
 void predict(benchmark::State& state, long long cycles, bool with_replicates) {
-  const Fleet fleet(cycles);
+  const ParquetFile fleet("wearwell-bench-fleet", fleet_of(cycles));
   const WearModel& model = example().model;
   for (auto _ : state) {
     CycleSum sum(model, with_replicates);
-    if (sum_cycles(fleet.file(), sum, {}, 1, static_cast<int>(state.range(0))) !=
+    if (sum_cycles(fleet.path(), sum, {}, 1, static_cast<int>(state.range(0))) !=
         static_cast<std::size_t>(cycles))
       state.SkipWithError("cycles are missing");
   }

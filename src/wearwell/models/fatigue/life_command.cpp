@@ -12,6 +12,7 @@
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/fatigue/command_parts.h"
+#include "wearwell/models/fatigue/counting_options.h"
 #include "wearwell/models/fatigue/load_life_report.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
@@ -25,8 +26,8 @@ constexpr Eigen::Index most_draws = 4000, most_draws_with_limit = 2000;
 
 struct LoadLifeOptions {
   std::filesystem::path result, output;
-  SignalChoice signal;
-  std::string method = "four-point", residual = "half", scale, rule, knee, block;
+  CountingOptions counting;
+  std::string scale, rule, knee, block;
   std::string damage_sum = "1 x/ 1.34";
   std::vector<double> b_lives = {1, 10, 50};
   double confidence = 90;
@@ -114,8 +115,9 @@ void write_folder(const LoadLifeReport& report, ResultFolder& folder) {
 }
 
 int run(const LoadLifeOptions& options) {
-  refuse_overwriting({{"the results", options.result}, {"the history", options.signal.file}},
-                     {{"--output", options.output}});
+  refuse_overwriting(
+      {{"the results", options.result}, {"the history", options.counting.signal.file}},
+      {{"--output", options.output}});
   LoadLifeReport report{read_sn_result(options.result), {}, {}, 0, {}, {}};
   const SnLaw& law = report.result.law;
   LoadQuestion& question = report.question;
@@ -127,11 +129,7 @@ int run(const LoadLifeOptions& options) {
   read_block_length(options.block, report);
   const bool with_mean = law.correction != MeanStress::none;
   report.block =
-      read_block({options.signal,
-                  {options.method == "three-point" ? Counting::three_point : Counting::four_point,
-                   options.residual == "half" ? Residual::half : Residual::repeat, 0},
-                  options.scale,
-                  with_mean});
+      read_block({options.counting.signal, options.counting.rule(), options.scale, with_mean});
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
   report.cycles =
@@ -159,23 +157,12 @@ void add_life_command(CLI::App& fatigue, int& exit_code) {
   command->add_option("RESULT", options->result, "folder that wearwell fit wrote of a model \"sn\"")
       ->required();
   command
-      ->add_option("HISTORY", options->signal.file,
+      ->add_option("HISTORY", options->counting.signal.file,
                    "one block: a signal, or counted cycles (range or amplitude, mean, cycles)")
       ->required();
-  command->add_option("--column", options->signal.column,
-                      "of a signal: heading of the load (default: the only column of numbers)");
-  command->add_option("--unit", options->signal.unit,
-                      "unit of the load, where its heading has none");
+  add_counting_options(*command, options->counting, "of a signal: ");
   command->add_option("--scale", options->scale,
                       "from the load to stress, like '0.35 MPa/N'; of a strain '206 GPa'");
-  command->add_option("--method", options->method, "of a signal: how cycles are found")
-      ->check(one_of({"three-point", "four-point"}))
-      ->capture_default_str();
-  command
-      ->add_option("--residual", options->residual,
-                   "ranges that close no cycle count half, or the history is repeated")
-      ->check(one_of({"half", "repeat"}))
-      ->capture_default_str();
   command
       ->add_option("--rule", options->rule,
                    "how damage is summed (default: elementary; original with a random limit)")

@@ -13,6 +13,7 @@
 #include "wearwell/base/unit.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/fatigue/command_parts.h"
+#include "wearwell/models/fatigue/counting_options.h"
 #include "wearwell/models/fatigue/history_report.h"
 #include "wearwell/models/fatigue/history_state.h"
 #include "wearwell/models/fatigue/signal_file.h"
@@ -23,8 +24,7 @@ namespace wearwell::fatigue {
 namespace {
 
 struct RainflowOptions {
-  SignalChoice signal;
-  std::string method = "four-point", residual = "half";
+  CountingOptions counting;
   int bins = 32;
   double bin_width = 0;
   std::filesystem::path state, output;
@@ -77,11 +77,9 @@ void write_folder(const HistoryReport& report, ResultFolder& folder) {
 }
 
 void run(const RainflowOptions& options) {
-  refuse_overwriting({{"the history", options.signal.file}},
+  refuse_overwriting({{"the history", options.counting.signal.file}},
                      {{"--state", options.state}, {"--output", options.output}});
-  const CountingRule rule{
-      options.method == "three-point" ? Counting::three_point : Counting::four_point,
-      options.residual == "half" ? Residual::half : Residual::repeat, options.bin_width};
+  const CountingRule rule = options.counting.rule(options.bin_width);
   std::optional<LockFile> lock;
   const bool kept = !options.state.empty();
   if (kept)
@@ -89,7 +87,7 @@ void run(const RainflowOptions& options) {
       fmt::print(stderr, "waiting for another wearwell that goes on from {}\n",
                  options.state.string());
     });
-  SignalFile file(options.signal);
+  SignalFile file(options.counting.signal);
   LoadHistory history = begin(options, file, rule);
   std::optional<StagedFile> state;
   if (kept) state.emplace(options.state);  // refused before the work, not after
@@ -123,23 +121,12 @@ void add_rainflow_command(CLI::App& fatigue) {
       "rainflow", "Count the cycles of a load history after ASTM E1049; files may exceed memory");
   const auto options = std::make_shared<RainflowOptions>();
   command
-      ->add_option("FILE", options->signal.file,
+      ->add_option("FILE", options->counting.signal.file,
                    "samples, or peaks and valleys, in a column (CSV, Parquet, ...)")
       ->required();
-  command->add_option("--column", options->signal.column,
-                      "heading of the load (default: the only column of numbers)");
-  command->add_option("--unit", options->signal.unit,
-                      "unit of the load, where its heading has none");
-  command->add_option("--time", options->signal.time,
+  add_counting_options(*command, options->counting, "");
+  command->add_option("--time", options->counting.signal.time,
                       "a column of times: refuse a file in which samples are missing");
-  command->add_option("--method", options->method, "how cycles are found")
-      ->check(one_of({"three-point", "four-point"}))
-      ->capture_default_str();
-  command
-      ->add_option("--residual", options->residual,
-                   "ranges that close no cycle count half, or the history is repeated")
-      ->check(one_of({"half", "repeat"}))
-      ->capture_default_str();
   CLI::Option* bins =
       command->add_option("--bins", options->bins, "classes of range that are shown, at most")
           ->check(CLI::Range(1, 1024))

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/models/fatigue/design_curve.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/study/plot_study.h"
 
@@ -73,22 +74,11 @@ class Drawing {
                                                               most_tests, data.tests.size())
                                                 : ""),
         predictions_(predictions),
-        draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled)) {
-    double tests = 0;
-    bool one_ratio = true;
-    const Stress& first = data.tests.front().stress;
+        draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled)),
+        line_(line_of_tests(law, data)) {
     for (const LifeTest& test : data.tests) {
-      line_.mean += test.count * test.stress.mean;
-      tests += test.count;
-      one_ratio = one_ratio && std::abs(test.stress.mean / test.stress.alternating -
-                                        first.mean / first.alternating) < 1e-6;
       shortest_ = std::min(shortest_, test.life);
       longest_ = std::max({longest_, test.life, test.until});
-    }
-    line_.mean /= tests;
-    // Tests of one stress ratio are drawn at it, others at their common mean stress.
-    if (one_ratio && data.tests.size() > 1 && law.correction != MeanStress::none) {
-      line_ = {0, (first.mean - first.alternating) / (first.mean + first.alternating)};
     }
   }
 
@@ -395,7 +385,7 @@ class Drawing {
   const std::string thinned_;
   const SnPredictions& predictions_;
   WeightedDraws draws_;
-  StressLine line_{0, {}};
+  StressLine line_;
   double shortest_ = INFINITY, longest_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "wearwell/math/root.h"
+#include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/models/ownlaw/own_lives.h"
 #include "wearwell/predict/prediction.h"
 

@@ -1,12 +1,10 @@
 #include "wearwell/models/ownlaw/own_lives.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "wearwell/bayes/normal_score.h"
+#include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/predict/prediction.h"
 
 namespace wearwell::ownlaw {
@@ -38,8 +36,8 @@ class Part {
       ahead_.emplace_back(*each.ahead, path.rising, path.begin, path.scale);
       behind_.push_back(each.behind ? std::make_unique<PathAt>(*each.behind) : nullptr);
     }
-    lives.remaining.resize(path.seen.size());
-    lives.passed.assign(path.seen.size(), 0);
+    found.remaining.resize(path.seen.size());
+    found.passed.assign(path.seen.size(), 0);
   }
 
   void add(const double* x, double weight) {
@@ -47,7 +45,7 @@ class Part {
     if (!path_.seen.empty()) add_seen(x, weight);
   }
 
-  LimitedLives lives;
+  LimitedLives found;
 
  private:
   std::size_t effects() const { return rows_.law().effects.size(); }
@@ -69,14 +67,14 @@ class Part {
     next_->at().move_to(x);
     if (effects() == 0) {
       solve(*next_, {}, 1, place_);
-      lives.next.add(weight, place_[0], place_[0]);
+      found.next.add(weight, place_[0], place_[0]);
       return;
     }
     if (effects() == 1) {
       static const NormalCells cells(0.25);
       solve(*next_, cells.end, cells.end.size(), place_);
       for (std::size_t i = 0; i < cells.weight.size(); ++i) {
-        lives.next.add(weight * cells.weight[i], place_[i], place_[i + 1]);
+        found.next.add(weight * cells.weight[i], place_[i], place_[i + 1]);
       }
       return;
     }
@@ -98,7 +96,7 @@ class Part {
         if (w < 1e-12 * weight) continue;
         const double corner[] = {place_[i * n + j], place_[i * n + j + 1], place_[(i + 1) * n + j],
                                  place_[(i + 1) * n + j + 1]};
-        lives.next.add(w, *std::min_element(corner, corner + 4),
+        found.next.add(w, *std::min_element(corner, corner + 4),
                        *std::max_element(corner, corner + 4));
       }
     }
@@ -165,8 +163,8 @@ class Part {
     double left = first && second ? 0 : 1;
     if (first != second)
       left = past_[first ? j : i] / (past_[first ? j : i] - past_[first ? i : j]);
-    lives.passed[u] += weight * (1 - left);
-    if (left > 0) lives.remaining[u].add(weight * left, place_[i] - now, place_[j] - now);
+    found.passed[u] += weight * (1 - left);
+    if (left > 0) found.remaining[u].add(weight * left, place_[i] - now, place_[j] - now);
   }
 
   // What lies beyond the unit's last row counts. Where conditions change, its path goes on from where
@@ -181,12 +179,12 @@ class Part {
       const double level = behind_[u]->output(0, 0);
       const bool there = path_.rising ? level >= path_.limit : level <= path_.limit;
       if (there) {
-        lives.passed[u] += weight;
+        found.passed[u] += weight;
         return;
       }
       ahead_[u].solve(1, z.empty() ? nullptr : z.data(), &level, &now);
     }
-    lives.passed[u] += weight - lives.remaining[u].add_beyond(weight, a, b, now);
+    found.passed[u] += weight - found.remaining[u].add_beyond(weight, a, b, now);
   }
 
   struct Node {
@@ -201,38 +199,6 @@ class Part {
   std::vector<double> z_, place_, past_, level_, grid_;
 };
 
-}  // namespace
-
-FewPoints::FewPoints(const WeightedDraws& draws, std::size_t most) {
-  const DominantDraws dominant(draws);
-  const std::size_t n = dominant.rows.size();
-  std::vector<std::size_t> chosen(n);
-  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-  weights = dominant.weights;
-  if (n > most) {
-    // In the order in which the quadrature has them neighbours are alike.
-    std::sort(chosen.begin(), chosen.end(),
-              [&](std::size_t a, std::size_t b) { return dominant.rows[a] < dominant.rows[b]; });
-    std::vector<std::size_t> few;
-    double sum = 0;
-    const double share = 1 / static_cast<double>(most);
-    for (const std::size_t each : chosen) {
-      sum += dominant.weights[each];
-      while (few.size() < most && sum > (static_cast<double>(few.size()) + 0.5) * share) {
-        few.push_back(each);
-      }
-    }
-    chosen = few;
-    weights.assign(few.size(), 1 / static_cast<double>(few.size()));
-  }
-  values.resize(static_cast<Eigen::Index>(chosen.size()), draws.values.cols());
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    values.row(static_cast<Eigen::Index>(i)) = draws.values.row(dominant.rows[chosen[i]]);
-  }
-}
-
-namespace {
-
 // Of paths that are dear, fewer.
 std::size_t points_of(const LimitedPath& path) {
   const auto& any = path.next ? path.next : path.seen.front().ahead;
@@ -244,27 +210,15 @@ std::size_t points_of(const LimitedPath& path) {
 
 LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
                            const WeightedDraws& draws) {
-  const FewPoints few(draws, points_of(path));
-  // Always the same parts, whatever the number of threads: sums keep their order.
-  constexpr std::size_t parts = 16;
-  std::vector<LimitedLives> each(parts);
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
-    Part part(rows, path);
-    const std::size_t n = few.weights.size();
-    for (std::size_t i = p * n / parts; i < (p + 1) * n / parts; ++i) {
-      part.add(few.values.row(static_cast<Eigen::Index>(i)).data(), few.weights[i]);
-    }
-    each[p] = std::move(part.lives);
-  });
-  LimitedLives all = std::move(each[0]);
-  for (std::size_t p = 1; p < parts; ++p) {
-    all.next.add(each[p].next);
-    for (std::size_t u = 0; u < path.seen.size(); ++u) {
-      all.remaining[u].add(each[p].remaining[u]);
-      all.passed[u] += each[p].passed[u];
-    }
+  return sum_over(FewPoints(draws, points_of(path)), [&] { return Part(rows, path); });
+}
+
+void LimitedLives::add(const LimitedLives& other) {
+  next.add(other.next);
+  for (std::size_t u = 0; u < remaining.size(); ++u) {
+    remaining[u].add(other.remaining[u]);
+    passed[u] += other.passed[u];
   }
-  return all;
 }
 
 }  // namespace wearwell::ownlaw

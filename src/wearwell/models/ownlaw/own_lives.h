@@ -10,14 +10,6 @@
 
 namespace wearwell::ownlaw {
 
-/// A posterior as few points, of even weights where they were many: evenly along the order of its
-/// nodes, which lie box by box.
-struct FewPoints {
-  FewPoints(const WeightedDraws& draws, std::size_t most);
-  Points values;
-  std::vector<double> weights;  ///< sum to 1
-};
-
 /// When a path reaches its limit.
 struct LimitedPath {
   std::shared_ptr<const Path> next;  ///< of a unit not yet seen; null where it was not asked for
@@ -41,6 +33,8 @@ struct LimitedLives {
   std::vector<CellMixture>
       remaining;               ///< of each unit, from its last row on, given that it is not there
   std::vector<double> passed;  ///< the probability that it is there already
+
+  void add(const LimitedLives& other);  ///< of other points
 };
 LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
                            const WeightedDraws& draws);

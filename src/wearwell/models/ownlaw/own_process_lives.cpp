@@ -1,12 +1,11 @@
 #include "wearwell/models/ownlaw/own_process_lives.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
 #include "wearwell/bayes/normal_score.h"
+#include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
 
 namespace wearwell::ownlaw {
@@ -66,8 +65,8 @@ class Part {
     for (const LimitedPath::Seen& each : path.seen) {
       ahead_.emplace_back(*each.ahead, path.rising, path.begin, path.scale);
     }
-    lives.remaining.resize(path.seen.size());
-    lives.passed.assign(path.seen.size(), 0);
+    found.remaining.resize(path.seen.size());
+    found.passed.assign(path.seen.size(), 0);
   }
 
   void add(const double* x, double weight) {
@@ -75,12 +74,12 @@ class Part {
     for (std::size_t i = 0; i < fresh_.weight.size(); ++i) {
       const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
       add_passage(*next_, z, limit_.path.begin, 0, sign_ * limit_.path.limit,
-                  weight * fresh_.weight[i], false, lives.next);
+                  weight * fresh_.weight[i], false, found.next);
     }
     if (!limit_.path.seen.empty()) add_seen(x, weight);
   }
 
-  LimitedLives lives;
+  LimitedLives found;
 
  private:
   // The scale of a path at z; where its standard deviation is given, by what it is far along.
@@ -138,20 +137,20 @@ class Part {
     const double sd = std::sqrt(stands.variance);
     if (!(sd > 0)) {
       if (left <= 0) {
-        lives.passed[u] += weight;
+        found.passed[u] += weight;
       } else {
-        add_passage(ahead_[u], z, now, mean, left, weight, true, lives.remaining[u]);
+        add_passage(ahead_[u], z, now, mean, left, weight, true, found.remaining[u]);
       }
       return;
     }
     const double below = normal_cdf(left / sd);  // it has not reached the limit
-    lives.passed[u] += weight * (1 - below);
+    found.passed[u] += weight * (1 - below);
     if (!(below > 1e-6)) return;
     for (int k = 0; k < strata; ++k) {
       const double distance = left - sd * normal_quantile(below * (k + 0.5) / strata);
       if (!(distance > 0)) continue;
       add_passage(ahead_[u], z, now, mean, distance, weight * below / strata, true,
-                  lives.remaining[u]);
+                  found.remaining[u]);
     }
   }
 
@@ -170,26 +169,7 @@ class Part {
 
 LimitedLives process_lives(const OwnRows& rows, const ProcessLimit& limit,
                            const WeightedDraws& draws) {
-  const FewPoints few(draws, most_points);
-  constexpr std::size_t parts = 16;  // whatever the number of threads: sums keep their order
-  std::vector<LimitedLives> each(parts);
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
-    Part part(rows, limit);
-    const std::size_t n = few.weights.size();
-    for (std::size_t i = p * n / parts; i < (p + 1) * n / parts; ++i) {
-      part.add(few.values.row(static_cast<Eigen::Index>(i)).data(), few.weights[i]);
-    }
-    each[p] = std::move(part.lives);
-  });
-  LimitedLives all = std::move(each[0]);
-  for (std::size_t p = 1; p < parts; ++p) {
-    all.next.add(each[p].next);
-    for (std::size_t u = 0; u < limit.path.seen.size(); ++u) {
-      all.remaining[u].add(each[p].remaining[u]);
-      all.passed[u] += each[p].passed[u];
-    }
-  }
-  return all;
+  return sum_over(FewPoints(draws, most_points), [&] { return Part(rows, limit); });
 }
 
 }  // namespace wearwell::ownlaw

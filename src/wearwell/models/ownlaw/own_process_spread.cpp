@@ -1,11 +1,10 @@
 #include "wearwell/models/ownlaw/own_process_spread.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
+#include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
 
 namespace wearwell::ownlaw {
@@ -31,8 +30,8 @@ class Part {
     for (const SpreadPath& each : paths) {
       at_.push_back(
           std::make_unique<Crossing>(*each.path.ahead, each.rising, each.begin, each.scale));
-      spreads.emplace_back();
-      spreads.back().ahead.resize(each.places.size());
+      found.paths.emplace_back();
+      found.paths.back().ahead.resize(each.places.size());
     }
   }
 
@@ -57,7 +56,7 @@ class Part {
     }
   }
 
-  std::vector<Spread> spreads;
+  Spreads found;
 
  private:
   // Effects of a new unit in cells of equal probability.
@@ -102,8 +101,8 @@ class Part {
         ScoreTable::increments(form_.process).look_up(grown, scale, step);
       }
       for (int e = 0; e + 1 < edges; ++e) {
-        spreads[p].ahead[k].add(weight * ScoreTable::weights()[static_cast<std::size_t>(e)],
-                                stands.at + step[e], stands.at + step[e + 1]);
+        found.paths[p].ahead[k].add(weight * ScoreTable::weights()[static_cast<std::size_t>(e)],
+                                    stands.at + step[e], stands.at + step[e + 1]);
       }
     }
   }
@@ -121,26 +120,9 @@ class Part {
 std::vector<Spread> process_spreads(const OwnRows& rows, const ProcessLimit& mean,
                                     const std::vector<SpreadPath>& paths,
                                     const WeightedDraws& draws) {
-  const FewPoints few(draws, rows.law().varies() ? most_points_of_effects : most_points);
-  constexpr std::size_t parts = 16;  // whatever the number of threads: sums keep their order
-  std::vector<std::vector<Spread>> each(parts);
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
-    Part part(rows, mean, paths);
-    const std::size_t n = few.weights.size();
-    for (std::size_t i = p * n / parts; i < (p + 1) * n / parts; ++i) {
-      part.add(few.values.row(static_cast<Eigen::Index>(i)).data(), few.weights[i]);
-    }
-    each[p] = std::move(part.spreads);
-  });
-  std::vector<Spread> all = std::move(each[0]);
-  for (std::size_t p = 1; p < parts; ++p) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      for (std::size_t k = 0; k < all[i].ahead.size(); ++k) {
-        all[i].ahead[k].add(each[p][i].ahead[k]);
-      }
-    }
-  }
-  return all;
+  return sum_over(FewPoints(draws, rows.law().varies() ? most_points_of_effects : most_points),
+                  [&] { return Part(rows, mean, paths); })
+      .paths;
 }
 
 }  // namespace wearwell::ownlaw

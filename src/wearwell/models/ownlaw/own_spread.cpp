@@ -1,11 +1,10 @@
 #include "wearwell/models/ownlaw/own_spread.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "wearwell/bayes/normal_score.h"
+#include "wearwell/models/ownlaw/few_points.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -120,7 +119,7 @@ class Part {
       spread.ahead.resize(each.places.size());
       trace_.push_back(each.trace ? std::make_unique<PathAt>(*each.trace) : nullptr);
       if (each.trace) spread.traced.resize(each.trace->running->history->rows());
-      spreads.push_back(std::move(spread));
+      found.paths.push_back(std::move(spread));
     }
   }
 
@@ -142,7 +141,7 @@ class Part {
     }
   }
 
-  std::vector<Spread> spreads;
+  Spreads found;
 
  private:
   const double* z_of(const Effects& effects, std::size_t i) const {
@@ -151,7 +150,7 @@ class Part {
 
   void trace(std::size_t p, const Effects& effects, double weight) {
     PathAt& at = *trace_[p];
-    const std::size_t rows = spreads[p].traced.size();
+    const std::size_t rows = found.paths[p].traced.size();
     value_.resize(rows * effects.count);
     for (std::size_t i = 0; i < effects.count; ++i) {
       at.retrace(z_of(effects, i));
@@ -159,8 +158,8 @@ class Part {
     }
     for (std::size_t r = 0; r < rows; ++r) {
       for (const Effects::Cell& cell : effects.cells) {
-        spreads[p].traced[r].add(weight * cell.weight, value_[r * effects.count + cell.from],
-                                 value_[r * effects.count + cell.to]);
+        found.paths[p].traced[r].add(weight * cell.weight, value_[r * effects.count + cell.from],
+                                     value_[r * effects.count + cell.to]);
       }
     }
   }
@@ -200,8 +199,8 @@ class Part {
     }
     for (std::size_t k = 0; k < places; ++k) {
       for (const Effects::Cell& cell : effects.cells) {
-        spreads[p].ahead[k].add(weight * cell.weight, value_[k * effects.count + cell.from],
-                                value_[k * effects.count + cell.to]);
+        found.paths[p].ahead[k].add(weight * cell.weight, value_[k * effects.count + cell.from],
+                                    value_[k * effects.count + cell.to]);
       }
     }
   }
@@ -218,31 +217,19 @@ class Part {
 
 }  // namespace
 
+void Spreads::add(const Spreads& other) {
+  const auto sum = [](std::vector<CellMixture>& to, const std::vector<CellMixture>& from) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i].add(from[i]);
+  };
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    sum(paths[i].traced, other.paths[i].traced);
+    sum(paths[i].ahead, other.paths[i].ahead);
+  }
+}
+
 std::vector<Spread> spreads(const OwnRows& rows, const std::vector<SpreadPath>& paths,
                             const WeightedDraws& draws, std::size_t most_points) {
-  const FewPoints few(draws, most_points);
-  constexpr std::size_t parts = 16;  // whatever the number of threads: sums keep their order
-  std::vector<std::vector<Spread>> each(parts);
-  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
-    Part part(rows, paths);
-    const std::size_t n = few.weights.size();
-    for (std::size_t i = p * n / parts; i < (p + 1) * n / parts; ++i) {
-      part.add(few.values.row(static_cast<Eigen::Index>(i)).data(), few.weights[i]);
-    }
-    each[p] = std::move(part.spreads);
-  });
-  std::vector<Spread> all = std::move(each[0]);
-  for (std::size_t p = 1; p < parts; ++p) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      for (std::size_t r = 0; r < all[i].traced.size(); ++r) {
-        all[i].traced[r].add(each[p][i].traced[r]);
-      }
-      for (std::size_t k = 0; k < all[i].ahead.size(); ++k) {
-        all[i].ahead[k].add(each[p][i].ahead[k]);
-      }
-    }
-  }
-  return all;
+  return sum_over(FewPoints(draws, most_points), [&] { return Part(rows, paths); }).paths;
 }
 
 }  // namespace wearwell::ownlaw

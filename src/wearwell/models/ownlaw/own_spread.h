@@ -25,6 +25,10 @@ struct Spread {
   std::vector<CellMixture> traced;  ///< at each row of the unit
   std::vector<CellMixture> ahead;   ///< at each place
 };
+struct Spreads {
+  std::vector<Spread> paths;
+  void add(const Spreads& other);  ///< of other points of the posterior
+};
 
 /// The spreads of all paths at once, over at most so many points of the posterior.
 std::vector<Spread> spreads(const OwnRows& rows, const std::vector<SpreadPath>& paths,

@@ -1,0 +1,29 @@
+#include "wearwell/models/fatigue/counting_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "wearwell/input/option_value.h"
+
+namespace wearwell::fatigue {
+
+CountingRule CountingOptions::rule(double class_width) const {
+  return {method == "three-point" ? Counting::three_point : Counting::four_point,
+          residual == "half" ? Residual::half : Residual::repeat, class_width};
+}
+
+void add_counting_options(CLI::App& command, CountingOptions& options,
+                          const std::string& of_signal) {
+  command.add_option("--column", options.signal.column,
+                     of_signal + "heading of the load (default: the only column of numbers)");
+  command.add_option("--unit", options.signal.unit, "unit of the load, where its heading has none");
+  command.add_option("--method", options.method, of_signal + "how cycles are found")
+      ->check(one_of({"three-point", "four-point"}))
+      ->capture_default_str();
+  command
+      .add_option("--residual", options.residual,
+                  "ranges that close no cycle count half, or the history is repeated")
+      ->check(one_of({"half", "repeat"}))
+      ->capture_default_str();
+}
+
+}  // namespace wearwell::fatigue

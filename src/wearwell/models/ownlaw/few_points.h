@@ -1,0 +1,39 @@
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <vector>
+
+#include "wearwell/bayes/weighted_draws.h"
+
+namespace wearwell::ownlaw {
+
+/// A posterior as few points, of even weights where they were many: evenly along the order of its
+/// nodes, which lie box by box.
+struct FewPoints {
+  FewPoints(const WeightedDraws& draws, std::size_t most);
+  Points values;
+  std::vector<double> weights;  ///< sum to 1
+};
+
+/// What all points come to. `make()` gives what adds up a part of them, on one thread: it has
+/// `add(const double* x, double weight)`, and `found`, which adds another `found` to itself. The parts
+/// are always the same, whatever the number of threads: sums keep their order.
+template <class Make>
+auto sum_over(const FewPoints& few, const Make& make) {
+  constexpr std::size_t parts = 16;
+  std::vector<decltype(make().found)> each(parts);
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t p) {
+    auto part = make();
+    const std::size_t n = few.weights.size();
+    for (std::size_t i = p * n / parts; i < (p + 1) * n / parts; ++i) {
+      part.add(few.values.row(static_cast<Eigen::Index>(i)).data(), few.weights[i]);
+    }
+    each[p] = std::move(part.found);
+  });
+  auto all = std::move(each[0]);
+  for (std::size_t p = 1; p < parts; ++p) all.add(each[p]);
+  return all;
+}
+
+}  // namespace wearwell::ownlaw
