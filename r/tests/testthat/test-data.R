@@ -1,7 +1,7 @@
 # What may be data, and what is refused with which words.
 
-same <- function(a, b) expect_identical(ww_fit(a, seed = 1, method = "exact", draws = 10, report = FALSE)$summary$parameters,
-                                        ww_fit(b, seed = 1, method = "exact", draws = 10, report = FALSE)$summary$parameters)
+small <- function(study, ...) quiet(ww_fit(study, ..., seed = 1, method = "exact", draws = 10, report = FALSE))
+same <- function(a, b) expect_identical(small(a)$summary$parameters, small(b)$summary$parameters)
 
 test_that("columns of every kind are the same numbers", {
   plain <- joints()
@@ -72,7 +72,7 @@ test_that("wrong tables are refused", {
   refused(of_a_law(1:3), "data is integer")
   refused(of_a_law(list(1, 2)), "the columns have no names")
   refused(of_a_law(list(F = 1:3, s = 1:3, V = 1:2)), "column 'V' has 2 rows, and 'F' has 3")
-  refused(of_a_law(frame["F"]), "no left side of the law is a column of data")
+  refused(of_a_law(frame["F"], units = c(F = "N")), "no left side of the law is a column of data")
   refused(of_a_law(frame, units = c(G = "N")), "units: data has no column 'G'")
   refused(of_a_law(frame, units = "N"), "units has no names")
   refused(of_a_law(frame, unit = "pair"), "unit: data has no column 'pair'")
@@ -105,9 +105,9 @@ test_that("a study is its text: lists, vectors, numbers to the last bit", {
 test_that("a table in memory stands for the file of a study", {
   study <- example("law", "study.toml")
   wear <- read.csv(example("law", "wear.csv"))
-  from_file <- ww_fit(study, seed = 1, method = "exact", draws = 10, report = FALSE)
-  in_memory <- ww_fit(study, data = wear, seed = 1, method = "exact", draws = 10, report = FALSE)
+  from_file <- small(study)
+  in_memory <- small(study, data = wear)
   expect_equal(in_memory$parameters, from_file$parameters, tolerance = 1e-9)  # read.csv may be off by the last bit
   by_name <- ww_study_toml(readLines(study), list(wear.csv = wear))
-  expect_identical(ww_fit(by_name, seed = 1, method = "exact", draws = 10, report = FALSE)$parameters, in_memory$parameters)
+  expect_identical(small(by_name)$parameters, in_memory$parameters)
 })
