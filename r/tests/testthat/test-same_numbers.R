@@ -10,6 +10,10 @@ studies <- function() {
   setdiff(all, "clutch/truth.toml")
 }
 
+test_that("package and program are of one version", {
+  expect_match(program("--version")$out, as.character(utils::packageVersion("wearwell")), fixed = TRUE)
+})
+
 test_that("every example's files are those of the program", {
   expect_gte(length(studies()), 15)
   for (name in studies()) {
