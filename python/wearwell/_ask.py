@@ -101,9 +101,9 @@ def _require_values(frame, columns):
                 raise InputError(f"new, row {int(wild.argmax()) + 1}, column '{name}': {frame[name].iloc[wild.argmax()]} is no finite number")
 
 
-def _answers(fit, table, level, places, whose):
-    """Of each place its predictions by measured column."""
-    units = sorted({name for name in whose if name is not None})  # none: no paths of items are computed
+def _answers(fit, table, level, name):
+    """Of each place its predictions by measured column, of the item of that name or of a new one."""
+    units = [] if name is None else [name]  # none: no paths of items are computed
     try:
         found = fit.ask({**table, "units": units}, level)["predictions"]
     except InputError as error:
@@ -113,13 +113,12 @@ def _answers(fit, table, level, places, whose):
         raise InputError(f"new, column '{unknown[1]}': the data have no {unknown[1]} '{unknown[2]}' {unknown[3]}; an empty cell is a "
                          "new one") from None
     # Entries come by measured column, then by whom they are of, then by place.
-    by_whom = {}
+    by_column = {}
     for entry in found:
         seen = entry.get("mean_of") is not None and entry["mean_of"] == entry["pi_of"]
-        name = entry["mean_of"].split(" ", 1)[1] if seen else None
-        by_whom.setdefault((entry["quantity"], name), []).append(entry)
-    quantities = list(dict.fromkeys(quantity for quantity, _ in by_whom))
-    return [[by_whom[q, name][i] for q in quantities if (q, name) in by_whom] for i, name in enumerate(whose)]
+        if seen == (name is not None):
+            by_column.setdefault(entry["quantity"], []).append(entry)
+    return [list(each) for each in zip(*by_column.values())] or [[]] * len(table["at"])
 
 
 def predict(fit, new, level, kind, along):
@@ -155,12 +154,12 @@ def predict(fit, new, level, kind, along):
     groups = {}
     for position, row in enumerate(rows):
         each = dict(zip(asked, row))
-        groups.setdefault(tuple(each[c] for c in others), []).append((position, each[axis]))
-    for given, places in groups.items():
+        groups.setdefault((whose[position], *(each[c] for c in others)), []).append((position, each[axis]))
+    for (_, *given), places in groups.items():
         table = {"along": axis, "at": [_written(at, columns[axis]) for _, at in places]}
         if others:
             table["given"] = {c: _written(v, columns[c]) for c, v in zip(others, given)}
-        for (position, _), found in zip(places, _answers(fit, table, level, places, [whose[p] for p, _ in places])):
+        for (position, _), found in zip(places, _answers(fit, table, level, whose[places[0][0]])):
             answers[position] = found
     if not all(answers[i] for i in range(len(rows))):
         raise InputError("where two parameters differ from item to item, or what is measured is a process, measurements of a new "

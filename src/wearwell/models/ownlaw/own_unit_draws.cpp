@@ -7,7 +7,7 @@
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr std::size_t most_points = 1000;
+constexpr std::size_t most_points = 500;
 constexpr double negligible = 1e-7;  // of the unit's posterior: nodes with less are left out
 
 struct Nodes {
