@@ -10,11 +10,12 @@ ww_ask <- function(fit, predict, level = 0.9) {
   answers[intersect(c("predictions", "quantities", "life"), names(answers))]
 }
 
-keys_of_law <- function(fit) {
+# The study's tables and keys; of a study of these models alone.
+keys_of <- function(fit, models = "law") {
   study <- core(C_keys, fit$study$text)
-  if (!identical(study$model, "law")) {
-    stop_input("predict and ww_life are of studies of a law (model = \"law\"), and this one is of the model ", study$model,
-               "; ww_ask(fit, predict) asks it by the keys of its own [predict]")
+  if (!isTRUE(study$model %in% models)) {
+    stop_input("this is asked of studies of the model ", paste(models, collapse = " or "), ", and this one is of the model ", study$model,
+               "; ww_ask(fit, predict) asks it by the keys of its own [predict], and fit$quantities and fit$tables hold what it found")
   }
   study
 }
@@ -54,13 +55,47 @@ in_unit <- function(value, unit) {
   paste(number_text(value), unit)
 }
 
-predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = NULL, ...) {
-  if (!isTRUE(kind %in% c("mean", "next", "unit"))) stop_input("kind is ", shown_value(kind), "; it is 'mean' or 'next'")
-  if (kind == "unit") {
-    stop_input("kind = 'unit', a measurement of an item that was seen, is not computed yet; its remaining life is: ww_life(fit, ",
-               "limit = ..., unit = ...)")
+# For each row the item that it is of, NA for a new one.
+whose_of <- function(newdata, label) {
+  if (!label %in% names(newdata)) {
+    stop_input("newdata has no column '", label, "', which says of which ", label, " each row is (NA: of a new one)")
   }
-  study <- keys_of_law(object)
+  values <- column_values(newdata[[label]], paste0("newdata, column '", label, "'"))
+  names <- if (is.double(values)) ifelse(is.na(values), NA, number_text(values)) else values
+  ifelse(names %in% "", NA, names)
+}
+
+require_values <- function(newdata, columns) {
+  for (name in columns) {
+    column <- newdata[[name]]
+    column_values(column, paste0("newdata, column '", name, "'"))
+    row <- which(is.na(column))
+    if (length(row)) stop_input("newdata, row ", row[1], ", column '", name, "': a value is missing")
+    row <- if (is.numeric(column)) which(is.infinite(column))
+    if (length(row)) stop_input("newdata, row ", row[1], ", column '", name, "': ", column[row[1]], " is no finite number")
+  }
+}
+
+# Of each place its predictions by measured column, of the item of that name or, NA, of a new one.
+answers_of <- function(fit, question, level, name) {
+  question$units <- if (is.na(name)) list() else list(name)  # none: no paths of items are computed
+  found <- tryCatch(ww_ask(fit, question, level)$predictions, wearwell_input_error = function(error) {
+    unknown <- regmatches(conditionMessage(error),
+                          regexec("predict.units: the data have no (.*) '(.*)' ([(].*[)])", conditionMessage(error)))[[1]]
+    if (!length(unknown)) stop(error)
+    stop_input("newdata, column '", unknown[2], "': the data have no ", unknown[2], " '", unknown[3], "' ", unknown[4],
+               "; NA is a new one")
+  })
+  # Entries come by measured column, then by whom they are of, then by place.
+  seen <- vapply(found, function(entry) !is.null(entry$mean_of) && identical(entry$mean_of, entry$pi_of), NA)
+  found <- found[seen == !is.na(name)]
+  by_column <- split(found, factor(column(found, "quantity", ""), unique(column(found, "quantity", ""))))
+  lapply(seq_along(question$at), function(i) unname(lapply(by_column, `[[`, i)))
+}
+
+predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = NULL, ...) {
+  if (!isTRUE(kind %in% c("mean", "next", "unit"))) stop_input("kind is ", shown_value(kind), "; it is 'mean', 'next' or 'unit'")
+  study <- keys_of(object)
   units <- column_units(study)
   conditions <- conditions_of(study, units)
   if (is_path(newdata)) stop_input("newdata is a text; it is a data frame or a named list of columns")
@@ -69,31 +104,43 @@ predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = 
   if (nrow(newdata) == 0) stop_input("newdata has no rows")
   unknown <- setdiff(names(newdata), names(units))
   if (length(unknown)) stop_input("newdata: the study has no column '", unknown[1], "' (columns: ", words(conditions), ")")
-  asked <- intersect(names(newdata), conditions)
-  for (name in asked) {
-    column_values(newdata[[name]], paste0("newdata, column '", name, "'"))
-    row <- which(is.na(newdata[[name]]))
-    if (length(row)) stop_input("newdata, row ", row[1], ", column '", name, "': a value is missing")
+  label <- names(study$varies)[1]
+  if (kind == "unit" && is.null(label)) {
+    stop_input("kind = 'unit' is of studies whose parameters differ from item to item (varies), and nothing differs here: ",
+               "kind = 'next' is a measurement to come")
   }
+  whose <- if (kind == "unit") whose_of(newdata, label) else rep(NA_character_, nrow(newdata))
+  asked <- intersect(names(newdata), conditions)
+  numbers <- Filter(function(name) is.numeric(newdata[[name]]) || is.logical(newdata[[name]]), asked)
   axis <- axis_of(study, units, along)
-  if (is.null(axis)) axis <- Filter(function(name) is.numeric(newdata[[name]]) || is.logical(newdata[[name]]), asked)[1]
+  if (is.null(axis) && kind == "unit" && length(numbers) > 1) {
+    stop_input("along is missing: the column along which it wears (", words(numbers), "), since beyond its last row an item goes on ",
+               "from where it stands")
+  }
+  if (is.null(axis)) axis <- numbers[1]
   if (!isTRUE(axis %in% asked)) stop_input("newdata has no column '", if (is.na(axis)) conditions[1] else axis, "'")
+  require_values(newdata, asked)
+  predictions_at(object, newdata, asked, axis, units, level, kind, whose, several = length(study$likelihood) > 1)
+}
+
+predictions_at <- function(fit, newdata, asked, axis, units, level, kind, whose, several) {
   others <- setdiff(asked, axis)
-  several <- length(study$likelihood) > 1
-  # Rows of the same conditions are one question.
+  # Rows of one item under the same conditions are one question.
   written <- lapply(stats::setNames(asked, asked), function(name) {
     vapply(seq_len(nrow(newdata)), function(i) toml_value(in_unit(newdata[[name]][i], units[[name]]), name), "")
   })
-  group <- if (length(others)) do.call(paste, c(written[others], sep = "\r")) else rep("", nrow(newdata))
+  group <- do.call(paste, c(list(whose), unname(written[others]), sep = "\r"))
   answers <- vector("list", nrow(newdata))
   for (places in split(seq_len(nrow(newdata)), factor(group, unique(group)))) {
     question <- list(along = axis, at = lapply(places, function(i) in_unit(newdata[[axis]][i], units[[axis]])))
     if (length(others)) {
       question$given <- lapply(stats::setNames(others, others), function(name) in_unit(newdata[[name]][places[1]], units[[name]]))
     }
-    found <- ww_ask(object, question, level)$predictions
-    each <- length(found) / length(places)  # one for each measured column
-    for (i in seq_along(places)) answers[[places[i]]] <- found[(i - 1) * each + seq_len(each)]
+    answers[places] <- answers_of(fit, question, level, whose[places[1]])
+  }
+  if (!all(lengths(answers) > 0)) {
+    stop_input("where two parameters differ from item to item, or what is measured is a process, measurements of a new item are not ",
+               "predicted, its path is: ww_ask(fit, list(along = ..., at = ...))$quantities")
   }
   ends <- if (kind == "mean") c("ci05", "ci95") else c("pi05", "pi95")
   result <- data.frame(row.names = rownames(newdata))
@@ -105,60 +152,4 @@ predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = 
   }
   if (!several) attr(result, "unit") <- answers[[1]][[1]]$unit
   result
-}
-
-ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NULL, survived = NULL, along = NULL, given = NULL) {
-  study <- keys_of_law(fit)
-  units <- column_units(study)
-  if (!is.numeric(b) || length(b) == 0 || anyNA(b)) stop_input("b is ", shown_value(b), "; it holds percentages, like c(1, 10)")
-  question <- if (length(given)) list(given = as.list(given)) else list()
-  if (is.null(limit)) {
-    if (!is.null(unit)) stop_input("unit is of lives to a limit: ww_life(fit, limit = ..., unit = ...)")
-    question <- c(question, list(b_lives = as.list(b), credible_level = confidence))
-    if (!is.null(survived)) question$survival_to <- list(quantity(survived, "survived"))
-  } else {
-    if (!is.null(survived)) stop_input("survived is of lives that are measured; a life to a limit counts from the item's last row")
-    if (!identical(as.double(confidence), 0.9)) {
-      stop_input("confidence is ", shown_value(confidence), "; of lives to a limit the interval of 90 % is computed, not another yet")
-    }
-    unknown <- setdiff(b, c(1, 10, 50))
-    if (length(unknown)) stop_input("b: B", unknown[1], " of a life to a limit is not computed yet; B1, B10 and B50 are")
-    if (is.null(names(limit))) {
-      measured <- names(study$likelihood)
-      if (length(measured) != 1) stop_input("limit: of which? list(", measured[1], " = \"...\") says so")
-      limit <- stats::setNames(list(limit), measured)
-    }
-    axis <- axis_of(study, units, along)
-    if (is.null(axis)) {
-      stop_input("along is missing: the column along which it wears (", words(conditions_of(study, units)), ")")
-    }
-    # What is measured is no name in expressions; its law is.
-    of <- vapply(names(limit), function(name) {
-      slots <- study$likelihood[[name]]
-      if (!is.null(slots$mean)) slots$mean else if (!is.null(slots$median)) slots$median else name
-    }, "")
-    limit <- lapply(stats::setNames(names(limit), of), function(name) quantity(limit[[name]], "limit"))
-    question <- c(question, list(along = axis, limit = limit))
-  }
-  lives_among(ww_ask(fit, question)$quantities, limit, b, unit)
-}
-
-lives_among <- function(found, limit, b, unit) {
-  item <- function(of) sub("^[^ ]* ", "", of)
-  name <- column(found, "name", "")
-  of <- column(found, "of", "")
-  if (!is.null(limit)) {
-    wanted <- name == if (is.null(unit)) "life" else "remaining life"
-    if (!is.null(unit)) wanted <- wanted & item(of) == as.character(unit)
-    if (!is.null(unit) && !any(wanted)) {
-      stop_input("the study has no item '", unit, "' (items: ", words(item(sort(unique(of[name == "remaining life"])))), ")")
-    }
-    found <- found[wanted]
-  }
-  rows <- lapply(found, best)
-  frame <- data.frame(name = column(rows, "name", ""), of = column(rows, "of", ""), at = column(rows, "at", ""),
-                      unit = column(rows, "unit", ""))
-  keys <- c("q05", "q50", "q95", if (is.null(limit)) c("predictive", "bound") else paste0("b", format(b, trim = TRUE)))
-  for (key in keys) frame[[key]] <- if (is.null(limit)) column(rows, key) else vapply(rows, function(row) if (is.null(row[[key]])) NA_real_ else life(row[[key]]), 0)
-  frame
 }

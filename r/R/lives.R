@@ -1,0 +1,152 @@
+# Lives that are asked of a fit later, at any level.
+
+least_survival <- 0.1  # percent: of items that survive more rarely nothing is known from then on
+# What each other model's [predict] has that a life needs.
+kept_of <- list(`archard-joint` = c("limit", "risk", "work_per_cycle"),
+                `bearing-wear` = c("limit", "risk", "pressure", "speed", "contact", "radius", "clearance"),
+                sn = c("types", "stress"))
+
+require_levels <- function(b, confidence) {
+  if (!is.numeric(b) || is.object(b) || length(b) == 0 || anyNA(b) || any(b <= 0 | b >= 100)) {
+    stop_input("b is ", shown_value(b), "; B-lives are percentages between 0 and 100, like c(1, 10)")
+  }
+  fine <- is.numeric(confidence) && !is.object(confidence) && length(confidence) == 1
+  if (!fine || !isTRUE(confidence > 0 && confidence < 1)) {
+    stop_input("confidence is ", shown_value(confidence), "; it lies between 0 and 1, like 0.95")
+  }
+}
+
+# The keys of [predict] that ask it of a study of a law.
+asked_of_law <- function(study, limit, unit, survived, along) {
+  question <- if (is.null(survived)) list() else list(survived = quantity(survived, "survived"))
+  units <- column_units(study)
+  if (is.null(limit)) {
+    if (!is.null(unit)) {
+      stop_input("unit is of lives to a limit, ww_life(fit, limit = ..., unit = ...): where lives are what is measured, each is known, ",
+                 "and those to come are of the next item")
+    }
+    measured <- names(study$likelihood)[1]
+    shown <- units[[measured]]
+    if (is.double(question$survived) && !shown %in% c("", "1")) {
+      stop_input("survived is ", survived, " without a unit, and ", measured, " is in ", shown, ": write '", survived, " ", shown,
+                 "', or another unit")
+    }
+    return(question)
+  }
+  if (is.null(names(limit))) {
+    measured <- names(study$likelihood)
+    if (length(measured) != 1) stop_input("limit: of which? list(", measured[1], " = \"...\") says so")
+    limit <- stats::setNames(list(limit), measured)
+  }
+  axis <- axis_of(study, units, along)
+  if (is.null(axis)) {
+    stop_input("along is missing: the column along which it wears (", words(conditions_of(study, units)), ")")
+  }
+  # What is measured is no name in expressions, but of a process; its law is.
+  of <- vapply(names(limit), function(name) {
+    slots <- study$likelihood[[name]]
+    if (is_process(slots)) name else if (!is.null(slots$mean)) slots$mean else if (!is.null(slots$median)) slots$median else name
+  }, "")
+  limit <- lapply(stats::setNames(names(limit), of), function(name) quantity(limit[[name]], "limit"))
+  c(question, list(along = axis, limit = limit))
+}
+
+is_process <- function(slots) isTRUE(endsWith(as.character(slots$family), "process"))
+
+asked_of_trade <- function(study, limit, unit, survived, along) {
+  model <- study$model
+  if (!is.null(unit)) {
+    stop_input("unit is of studies of a law whose parameters differ from item to item; one of the model ", model,
+               " tells of the next one: leave unit out")
+  }
+  if (!is.null(survived)) {
+    stop_input("survived is of studies of a law; of the model ", model, if (model == "sn")
+      " ww_ask(fit, predict) tells by survival_to how many outlast a life" else
+      " fit$summary$life tells within how much to inspect what has come so far")
+  }
+  if (!is.null(along)) stop_input("along is of studies of a law; lives of the model ", model, " have their axis")
+  question <- study$predict[intersect(names(study$predict), kept_of[[model]])]
+  if (model == "sn") {
+    if (!is.null(limit)) stop_input("limit is of wear; a life of an S-N study ends with failure: leave limit out")
+    return(if (length(question)) question else list(types = "all"))
+  }
+  if (!is.null(limit)) question$limit <- quantity(limit, "limit")
+  if (is.null(question$limit)) {
+    stop_input("limit is missing: ww_life(fit, limit = \"", if (model == "archard-joint") "100 mm^3" else "80 um", "\")")
+  }
+  question
+}
+
+ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NULL, survived = NULL, along = NULL, given = NULL) {
+  study <- keys_of(fit, c("law", names(kept_of)))
+  require_levels(b, confidence)
+  b <- unique(as.double(b))
+  law <- study$model == "law"
+  question <- (if (law) asked_of_law else asked_of_trade)(study, limit, unit, survived, along)
+  if (length(given)) question <- c(question, if (law) list(given = as.list(given)) else as.list(given))
+  answers <- ww_ask(fit, c(question, list(b_lives = as.list(b), credible_level = as.double(confidence))))
+  rows <- life_rows(answers, study$model)
+  wanted <- if (!is.null(unit) || (law && !is.null(survived))) "remaining life" else "life"
+  item <- sub("^[^ ]* ", "", rows$of)
+  is_new <- startsWith(rows$of, "new ")
+  if (is.null(unit)) {
+    mine <- if (law) is_new | !grepl(" ", rows$of, fixed = TRUE) else !startsWith(rows$of, "median ")
+  } else {
+    mine <- item == as.character(unit) & !is_new
+    seen <- sort(unique(item[rows$name == wanted & !is_new]))
+    if (!as.character(unit) %in% seen) stop_input("the study has no item '", unit, "' (items: ", words(seen), ")")
+    if (!is.null(survived)) require_after(rows, wanted, mine, is_new, unit, survived)
+  }
+  of_all <- grepl("^B[^ ]+ (remaining )?life$", rows$name) & endsWith(rows$name, paste0(" ", wanted)) &
+    grepl("remaining", rows$name) == (wanted != "life")
+  keep <- mine & (rows$name == wanted | startsWith(rows$name, "survival to ") | of_all)
+  rows <- rows[keep, ]
+  of_all <- of_all[keep]
+  require_survival(rows, if (is.null(unit)) "a new one" else unit, survived)
+  # Of one thing, whose life only the posterior spreads, the bound is that of its life, and B-lives are its quantiles.
+  spread <- function() !is.null(study$varies) || any(vapply(study$likelihood, is_process, NA))
+  one <- study$model == "archard-joint" || (law && !is.null(limit) && (!is.null(unit) || !spread()))
+  levels <- paste0("b", format(b, trim = TRUE, digits = 6, drop0trailing = TRUE))
+  columns <- c("name", "of", "at", "unit", "q05", "q50", "q95", levels, "predictive", "bound")
+  rows[levels] <- NA_real_
+  for (i in which(rows$name == wanted)) {
+    same <- which(of_all & rows$at == rows$at[i])
+    percents <- as.double(sub("^B([^ ]+) .*$", "\\1", rows$name[same]))
+    for (j in seq_along(same)) rows[i, levels[which.min(abs(b - percents[j]))]] <- rows$predictive[same[j]]
+    if (one && length(same)) rows$bound[i] <- rows$bound[same[1]]
+  }
+  if (one) rows <- rows[!of_all, ]
+  rows <- rows[columns]
+  rownames(rows) <- NULL
+  rows
+}
+
+# A frame of what was answered; null of a life is never.
+life_rows <- function(answers, model) {
+  of <- lapply(answers$quantities, best)
+  never <- function(key) vapply(of, function(row) if (is.null(row[[key]])) NA_real_ else life(row[[key]]), 0)
+  rows <- data.frame(name = column(of, "name", ""), of = column(of, "of", ""), at = column(of, "at", ""), unit = column(of, "unit", ""))
+  for (key in c("q05", "q50", "q95", "predictive", "bound")) rows[[key]] <- never(key)
+  if (model != "archard-joint" || is.null(answers$life)) return(rows)
+  told <- best(answers$life)
+  first <- data.frame(name = "life", of = if (is.null(told$of) || told$of == "") "joint" else told$of,
+                      at = paste("to", format(told$limit, digits = 6), told$limit_unit), unit = told$unit, q05 = life(told$q05),
+                      q50 = life(told$b50), q95 = life(told$q95), predictive = NA_real_, bound = NA_real_)
+  rbind(first, rows)
+}
+
+require_after <- function(rows, wanted, mine, is_new, unit, survived) {
+  begins <- sub("^.*from ", "", rows$at[rows$name == wanted & (mine | is_new)])
+  if (length(unique(begins)) < 2) return()
+  last <- sub(" on$", "", sub("^.*from ", "", rows$at[rows$name == wanted & mine][1]))
+  stop_input("survived: ", unit, " was seen until ", last, " already, and ", survived, " lies before: leave survived out, what remains ",
+             "counts from its last row")
+}
+
+require_survival <- function(rows, what, survived) {
+  rare <- startsWith(rows$name, "survival to ") & !(rows$q50 >= least_survival)
+  if (any(rare)) {
+    stop_input("survived: ", what, " comes to ", survived, " with a probability of ", format(rows$q50[rare][1], digits = 2),
+               " % by this fit; lives from then on are known where it is more than 0.1 %")
+  }
+}
