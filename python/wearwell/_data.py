@@ -35,6 +35,47 @@ def _numbers(array, where):
     return None
 
 
+_dates = ("datetime", "date", "time", "timedelta", "Timestamp", "Timedelta", "Period", "Interval", "NaTType", "datetime64", "timedelta64")
+
+
+def _texts(values, where):
+    """A list of texts and None; the first row that is neither is named, and where kinds are mixed the first of another kind."""
+
+    if all(type(each) is str for each in values):
+        return values
+
+    def kind(each):
+        missing = each is None or each is _pandas_na() or (isinstance(each, float) and each != each)
+        return "" if missing else "str" if isinstance(each, str) else type(each).__name__
+
+    kinds = [kind(each) for each in values]
+    first = next((k for k in kinds if k), "str")
+    other = next((row for row, k in enumerate(kinds) if k and k != first), None)
+    if other is not None:
+        raise InputError(f"{_at(where, other)}: {values[other]!r} is {kinds[other]}, and above there is {first}; a column holds numbers "
+                         "of one dtype (astype(float)) or texts")
+    if first != "str":
+        row = kinds.index(first)
+        if first in _dates:
+            raise InputError(f"{_at(where, row)}: {first}; dates and times are no measurements: give a number with a unit, like hours "
+                             "since the start")
+        raise InputError(f"{_at(where, row)}: {first} in a column of objects, which may hold texts alone; numbers need a dtype of "
+                         "numbers (astype(float))")
+    return [None if not k else each for k, each in zip(kinds, values)]
+
+
+def _at(where, row):
+    name, _, column = where.partition(", column ")
+    return f"{name}, row {row + 1}, column {column}"
+
+
+def _pandas_na():
+    import sys
+
+    pandas = sys.modules.get("pandas")
+    return pandas.NA if pandas else None
+
+
 def _values(column, where):
     """An array of numbers, or a list of texts."""
     if hasattr(column, "magnitude") and hasattr(column, "units"):  # pint
@@ -44,13 +85,20 @@ def _values(column, where):
         column = column.astype(object if dtype.categories.dtype == object else dtype.categories.dtype)
         dtype = column.dtype
     if dtype is not None and not isinstance(dtype, np.dtype) and hasattr(column, "to_numpy"):  # pandas' own types
-        if getattr(dtype, "kind", "O") in "iufb":
+        kind = getattr(dtype, "kind", "O")
+        if kind in "mM" or type(dtype).__name__ in ("PeriodDtype", "IntervalDtype"):
+            raise InputError(f"{where} holds dates, times or intervals ({dtype}); give a number with a unit, like hours since the start")
+        if kind in "iu":
+            _numbers(column.dropna().to_numpy(dtype=f"{kind}8"), where)  # none beyond 2^53
+        if kind in "iufb":
             column = column.to_numpy(dtype=float, na_value=np.nan)
         else:
             column = column.astype(object).where(column.notna(), None).to_numpy()
     elif hasattr(column, "to_numpy"):
         column = column.to_numpy()
     if isinstance(column, np.ma.MaskedArray):
+        if column.dtype.kind not in "OUS":
+            _numbers(column.compressed() if column.ndim == 1 else column.data, where)  # as of what is not masked
         column = column.astype(object if column.dtype.kind in "OUS" else float).filled(
             None if column.dtype.kind in "OUS" else np.nan
         )
@@ -58,12 +106,10 @@ def _values(column, where):
         if isinstance(column, (str, bytes)) or not hasattr(column, "__len__"):
             raise InputError(f"{where} is {type(column).__name__}; a column is an array or a list")
         column = list(column)
-        if column and all(isinstance(each, (str, type(None))) for each in column) and any(
-            isinstance(each, str) for each in column
-        ):
-            return column
+        if any(isinstance(each, str) for each in column):
+            return _texts(column, where)
         try:
-            column = np.asarray([np.nan if each is None else each for each in column])
+            column = np.asarray([np.nan if each is None or each is _pandas_na() else each for each in column])
         except ValueError:
             raise InputError(f"{where} has elements of different lengths; a column has one number or text a row") from None
     numbers = _numbers(column, where)
@@ -71,11 +117,15 @@ def _values(column, where):
         return numbers
     if column.dtype.kind == "S":
         raise InputError(f"{where} holds bytes; decode them to texts")
-    return column.tolist()  # texts; the library names row and type of whatever else is among them
+    return _texts(column.tolist(), where)
 
 
 def _headings(names, where):
+    """They are texts, and no two are alike."""
     for name in names:
+        if isinstance(name, tuple):
+            raise InputError(f"{where}: the heading {name!r} has {len(name)} levels; columns have one name each "
+                             "(frame.columns = ['_'.join(c) for c in frame.columns])")
         if not isinstance(name, str):
             raise InputError(f"{where}: the heading {name!r} is {type(name).__name__}; headings are texts")
 
@@ -89,6 +139,8 @@ def table_of(data, name="data", units=None, only=None):
     units = {k: unit_text(v) for k, v in (units or {}).items()}
     if isinstance(data, _core.Table):
         return data
+    if _is_series(data):
+        headings_of(data, name)
     if isinstance(data, (str, os.PathLike)):
         table = _core.table_of_file(os.fspath(data), None)
     elif hasattr(data, "columns") and hasattr(data, "iloc"):  # pandas
@@ -135,8 +187,23 @@ def _columns(items, name, units, only, names):
     return _core.table_of(name, columns)
 
 
-def headings_of(data):
-    """Names of the columns, without reading them where that can be."""
+def _is_series(data):
+    return hasattr(data, "iloc") and not hasattr(data, "columns")
+
+
+def headings_of(data, name="data"):
+    """Names of the columns, without reading them where that can be. InputError where they are no texts."""
+    headings = _found_headings(data)
+    if headings is not None:
+        _headings(headings, name)
+        if not headings:
+            raise InputError(f"{name} has no columns")
+    return headings
+
+
+def _found_headings(data):
+    if _is_series(data):
+        raise InputError(f"data is {type(data).__name__}, one column without others; it may be a data frame or a dict of columns")
     if isinstance(data, _core.Table):
         return data.headings()
     if isinstance(data, (str, os.PathLike)) or (hasattr(data, "__arrow_c_stream__") and not hasattr(data, "iloc")):
