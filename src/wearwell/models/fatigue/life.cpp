@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "wearwell/math/root.h"
+#include "wearwell/models/fatigue/random_limit.h"
 
 namespace wearwell::fatigue {
 namespace {
@@ -172,9 +173,52 @@ void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x
   }
 }
 
+namespace {
+
+LimitedLife<double> limited(const SnLaw& law, const double* x, double log10_reversed) {
+  const int i = law.limit_index();
+  return {law.standard(), *law.limit,           log10_reversed, x[0],
+          x[1],           x[law.sigma_index()], x[i],           x[i + 1]};
+}
+
+// The share of items that fail under a stress, however late.
+double ever_failing(const LimitedLife<double>& item) {
+  return wearwell::cdf(item.limit, (item.log10_reversed - item.location) / item.scale);
+}
+
+// By Newton's method in the logarithm of the share that has failed, which is concave: from the life
+// of items without a limit, before which no such share fails, no step goes too far.
+double limited_quantile(const LimitedLife<double>& item, double p) {
+  if (std::isnan(item.log10_reversed) || p >= ever_failing(item)) {
+    return std::isnan(item.log10_reversed) ? item.log10_reversed : infinity;
+  }
+  double low =
+      (item.log10_reversed - item.log10_a) / item.b + item.sigma * wearwell::quantile(item.life, p);
+  double high = infinity, at = low;
+  for (int i = 0; i < 200; ++i) {
+    const LimitedLifeSlopes y = log_probability_and_slopes(item, Outcome::left, at, 0);
+    const double excess = y.value - std::log(p);
+    // By z of life alone does the share depend on the life: z = (life - center)/sigma.
+    const double slope = y.by_log10_a * item.b;
+    (excess < 0 ? low : high) = at;
+    double next = at - excess / slope;
+    const double reach = 10 * item.sigma + 1;
+    if (!std::isfinite(next) || next < low)
+      next = std::isfinite(high) ? 0.5 * (low + high) : low + reach;
+    if (next >= high) next = 0.5 * (low + high);
+    const double moved = std::abs(next - at);
+    at = next;
+    if (moved <= 1e-11 * (1 + std::abs(at))) return at;
+    if (at > most_decades) return infinity;
+  }
+  return at;
+}
+
+}  // namespace
+
 double life_quantile(const SnLaw& law, const double* x, const Stress& stress, double p) {
   const double log10_reversed = law.log10_reversed(x, stress);
-  if (law.limit) return std::log10(life_of(law, x, log10_reversed).quantile(p));
+  if (law.limit) return limited_quantile(limited(law, x, log10_reversed), p);
   return life_center(law, x, log10_reversed) +
          x[law.sigma_index()] * wearwell::quantile(law.standard(), p);
 }
@@ -184,7 +228,13 @@ double cycles(const SnLaw& law, double at) {
 }
 
 double survival(const SnLaw& law, const double* x, const Stress& stress, double life) {
-  return 1 - life_of(law, x, law.log10_reversed(x, stress)).cdf(life);
+  const double log10_reversed = law.log10_reversed(x, stress);
+  if (law.limit && std::isfinite(log10_reversed)) {
+    return std::exp(log_probability_and_slopes(limited(law, x, log10_reversed), Outcome::runout,
+                                               std::log10(life), 0)
+                        .value);
+  }
+  return 1 - life_of(law, x, log10_reversed).cdf(life);
 }
 
 double log10_reversed_allowed(const SnLaw& law, const double* x, double life, double reliability) {
@@ -200,8 +250,11 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
   if (std::abs(unlimited) > most_decades) return std::copysign(infinity, unlimited);
   // The limit adds to what is borne: no less than without one, no more than with the limit of
   // nearly the toughest item on top.
+  const double at = std::log10(life);
   const auto excess = [&](double log10_reversed) {
-    return life_of(law, x, log10_reversed).cdf(life) - (1 - reliability);
+    const auto y =
+        log_probability_and_slopes(limited(law, x, log10_reversed), Outcome::runout, at, 0);
+    return reliability - std::exp(y.value);
   };
   const int i = law.limit_index();
   const double high = std::max(unlimited, x[i] + 8 * x[i + 1]) + std::log10(2.0);

@@ -44,6 +44,7 @@ class SnLikelihood final : public LogDensity {
   double value(std::span<const double> x) const override { return formula(x.data()); }
 
   double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    if (law_.limit && !law_.has_strength() && !law_.has_gamma()) return limited(x, gradient);
     return wearwell::value_and_gradient<max_parameters>(
         [this](const auto* p) { return formula(p); }, x, gradient);
   }
@@ -111,26 +112,53 @@ class SnLikelihood final : public LogDensity {
     return sum;
   }
 
+  // With a random limit and no unknown of the mean stress: derivatives without dual numbers.
+  double limited(std::span<const double> x, std::span<double> gradient) const {
+    const Shared<double> shared(law_, x.data());
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    double sum = 0;
+    for (const auto& [row, count] : terms_) {
+      const LifeTest& test = tests_[row];
+      const double s = log10_reversed(shared, row);
+      if (!std::isfinite(s)) return -std::numeric_limits<double>::infinity();
+      const LimitedLife<double> life{law_.standard(), *law_.limit, s, x[0], x[1], x[2], x[3], x[4]};
+      const LimitedLifeSlopes y =
+          log_probability_and_slopes(life, test.outcome, rows_[row].at, rows_[row].until);
+      sum += count * (y.value + (test.outcome == Outcome::failure ? rows_[row].log_measure : 0));
+      gradient[0] += count * y.by_log10_a;
+      gradient[1] += count * y.by_b;
+      gradient[2] += count * y.by_sigma;
+      gradient[3] += count * y.by_location;
+      gradient[4] += count * y.by_scale;
+    }
+    return sum;
+  }
+
+  template <class T>
+  T log10_reversed(const Shared<T>& shared, std::size_t i) const {
+    return rows_[i].log10_alternating +
+           log10_factor(law_.correction, tests_[i].stress, shared.strength, shared.gamma);
+  }
+
   // The log-likelihood of one test of the row.
   template <class T>
   T term(const Shared<T>& shared, std::size_t i) const {
     const LifeTest& test = tests_[i];
     const Row& row = rows_[i];
-    const T log10_reversed = row.log10_alternating + log10_factor(law_.correction, test.stress,
-                                                                  shared.strength, shared.gamma);
-    if (!std::isfinite(scalar(log10_reversed))) {
+    const T reversed = log10_reversed(shared, i);
+    if (!std::isfinite(scalar(reversed))) {
       return T(-std::numeric_limits<double>::infinity());
     }
     if (law_.limit) {
       const T* x = shared.x;
       const T* limit = x + law_.limit_index();
       const LimitedLife<T> life{
-          law_.standard(), *law_.limit, log10_reversed, x[0], x[1], shared.x[law_.sigma_index()],
+          law_.standard(), *law_.limit, reversed, x[0], x[1], shared.x[law_.sigma_index()],
           limit[0],        limit[1]};
       const T value = log_probability(life, test.outcome, row.at, row.until);
       return test.outcome == Outcome::failure ? T(value + row.log_measure) : value;
     }
-    T location = (log10_reversed - shared.x[0]) * shared.inverse_b;
+    T location = (reversed - shared.x[0]) * shared.inverse_b;
     if (!law_.logarithmic()) {
       using std::exp;
       constexpr double most = 300;  // decades; a longer life is no number
