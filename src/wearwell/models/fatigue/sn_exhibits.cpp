@@ -77,7 +77,7 @@ class Drawing {
                                                 : ""),
         predictions_(predictions),
         draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled,
-                       law.limit ? most_draws_with_limit : most_draws)),
+                       law.integrated() ? most_draws_with_limit : most_draws)),
         line_(line_of_tests(law, data)) {
     for (const LifeTest& test : data.tests) {
       shortest_ = std::min(shortest_, test.life);

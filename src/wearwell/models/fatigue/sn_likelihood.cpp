@@ -10,7 +10,7 @@
 namespace wearwell::fatigue {
 namespace {
 
-constexpr int max_parameters = 7;
+constexpr int max_parameters = 8;
 
 class SnLikelihood final : public LogDensity {
  public:
@@ -30,7 +30,7 @@ class SnLikelihood final : public LogDensity {
       const auto alike = [&](const Term& term) { return same(tests_[term.row], tests_[i]); };
       // An integral over the limit is worth the search; without one the sum keeps its order.
       const auto found =
-          law_.limit ? std::find_if(terms_.begin(), terms_.end(), alike) : terms_.end();
+          law_.integrated() ? std::find_if(terms_.begin(), terms_.end(), alike) : terms_.end();
       if (found != terms_.end()) {
         found->count += tests_[i].count;
       } else {
@@ -44,7 +44,7 @@ class SnLikelihood final : public LogDensity {
   double value(std::span<const double> x) const override { return formula(x.data()); }
 
   double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
-    if (law_.limit && !law_.has_strength() && !law_.has_gamma()) return limited(x, gradient);
+    if (law_.integrated() && !law_.has_strength() && !law_.has_gamma()) return limited(x, gradient);
     return wearwell::value_and_gradient<max_parameters>(
         [this](const auto* p) { return formula(p); }, x, gradient);
   }
@@ -84,7 +84,7 @@ class SnLikelihood final : public LogDensity {
   template <class T>
   struct Shared {
     const T* x;
-    T strength, gamma, inverse_b, inverse_sigma, log_sigma;
+    T strength, gamma, inverse_sigma, log_sigma;
 
     Shared(const SnLaw& law, const T* parameters) : x(parameters) {
       using std::exp;
@@ -92,7 +92,6 @@ class SnLikelihood final : public LogDensity {
       strength = law.has_strength() ? T(exp(x[law.strength_index()] * std::log(10.0)))
                                     : T(law.strength.value_or(1));
       gamma = law.has_gamma() ? x[law.gamma_index()] : T(law.gamma.value_or(1));
-      inverse_b = 1.0 / x[1];
       inverse_sigma = 1.0 / x[law.sigma_index()];
       log_sigma = log(x[law.sigma_index()]);
     }
@@ -149,7 +148,7 @@ class SnLikelihood final : public LogDensity {
     if (!std::isfinite(scalar(reversed))) {
       return T(-std::numeric_limits<double>::infinity());
     }
-    if (law_.limit) {
+    if (law_.integrated()) {
       const T* x = shared.x;
       const T* limit = x + law_.limit_index();
       const LimitedLife<T> life{
@@ -158,7 +157,8 @@ class SnLikelihood final : public LogDensity {
       const T value = log_probability(life, test.outcome, row.at, row.until);
       return test.outcome == Outcome::failure ? T(value + row.log_measure) : value;
     }
-    T location = (reversed - shared.x[0]) * shared.inverse_b;
+    T location = law_.log10_life(shared.x, reversed);
+    if (law_.bends() || law_.scatter_grows) return bent(shared, i, reversed, location);
     if (!law_.logarithmic()) {
       using std::exp;
       constexpr double most = 300;  // decades; a longer life is no number
@@ -182,6 +182,47 @@ class SnLikelihood final : public LogDensity {
     }
     const T until = (row.until - location) * shared.inverse_sigma;
     return log_between(standard, z, until);
+  }
+
+  // About a curve that is no straight line, or with a scatter that is not the same everywhere; and of
+  // a knee with a limit that scatters: life has an end for those whose limit the stress reaches.
+  template <class T>
+  T bent(const Shared<T>& shared, std::size_t i, const T& reversed, const T& location) const {
+    using std::log;
+    const Row& row = rows_[i];
+    const Outcome outcome = tests_[i].outcome;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!std::isfinite(scalar(location))) {
+      // Below a limit of all items life has no end.
+      return T(scalar(location) > 0 && outcome == Outcome::runout ? 0 : -infinity);
+    }
+    const StandardLaw standard = law_.standard();
+    const T sigma = law_.sigma_at(shared.x, location);
+    const T z = (row.at - location) / sigma;
+    T reached(0);  // log of the share of items whose limit the stress reaches
+    if (law_.limit) {
+      const T* limit = shared.x + law_.limit_index();
+      const T w = (reversed - limit[0]) / limit[1];
+      reached = log_cdf(*law_.limit, w);
+      if (outcome == Outcome::runout) {
+        const T safe = log_survival(*law_.limit, w), later = reached + log_survival(standard, z);
+        const bool more = scalar(safe) > scalar(later);
+        const T &larger = more ? safe : later, &smaller = more ? later : safe;
+        if (scalar(smaller) < scalar(larger) - 700) return larger;
+        return larger + log(1.0 + exp(smaller - larger));
+      }
+    }
+    switch (outcome) {
+      case Outcome::failure:
+        return reached + log_density(standard, z) - log(sigma) + row.log_measure;
+      case Outcome::runout:
+        return log_survival(standard, z);
+      case Outcome::left:
+        return reached + log_cdf(standard, z);
+      case Outcome::interval:
+        break;
+    }
+    return reached + log_between(standard, z, T((row.until - location) / sigma));
   }
 
   SnLaw law_;

@@ -20,7 +20,42 @@ namespace {
 using fatigue::LifeFamily;
 using fatigue::LifeTest;
 using fatigue::MeanStress;
+using fatigue::SecondSlope;
+using fatigue::SnCurve;
 using fatigue::SnLaw;
+
+// The form of the curve and its scatter, where they are not Basquin's with the same scatter everywhere.
+void read_curve(const TomlReader& table, bool random_limit, SnLaw& law) {
+  const auto curve = table.choice("curve", {"basquin", "knee", "stromeyer", "bastenaire"});
+  const auto slope = table.choice("second_slope", {"free", "haibach", "infinite"});
+  const auto scatter = table.choice("scatter", {"constant", "grows"});
+  if (curve == "knee") law.curve = SnCurve::knee;
+  if (curve == "bastenaire") law.curve = SnCurve::bastenaire;
+  // With a limit of its own for each item Stromeyer's curve is that of a random fatigue limit.
+  if (curve == "stromeyer" && !random_limit) law.curve = SnCurve::stromeyer;
+  if (slope && law.curve != SnCurve::knee) {
+    table.fail("second_slope", "needs curve = \"knee\": it is the slope below the knee");
+  }
+  if (slope == "haibach") law.second_slope = SecondSlope::haibach;
+  if (slope == "infinite") law.second_slope = SecondSlope::infinite;
+  if (law.curve == SnCurve::knee && random_limit != (slope == "infinite")) {
+    table.fail(
+        random_limit ? "second_slope" : "fatigue_limit",
+        "below a knee life has either a second slope (second_slope = \"free\" or "
+        "\"haibach\"), or no end, and then the limit scatters: second_slope = \"infinite\" and "
+        "fatigue_limit = \"random\" together");
+  }
+  if (law.curve == SnCurve::bastenaire && random_limit) {
+    table.fail(
+        "fatigue_limit",
+        "Bastenaire's curve has one limit for all; random goes with basquin, stromeyer or knee");
+  }
+  law.scatter_grows = scatter == "grows";
+  if (law.scatter_grows && random_limit) {
+    table.fail("scatter",
+               "lives scatter more near a random fatigue limit already; grows goes with none");
+  }
+}
 
 SnLaw read_law(const TomlReader& root) {
   SnLaw law;
@@ -43,12 +78,18 @@ SnLaw read_law(const TomlReader& root) {
   } else if (limit_family) {
     table->fail("limit_family", "needs fatigue_limit = \"random\"");
   }
+  read_curve(*table, limit == "random", law);
   if (const auto likelihood = root.table("likelihood")) {
     const auto family = likelihood->choice("family", {"log10-normal", "weibull", "normal"});
     if (family == "weibull") law.family = LifeFamily::weibull;
     if (family == "normal") law.family = LifeFamily::normal;
     if (law.limit && law.family == LifeFamily::normal) {
       likelihood->fail("family", "normal on life has no random fatigue limit; use log10-normal");
+    }
+    if (!law.straight() && law.family == LifeFamily::normal) {
+      likelihood->fail("family",
+                       "normal on life goes with a straight curve of constant scatter alone; use "
+                       "log10-normal or weibull");
     }
   }
   const auto conditions = root.table("conditions");
@@ -104,6 +145,15 @@ class Defaults {
   DefaultPrior log10_a() const { return logarithm(4 * highest_, 0.7); }
   // Long tails: welds have -0.33.
   DefaultPrior b() const { return {"student-t", StudentT{4, -0.12, 0.06}, "1"}; }
+  // Slopes from 3 (welds) to 15; the knee near a million cycles (FKM 1e6, Eurocode 5e6); slopes below it
+  // from 2k - 1 to 45.
+  DefaultPrior k() const { return {"student-t", StudentT{4, 8, 4}, "1", 0}; }
+  DefaultPrior k2() const { return {"student-t", StudentT{4, 20, 10}, "1", 0}; }
+  DefaultPrior log_knee_life() const { return {"normal", Normal{6.2, 0.5}, "log10(cycles)"}; }
+  DefaultPrior log_bend() const { return logarithm(0.5 * lowest_, 0.4); }
+  DefaultPrior bend_power() const { return {"normal", Normal{1, 0.5}, "1", 0}; }
+  // A factor of 2 of the scatter over two decades of life.
+  DefaultPrior growth() const { return {"normal", Normal{0, 0.15}, "1"}; }
   DefaultPrior gamma() const { return {"beta", Beta{4, 3}, "1"}; }
   DefaultPrior sigma(bool logarithmic) const {
     return {"half-normal", Normal{0, logarithmic ? 0.5 : rounded_up(longest_)},
@@ -159,23 +209,53 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
   }
   const fatigue::SnGuess guess = fatigue::guess(law, data.tests, material);
 
+  double lowest = INFINITY;
+  for (const LifeTest& test : data.tests) {
+    lowest = std::min(lowest, std::log10(test.stress.alternating) +
+                                  log10_factor(law.correction, test.stress, material, 0.5));
+  }
   std::vector<Parameter> parameters;
-  parameters.push_back(
-      read({"log10_a", "log10(Pa)", -INFINITY, INFINITY, guess.log10_a}, defaults.log10_a()));
-  parameters.push_back(read({"b", "1", -INFINITY, 0, guess.b}, defaults.b()));
+  const auto add = [&](const char* name, const char* si, double least, double start,
+                       const DefaultPrior& prior) {
+    parameters.push_back(
+        read({name, si, least, name == std::string("b") ? 0 : INFINITY, start}, prior));
+  };
+  const double at_million = guess.log10_a + 6 * guess.b;  // log10 of the stress
+  const double knee = std::max(at_million, lowest + 0.01);
+  switch (law.curve) {
+    case SnCurve::knee:
+      add("k", "1", 0, -1 / guess.b, defaults.k());
+      add("log10_N_D", "log10(cycle)", -INFINITY, (knee - guess.log10_a) / guess.b,
+          defaults.log_knee_life());
+      if (law.limit) break;
+      add("log10_S_D", "log10(Pa)", -INFINITY, knee, defaults.log_limit());
+      if (law.second_slope == SecondSlope::free) add("k2", "1", 0, 20, defaults.k2());
+      break;
+    case SnCurve::bastenaire:
+      add("log10_N_B", "log10(cycle)", -INFINITY, 6, defaults.log_knee_life());
+      add("log10_B", "log10(Pa)", -INFINITY, lowest - 0.3, defaults.log_bend());
+      add("C", "1", 0, 1, defaults.bend_power());
+      add("log10_limit", "log10(Pa)", -INFINITY, lowest - 0.1, defaults.log_limit());
+      break;
+    case SnCurve::basquin:
+    case SnCurve::stromeyer:
+      add("log10_a", "log10(Pa)", -INFINITY, guess.log10_a, defaults.log10_a());
+      add("b", "1", -INFINITY, guess.b, defaults.b());
+      if (law.curve == SnCurve::stromeyer)
+        add("log10_limit", "log10(Pa)", -INFINITY, lowest - 0.1, defaults.log_limit());
+  }
   if (log_strength) parameters.push_back(*log_strength);
   if (law.has_gamma()) parameters.push_back(read({"gamma", "1", 0, 1, 0.5}, defaults.gamma()));
   const char* sigma_si = law.logarithmic() ? "1" : "cycle";
   parameters.push_back(
       read({"sigma", sigma_si, 0, INFINITY, guess.sigma}, defaults.sigma(law.logarithmic())));
+  if (law.scatter_grows) add("sigma_growth", "1", -INFINITY, 0, defaults.growth());
   if (law.limit) {
-    double lowest = INFINITY;
-    for (const LifeTest& test : data.tests) {
-      lowest = std::min(lowest, std::log10(test.stress.alternating) +
-                                    log10_factor(law.correction, test.stress, material, 0.5));
+    if (law.curve == SnCurve::knee) {
+      add("log10_S_D", "log10(Pa)", -INFINITY, knee, defaults.log_limit());
+    } else {
+      add("log10_limit", "log10(Pa)", -INFINITY, lowest - 0.05, defaults.log_limit());
     }
-    parameters.push_back(read({"log10_limit", "log10(Pa)", -INFINITY, INFINITY, lowest - 0.05},
-                              defaults.log_limit()));
     parameters.push_back(read({"sigma_limit", "1", 0, INFINITY, 0.05}, defaults.sigma_limit()));
   }
   if (!law.logarithmic()) {
@@ -187,6 +267,17 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
 
 std::vector<std::string> meanings(const SnLaw& law) {
   std::vector<std::string> words = {"logarithm of the stress at one cycle", "Basquin's exponent"};
+  if (law.curve == SnCurve::stromeyer) {
+    words = {"logarithm of the stress above the limit at one cycle", "Stromeyer's exponent",
+             "logarithm of the fatigue limit"};
+  } else if (law.curve == SnCurve::bastenaire) {
+    words = {"logarithm of Bastenaire's life", "logarithm of Bastenaire's stress",
+             "Bastenaire's exponent", "logarithm of the fatigue limit"};
+  } else if (law.curve == SnCurve::knee) {
+    words = {"slope above the knee", "logarithm of the knee's life"};
+    if (!law.limit) words.emplace_back("logarithm of the knee's stress");
+    if (law.curve_dimension() == 4) words.emplace_back("slope below the knee");
+  }
   if (law.has_strength()) {
     words.emplace_back(law.correction == MeanStress::soderberg ? "logarithm of the yield strength"
                        : law.correction == MeanStress::morrow
@@ -194,7 +285,11 @@ std::vector<std::string> meanings(const SnLaw& law) {
                            : "logarithm of the ultimate strength");
   }
   if (law.has_gamma()) words.emplace_back("Walker's exponent");
-  words.emplace_back(law.logarithmic() ? "scatter of log10 life" : "scatter of life");
+  words.emplace_back(law.scatter_grows   ? "scatter of log10 life at a million cycles"
+                     : law.logarithmic() ? "scatter of log10 life"
+                                         : "scatter of life");
+  if (law.scatter_grows)
+    words.emplace_back("decades by which the scatter grows over a decade of life");
   if (law.limit) {
     words.emplace_back("logarithm of the median fatigue limit");
     words.emplace_back("scatter of the logarithm of the fatigue limit");
@@ -203,6 +298,23 @@ std::vector<std::string> meanings(const SnLaw& law) {
     words[words.size() - 2] = "logarithm of the fatigue limit that 63.2 % stay below";
   }
   return words;
+}
+
+std::string curve_in_words(const SnLaw& law) {
+  switch (law.curve) {
+    case SnCurve::knee:
+      return law.limit ? "N = N_D (S_f/S_D)^-k"
+             : law.second_slope == SecondSlope::haibach
+                 ? "N = N_D (S_f/S_D)^-k, below S_D with 2k - 1 for k"
+                 : "N = N_D (S_f/S_D)^-k, below S_D with k2 for k";
+    case SnCurve::stromeyer:
+      return "S_f - limit = a N^b";
+    case SnCurve::bastenaire:
+      return "N = N_B B/(S_f - limit) exp(-((S_f - limit)/B)^C)";
+    case SnCurve::basquin:
+      break;
+  }
+  return law.limit ? "S_f - limit = a N^b" : "S_f = a N^b";
 }
 
 std::string in_words(const SnLaw& law) {
@@ -227,20 +339,21 @@ std::string in_words(const SnLaw& law) {
       reversed = "(S_m + S_a)^(1 - gamma) S_a^gamma";
       break;
   }
-  std::string words =
-      fmt::format("S_f = {}, {} = a N^b", reversed, law.limit ? "S_f - limit" : "S_f");
+  std::string words = fmt::format("S_f = {}, {}", reversed, curve_in_words(law));
   if (law.strength) words += fmt::format(", {} = {:.6g} MPa", strength, *law.strength * 1e-6);
   if (law.gamma) words += fmt::format(", gamma = {:.4g}", *law.gamma);
   words += law.family == LifeFamily::log10_normal
-               ? "; log10 N scatters normally with standard deviation sigma"
+               ? fmt::format("; log10 N scatters normally with standard deviation sigma{}",
+                             law.scatter_grows ? " (N/1e6)^sigma_growth" : "")
            : law.family == LifeFamily::weibull
                ? "; N is Weibull of shape 1/(sigma ln 10), 63.2 % below the curve"
                : "; N scatters normally with standard deviation sigma";
   if (law.limit) {
     words += fmt::format(
-        "; log10 of the limit is {} with location log10_limit and scale "
-        "sigma_limit, and no end of life below it",
-        *law.limit == StandardLaw::normal ? "normal" : "smallest extreme value");
+        "; log10 of the limit is {} with location {} and scale sigma_limit, and no end of life "
+        "below it",
+        *law.limit == StandardLaw::normal ? "normal" : "smallest extreme value",
+        law.curve == SnCurve::knee ? "log10_S_D" : "log10_limit");
   }
   return words;
 }
@@ -281,8 +394,13 @@ std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
 FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Parameter>& parameters) {
   std::vector<double> start;
   for (const Parameter& parameter : parameters) start.push_back(parameter.start);
-  FitData result{
-      fatigue::sn_scores(law, data.tests), {}, {{"stress", {}}}, Rise{}, "row", true, !law.limit};
+  FitData result{fatigue::sn_scores(law, data.tests),
+                 {},
+                 {{"stress", {}}},
+                 Rise{},
+                 "row",
+                 true,
+                 !law.integrated()};
   std::vector<double> mean;
   Rise& rise = *result.rise;
   rise.law = "life grows as stress falls";
@@ -332,13 +450,15 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
     predictions = read_sn_predictions(*predict, law, data);
   }
   add_sn_quantities(law, data, predictions, study);
-  study.curve = [=](const WeightedDraws& draws) {
-    const double log10_a = Distribution(draws, [](const double* x) { return x[0]; }).mean();
-    const double b = Distribution(draws, [](const double* x) { return x[1]; }).mean();
-    return fmt::format("the curve is {} = {:.4g} {} x N^({:.4g}) in the mean",
-                       law.limit ? "S_f - limit" : "S_f",
-                       from_si(data.stress_unit, std::pow(10, log10_a)), data.stress_unit.text, b);
-  };
+  if (law.curve != SnCurve::knee && law.curve != SnCurve::bastenaire)
+    study.curve = [=](const WeightedDraws& draws) {
+      const double log10_a = Distribution(draws, [](const double* x) { return x[0]; }).mean();
+      const double b = Distribution(draws, [](const double* x) { return x[1]; }).mean();
+      return fmt::format("the curve is {} = {:.4g} {} x N^({:.4g}) in the mean",
+                         law.bends() ? "S_f - limit" : "S_f",
+                         from_si(data.stress_unit, std::pow(10, log10_a)), data.stress_unit.text,
+                         b);
+    };
   study.coverage = [=](const WeightedDraws& draws) { return sn_coverage(law, data, draws); };
   study.addition = [=](const Fit& fit) { return sn_addition(law, data, fit); };
   study.exhibits = [=](const Fit& fit) { return sn_exhibits(law, data, predictions, fit); };
