@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+// Longer than others: one rule, whose nodes are found, filled and judged over the same table.
 namespace wearwell::fatigue {
 namespace {
 
