@@ -1,5 +1,5 @@
 # make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
-.PHONY: run python test install build calibrate sanitize fuzz tidy bench format clean
+.PHONY: run python r test install build calibrate sanitize fuzz tidy bench format clean
 
 run: setup
 	@cmake --preset release >/dev/null
@@ -12,6 +12,13 @@ python: setup-python
 	@cmake --build --preset release --target wearwell_python
 	@WEARWELL_BUILD=$(CURDIR)/build/release /usr/bin/python3 -m pip wheel python/ --no-build-isolation --no-deps -q -w build/wheel
 	@echo "python3 -m pip install $$(ls -t build/wheel/*.whl | head -1)"
+
+# The R package, built, in build/r (docs/r.md).
+r: setup-r
+	@cmake --preset release -DWEARWELL_BUILD_R=ON >/dev/null
+	@cmake --build --preset release --target wearwell_r
+	@r/tools/binary build/release build/r
+	@echo "R CMD INSTALL $$(ls -t build/r/*.tar.gz | head -1)"
 
 test: build
 	@ctest --preset release
@@ -53,12 +60,15 @@ build: setup-tests
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release
 
-.PHONY: setup setup-python setup-tests setup-clang
+.PHONY: setup setup-python setup-r setup-tests setup-clang
 setup:
 	@setup/install
 
 setup-python:
 	@setup/install --python
+
+setup-r:
+	@setup/install --r
 
 setup-tests:
 	@setup/install --tests

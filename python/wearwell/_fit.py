@@ -141,7 +141,7 @@ class Fit:
             life = self.summary["life"]
             best = _best(life)
             rows.insert(0, {"name": "life", "of": life.get("of", ""), "at": f"to {life['limit']:g} {life['limit_unit']}",
-                            "unit": life["unit"], **{q: _life(best.get(q)) for q in _quantiles}, "predictive": _nan,
+                            "unit": life["unit"], **{q: _life(best[q]) if q in best else _nan for q in _quantiles}, "predictive": _nan,
                             "bound": _nan, "credible_level": _nan})
         return _frame(rows, ["name", "of", "at", "unit", *_quantiles, "predictive", "bound", "credible_level"])
 

@@ -33,7 +33,8 @@ const std::vector<std::set<std::string>> order = {
     {"study", "selection"},
     {"joint", "bearing", "clutch", "fatigue", "ownlaw"},
     {"models"},
-    {"cli"}};
+    {"cli"},
+    {"embed"}};
 
 std::size_t rank(const std::string& folder) {
   const auto at = std::find_if(order.begin(), order.end(),

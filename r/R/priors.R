@@ -1,0 +1,42 @@
+# Laws of priors, as [prior] of a study has them (docs/priors.md). What is wrong with a law is said when the study is read.
+
+prior <- function(law, ..., unit = NULL) {
+  keys <- list(...)
+  keys <- keys[!vapply(keys, is.null, NA)]
+  keys <- Map(quantity, keys, names(keys))
+  c(list(law = law), if (!is.null(unit)) list(unit = one_text(unit, "unit")), keys)
+}
+
+ww_flat <- function(unit, lower = NULL, upper = NULL) prior("flat", lower = lower, upper = upper, unit = unit)
+
+ww_uniform <- function(lower, upper) prior("uniform", lower = lower, upper = upper)
+
+ww_normal <- function(mean, sd, lower = NULL, upper = NULL) prior("normal", mean = mean, sd = sd, lower = lower, upper = upper)
+
+ww_lognormal <- function(median = NULL, log_sd = NULL, mean = NULL, sd = NULL, lower = NULL, upper = NULL) {
+  prior("lognormal", median = median, log_sd = log_sd, mean = mean, sd = sd, lower = lower, upper = upper)
+}
+
+ww_half_normal <- function(scale, lower = NULL, upper = NULL) prior("half-normal", scale = scale, lower = lower, upper = upper)
+
+ww_half_cauchy <- function(scale, lower = NULL, upper = NULL) prior("half-cauchy", scale = scale, lower = lower, upper = upper)
+
+ww_exponential <- function(mean, lower = NULL, upper = NULL) prior("exponential", mean = mean, lower = lower, upper = upper)
+
+ww_gamma <- function(shape, scale, lower = NULL, upper = NULL) {
+  prior("gamma", shape = shape, scale = scale, lower = lower, upper = upper)
+}
+
+ww_inverse_gamma <- function(shape, scale, lower = NULL, upper = NULL) {
+  prior("inverse-gamma", shape = shape, scale = scale, lower = lower, upper = upper)
+}
+
+ww_student_t <- function(df, location, scale, lower = NULL, upper = NULL) {
+  prior("student-t", df = df, location = location, scale = scale, lower = lower, upper = upper)
+}
+
+ww_beta <- function(alpha, beta, lower = NULL, upper = NULL) prior("beta", alpha = alpha, beta = beta, lower = lower, upper = upper)
+
+ww_jeffreys <- function(unit, lower = NULL, upper = NULL) prior("jeffreys", lower = lower, upper = upper, unit = unit)
+
+ww_default <- function() list(law = "default")

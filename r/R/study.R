@@ -1,0 +1,239 @@
+# Studies: from a file, from text with tables in memory, or put together of a law, data and priors.
+
+special <- c("status", "lower", "upper", "entry", "count")
+# Of a family: the slot that the law gives, the slot of its scatter, and what that is called where nobody says.
+slots <- list(
+  normal = c("mean", "sd", "sigma"),
+  lognormal = c("median", "log_sd", "sigma"),
+  `log10-normal` = c("median", "log10_sd", "sigma"),
+  weibull = c("scale", "shape", "shape"),
+  loglogistic = c("scale", "shape", "shape"),
+  `inverse-gaussian` = c("mean", "shape", "shape"),
+  `smallest-extreme-value` = c("location", "scale", "sigma"),
+  `largest-extreme-value` = c("location", "scale", "sigma"),
+  exponential = "mean",
+  poisson = "mean")
+positive <- c("lognormal", "half-normal", "half-cauchy", "exponential", "gamma", "inverse-gamma", "jeffreys")
+scatters <- c("family", "sd", "log_sd", "log10_sd", "shape", "df", "trials")
+
+# Names in expressions; texts and units are none.
+names_in <- function(x) {
+  texts <- c(names(unlist(x)), names(x), as.character(unlist(x)))
+  texts <- gsub("\"[^\"]*\"|\\[[^]]*\\]", " ", texts)
+  unique(unlist(regmatches(texts, gregexpr("[A-Za-z][A-Za-z0-9_]*", texts))))
+}
+
+law_lines <- function(law) {
+  if (!is.null(names(law)) && (is.list(law) || is.character(law))) return(stats::setNames(as.list(law), trimws(names(law))))
+  if (!is.character(law) || anyNA(law)) stop_input("the law is ", kind_of(law), "; it is a text like 'V = k*F*s', one line an equation")
+  lines <- list()
+  for (line in unlist(strsplit(law, "[\n;]"))) {
+    if (trimws(line) == "") next
+    at <- regexpr("(?<![<>=!])=(?!=)", line, perl = TRUE)  # the first = that is no comparison
+    name <- trimws(substr(line, 1, at - 1))
+    side <- trimws(substr(line, at + 1, nchar(line)))
+    if (at < 0 || name == "" || side == "") stop_input("'", trimws(line), "' is no equation; a law is written like 'V = k*F*s'")
+    if (name %in% names(lines)) stop_input("the law gives '", name, "' twice")
+    lines[[name]] <- side
+  }
+  if (!length(lines)) stop_input("the law is empty; it is written like 'V = k*F*s'")
+  lines
+}
+
+likelihood_of <- function(lines, columns, family, scatter) {
+  if (!is_path(family) || !family %in% names(slots)) {
+    stop_input("family ", shown_value(family), " has no one slot for a law; likelihood = list(...) gives all of them (families with ",
+               "one: ", words(names(slots)), ")")
+  }
+  slot <- slots[[family]]
+  measured <- intersect(names(lines), names(columns))
+  if (!length(measured)) {
+    stop_input("no left side of the law is a column of data: ", words(names(lines)), " (columns: ", words(names(columns)), ")")
+  }
+  likelihood <- lapply(lines[measured], function(line) stats::setNames(list(family, line), c("family", slot[1])))
+  if (length(slot) > 1) {
+    for (name in measured) {
+      each <- if (is.list(scatter) || !is.null(names(scatter))) scatter[[name]] else scatter
+      likelihood[[name]][[slot[2]]] <- if (is.null(each)) slot[3] else each
+    }
+  }
+  likelihood
+}
+
+# (entries of [varies], priors that they need): which parameters differ from item to item.
+varies_of <- function(varies, unit, lines, likelihood, priors) {
+  middles <- c(lines, lapply(likelihood, function(slots) slots[setdiff(names(slots), scatters)]))
+  if (is.null(varies)) {
+    in_law <- intersect(names(priors), names_in(unname(lapply(middles, function(m) unname(unlist(m))))))
+    if (length(in_law) != 1) {
+      stop_input("which of ", if (length(in_law)) words(in_law) else "its parameters", " differ from ", unit, " to ", unit,
+                 "? varies = '", c(in_law, "k")[1], "' says so")
+    }
+    varies <- in_law
+  }
+  if (is.null(names(varies))) {
+    law <- function(p) if (isTRUE(priors[[p]]$law %in% positive)) "lognormal" else "normal"
+    varies <- stats::setNames(lapply(varies, law), varies)
+  }
+  entries <- added <- list()
+  for (parameter in names(varies)) {
+    how <- varies[[parameter]]
+    if (!is.character(how) || parameter == "correlation") {
+      entries[[parameter]] <- how
+      next
+    }
+    scatter <- paste0(parameter, "_scatter")
+    entries[[parameter]] <- stats::setNames(list(how, scatter), c("law", if (how == "lognormal") "log_sd" else "sd"))
+    if (!scatter %in% names(priors)) {
+      if (how != "lognormal") stop_input("priors has no '", scatter, "': by how much ", parameter, " differs from ", unit, " to ", unit)
+      added[[scatter]] <- list(law = "half-normal", scale = 1)
+    }
+  }
+  list(entries = entries, added = added)
+}
+
+# Headings by the names that laws have for them: "F [N]" is F.
+named_columns <- function(headings) {
+  match <- regmatches(headings, regexec("^\\s*([A-Za-z][A-Za-z0-9_]*)\\s*([[(].*)?$", headings))
+  known <- lengths(match) > 0
+  names <- vapply(match[known], `[`, "", 2)
+  columns <- stats::setNames(headings[known], names)
+  twice <- names[duplicated(names)]
+  if (length(twice)) {
+    both <- columns[names == twice[1]]
+    stop_input("data: the columns '", both[1], "' and '", both[2], "' have one name, ", twice[1])
+  }
+  columns
+}
+
+ww_study <- function(law, data, units = NULL, priors, unit = NULL, varies = NULL, family = "normal", scatter = NULL,
+                     likelihood = NULL, constants = NULL, predict = NULL, sampler = NULL, title = NULL) {
+  units <- unit_texts(units, "units")
+  table <- NULL
+  if (is_path(data)) table <- table_of(data) else require_columns(data, "data")
+  headings <- headings_of(data, table)
+  columns <- named_columns(headings)
+  for (key in names(units)) {
+    if (!key %in% c(columns, names(columns))) stop_input("units: data has no column '", key, "' (columns: ", words(headings), ")")
+  }
+  by_name <- ifelse(names(units) %in% columns, names(columns)[match(names(units), columns)], names(units))
+  names(units) <- by_name
+  if (!is.null(unit) && !isTRUE(unit %in% names(columns))) {
+    stop_input("unit: data has no column '", words(unit), "' (columns: ", words(headings), ")")
+  }
+  all_lines <- lines <- law_lines(law)
+  if (missing(priors)) stop_input("priors is missing: a list like list(k = ww_lognormal(\"1e-7 mm^3/(N m)\", log_sd = 3))")
+  for (parameter in names(priors)) {
+    if (!is.list(priors[[parameter]])) {
+      stop_input("priors: ", parameter, " is ", kind_of(priors[[parameter]]), "; ww_lognormal(...) and its like make one")
+    }
+  }
+  if (is.null(likelihood)) {
+    likelihood <- likelihood_of(lines, columns, family, scatter)
+    lines <- lines[setdiff(names(lines), names(likelihood))]
+  }
+  if (is.null(unit) && !is.null(varies)) stop_input("varies needs unit: the column that names what differs")
+  entries <- list()
+  if (!is.null(unit)) {
+    found <- varies_of(varies, unit, lines, likelihood, priors)
+    entries <- found$entries
+    priors <- c(priors, found$added)
+  }
+  used <- c(names_in(lines), names_in(likelihood), names_in(predict), special, unit)
+  chosen <- columns[names(columns) %in% used]
+  in_table <- Map(function(name, heading) {
+    if (name %in% names(units)) list(column = heading, unit = units[[name]]) else heading
+  }, names(chosen), unname(chosen))
+  if (is.null(title)) title <- paste(names(all_lines), all_lines, sep = " = ", collapse = "; ")
+  parts <- c(toml_table("", list(title = title, model = "law")), toml_table("data", list(file = "data")),
+             toml_table("data.columns", in_table))
+  if (length(constants)) parts <- c(parts, toml_table("constants", Map(quantity, constants, paste0("constants.", names(constants)))))
+  if (length(lines)) parts <- c(parts, toml_table("law", lines))
+  for (measured in names(likelihood)) parts <- c(parts, toml_table(paste0("likelihood.", measured), likelihood[[measured]]))
+  parts <- c(parts, toml_table("prior", priors))
+  if (length(entries)) parts <- c(parts, toml_table(paste0("varies.", unit), entries))
+  if (length(predict)) parts <- c(parts, toml_table("predict", predict))
+  if (length(sampler)) parts <- c(parts, toml_table("sampler", sampler))
+  only <- if (is.null(table)) unname(chosen)
+  new_study(paste(parts, collapse = "\n"), "study", list(data = list(data = data, units = NULL, only = only)))
+}
+
+ww_study_toml <- function(text, data = NULL, units = NULL, folder = "", name = "study") {
+  text <- paste(text, collapse = "\n")
+  if (!is.null(data) && (!is.list(data) || is.null(names(data)) || is.data.frame(data))) {
+    stop_input("data is a list of tables by the names that the study gives them, like list(\"wear.csv\" = df)")
+  }
+  given <- lapply(stats::setNames(names(data), names(data)), function(each) list(data = data[[each]], units = units[[each]], only = NULL))
+  new_study(text, if (folder == "") name else file.path(path.expand(folder), name), given)
+}
+
+ww_read_study <- function(path, data = NULL, units = NULL) {
+  path <- path_of(path, "study")
+  if (is.null(data)) {
+    study <- core(C_read_file, path)
+    return(structure(class = "ww_study", list(text = core(C_study_text, study), path = normalizePath(path), shown = path, given = list(),
+                                              live = living(study))))
+  }
+  if (!file.exists(path)) core(C_read_file, path)  # says so
+  text <- readChar(path, file.size(path), useBytes = TRUE)
+  Encoding(text) <- "UTF-8"
+  is_table <- is.data.frame(data) || is_path(data) || !all(vapply(data, function(x) is.data.frame(x) || is_path(x), NA))
+  if (is_table) {
+    file <- core(C_keys, text)$data$file
+    if (!is_path(file)) stop_input(path, ": [data] names no one file; data = list(NAME = ...) says which table stands for which")
+    data <- stats::setNames(list(data), file)
+    if (!is.null(units)) units <- stats::setNames(list(units), file)
+  }
+  ww_study_toml(text, data, units, dirname(path), basename(path))
+}
+
+# An address that R may keep beyond its session, in a place that may be filled anew.
+living <- function(address) {
+  live <- new.env(parent = emptyenv())
+  live$address <- address
+  live
+}
+
+new_study <- function(text, path, given) {
+  study <- structure(class = "ww_study", list(text = text, path = path, shown = path, given = given, live = living(NULL)))
+  study_address(study)
+  study
+}
+
+read_again <- function(study, text) {
+  core(C_read_text, text, study$path, lapply(stats::setNames(names(study$given), names(study$given)), function(name) {
+    each <- study$given[[name]]
+    table_of(each$data, name, each$units, each$only)
+  }))
+}
+
+study_address <- function(study) {
+  if (!core(C_is_there, study$live$address)) study$live$address <- read_again(study, study$text)
+  study$live$address
+}
+
+ww_in_words <- function(study) core(C_in_words, study_address(as_study(study)))
+
+print.ww_study <- function(x, ...) {
+  cat(ww_in_words(x))
+  invisible(x)
+}
+
+# What ww_fit takes.
+as_study <- function(study, data = NULL, units = NULL) {
+  if (inherits(study, "ww_study")) {
+    if (!is.null(data) || !is.null(units)) stop_input("the study has its data; ww_study(..., data, units) takes others")
+    return(study)
+  }
+  if (is_path(study)) return(ww_read_study(study, data, units))
+  if (!is.list(study) || is.null(names(study)) || is.object(study)) {
+    stop_input("study is ", kind_of(study), "; it is the path of a study file, or what ww_study() makes, or a list of its arguments")
+  }
+  unknown <- setdiff(names(study), names(formals(ww_study)))
+  if (length(unknown)) stop_input("study has no '", unknown[1], "' (it has: ", words(names(formals(ww_study))), ")")
+  if (!is.null(data)) study["data"] <- list(data)
+  if (!is.null(units)) study["units"] <- list(units)
+  if (is.null(study$law)) stop_input("study has no 'law'")
+  if (is.null(study$data)) stop_input("study has no 'data'")
+  do.call(ww_study, study, quote = TRUE)
+}

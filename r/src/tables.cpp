@@ -1,0 +1,70 @@
+#include <cmath>
+#include <limits>
+
+#include "core.h"
+#include "wearwell/embed/fork_guard.h"
+#include "wearwell/embed/memory_table.h"
+
+namespace wearwell::r {
+namespace {
+
+// A vector of doubles, or of texts in UTF-8; NA is an empty cell.
+Column column_of(const std::string& heading, const std::string& unit, SEXP values) {
+  Column column;
+  column.name = heading;
+  column.unit = unit;
+  const R_xlen_t n = Rf_xlength(values);
+  column.is_number = TYPEOF(values) == REALSXP;
+  if (column.is_number) {
+    const double* from = REAL(values);
+    column.numbers.assign(from, from + n);
+    for (double& each : column.numbers) {
+      if (std::isnan(each)) each = std::numeric_limits<double>::quiet_NaN();
+    }
+  } else {
+    column.text.reserve(static_cast<std::size_t>(n));
+    for (R_xlen_t i = 0; i < n; ++i) {
+      SEXP each = STRING_ELT(values, i);
+      column.text.emplace_back(each == NA_STRING ? "" : CHAR(each));
+    }
+  }
+  return column;
+}
+
+SEXP table_of(const std::string& name, const std::vector<std::string>& headings,
+              const std::vector<std::string>& units, const Rcpp::List& columns) {
+  Table table;
+  table.source = name;
+  for (std::size_t c = 0; c < headings.size(); ++c) {
+    SEXP values = columns[static_cast<R_xlen_t>(c)];
+    embed::add_column(table, column_of(headings[c], units[c], values));
+  }
+  embed::refuse_no_table(table);
+  return hold(std::move(table));
+}
+
+SEXP table_of_file(const std::string& file, const std::vector<std::string>& headings,
+                   const std::vector<std::string>& units) {
+  const embed::ForkGuard guard;
+  Table table = read_table(file);
+  std::map<std::string, std::string> told;
+  for (std::size_t i = 0; i < headings.size(); ++i) told[headings[i]] = units[i];
+  embed::add_units(table, told);
+  return hold(std::move(table));
+}
+
+SEXP headings(SEXP table) {
+  std::vector<std::string> names;
+  for (const Column& each : held<Table>(table).columns) names.push_back(each.name);
+  return texts_of(names);
+}
+
+}  // namespace
+
+void add_tables(Doors& doors) {
+  doors.push_back(door<&table_of>("table_of"));
+  doors.push_back(door<&table_of_file>("table_of_file"));
+  doors.push_back(door<&headings>("headings"));
+}
+
+}  // namespace wearwell::r

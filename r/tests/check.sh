@@ -1,0 +1,16 @@
+# check.sh R BUILD PACKAGE FOLDER: builds the tarball and checks it, offline; neither errors nor warnings. The tests are run by
+# ctest one by one, with the program beside them.
+r=$1 build=$2 package=$3 folder=$4
+rm -rf "$folder"
+mkdir -p "$folder"
+cp -r "$package" "$folder/wearwell"
+cd "$folder"
+export WEARWELL_BUILD="$build" _R_CHECK_FORCE_SUGGESTS_=false _R_CHECK_SYSTEM_CLOCK_=false LC_ALL=C.UTF-8
+"$r" --vanilla CMD build wearwell >build.log 2>&1 || { cat build.log; exit 1; }
+"$r" --vanilla CMD check --no-manual --no-tests wearwell_*.tar.gz >check.log 2>&1 || { cat check.log; exit 1; }
+if grep -E 'WARNING|ERROR' check.log; then cat check.log; exit 1; fi
+grep '^Status' check.log
+# The module finds the DuckDB beside it, wherever the package is, and loads NetCDF when it is asked for.
+linked=$(ldd wearwell.Rcheck/wearwell/libs/wearwell.so)
+case $linked in *"not found"* | *netcdf*) echo "$linked"; exit 1 ;; esac
+case $linked in *wearwell.Rcheck/wearwell/libs/libduckdb.so*) ;; *) echo "$linked"; exit 1 ;; esac

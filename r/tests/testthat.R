@@ -1,0 +1,4 @@
+library(testthat)
+library(wearwell)
+
+test_check("wearwell")
