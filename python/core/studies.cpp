@@ -77,17 +77,19 @@ Run run(const ReadStudy& read, const std::string& method, std::optional<int> cha
   return run;
 }
 
-// The numbers of every draw: chains x draws x columns.
+// The numbers of every draw: chains x draws x columns, in memory column by column, as data frames and Arrow have them.
 py::array_t<double> draws_of(const Run& run) {
   if (!run.result->posterior) return py::array_t<double>(std::vector<py::ssize_t>{0, 0, 0});
   const Draws& draws = run.result->posterior->posterior_draws;
   const py::ssize_t n = draws.empty() ? 0 : draws.front().values.rows();
   const py::ssize_t columns = draws.empty() ? 0 : draws.front().values.cols();
-  py::array_t<double> all({static_cast<py::ssize_t>(draws.size()), n, columns});
+  const auto chains = static_cast<py::ssize_t>(draws.size());
+  constexpr py::ssize_t size = sizeof(double);
+  py::array_t<double> all({chains, n, columns}, {n * size, size, chains * n * size});
   double* to = all.mutable_data();
-  for (const Chain& chain : draws) {
-    for (py::ssize_t d = 0; d < n; ++d)
-      for (py::ssize_t c = 0; c < columns; ++c) *to++ = chain.values(d, c);
+  for (py::ssize_t c = 0; c < columns; ++c) {
+    for (const Chain& chain : draws)
+      for (py::ssize_t d = 0; d < n; ++d) *to++ = chain.values(d, c);
   }
   return all;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "arrow.h"
+#include "arrow_export.h"
 #include "core.h"
 #include "wearwell/base/error.h"
 #include "wearwell/input/table.h"
@@ -119,6 +120,7 @@ void add_tables(py::module_& module) {
     refuse_no_table(table);
     return table;
   });
+  module.def("arrow_stream_of", &arrow_stream_of);
   module.def("table_of_file", [](const std::string& file, const std::optional<std::string>& sql) {
     const py::gil_scoped_release release;
     const ForkGuard guard;

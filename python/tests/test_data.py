@@ -184,8 +184,6 @@ def test_predictions_under_new_conditions(varying):
     assert (following["lower"] < mean["lower"]).all() and (following["upper"] > mean["upper"]).all()
     half = varying.predict(new, level=0.5, kind="next")
     assert (half["upper"] < following["upper"]).all()
-    with pytest.raises(ValueError, match="not computed yet"):
-        varying.predict(new, kind="unit")
     with pytest.raises(ValueError, match="no column 'G'"):
         varying.predict({"F": [1.0], "s": [1.0], "G": [1.0]})
     with pytest.raises(ValueError, match="level"):
@@ -203,10 +201,6 @@ def test_lives_to_a_limit(varying):
     own = 10 / ((work * own["V"]).sum() / (work**2).sum() * 200) - 7.5e4  # by its own least squares alone; 50 km at 300 N are 75 at 200
     assert remaining.loc[0, "q05"] < own < remaining.loc[0, "q95"]
     assert remaining.loc[0, "q95"] - remaining.loc[0, "q05"] < new.loc[0, "q95"] - new.loc[0, "q05"]
-    for options, message in (({"unit": "J99"}, "no item 'J99'"), ({"b": [5]}, "B5"), ({"confidence": 0.5}, "confidence"),
-                             ({"survived": "1 m"}, "survived"), ({"along": None}, "along")):
-        with pytest.raises(ValueError, match=message):
-            varying.life(**{**dict(limit="10 mm^3", along="s", given={"F": "200 N"}), **options})
 
 
 def test_lives_that_are_measured(examples):

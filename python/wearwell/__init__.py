@@ -11,6 +11,7 @@ from . import _errors
 from ._errors import CheckWarning, InputError, MachineError, NotTrusted
 from . import _core
 from . import bearing, clutch
+from ._arrow import ArrowTable, arrow
 from ._fit import Check, Fit
 from ._priors import (
     beta,
@@ -33,7 +34,7 @@ from ._tools import Comparison, Selection, compare, rainflow, select
 __version__ = _core.version
 
 __all__ = [
-    "Check", "CheckWarning", "Comparison", "Fit", "InputError", "MachineError", "NotTrusted", "Selection", "Study",
-    "bearing", "beta", "clutch", "compare", "default", "exponential", "fit", "flat", "gamma", "half_cauchy", "half_normal",
+    "ArrowTable", "Check", "CheckWarning", "Comparison", "Fit", "InputError", "MachineError", "NotTrusted", "Selection", "Study",
+    "arrow", "bearing", "beta", "clutch", "compare", "default", "exponential", "fit", "flat", "gamma", "half_cauchy", "half_normal",
     "inverse_gamma", "jeffreys", "lognormal", "normal", "rainflow", "select", "student_t", "table", "uniform",
 ]

@@ -1,4 +1,4 @@
-"""Questions that a fit answers later: predictions under new conditions, lives."""
+"""Questions that a fit answers later: predictions under new conditions."""
 
 import json
 import re
@@ -8,21 +8,22 @@ from ._data import headings_of
 from ._errors import InputError
 
 
-def _tables(fit):
-    """The study's tables as dicts."""
+def tables_of(fit, models=("law",)):
+    """The study's tables as dicts; of a study of these models alone."""
     try:
         import tomllib
     except ImportError:
         raise InputError("fit.predict and fit.life read the study's text with tomllib, of Python 3.11 and later; "
                          "fit.ask(predict) does without") from None
     study = tomllib.loads(fit.study.toml)
-    if study.get("model") != "law":
-        raise InputError(f"fit.predict and fit.life are of studies of a law (model = \"law\"), and this one is of the model "
-                         f"{study.get('model')}; fit.ask(predict) asks it by the keys of its own [predict]")
+    if study.get("model") not in models:
+        raise InputError(f"this is asked of studies of the model {' or '.join(models)}, and this one is of the model "
+                         f"{study.get('model')}; fit.ask(predict) asks it by the keys of its own [predict], and fit.quantities "
+                         "and fit.tables hold what it found")
     return study
 
 
-def _columns(study):
+def columns_of(study):
     """Names of the columns with their units; "" where the heading says it, or where there is none."""
     columns = {}
     for name, entry in study["data"]["columns"].items():
@@ -34,13 +35,14 @@ def _columns(study):
     return columns
 
 
-def _conditions(study, columns):
+def conditions_of(study, columns):
     """Columns that are neither measured nor name the items."""
     skip = set(study["likelihood"]) | set(study.get("varies", {})) | {"status", "lower", "upper", "entry", "count"}
     return [name for name in columns if name not in skip]
 
 
-def _axis(study, columns, along):
+def axis_of(study, columns, along):
+    """The column of wear and life, None where the study does not tell."""
     known = along or study.get("predict", {}).get("along")
     if known:
         if known not in columns:
@@ -61,48 +63,107 @@ def _written(value, unit):
     return f"{value!r} {unit}"
 
 
-def predict(fit, new, level, kind, along):
+def _frame_of(new):
     import pandas
 
-    if kind not in ("mean", "next", "unit"):
-        raise InputError(f"kind is {kind!r}; it is 'mean' or 'next'")
-    if kind == "unit":
-        raise InputError("kind='unit', a measurement of an item that was seen, is not computed yet; its remaining life is: "
-                         "fit.life(limit=..., unit=...)")
-    study = _tables(fit)
-    columns = _columns(study)
-    conditions = _conditions(study, columns)
     if headings_of(new) is None:
         raise InputError(f"new is {type(new).__name__}; it is a data frame or a dict of columns")
     frame = new if isinstance(new, pandas.DataFrame) else pandas.DataFrame(dict(new))
     if len(frame) == 0:
         raise InputError("new has no rows")
+    twice = frame.columns[frame.columns.duplicated()]
+    if len(twice):
+        raise InputError(f"new: two columns are called '{twice[0]}'")
+    return frame
+
+
+def _whose(frame, label):
+    """For each row the item that it is of, None for a new one."""
+    if label not in frame:
+        raise InputError(f"new has no column '{label}', which says of which {label} each row is (empty: of a new one)")
+    names = []
+    for value in frame[label]:
+        value = value.item() if hasattr(value, "item") else value
+        if isinstance(value, float):
+            value = None if value != value else int(value) if value.is_integer() else value
+        names.append(None if value is None or str(value) in ("", "<NA>", "NaT") else str(value))
+    return names
+
+
+def _require_values(frame, columns):
+    for name in columns:
+        missing = frame[name].isna().to_numpy()
+        if missing.any():
+            raise InputError(f"new, row {int(missing.argmax()) + 1}, column '{name}': a value is missing")
+        if frame[name].dtype.kind in "fc":
+            wild = ~frame[name].abs().lt(float("inf")).to_numpy()
+            if wild.any():
+                raise InputError(f"new, row {int(wild.argmax()) + 1}, column '{name}': {frame[name].iloc[wild.argmax()]} is no finite number")
+
+
+def _answers(fit, table, level, name):
+    """Of each place its predictions by measured column, of the item of that name or of a new one."""
+    units = [] if name is None else [name]  # none: no paths of items are computed
+    try:
+        found = fit.ask({**table, "units": units}, level)["predictions"]
+    except InputError as error:
+        unknown = re.search(r"predict.units: the data have no (.*) '(.*)' (\(.*\))", str(error), re.DOTALL)
+        if not unknown:
+            raise
+        raise InputError(f"new, column '{unknown[1]}': the data have no {unknown[1]} '{unknown[2]}' {unknown[3]}; an empty cell is a "
+                         "new one") from None
+    # Entries come by measured column, then by whom they are of, then by place.
+    by_column = {}
+    for entry in found:
+        seen = entry.get("mean_of") is not None and entry["mean_of"] == entry["pi_of"]
+        if seen == (name is not None):
+            by_column.setdefault(entry["quantity"], []).append(entry)
+    return [list(each) for each in zip(*by_column.values())] or [[]] * len(table["at"])
+
+
+def predict(fit, new, level, kind, along):
+    import pandas
+
+    if kind not in ("mean", "next", "unit"):
+        raise InputError(f"kind is {kind!r}; it is 'mean', 'next' or 'unit'")
+    study = tables_of(fit)
+    columns = columns_of(study)
+    conditions = conditions_of(study, columns)
+    frame = _frame_of(new)
     unknown = [c for c in frame.columns if c not in columns]
     if unknown:
-        raise InputError(f"new: the study has no column '{unknown[0]}' (columns: {', '.join(conditions)})")
+        raise InputError(f"new: the study has no column {unknown[0]!r} (columns: {', '.join(conditions)})")
+    label = next(iter(study.get("varies", {})), None)
+    if kind == "unit" and label is None:
+        raise InputError("kind='unit' is of studies whose parameters differ from item to item (varies), and nothing differs "
+                         "here: kind='next' is a measurement to come")
+    whose = _whose(frame, label) if kind == "unit" else [None] * len(frame)
     asked = [c for c in frame.columns if c in conditions]
     numbers = [c for c in asked if frame[c].dtype.kind in "iufb"]
-    axis = _axis(study, columns, along) or next(iter(numbers), None)
+    axis = axis_of(study, columns, along)
+    if axis is None and kind == "unit" and len(numbers) > 1:
+        raise InputError(f"along is missing: the column along which it wears ({', '.join(numbers)}), since beyond its last row an "
+                         "item goes on from where it stands")
+    axis = axis or next(iter(numbers), None)
     if axis is None or axis not in asked:
         raise InputError(f"new has no column '{axis or conditions[0]}'")
-    missing = frame[asked].isna().any()
-    if missing.any():
-        raise InputError(f"new, column '{missing.idxmax()}': a value is missing")
+    _require_values(frame, asked)
     others = [c for c in asked if c != axis]
     answers = {}
     rows = list(frame[asked].itertuples(index=False, name=None))
     groups = {}
     for position, row in enumerate(rows):
         each = dict(zip(asked, row))
-        groups.setdefault(tuple(each[c] for c in others), []).append((position, each[axis]))
-    for given, places in groups.items():
+        groups.setdefault((whose[position], *(each[c] for c in others)), []).append((position, each[axis]))
+    for (_, *given), places in groups.items():
         table = {"along": axis, "at": [_written(at, columns[axis]) for _, at in places]}
         if others:
             table["given"] = {c: _written(v, columns[c]) for c, v in zip(others, given)}
-        found = fit.ask(table, level)["predictions"]
-        each = len(found) // len(places)  # one for each measured column
-        for i, (position, _) in enumerate(places):
-            answers[position] = found[i * each:(i + 1) * each]
+        for (position, _), found in zip(places, _answers(fit, table, level, whose[places[0][0]])):
+            answers[position] = found
+    if not all(answers[i] for i in range(len(rows))):
+        raise InputError("where two parameters differ from item to item, or what is measured is a process, measurements of a new "
+                         "item are not predicted, its path is: fit.ask({'along': ..., 'at': ...})['quantities']")
     ends = ("ci05", "ci95") if kind == "mean" else ("pi05", "pi95")
     several = len(study["likelihood"]) > 1
     columns_out = {}
@@ -118,60 +179,3 @@ def predict(fit, new, level, kind, along):
     if not several:
         result.attrs["unit"] = unit
     return result
-
-
-def life(fit, limit, b, confidence, unit, survived, along, given):
-    import pandas
-
-    study = _tables(fit)
-    columns = _columns(study)
-    b = [b] if isinstance(b, (int, float)) else list(b)
-    table = {"given": given} if given else {}
-    if limit is None:
-        if unit is not None:
-            raise InputError("unit is of lives to a limit: fit.life(limit=..., unit=...)")
-        table.update({"b_lives": b, "credible_level": confidence})
-        if survived is not None:
-            table["survival_to"] = [_toml.quantity(survived, "survived")]
-    else:
-        if survived is not None:
-            raise InputError("survived is of lives that are measured; a life to a limit counts from the item's last row")
-        if confidence != 0.9:
-            raise InputError(f"confidence is {confidence}; of lives to a limit the interval of 90 % is computed, not another yet")
-        unknown = [p for p in b if p not in (1, 10, 50)]
-        if unknown:
-            raise InputError(f"b: B{unknown[0]:g} of a life to a limit is not computed yet; B1, B10 and B50 are")
-        if not isinstance(limit, dict):
-            measured = list(study["likelihood"])
-            if len(measured) != 1:
-                raise InputError(f"limit: of which? {{'{measured[0]}': '...'}} says so")
-            limit = {measured[0]: limit}
-        axis = _axis(study, columns, along)
-        if axis is None:
-            raise InputError(f"along is missing: the column along which it wears ({', '.join(_conditions(study, columns))})")
-        # What is measured is no name in expressions; its law is.
-        limit = {study["likelihood"][k].get("mean", study["likelihood"][k].get("median", k)) if k in study["likelihood"] else k:
-                 _toml.quantity(v, "limit") for k, v in limit.items()}
-        table.update({"along": axis, "limit": limit})
-    found = fit.ask(table).get("quantities", [])
-    rows = []
-    seen = sorted({q["of"] for q in found if q["name"] == "remaining life"})
-    for each in found:
-        if limit is not None:
-            remaining = each["name"] == "remaining life"
-            if remaining != (unit is not None) or each["name"] not in ("life", "remaining life"):
-                continue
-            if unit is not None and each["of"].split(" ", 1)[-1] != str(unit):
-                continue
-        best = {**each, **each.get("exact", {})}
-        row = {"name": each["name"], "of": each["of"], "at": each["at"], "unit": each["unit"]}
-        for key in ("q05", "q50", "q95"):
-            row[key] = best.get(key)
-        if limit is not None:
-            row.update({f"b{p:g}": best.get(f"b{p:g}") for p in b})
-        else:
-            row.update({"predictive": best.get("predictive"), "bound": best.get("bound")})
-        rows.append({k: float("inf") if v is None and k[0] in "qb" and limit is not None else v for k, v in row.items()})
-    if unit is not None and not rows:
-        raise InputError(f"the study has no item '{unit}' (items: {', '.join(s.split(' ', 1)[-1] for s in seen)})")
-    return pandas.DataFrame(rows)

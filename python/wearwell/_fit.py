@@ -190,6 +190,21 @@ class Fit:
                 found[name[7:-4]] = pandas.read_csv(io.StringIO(content)) if header else pandas.DataFrame()
         return found
 
+    def arrow(self, name="draws"):
+        """A table of the fit for readers of Arrow, an object with ``__arrow_c_stream__``: "draws", "sample_stats", "parameters",
+        "predictions", "quantities", "lives", or one of ``fit.tables``. The columns of draws are those of ``fit.draws``, not
+        copied, with chain and draw before and their units as metadata. Frames that answer a question go by ``wearwell.arrow``.
+        """
+        from ._arrow import arrow
+
+        if name in ("draws", "sample_stats", "parameters", "predictions", "quantities", "lives"):
+            units = {k: each["unit"] for k, each in self.summary["parameters"].items()} if name == "draws" else None
+            return arrow(getattr(self, name), units)
+        if name not in self.tables:
+            raise InputError(f"the fit has no table {name!r}; it has draws, sample_stats, parameters, predictions, quantities, lives, "
+                             f"and of the report {', '.join(self.tables)}")
+        return arrow(self.tables[name])
+
     # ---- What is asked later.
 
     def ask(self, predict, level=0.9):
@@ -205,21 +220,26 @@ class Fit:
         """Measurements under new conditions, of a study of a law (model "law"): a frame with mean, lower and upper for each row
         of ``new`` (a data frame or a dict of columns in the study's units).
 
-        kind: "mean", the true mean of the median item; "next", a measurement of an item not seen yet. along: the column
-        that is the axis; it matters where the law is a rate or a running sum alone.
+        kind: "mean", the true mean of the median item; "next", a measurement of an item not seen yet; "unit", a measurement of
+        the item that the label column of ``new`` names, by its own effects given its data (empty: of a new one). Up to the
+        item's last row the law holds as in the data; beyond, where conditions change, its path goes on from where it stands.
+        along: the column that is the axis; it matters where the law is a rate or a running sum alone.
         """
         from ._ask import predict
 
         return predict(self, new, level, kind, along)
 
     def life(self, limit=None, b=(1, 10), confidence=0.9, unit=None, survived=None, *, along=None, given=None):
-        """Lives, of a study of a law: until what is measured reaches ``limit`` (a text with its unit, or a dict by name), of a
-        new item or what remains to the item ``unit``; or, without a limit, those of which the likelihood is.
+        """Lives. Of a study of a law: until what is measured reaches ``limit`` (a text with its unit, or a dict by name), of a
+        new item or what remains to the item ``unit``; or, without a limit, those of which the likelihood is. Of a joint, a
+        bearing, or S-N tests those of its own [predict].
 
-        b: percentages of B-lives. confidence: of the lower bound of each B-life, where there is no limit; the interval of
-        lives to a limit is that of 90 %. survived: a life of which the survival is told. given: conditions.
+        A frame: the life with q05, q50, q95 and the B-lives b1, b10, ... of one item, all that is unknown averaged in; and, where
+        items differ, each B-life of all items with ``predictive`` (that of the next one) and ``bound``.
+        b: percentages of B-lives. confidence: the probability with which ``bound`` is exceeded. survived: lives of those that
+        have come so far, from there on; the survival is told too. given: conditions, by name.
         """
-        from ._ask import life
+        from ._lives import life
 
         return life(self, limit, b, confidence, unit, survived, along, given)
 

@@ -31,6 +31,12 @@ double CellMixture::add_beyond(double weight, double a, double b, double x) {
   return rest;
 }
 
+CellMixture CellMixture::beyond(double x) const {
+  CellMixture rest;
+  for (const Cell& cell : cells_) rest.add_beyond(cell.weight, cell.low, cell.high, x);
+  return rest;
+}
+
 double CellMixture::mass() const {
   double sum = 0;
   for (const Cell& cell : cells_) sum += cell.weight;

@@ -15,6 +15,9 @@ class CellMixture {
   /// Only what of such a cell lies beyond x, as a distance from x; returns its weight.
   double add_beyond(double weight, double a, double b, double x);
 
+  /// All that lies beyond x, as distances from it: what remains to those that have come so far.
+  CellMixture beyond(double x) const;
+
   double mass() const;  ///< the sum of the weights
   /// The share of the mass up to x.
   double cdf(double x) const;

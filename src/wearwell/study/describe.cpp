@@ -97,7 +97,8 @@ std::string study_in_words(const PosteriorStudy& study) {
     out += "\nWill be predicted\n";
   }
   for (const PredictionRequest& p : study.predictions) {
-    out += fmt::format("  {} [{}] at {} {}\n", study.quantity, p.unit.text, p.at,
+    out += fmt::format("  {} [{}]{} at {} {}\n", study.quantity, p.unit.text,
+                       p.with_item ? " of " + p.measured_of : "", p.at,
                        p.at_unit.empty() ? p.at_name : p.at_unit);
   }
   std::vector<QuantityRequest> quantities = study.quantities;

@@ -263,6 +263,7 @@ std::vector<PredictiveDraws> predictive_draws(const PosteriorStudy& study,
   std::vector<PredictiveDraws> all;
   std::vector<std::vector<const PredictionRequest*>> requests;
   for (const PredictionRequest& request : study.predictions) {
+    if (request.with_item) continue;  // a draw does not hold what is an item's own
     std::size_t at = 0;
     while (at < all.size() &&
            (all[at].quantity != request.quantity || all[at].unit != request.unit.text ||

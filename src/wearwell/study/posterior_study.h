@@ -40,6 +40,9 @@ struct PredictionRequest {
   /// Whose the mean and the prediction interval are, where these differ: "median bearing".
   std::string mean_of = {}, measured_of = {};
   std::string at_unit = {};  ///< of `at`, where its name is not a unit: "h"
+  /// Of an item that was seen: the posterior with the item's own unknowns after the parameters, of
+  /// which `mean` and `sd` are functions then; else null. Requests of one item share it.
+  std::shared_ptr<const std::function<WeightedDraws(const WeightedDraws& draws)>> with_item = {};
 };
 
 /// When a limit is reached.

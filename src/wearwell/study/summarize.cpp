@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/fingerprint.h"
@@ -21,10 +22,26 @@ Prediction in_unit(const Unit& unit, Prediction p) {
   return p;
 }
 
-PredictionSummary summarize(const PredictionRequest& request, const Fit& fit, const Ends& ends) {
+// Posteriors with the unknowns of items, each made once.
+class ItemDraws {
+ public:
+  const WeightedDraws& of(const PredictionRequest& request, const WeightedDraws& draws) {
+    if (!request.with_item) return draws;
+    const auto key = std::pair(request.with_item.get(), &draws);
+    auto found = made_.find(key);
+    if (found == made_.end()) found = made_.emplace(key, (*request.with_item)(draws)).first;
+    return found->second;
+  }
+
+ private:
+  std::map<std::pair<const void*, const WeightedDraws*>, WeightedDraws> made_;
+};
+
+PredictionSummary summarize(const PredictionRequest& request, const Fit& fit, const Ends& ends,
+                            ItemDraws& items) {
   const auto predicted = [&](const WeightedDraws& draws) {
-    return in_unit(request.unit, predict(draws, request.mean, request.sd, request.family,
-                                         request.item, item_points, ends));
+    return in_unit(request.unit, predict(items.of(request, draws), request.mean, request.sd,
+                                         request.family, request.item, item_points, ends));
   };
   PredictionSummary summary{.at_name = request.at_name,
                             .at = request.at,
@@ -165,8 +182,9 @@ std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, c
 std::vector<PredictionSummary> summarize(const std::vector<PredictionRequest>& requests,
                                          const Fit& fit, const Ends& ends) {
   std::vector<PredictionSummary> summaries;
+  ItemDraws items;
   for (const PredictionRequest& request : requests)
-    summaries.push_back(summarize(request, fit, ends));
+    summaries.push_back(summarize(request, fit, ends, items));
   return summaries;
 }
 

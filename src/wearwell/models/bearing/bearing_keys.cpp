@@ -63,6 +63,8 @@ StudyKeys study_keys() {
             {"predict.time", "[\"500 h\"]", "how deep then? needs a speed"},
             {"predict.limit", "\"80 um\"", "how long until that depth?"},
             {"predict.risk", "0.01", "when to inspect a new bearing, at that risk of the limit"},
+            {"predict.b_lives", "[1, 10]", "until when have 1 and 10 % reached it? (1 and 10)"},
+            {"predict.credible_level", "0.9", "of lower bounds of B-lives"},
             {"predict.required_revolutions", "\"1 Mrev\"",
              "which pressure lets it last that long, to the limit?"},
             {"predict.required_time", "\"200 h\"", "the same, at a speed"},

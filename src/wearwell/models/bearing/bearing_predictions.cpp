@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/models/bearing/wear_number.h"
+#include "wearwell/study/life_levels.h"
 
 namespace wearwell {
 namespace {
@@ -67,6 +68,11 @@ class Predictions {
       predict_.fail(required_key_, "needs predict.limit: the depth that is allowed until then");
     }
     if (limit) reach(*limit, required);
+    for (const char* key : {"b_lives", "credible_level"}) {
+      if (!predict_.has(key) || study_.life) continue;
+      predict_.fail(key,
+                    "needs predict.limit and predict.pressure: B-lives are those to the limit");
+    }
     if (predict_.has("risk") && !study_.life) {
       predict_.fail("risk",
                     "needs predict.limit and predict.pressure: it is that of reaching the "
@@ -150,6 +156,12 @@ class Predictions {
     study_.quantities.push_back(request);
   }
 
+  // Of bearings like that whose life was asked for last.
+  void b_lives(const LifeLevels& levels) {
+    if (levels.percents.empty()) return;
+    study_.quantity_groups.push_back(b_lives_of_items(study_.quantities.back(), "bearing", levels));
+  }
+
   // When a bearing like these reaches the limit, and until when it need not be looked at.
   void life(const Quantity& limit, double wear_per_pressure) {
     Unit unit{"1", 1, 0};
@@ -229,6 +241,7 @@ class Predictions {
       life(limit, wear / pressure_->si());
       const std::string where = fmt::format("{} at {}", to, in_words(*pressure_));
       const double rate = pressure_->si();
+      const LifeLevels levels = read_life_levels(predict_);
       add({"life",
            "",
            where,
@@ -238,6 +251,7 @@ class Predictions {
            [=](double k) { return wear / (k * rate); },
            {},
            {}});
+      b_lives(levels);
       if (speed_) {
         const double turns = speed_->si();
         add({"life",
@@ -249,6 +263,7 @@ class Predictions {
              [=](double k) { return wear / (k * rate * turns); },
              {},
              {}});
+        b_lives(levels);
       }
     }
     if (!required) return;

@@ -12,6 +12,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/math/root.h"
+#include "wearwell/study/life_levels.h"
 
 // Longer than others: lives, survival, stress allowed and coverage share the reduced draws and their groups.
 namespace wearwell {
@@ -373,23 +374,15 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
       result.points.push_back({name, stress});
     }
   }
-  for (const Quantity& each : predict.quantities("b_lives", "1")) {
-    // "10 %" is a share in SI; 10 alone is a percentage, as in B10.
-    const double value = each.unit.text == "1" ? each.value : 100 * each.si();
-    if (!(value > 0 && value < 100)) {
-      predict.fail("b_lives", "are percentages between 0 and 100, like [1, 10]");
-    }
-    result.percents.push_back(value);
-  }
+  const LifeLevels levels = read_life_levels(predict);
+  result.credible_level = levels.credible_level;
+  result.percents = predict.has("b_lives") ? levels.percents : std::vector<double>();
   const auto share = [&](const char* key, const Quantity& quantity) {
     if (!(quantity.si() > 0 && quantity.si() < 1)) {
       predict.fail(key, "must lie between 0 and 1 (or 0 % and 100 %)");
     }
     return quantity.si();
   };
-  if (const auto level = predict.quantity("credible_level", "1")) {
-    result.credible_level = share("credible_level", *level);
-  }
   result.survival_to = read_lives(predict, "survival_to");
   if (result.points.empty()) {
     for (const char* key : {"b_lives", "survival_to"}) {

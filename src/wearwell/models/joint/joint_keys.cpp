@@ -54,6 +54,8 @@ StudyKeys study_keys() {
        {"predict.cycles", "[20000, \"50 kcycles\"]", "how much is worn then?"},
        {"predict.limit", "\"100 mm^3\"", "when is that much worn?"},
        {"predict.risk", "\"1 %\"", "of passing the limit before the next inspection (1 %)"},
+       {"predict.b_lives", "[1, 10]", "until when have 1 and 10 % reached the limit? (1 and 10)"},
+       {"predict.credible_level", "0.9", "of lower bounds of B-lives"},
        {"predict.work_per_cycle", "\"6 N m\"",
         "of the cycles to come, where conditions.work_per_cycle is not given"}});
   add_keys(keys, layout_keys("conditions.profile"));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wearwell/models/joint/work_history.h"
+#include "wearwell/study/life_levels.h"
 
 namespace wearwell::joint {
 namespace {
@@ -100,10 +101,13 @@ void add_life(const TomlReader& predict, const Course& course, const Archard& la
     predict.fail("risk", "must lie between 0 and 1, as 0.05 or \"5 %\"");
   const auto limit = predict.quantity("limit", "m^3");
   if (!limit) {
-    if (risk) predict.fail("risk", "needs predict.limit");
+    for (const char* key : {"risk", "b_lives", "credible_level"}) {
+      if (predict.has(key)) predict.fail(key, "needs predict.limit");
+    }
     return;
   }
   need_rate(predict, course, "limit");
+  const LifeLevels levels = read_life_levels(predict);
   if (!(limit->si() > 0)) predict.fail("limit", "must be positive");
   const double most = largest(data.inspections.volume);
   if (most > 0) {
@@ -122,6 +126,9 @@ void add_life(const TomlReader& predict, const Course& course, const Archard& la
         return life_law(draws,
                         [&](const double* x) { return history.cycles_at(law.work_at(x, limit)); });
       }};
+  if (levels.percents.empty()) return;
+  study.quantity_groups.push_back(b_lives_of_one(
+      *study.life, "joint", fmt::format("to {:.6g} {}", limit->value, limit->unit.text), levels));
 }
 
 }  // namespace

@@ -10,6 +10,9 @@
 namespace wearwell::ownlaw {
 namespace {
 
+// Of items that come so far more rarely nothing is known from there on.
+constexpr double least_survival = 1e-3;
+
 // Places of a unit's effects, with weights: a trapezoidal rule over the standard normal law, whose
 // error is e^-80 of a smooth function.
 struct NormalNodes {
@@ -142,6 +145,12 @@ double LifeLaw::Next::quantile(double p) const {
   return solve([&](double y) { return cdf(y); }, p, middle_, positive_);
 }
 
+double LifeLaw::Next::quantile(double p, double from) const {
+  const double gone = cdf(from);
+  if (1 - gone < least_survival) return std::nan("");
+  return quantile(gone + p * (1 - gone)) - from;
+}
+
 LifeLaw::Next LifeLaw::next(const WeightedDraws& draws) const {
   AtPoint at(*this);
   Next next;
@@ -177,6 +186,34 @@ Distribution LifeLaw::quantile(const WeightedDraws& draws, double p) const {
   return {points(draws), [&](const double* x) {
             at.move_to(x);
             return at.quantile(p);
+          }};
+}
+
+Distribution LifeLaw::quantile(const WeightedDraws& draws, double p, double from) const {
+  AtPoint at(*this);
+  WeightedDraws given = points(draws);
+  std::vector<double> left;
+  for (Eigen::Index i = 0; i < given.values.rows(); ++i) {
+    at.move_to(given.values.row(i).data());
+    left.push_back(1 - at.cdf(from));
+  }
+  const Eigen::Map<const Eigen::VectorXd> share(left.data(),
+                                                static_cast<Eigen::Index>(left.size()));
+  const bool known = given.weights.dot(share) >= least_survival;
+  given.weights.array() *= share.array();
+  given.weights /= given.weights.sum();
+  // Without cells points would count alike.
+  if (given.lower.empty()) given.lower = given.upper = {given.values};
+  if (given.has_cells()) {
+    given.cells.mass.array() *= share.array();
+    given.cells.mass /= given.cells.mass.sum();
+  }
+  return {given, [&](const double* x) {
+            at.move_to(x);
+            const double gone = at.cdf(from);
+            if (!known) return std::nan("");
+            // Where none is left it does not count; it is to be a number all the same.
+            return gone < 1 ? at.quantile(gone + p * (1 - gone)) - from : 0;
           }};
 }
 

@@ -23,6 +23,8 @@ class LifeLaw {
    public:
     double cdf(double life) const;
     double quantile(double p) const;
+    /// What remains to one that has come to `from`: the share p of such.
+    double quantile(double p, double from) const;
 
    private:
     friend class LifeLaw;
@@ -38,6 +40,8 @@ class LifeLaw {
 
   /// The life by which a share p of all has failed, over a posterior.
   Distribution quantile(const WeightedDraws& draws, double p) const;
+  /// The same of those that have come to `from`, from there on, given that one has.
+  Distribution quantile(const WeightedDraws& draws, double p, double from) const;
   /// The share of all that outlasts a life.
   Distribution survival(const WeightedDraws& draws, double life) const;
   /// The rate at which those fail that have come so far, per SI unit of life.

@@ -68,8 +68,10 @@ class Part {
     if (effects() == 0) {
       solve(*next_, {}, 1, place_);
       found.next.add(weight, place_[0], place_[0]);
+      if (!path_.shares.empty()) add_shares(weight);
       return;
     }
+    if (!path_.shares.empty()) add_shares(weight);
     if (effects() == 1) {
       static const NormalCells cells(0.25);
       solve(*next_, cells.end, cells.end.size(), place_);
@@ -100,6 +102,38 @@ class Part {
                        *std::max_element(corner, corner + 4));
       }
     }
+  }
+
+  // Of each point by itself: cells are finer than where many points smooth them. Of two effects a cell
+  // spreads from corner to corner along both diagonals, which keeps its variance.
+  void add_shares(double weight) {
+    CellMixture units;
+    if (effects() == 0) {
+      units.add(weight, place_[0], place_[0]);
+    } else if (effects() == 1) {
+      static const NormalCells cells(0.0625);
+      solve(*next_, cells.end, cells.end.size(), place_);
+      for (std::size_t i = 0; i < cells.weight.size(); ++i) {
+        units.add(weight * cells.weight[i], place_[i], place_[i + 1]);
+      }
+    } else {
+      static const NormalCells cells(0.5);
+      const std::size_t n = cells.end.size();
+      std::vector<double> z;
+      for (const double a : cells.end) {
+        for (const double b : cells.end) z.insert(z.end(), {a, b});
+      }
+      solve(*next_, z, n * n, place_);
+      for (std::size_t i = 0; i + 1 < n; ++i) {
+        for (std::size_t j = 0; j + 1 < n; ++j) {
+          const double half = 0.5 * weight * cells.weight[i] * cells.weight[j];
+          if (half < 1e-9 * weight) continue;
+          units.add(half, place_[i * n + j], place_[(i + 1) * n + j + 1]);
+          units.add(half, place_[i * n + j + 1], place_[(i + 1) * n + j]);
+        }
+      }
+    }
+    found.add_shares(path_, units);
   }
 
   void add_seen(const double* x, double weight) {
@@ -213,8 +247,21 @@ LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
   return sum_over(FewPoints(draws, points_of(path)), [&] { return Part(rows, path); });
 }
 
+void LimitedLives::add_shares(const LimitedPath& path, const CellMixture& units) {
+  const bool all = path.survived <= path.begin;
+  const CellMixture& left = all ? units : units.beyond(path.survived);
+  const double mass = left.mass();
+  by_share.resize(path.shares.size());
+  for (std::size_t i = 0; mass > 0 && i < path.shares.size(); ++i) {
+    const double life = left.quantile(path.shares[i]);
+    by_share[i].add(mass, life, life);
+  }
+}
+
 void LimitedLives::add(const LimitedLives& other) {
   next.add(other.next);
+  by_share.resize(std::max(by_share.size(), other.by_share.size()));
+  for (std::size_t i = 0; i < other.by_share.size(); ++i) by_share[i].add(other.by_share[i]);
   for (std::size_t u = 0; u < remaining.size(); ++u) {
     remaining[u].add(other.remaining[u]);
     passed[u] += other.passed[u];

@@ -24,6 +24,9 @@ struct LimitedPath {
   bool rising = true;
   double begin = 0;  ///< where the axis begins, SI
   double scale = 1;  ///< of the axis, SI
+  /// Of which shares of all units the lives are wanted, of those that have come to `survived`.
+  std::vector<double> shares = {};
+  double survived = 0;  ///< along the axis, SI; `begin` where nothing is said
 };
 
 /// Lives over a posterior: each mixed over the posterior of the population and, given that and all of
@@ -33,6 +36,13 @@ struct LimitedLives {
   std::vector<CellMixture>
       remaining;               ///< of each unit, from its last row on, given that it is not there
   std::vector<double> passed;  ///< the probability that it is there already
+
+  /// Of each of LimitedPath::shares: the life by which such a share of units has reached the limit,
+  /// over the posterior given that a unit has come to `survived`, from there on.
+  std::vector<CellMixture> by_share = {};
+
+  /// From the lives of all units at one point of the posterior.
+  void add_shares(const LimitedPath& path, const CellMixture& units);
 
   void add(const LimitedLives& other);  ///< of other points
 };

@@ -1,6 +1,7 @@
 #include "wearwell/models/ownlaw/own_path_ahead.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "wearwell/models/ownlaw/own_limit.h"
 #include "wearwell/models/ownlaw/own_process_spread.h"
 #include "wearwell/models/ownlaw/own_spread.h"
+#include "wearwell/models/ownlaw/own_unit_draws.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -30,31 +32,30 @@ class SharedPath {
   mutable tbb::enumerable_thread_specific<std::unique_ptr<PathAt>> own_;
 };
 
-void add_measurement(const Asked& asked, const Measured& measured, std::shared_ptr<const Path> path,
-                     double place, PosteriorStudy& study) {
+// Location and scatter of a family at a point of the posterior.
+using Outputs = std::function<std::pair<double, double>(const double* x, double z)>;
+
+PredictionRequest measurement(const Asked& asked, const Measured& measured, double place,
+                              const Outputs& outputs) {
   const ResponseFamily family = measured.form->family;
-  const bool normal = family == ResponseFamily::normal;
-  const auto shared = std::make_shared<const SharedPath>(std::move(path));
   // The mean and standard deviation of the column itself.
   const auto moments = [=](const double* x, double z) {
-    PathAt& mine = shared->mine();
-    mine.move_to(x);
-    mine.evaluate(1, &z, &place);
-    double mean = mine.output(0, 0), sd = mine.output(1, 0);
+    auto [mean, sd] = outputs(x, z);
     if (family == ResponseFamily::lognormal) {
       mean *= std::exp(0.5 * sd * sd);
       sd = mean * std::sqrt(std::expm1(sd * sd));
     }
     return std::pair(mean, sd);
   };
-  PredictionRequest prediction{*asked.law->along,
-                               from_si(asked.axis().unit.unit, place),
-                               measured.column,
-                               measured.unit,
-                               [=](const double* x) { return moments(x, 0).first; },
-                               [=](const double* x) { return moments(x, 0).second; },
-                               normal ? ObservationFamily::normal : ObservationFamily::lognormal,
-                               {}};
+  PredictionRequest prediction{
+      *asked.law->along,
+      from_si(asked.axis().unit.unit, place),
+      measured.column,
+      measured.unit,
+      [=](const double* x) { return moments(x, 0).first; },
+      [=](const double* x) { return moments(x, 0).second; },
+      family == ResponseFamily::normal ? ObservationFamily::normal : ObservationFamily::lognormal,
+      {}};
   const std::string& unit = asked.axis().unit.unit.text;
   if (unit != "1" && unit != prediction.at_name) prediction.at_unit = unit;
   if (asked.law->varies()) {
@@ -62,7 +63,103 @@ void add_measurement(const Asked& asked, const Measured& measured, std::shared_p
     prediction.mean_of = "median " + asked.noun;
     prediction.measured_of = "new " + asked.noun;
   }
-  study.predictions.push_back(std::move(prediction));
+  return prediction;
+}
+
+void add_measurement(const Asked& asked, const Measured& measured, std::shared_ptr<const Path> path,
+                     double place, PosteriorStudy& study) {
+  const auto shared = std::make_shared<const SharedPath>(std::move(path));
+  study.predictions.push_back(measurement(asked, measured, place, [=](const double* x, double z) {
+    PathAt& mine = shared->mine();
+    mine.move_to(x);
+    mine.evaluate(1, &z, &place);
+    return std::pair(mine.output(0, 0), mine.output(1, 0));
+  }));
+}
+
+// One thread's look at a unit that was seen. Up to its last row the law is that of the likelihood; beyond,
+// where conditions change, its path goes on from where it stands.
+class UnitAt {
+ public:
+  UnitAt(const LimitedPath& axis, const LimitedPath::Seen& seen)
+      : seen_(seen), ahead_(*seen.ahead, axis.rising, axis.begin, axis.scale) {
+    if (seen.behind) behind_.emplace(*seen.behind);
+  }
+
+  std::pair<double, double> outputs(const double* x, const double* z, double place) {
+    PathAt& at = ahead_.at();
+    at.move_to(x);
+    if (behind_ && place > seen_.now) {
+      behind_->move_to(x);
+      behind_->evaluate(1, z, &seen_.now);
+      const double level = behind_->output(0, 0);
+      double there = 0;
+      ahead_.solve(1, z, &level, &there);
+      place += there - seen_.now;
+    }
+    if (seen_.ahead->goes_on()) at.stand(1, z);
+    at.evaluate(1, z, &place);
+    return {at.output(0, 0), at.output(1, 0)};
+  }
+
+ private:
+  const LimitedPath::Seen& seen_;
+  Crossing ahead_;
+  std::optional<PathAt> behind_;
+};
+
+// Measurements to come of the units of predict.units.
+void add_units(const Asked& asked, const Measured& measured, const std::vector<Quantity>& places,
+               const LimitedPath& axis, PosteriorStudy& study) {
+  const std::vector<std::string>& known = asked.law->units;
+  for (const std::string& name : asked.predict.texts("units")) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (!asked.law->varies() || !asked.law->label) {
+      asked.predict.fail("units",
+                         "is of studies whose parameters differ from unit to unit (varies)");
+    }
+    if (found == known.end()) {
+      asked.predict.fail("units", fmt::format("the data have no {} '{}' ({})", asked.noun, name,
+                                              fmt::join(known, ", ")));
+    }
+    if (measured.process) {
+      asked.predict.fail("units",
+                         fmt::format("{} is a process: how it goes on in each {} is among the "
+                                     "quantities at predict.at, its readings to come are not",
+                                     measured.column, asked.noun));
+    }
+    const auto unit = static_cast<std::size_t>(found - known.begin());
+    const auto seen = std::make_shared<const LimitedPath::Seen>(
+        seen_unit(asked, asked.predict, "at", measured.wanted, unit));
+    using Own = tbb::enumerable_thread_specific<std::unique_ptr<UnitAt>>;
+    const auto own = std::make_shared<Own>();
+    const std::size_t parameters = asked.law->parameters.size();
+    const auto with_item =
+        std::make_shared<const std::function<WeightedDraws(const WeightedDraws&)>>(
+            [rows = asked.rows, unit](const WeightedDraws& draws) {
+              return with_unit(*rows, unit, draws);
+            });
+    for (const Quantity& each : places) {
+      const double place = each.si();
+      if (seen->ahead->goes_on() && !(place > seen->now)) {
+        asked.predict.fail(
+            "at", fmt::format("{} is not beyond {:.6g} {}, the last row of {}, from where its path "
+                              "goes on",
+                              in_words(each), from_si(asked.axis().unit.unit, seen->now),
+                              asked.axis().unit.unit.text, asked.unit(unit)));
+      }
+      PredictionRequest prediction =
+          measurement(asked, measured, place, [=](const double* x, double) {
+            std::unique_ptr<UnitAt>& mine = own->local();
+            if (!mine) mine = std::make_unique<UnitAt>(axis, *seen);
+            return mine->outputs(x, x + parameters, place);
+          });
+      prediction.item = {};
+      prediction.mean_of = prediction.measured_of = asked.unit(unit);
+      prediction.with_item = with_item;
+      study.predictions.push_back(std::move(prediction));
+    }
+  }
 }
 
 // What is true of each unit, without the scatter of one measurement.
@@ -89,7 +186,10 @@ void request_paths(const Asked& asked, const Measured& measured,
                                         measured.wanted.begin() + (measured.process ? 2 : 1));
   if (of_new) add({{axis.next, {}, 0}, {}, {}}, "new " + asked.noun);
   if (asked.law->label || axis.next->goes_on() || measured.process) {
+    const std::vector<std::string> only = asked.predict.texts("units");
     for (std::size_t u = 0; u < asked.law->units.size(); ++u) {
+      const bool told = std::find(only.begin(), only.end(), asked.law->units[u]) != only.end();
+      if (asked.predict.has("units") && !told) continue;
       add({seen_unit(asked, asked.predict, "at", wanted, u), u, {}}, asked.unit(u));
     }
   }
@@ -165,6 +265,7 @@ void read_path(const Asked& asked, PosteriorStudy& study) {
       if (plain) add_measurement(asked, measured, path.next, at.si(), study);
     }
     set_reach(asked, path);
+    add_units(asked, measured, places, path, study);
     request_paths(asked, measured, places, path, !plain, study);
   }
 }

@@ -13,6 +13,7 @@
 #include "wearwell/models/ownlaw/own_limit.h"
 #include "wearwell/models/ownlaw/own_path_ahead.h"
 #include "wearwell/models/ownlaw/own_reader.h"
+#include "wearwell/study/life_levels.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -35,16 +36,12 @@ class Predictions {
       predict_.fail(predict_.has("limit") ? "limit" : "at",
                     "needs predict.along: the column that is the axis of wear and life");
     }
-    level_ = 0.9;
-    if (const auto level = predict_.quantity("credible_level", "1")) {
-      if (!(level->si() > 0 && level->si() < 1)) {
-        predict_.fail("credible_level", "must lie between 0 and 1");
-      }
-      level_ = level->si();
+    if (predict_.has("units") && !predict_.has("at")) {
+      predict_.fail("units", "needs predict.at: where measurements of these units are to come");
     }
     if (predict_.has("limit")) {
       read_limit(asked_, study_);
-      for (const char* key : {"b_lives", "survival_to", "hazard_at", "accelerated"}) {
+      for (const char* key : {"survival_to", "hazard_at", "accelerated"}) {
         if (predict_.has(key)) {
           predict_.fail(key,
                         "is for a likelihood of a life; beside predict.limit lives are "
@@ -53,6 +50,12 @@ class Predictions {
       }
     } else if (!law_->along) {
       read_life_law();
+    } else {
+      for (const char* key : {"b_lives", "credible_level", "survived"}) {
+        if (predict_.has(key)) {
+          predict_.fail(key, "needs predict.limit: what is reached at the end of a life");
+        }
+      }
     }
     if (predict_.has("at")) read_path(asked_, study_);
     if (asks_along) add_path_figures(asked_, study_);
@@ -70,20 +73,21 @@ class Predictions {
 
   void read_life_law() {
     const Measured& measured = law_->measured.front();
-    std::vector<double> percents;
-    for (const Quantity& each : predict_.quantities("b_lives", "1")) {
-      const double value = each.unit.text == "1" ? each.value : 100 * each.si();
-      if (!(value > 0 && value < 100)) {
-        predict_.fail("b_lives", "are percentages between 0 and 100, like [1, 10]");
-      }
-      percents.push_back(value);
-    }
-    if (percents.empty()) percents = {1, 10};
+    LifeLevels levels = read_life_levels(predict_);
+    if (levels.percents.empty()) levels.percents = {1, 10};
+    const std::vector<double>& percents = levels.percents;
     const std::string si = law::si_text(measured.powers);
-    const std::vector<Quantity> survival = predict_.quantities("survival_to", si);
+    std::vector<Quantity> survival = predict_.quantities("survival_to", si);
+    const auto survived = predict_.quantity("survived", si);
+    if (survived && std::none_of(survival.begin(), survival.end(), [&](const Quantity& each) {
+          return each.si() == survived->si();
+        })) {
+      survival.push_back(*survived);
+    }
     const std::vector<Quantity> hazard = predict_.quantities("hazard_at", si);
     if (measured.form->counted) {
-      for (const char* key : {"b_lives", "survival_to", "hazard_at", "accelerated"}) {
+      for (const char* key :
+           {"b_lives", "credible_level", "survival_to", "survived", "hazard_at", "accelerated"}) {
         if (predict_.has(key)) predict_.fail(key, "is for lives, not for counts");
       }
       return;
@@ -103,11 +107,20 @@ class Predictions {
     group.requests.back().safe_end = 0.05;
     const auto bounded = [&](const std::string& name, const std::string& at, const Unit& unit) {
       group.requests.push_back(request(name, noun_, at, unit));
-      group.requests.back().credible_level = level_;
+      group.requests.back().credible_level = levels.credible_level;
       group.requests.back().safe_end = 0.05;
     };
     for (const double percent : percents) {
-      bounded(fmt::format("B{:.6g} life", percent), given_words_, measured.unit);
+      bounded(b_life_name(percent), given_words_, measured.unit);
+    }
+    if (survived) {
+      const std::string from = joined(given_words_, fmt::format("from {} on", in_words(*survived)));
+      group.requests.push_back(request("remaining life", "new " + noun_, from, measured.unit));
+      group.requests.back().is_life = true;
+      group.requests.back().safe_end = 0.05;
+      for (const double percent : percents) {
+        bounded(b_life_name(percent, "remaining life"), from, measured.unit);
+      }
     }
     for (const Quantity& each : survival) {
       bounded("survival to " + in_words(each), given_words_, Unit{"%", 0.01, 0});
@@ -121,7 +134,7 @@ class Predictions {
                                        fmt::format("{} over {}", given_words_, fast_words),
                                        Unit{"1", 1, 0}));
     }
-    group.from_draws = [=, level = level_](const WeightedDraws& draws) {
+    group.from_draws = [=](const WeightedDraws& draws) {
       const LifeLaw::Next next = life->next(draws);
       const double middle = next.quantile(0.5);
       std::vector<QuantityQuantiles> all = {{next.quantile(0.05), middle, next.quantile(0.95),
@@ -131,12 +144,20 @@ class Predictions {
             known.quantile(0.05), known.quantile(0.5), known.quantile(0.95), 0, 0, 0};
         if (predictive) {
           q.predictive = predictive;
-          q.bound = known.quantile(1 - level);
+          q.bound = known.quantile(1 - levels.credible_level);
         }
         all.push_back(q);
       };
-      for (const double percent : percents) {
+      for (const double percent : levels.percents) {
         add(life->quantile(draws, percent / 100), next.quantile(percent / 100));
+      }
+      if (survived) {
+        const double from = survived->si();
+        const auto q = [&](double p) { return next.quantile(p, from); };
+        all.push_back({q(0.05), q(0.5), q(0.95), q(0.01), q(0.1), q(0.5)});
+        for (const double percent : levels.percents) {
+          add(life->quantile(draws, percent / 100, from), q(percent / 100));
+        }
       }
       for (const Quantity& each : survival) {
         add(life->survival(draws, each.si()), 1 - next.cdf(each.si()));
@@ -221,7 +242,6 @@ class Predictions {
   PosteriorStudy& study_;
   const Conditions& common_;
   const std::string &given_words_, &noun_;
-  double level_ = 0.9;
 };
 
 }  // namespace

@@ -71,11 +71,14 @@ class Part {
 
   void add(const double* x, double weight) {
     next_->at().move_to(x);
+    CellMixture units;
     for (std::size_t i = 0; i < fresh_.weight.size(); ++i) {
       const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
       add_passage(*next_, z, limit_.path.begin, 0, sign_ * limit_.path.limit,
-                  weight * fresh_.weight[i], false, found.next);
+                  weight * fresh_.weight[i], false, units);
     }
+    found.next.add(units);
+    if (!limit_.path.shares.empty()) found.add_shares(limit_.path, units);
     if (!limit_.path.seen.empty()) add_seen(x, weight);
   }
 

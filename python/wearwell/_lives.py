@@ -1,0 +1,154 @@
+"""Lives that are asked of a fit later, at any level."""
+
+import re
+
+from . import _toml
+from ._ask import axis_of, columns_of, conditions_of, tables_of
+from ._errors import InputError
+
+_inf, _nan = float("inf"), float("nan")
+_least = 0.1  # percent: of items that survive more rarely nothing is known from then on
+_b_life = re.compile(r"B(\S+) (?:remaining )?life\Z")
+# What each other model's [predict] has that a life needs.
+_kept = {"archard-joint": ("limit", "risk", "work_per_cycle"),
+         "bearing-wear": ("limit", "risk", "pressure", "speed", "contact", "radius", "clearance"),
+         "sn": ("types", "stress")}
+
+
+def _levels(b, confidence):
+    b = list(b) if hasattr(b, "__iter__") and not isinstance(b, str) else [b]
+    for each in b:
+        if isinstance(each, (str, bool)) or not 0 < each < 100:
+            raise InputError(f"b holds {each!r}; B-lives are percentages between 0 and 100, like [1, 10]")
+    if not b:
+        raise InputError("b is empty; B-lives are percentages, like [1, 10]")
+    if isinstance(confidence, (str, bool)) or not 0 < confidence < 1:
+        raise InputError(f"confidence is {confidence!r}; it lies between 0 and 1, like 0.95")
+    return [float(each) for each in dict.fromkeys(b)], float(confidence)
+
+
+def _of_law(study, limit, unit, survived, along):
+    """The keys of [predict] that ask it of a study of a law."""
+    table = {} if survived is None else {"survived": _toml.quantity(survived, "survived")}
+    if limit is None:
+        if unit is not None:
+            raise InputError("unit is of lives to a limit, fit.life(limit=..., unit=...): where lives are what is measured, each is "
+                             "known, and those to come are of the next item")
+        measured = next(iter(study["likelihood"]))
+        shown = columns_of(study)[measured]
+        if survived is not None and not isinstance(table["survived"], str) and shown not in ("", "1"):
+            raise InputError(f"survived is {survived} without a unit, and {measured} is in {shown}: write "
+                             f"'{table['survived']} {shown}', or another unit")
+        return table
+    columns = columns_of(study)
+    if not isinstance(limit, dict):
+        measured = list(study["likelihood"])
+        if len(measured) != 1:
+            raise InputError(f"limit: of which? {{'{measured[0]}': '...'}} says so")
+        limit = {measured[0]: limit}
+    axis = axis_of(study, columns, along)
+    if axis is None:
+        raise InputError(f"along is missing: the column along which it wears ({', '.join(conditions_of(study, columns))})")
+
+    def named(key):  # what is measured is no name in expressions, but of a process; its law is
+        slots = study["likelihood"].get(key, {})
+        return key if "family" in slots and slots["family"].endswith("process") else slots.get("mean", slots.get("median", key))
+
+    return {**table, "along": axis, "limit": {named(k): _toml.quantity(v, "limit") for k, v in limit.items()}}
+
+
+def _of_trade(study, limit, unit, survived, along):
+    model = study["model"]
+    if unit is not None:
+        raise InputError(f"unit is of studies of a law whose parameters differ from item to item; one of the model {model} tells of "
+                         "the next one: leave unit out")
+    if survived is not None:
+        raise InputError(f"survived is of studies of a law; of the model {model} "
+                         + ("fit.ask(predict) tells by survival_to how many outlast a life" if model == "sn" else
+                            "fit.summary['life'] tells within how much to inspect what has come so far"))
+    if along is not None:
+        raise InputError(f"along is of studies of a law; lives of the model {model} have their axis")
+    table = {k: v for k, v in study.get("predict", {}).items() if k in _kept[model]}
+    if model == "sn":
+        if limit is not None:
+            raise InputError("limit is of wear; a life of an S-N study ends with failure: leave limit out")
+        return table if table else {"types": "all"}
+    if limit is not None:
+        table["limit"] = _toml.quantity(limit, "limit")
+    if "limit" not in table:
+        raise InputError("limit is missing: fit.life(limit='100 mm^3')" if model == "archard-joint" else
+                         "limit is missing: fit.life(limit='80 um')")
+    return table
+
+
+def _number(value):  # null of a life: never
+    return _inf if value is None else value
+
+
+def _row(each, unit=None):
+    best = {**each, **each.get("exact", {})}
+    return {"name": each["name"], "of": each["of"], "at": each["at"], "unit": unit or each["unit"],
+            **{q: _number(best[q]) for q in ("q05", "q50", "q95")},
+            "predictive": _number(best["predictive"]) if "predictive" in best else _nan,
+            "bound": _number(best["bound"]) if "bound" in best else _nan}
+
+
+def _require_survival(rows, what, survived):
+    for row in rows:
+        if row["name"].startswith("survival to ") and not row["q50"] >= _least:
+            raise InputError(f"survived: {what} comes to {survived} with a probability of {row['q50']:.2g} % by this fit; lives from "
+                             "then on are known where it is more than 0.1 %")
+
+
+def life(fit, limit, b, confidence, unit, survived, along, given):
+    import pandas
+
+    study = tables_of(fit, ("law", *_kept))
+    b, confidence = _levels(b, confidence)
+    law = study["model"] == "law"
+    table = (_of_law if law else _of_trade)(study, limit, unit, survived, along)
+    if given:
+        table = {**table, **({"given": given} if law else given)}
+    answers = fit.ask({**table, "b_lives": b, "credible_level": confidence})
+    rows = [_row(each) for each in answers.get("quantities", [])]
+    if "life" in answers:
+        best = {**answers["life"], **answers["life"].get("exact", {})}
+        of = answers["life"].get("of", "")
+        rows = [{"name": "life", "of": of or "joint", "at": f"to {best['limit']:g} {best['limit_unit']}", "unit": best["unit"],
+                 **{q: _number(best[k]) for q, k in (("q05", "q05"), ("q50", "b50"), ("q95", "q95"))}, "predictive": _nan,
+                 "bound": _nan}, *rows] if study["model"] == "archard-joint" else rows
+    wanted = "remaining life" if unit is not None or (law and survived is not None) else "life"
+    if unit is None:
+        def mine(row):  # the next one's, and of all
+            return not row["of"].startswith("median ") if not law else row["of"].startswith("new ") or " " not in row["of"]
+    else:
+        def mine(row):
+            return row["of"].split(" ", 1)[-1] == str(unit) and not row["of"].startswith("new ")
+        seen = sorted({row["of"].split(" ", 1)[-1] for row in rows if row["name"] == wanted and not row["of"].startswith("new ")})
+        if str(unit) not in seen:
+            raise InputError(f"the study has no item '{unit}' (items: {', '.join(seen)})")
+    if survived is not None and unit is not None:
+        begins = [row["at"] for row in rows if row["name"] == wanted and (mine(row) or row["of"].startswith("new "))]
+        if len(set(at.rsplit("from ", 1)[-1] for at in begins)) > 1:
+            last = next(row["at"] for row in rows if row["name"] == wanted and mine(row)).rsplit("from ", 1)[-1]
+            raise InputError(f"survived: {unit} was seen until {last.removesuffix(' on')} already, and {survived} lies before: leave "
+                             "survived out, what remains counts from its last row")
+    rows = [row for row in rows if mine(row) and (row["name"] == wanted or row["name"].startswith("survival to ")
+                                                  or (_b_life.match(row["name"]) and row["name"].endswith(" " + wanted)
+                                                      and ("remaining" in row["name"]) == (wanted != "life")))]
+    _require_survival(rows, unit if unit is not None else "a new one", survived)
+    # Of one thing, whose life only the posterior spreads, the bound is that of its life, and B-lives are its quantiles.
+    one = law and limit is not None and (unit is not None or not ("varies" in study or any(
+        slots["family"].endswith("process") for slots in study["likelihood"].values()))) or study["model"] == "archard-joint"
+    found = []
+    for row in rows:
+        if row["name"] == wanted:
+            of_all = [each for each in rows if _b_life.match(each["name"]) and each["at"] == row["at"]]
+            for each in of_all:
+                row[f"b{float(_b_life.match(each['name'])[1]):g}"] = each["predictive"]
+            if one and of_all:
+                row["bound"] = of_all[0]["bound"]
+        if not (one and _b_life.match(row["name"])):
+            found.append(row)
+    columns = ["name", "of", "at", "unit", "q05", "q50", "q95", *(f"b{percent:g}" for percent in b), "predictive", "bound"]
+    return pandas.DataFrame(found, columns=columns)
