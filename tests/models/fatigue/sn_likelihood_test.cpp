@@ -121,6 +121,28 @@ TEST(SnLikelihood, PointwiseTermsAreTheTests) {
   }
 }
 
+// So many tests that those under one stress enter by their mean and their scatter.
+TEST(SnLikelihood, ManyTestsAreTheirSum) {
+  LifeTests tests;
+  for (int i = 0; i < 500; ++i) {
+    for (LifeTest test : some_tests()) {
+      if (test.outcome == Outcome::failure) test.life *= 1 + 0.001 * i;
+      tests.push_back(test);
+    }
+  }
+  for (const SnLaw& law : all_laws()) {
+    if (law.integrated()) continue;  // summed as few are
+    const std::vector<double> x = plausible(law, 0.5);
+    const auto likelihood = sn_likelihood(law, tests, tests.size());
+    const std::vector<double> terms = likelihood->pointwise(x);
+    double sum = 0;
+    for (std::size_t i = 0; i < terms.size(); ++i) sum += tests[i].count * terms[i];
+    std::vector<double> gradient(x.size());
+    EXPECT_NEAR(likelihood->value_and_gradient(x, gradient), sum, 1e-11 * std::abs(sum));
+    EXPECT_NEAR(likelihood->value(x), sum, 1e-11 * std::abs(sum));
+  }
+}
+
 TEST(SnLikelihood, NothingBeyondTheStrength) {
   const auto likelihood = sn_likelihood({}, some_tests(), 5);
   const double too_weak[] = {9.35, -0.15, std::log10(199e6), 0.3};

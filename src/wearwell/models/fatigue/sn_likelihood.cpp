@@ -1,7 +1,9 @@
 #include "wearwell/models/fatigue/sn_likelihood.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "wearwell/math/dual.h"
 #include "wearwell/models/fatigue/random_limit.h"
@@ -11,6 +13,9 @@ namespace wearwell::fatigue {
 namespace {
 
 constexpr int max_parameters = 8;
+
+// From so many tests on those that are alike are taken together.
+constexpr std::size_t tests_are_many = 2000;
 
 class SnLikelihood final : public LogDensity {
  public:
@@ -26,15 +31,27 @@ class SnLikelihood final : public LogDensity {
       }
       rows_.push_back(row);
     }
+    // An integral over the limit is worth the search; without one the sum of few keeps its order.
+    const bool many = tests_.size() >= tests_are_many;
+    const bool summed = many && law_.straight() && law_.standard() == StandardLaw::normal;
+    std::map<std::array<double, 5>, std::size_t> terms, levels;
     for (std::size_t i = 0; i < tests_.size(); ++i) {
-      const auto alike = [&](const Term& term) { return same(tests_[term.row], tests_[i]); };
-      // An integral over the limit is worth the search; without one the sum keeps its order.
-      const auto found =
-          law_.integrated() ? std::find_if(terms_.begin(), terms_.end(), alike) : terms_.end();
-      if (found != terms_.end()) {
-        found->count += tests_[i].count;
+      const LifeTest& test = tests_[i];
+      if (summed && test.outcome == Outcome::failure) {
+        const auto [level, first] =
+            levels.try_emplace({test.stress.alternating, test.stress.mean}, levels_.size());
+        if (first) levels_.push_back({i});
+        levels_[level->second].add(rows_[i].at, test.count, rows_[i].log_measure);
+        continue;
+      }
+      const auto [term, first] =
+          terms.try_emplace({test.stress.alternating, test.stress.mean,
+                             static_cast<double>(test.outcome), test.life, test.until},
+                            terms_.size());
+      if (first || !(many || law_.integrated())) {
+        terms_.push_back({i, test.count});
       } else {
-        terms_.push_back({i, tests_[i].count});
+        terms_[term->second].count += test.count;
       }
     }
   }
@@ -75,10 +92,19 @@ class SnLikelihood final : public LogDensity {
     int count;
   };
 
-  static bool same(const LifeTest& a, const LifeTest& b) {
-    return a.stress.alternating == b.stress.alternating && a.stress.mean == b.stress.mean &&
-           a.outcome == b.outcome && a.life == b.life && a.until == b.until;
-  }
+  // Failures under one stress, whose normal law knows of them no more than this.
+  struct Level {
+    std::size_t row;                                           // of one of them
+    double count = 0, mean = 0, squares = 0, log_measure = 0;  // squares: about the mean
+
+    void add(double at, int times, double measure) {
+      count += times;
+      const double off = at - mean;
+      mean += times * off / count;
+      squares += times * off * (at - mean);
+      log_measure += times * measure;
+    }
+  };
 
   // What all rows have in common.
   template <class T>
@@ -107,6 +133,13 @@ class SnLikelihood final : public LogDensity {
       } else {
         sum += static_cast<double>(count) * term(shared, row);
       }
+    }
+    for (const Level& level : levels_) {
+      const T reversed = log10_reversed(shared, level.row);
+      if (!std::isfinite(scalar(reversed))) return T(-std::numeric_limits<double>::infinity());
+      sum += level.count * normal_log_density(level.mean, location_at(shared, reversed),
+                                              shared.inverse_sigma, shared.log_sigma) +
+             level.log_measure - 0.5 * level.squares * shared.inverse_sigma * shared.inverse_sigma;
     }
     return sum;
   }
@@ -139,6 +172,16 @@ class SnLikelihood final : public LogDensity {
            log10_factor(law_.correction, tests_[i].stress, shared.strength, shared.gamma);
   }
 
+  // On the scale on which lives scatter.
+  template <class T>
+  T location_at(const Shared<T>& shared, const T& reversed) const {
+    using std::exp;
+    const T location = law_.log10_life(shared.x, reversed);
+    if (law_.logarithmic()) return location;
+    constexpr double most = 300;  // decades; a longer life is no number
+    return scalar(location) < most ? T(exp(location * std::log(10.0))) : T(1e300);
+  }
+
   // The log-likelihood of one test of the row.
   template <class T>
   T term(const Shared<T>& shared, std::size_t i) const {
@@ -157,13 +200,9 @@ class SnLikelihood final : public LogDensity {
       const T value = log_probability(life, test.outcome, row.at, row.until);
       return test.outcome == Outcome::failure ? T(value + row.log_measure) : value;
     }
-    T location = law_.log10_life(shared.x, reversed);
-    if (law_.bends() || law_.scatter_grows) return bent(shared, i, reversed, location);
-    if (!law_.logarithmic()) {
-      using std::exp;
-      constexpr double most = 300;  // decades; a longer life is no number
-      location = scalar(location) < most ? T(exp(location * std::log(10.0))) : T(1e300);
-    }
+    if (law_.bends() || law_.scatter_grows)
+      return bent(shared, i, reversed, law_.log10_life(shared.x, reversed));
+    const T location = location_at(shared, reversed);
     const StandardLaw standard = law_.standard();
     if (test.outcome == Outcome::failure && standard == StandardLaw::normal) {
       return normal_log_density(row.at, location, shared.inverse_sigma, shared.log_sigma) +
@@ -229,6 +268,7 @@ class SnLikelihood final : public LogDensity {
   LifeTests tests_;
   std::vector<Row> rows_;
   std::vector<Term> terms_;
+  std::vector<Level> levels_;
 };
 
 }  // namespace
