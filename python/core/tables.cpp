@@ -8,7 +8,8 @@
 #include "arrow_export.h"
 #include "core.h"
 #include "wearwell/base/error.h"
-#include "wearwell/input/table.h"
+#include "wearwell/embed/fork_guard.h"
+#include "wearwell/embed/memory_table.h"
 
 namespace wearwell::python {
 namespace {
@@ -51,19 +52,6 @@ void add_text(Column& column, const py::sequence& values, const std::string& tab
   }
 }
 
-void refuse_no_table(const Table& table) {
-  if (table.columns.empty()) throw InputError(fmt::format("{} has no columns", table.source));
-  if (table.rows == 0) throw InputError(fmt::format("{} has no rows", table.source));
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    for (std::size_t d = 0; d < c; ++d) {
-      if (table.columns[c].name == table.columns[d].name) {
-        throw InputError(
-            fmt::format("{}: two columns are called '{}'", table.source, table.columns[c].name));
-      }
-    }
-  }
-}
-
 // (heading, unit, array of numbers or list of texts).
 using Named = std::tuple<std::string, std::string, py::object>;
 
@@ -79,25 +67,10 @@ Table table_of(const std::string& name, const std::vector<Named>& columns) {
     } else {
       add_text(column, py::reinterpret_borrow<py::sequence>(values), name);
     }
-    const std::size_t rows = column.is_number ? column.numbers.size() : column.text.size();
-    if (!table.columns.empty() && rows != table.rows) {
-      throw InputError(fmt::format("{}: column '{}' has {} rows, and '{}' has {}", name, heading,
-                                   rows, table.columns.front().name, table.rows));
-    }
-    table.rows = rows;
-    table.columns.push_back(std::move(column));
+    embed::add_column(table, std::move(column));
   }
-  refuse_no_table(table);
+  embed::refuse_no_table(table);
   return table;
-}
-
-void add_units(Table& table, const std::map<std::string, std::string>& units) {
-  for (const auto& [heading, unit] : units) {
-    const Column& column = table.column(heading);  // throws and names the nearest
-    for (Column& each : table.columns) {
-      if (&each == &column) each.unit = unit;
-    }
-  }
 }
 
 }  // namespace
@@ -111,19 +84,19 @@ void add_tables(py::module_& module) {
              for (const Column& each : table.columns) names.push_back(each.name);
              return names;
            })
-      .def("add_units", &add_units);
+      .def("add_units", &embed::add_units);
   module.def("table_of", &table_of);
   module.def("table_of_arrow", [](const std::string& name, const py::capsule& capsule) {
     void* const stream = PyCapsule_GetPointer(capsule.ptr(), "arrow_array_stream");
     if (!stream) throw py::error_already_set();
     Table table = read_arrow(*static_cast<ArrowArrayStream*>(stream), name);
-    refuse_no_table(table);
+    embed::refuse_no_table(table);
     return table;
   });
   module.def("arrow_stream_of", &arrow_stream_of);
   module.def("table_of_file", [](const std::string& file, const std::optional<std::string>& sql) {
     const py::gil_scoped_release release;
-    const ForkGuard guard;
+    const embed::ForkGuard guard;
     return read_table(file, sql);
   });
 }
