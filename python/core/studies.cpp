@@ -5,6 +5,7 @@
 #include "wearwell/base/staged_file.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/run.h"
+#include "wearwell/study/posterior_summary.h"
 #include "wearwell/study/result_writer.h"
 
 namespace wearwell::python {
@@ -59,9 +60,9 @@ py::array_t<double> draws_of(const Run& run) {
 std::map<std::string, py::array_t<double>> sample_stats(const Run& run) {
   std::map<std::string, py::array_t<double>> stats;
   for (const auto& [name, values] : embed::sample_stats(run)) {
-    const auto chains = static_cast<py::ssize_t>(run.result->posterior->posterior_draws.size());
-    const auto all = static_cast<py::ssize_t>(values.size());
-    stats.emplace(name, py::array_t<double>({chains, all / chains}, values.data()));
+    const std::size_t chains = run.result->posterior->posterior_draws.size();
+    stats.emplace(name,
+                  py::array_t<double>(std::vector{chains, values.size() / chains}, values.data()));
   }
   return stats;
 }
