@@ -3,15 +3,13 @@
 #include <pybind11/functional.h>
 #include <pybind11/pybind11.h>
 
-#include <optional>
-
 #include "core.h"
 #include "wearwell/embed/attended.h"
 
 namespace wearwell::python {
 
-/// Does `work`, a function of a Monitor, on a thread of its own, while this one looks for Ctrl-C and calls `progress`, a
-/// function of what, done, total and seconds, or None. The interpreter's lock is let go of meanwhile.
+/// Does `work`, a function of a Monitor, without the interpreter's lock, while this thread looks for Ctrl-C and tells
+/// `progress` (a function of what, done, total and seconds, or None) how far it is.
 template <class Work>
 void attended(const py::object& progress, const Work& work) {
   embed::attended<py::gil_scoped_release>(work, [&](const std::optional<embed::Told>& told) {

@@ -1,31 +1,25 @@
 #include <pybind11/numpy.h>
 
-#include <map>
-#include <memory>
-
 #include "attended.h"
 #include "core.h"
 #include "wearwell/base/staged_file.h"
+#include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/run.h"
-#include "wearwell/netcdf/netcdf_file.h"
-#include "wearwell/study/json.h"
 #include "wearwell/study/posterior_summary.h"
 #include "wearwell/study/result_writer.h"
 
 namespace wearwell::python {
 namespace {
 
-using embed::Files;
 using embed::ReadStudy;
 using embed::Run;
-using Released = py::call_guard<py::gil_scoped_release>;
 
 ReadStudy read_text(const std::string& text, const std::string& path,
                     const std::map<std::string, std::shared_ptr<Table>>& tables) {
+  std::map<std::string, Table> own;
+  for (const auto& [name, table] : tables) own.emplace(name, *table);
   const py::gil_scoped_release release;
-  std::map<std::string, Table> copies;
-  for (const auto& [name, table] : tables) copies.emplace(name, *table);
-  return embed::read_text(text, path, std::move(copies));
+  return embed::read_text(text, path, std::move(own));
 }
 
 Run run(const ReadStudy& read, const std::string& method, std::optional<int> chains,
@@ -40,7 +34,7 @@ Run run(const ReadStudy& read, const std::string& method, std::optional<int> cha
   Run run;
   attended(progress, [&](Monitor monitor) {
     monitor.threads = threads;
-    run = embed::run(read, options, std::move(monitor));
+    run = embed::run(read, options, monitor);
   });
   return run;
 }
@@ -62,13 +56,13 @@ py::array_t<double> draws_of(const Run& run) {
   return all;
 }
 
-// Chains x draws of each.
+// Chains x draws each.
 std::map<std::string, py::array_t<double>> sample_stats(const Run& run) {
   std::map<std::string, py::array_t<double>> stats;
   for (const auto& [name, values] : embed::sample_stats(run)) {
-    const auto chains = static_cast<py::ssize_t>(run.result->posterior->posterior_draws.size());
-    const py::ssize_t n = static_cast<py::ssize_t>(values.size()) / chains;
-    stats.emplace(name, py::array_t<double>({chains, n}, values.data()));
+    const std::size_t chains = run.result->posterior->posterior_draws.size();
+    stats.emplace(name,
+                  py::array_t<double>(std::vector{chains, values.size() / chains}, values.data()));
   }
   return stats;
 }
@@ -76,26 +70,26 @@ std::map<std::string, py::array_t<double>> sample_stats(const Run& run) {
 // NetCDF is written with the interpreter's lock held: other modules use the same library, and it is not made for two
 // threads.
 void write_netcdf(const Run& run, const std::string& target) {
-  std::vector<netcdf::Group> groups;
-  {
-    const py::gil_scoped_release release;
-    groups = embed::inference_groups(run);
-  }
-  netcdf::write(target, groups);
+  embed::write_netcdf(run, target);
 }
 
-py::tuple compared(const Files& names_and_folders) {
-  const embed::Compared found = embed::compared(names_and_folders);
-  return py::make_tuple(found.json.dump(), found.text, found.page);
+py::tuple compared(const embed::Files& names_and_folders) {
+  const embed::Compared compared = embed::compared(names_and_folders);
+  return py::make_tuple(compared.json.dump(), compared.text, compared.page);
 }
 
 }  // namespace
 
 void add_studies(py::module_& module) {
+  using unlocked = py::call_guard<py::gil_scoped_release>;
   py::class_<ReadStudy>(module, "ReadStudy")
       .def_readonly("text", &ReadStudy::text)
-      .def(
-          "in_words", [](const ReadStudy& read) { return embed::in_words(read); }, Released())
+      .def("in_words",
+           [](const ReadStudy& read) {
+             const py::gil_scoped_release release;
+             const embed::ForkGuard guard;
+             return read.study->in_words();
+           })
       .def("run", &run, py::arg("method"), py::arg("chains"), py::arg("warmup"), py::arg("draws"),
            py::arg("seed"), py::arg("threads"), py::arg("report"), py::arg("progress"));
   py::class_<Run>(module, "Run")
@@ -103,27 +97,23 @@ void add_studies(py::module_& module) {
       .def("terminal", [](const Run& run) { return terminal_text(*run.result, {}); })
       .def("draws", &draws_of)
       .def("sample_stats", &sample_stats)
-      .def(
-          "files", [](const Run& run) { return embed::files_of(run); }, Released())
+      .def("files", &embed::files_of, unlocked())
       .def("write_netcdf", &write_netcdf)
-      .def(
-          "asked",
-          [](const Run& run, const ReadStudy& other, double level) {
-            return embed::asked(run, other, level).dump();
-          },
-          Released());
-  module.def(
-      "read_file", [](const std::string& file) { return embed::read(source_of(file)); },
-      Released());
+      .def("asked", [](const Run& run, const ReadStudy& other, double level) {
+        const py::gil_scoped_release release;
+        return embed::asked(run, other, level).dump();
+      });
+  module.def("read_file", [](const std::string& file) {
+    const py::gil_scoped_release release;
+    return embed::read(source_of(file));
+  });
   module.def("read_text", &read_text);
-  module.def("page_of", &embed::page_of, Released());
-  module.def("write_folder", &embed::write_folder, Released());
-  module.def(
-      "write_file",
-      [](const std::string& target, const std::string& content) {
-        wearwell::write_file(target, content);
-      },
-      Released());
+  module.def("page_of", &embed::page_of, unlocked());
+  module.def("write_folder", &embed::write_folder, unlocked());
+  module.def("write_file", [](const std::string& target, const std::string& content) {
+    const py::gil_scoped_release release;
+    wearwell::write_file(target, content);
+  });
   module.def("compared", &compared);
 }
 

@@ -10,7 +10,6 @@
 #include "wearwell/base/error.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/embed/memory_table.h"
-#include "wearwell/input/table.h"
 
 namespace wearwell::python {
 namespace {

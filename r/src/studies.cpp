@@ -4,8 +4,8 @@
 #include "core.h"
 #include "look.h"
 #include "wearwell/base/staged_file.h"
-#include "wearwell/netcdf/netcdf_file.h"
-#include "wearwell/study/posterior_summary.h"
+#include "wearwell/study/inference_data.h"
+#include "wearwell/study/json.h"
 #include "wearwell/study/result_writer.h"
 
 namespace wearwell::r {
@@ -32,7 +32,7 @@ SEXP study_text(SEXP study) {
   return text_of(held<ReadStudy>(study).text);
 }
 SEXP in_words(SEXP study) {
-  return text_of(embed::in_words(held<ReadStudy>(study)));
+  return text_of(held<ReadStudy>(study).study->in_words());
 }
 
 // The tables and keys of a study, as lists.
@@ -152,7 +152,7 @@ SEXP write_page(const std::string& target, const std::string& page) {
 }
 
 SEXP write_netcdf(SEXP run, const std::string& target) {
-  netcdf::write(target, embed::inference_groups(held<Run>(run)));
+  embed::write_netcdf(held<Run>(run), target);
   return R_NilValue;
 }
 

@@ -1,4 +1,5 @@
 #include "wearwell/infer/psis_loo.h"
+#include "wearwell/infer/loo_of_many.h"
 #include "wearwell/infer/pareto_smoothing.h"
 
 #include <gmock/gmock.h>
@@ -147,6 +148,45 @@ TEST(PsisLoo, ErrorIsTheScatterOfRuns) {
   }
   const double scatter = std::sqrt(squares / runs - std::pow(sum / runs, 2));
   EXPECT_NEAR(errors / scatter, 1, 0.25);
+}
+
+// So many terms that they are summed draw by draw. By hand as above, within the stated error; and
+// terms one by one.
+TEST(PsisLoo, ManyTermsByHand) {
+  Rng rng(7, 0);
+  std::vector<double> y(terms_are_many);
+  for (double& each : y) each = rng.normal();
+  y[123] = 9;
+  const auto n = static_cast<double>(y.size());
+  const double all = std::accumulate(y.begin(), y.end(), 0.0);
+  std::vector<double> mu(4000);
+  for (double& each : mu) each = all / n + rng.normal() / std::sqrt(n);
+  const Scores scores = [&](const double* x) {
+    std::vector<NormalScore> z;
+    for (const double each : y) z.push_back({each - x[0], each - x[0]});
+    return z;
+  };
+  const Loo loo = psis_loo(NormalMean(y), draws_of(mu), 1, &scores);
+  double sum = 0;
+  int with_khat = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const double mean = (all - y[i]) / (n - 1), variance = 1 + 1 / (n - 1);
+    const double elpd = -0.5 * std::pow(y[i] - mean, 2) / variance -
+                        0.5 * std::log(2 * std::numbers::pi * variance);
+    ASSERT_NEAR(loo.terms[i].elpd, elpd, 5 * std::abs(y[i]) / std::sqrt(n * 400) + 1e-4) << i;
+    ASSERT_NEAR(loo.terms[i].tail, 2 * normal_cdf(-std::abs(y[i] - mean) / std::sqrt(variance)),
+                0.003)
+        << i;
+    sum += elpd;
+    with_khat += std::isfinite(loo.terms[i].khat);
+    EXPECT_FALSE(loo.doubtful(loo.terms[i])) << i;
+  }
+  EXPECT_EQ(with_khat, 1000);
+  EXPECT_TRUE(std::isfinite(loo.terms[123].khat)) << "the one far out moves the mean most";
+  EXPECT_LT(loo.terms[123].tail, 1e-17);
+  EXPECT_NEAR(loo.elpd(), sum, 4 * loo.error);
+  EXPECT_NEAR(loo.p_loo(), 1, 0.3);
+  EXPECT_LT(loo.error, 0.1);
 }
 
 // The tail of y_i given all others, by hand: N(their mean, 1 + 1/(n - 1)).

@@ -2,6 +2,7 @@
 
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/models/registry.h"
+#include "wearwell/netcdf/netcdf_file.h"
 #include "wearwell/present/result_folder.h"
 #include "wearwell/present/section_json.h"
 #include "wearwell/study/comparison.h"
@@ -33,11 +34,6 @@ ReadStudy read(Source source) {
 ReadStudy read_text(const std::string& text, const std::string& path,
                     std::map<std::string, Table> tables) {
   return read({{path, text}, std::move(tables)});
-}
-
-std::string in_words(const ReadStudy& read) {
-  const ForkGuard guard;
-  return read.study->in_words();
 }
 
 Run run(const ReadStudy& read, const RunOptions& options, Monitor monitor) {
@@ -98,9 +94,13 @@ void write_folder(const std::string& target, const Files& files) {
   folder.commit();
 }
 
-std::vector<netcdf::Group> inference_groups(const Run& run) {
-  const ForkGuard guard;
-  return inference_data(require_posterior_study(*run.of.study), posterior_of(run));
+void write_netcdf(const Run& run, const std::string& target) {
+  std::vector<netcdf::Group> groups;
+  {
+    const ForkGuard guard;
+    groups = inference_data(require_posterior_study(*run.of.study), posterior_of(run));
+  }
+  netcdf::write(target, groups);
 }
 
 nlohmann::ordered_json asked(const Run& run, const ReadStudy& other, double level) {

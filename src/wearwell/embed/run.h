@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "wearwell/input/source.h"
-#include "wearwell/netcdf/netcdf_file.h"
 #include "wearwell/study/result.h"
 #include "wearwell/study/study.h"
 
@@ -32,9 +31,6 @@ ReadStudy read(Source source);
 ReadStudy read_text(const std::string& text, const std::string& path,
                     std::map<std::string, Table> tables);
 
-/// As Study::in_words.
-std::string in_words(const ReadStudy& read);
-
 /// As Study::run; alone on one thread in a forked process.
 Run run(const ReadStudy& read, const RunOptions& options, Monitor monitor);
 
@@ -51,8 +47,9 @@ std::string page_of(const std::string& summary, const std::string& report);
 /// A folder of results, whole or not at all. Throws as ResultFolder does.
 void write_folder(const std::string& target, const Files& files);
 
-/// Draws, log-likelihoods and data as ArviZ reads them, for netcdf::write. Throws InputError of a study without a posterior.
-std::vector<netcdf::Group> inference_groups(const Run& run);
+/// Draws, log-likelihoods and data as ArviZ reads them. Throws InputError of a study without a posterior. One thread at a
+/// time: HDF5 below is not made for more, whoever else in the process uses it.
+void write_netcdf(const Run& run, const std::string& target);
 
 /// Predictions, quantities and life that another [predict] asks of the same posterior, as summary.json has them.
 nlohmann::ordered_json asked(const Run& run, const ReadStudy& other, double level);

@@ -456,6 +456,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   const Chart& chart = ridge ? static_cast<const Chart&>(along) : straight;
   ExactPosterior exact;
   long evaluations = 0;
+  double before = INFINITY;
   for (double step = 1; evaluations < settings.max_evaluations; step /= std::sqrt(2.0)) {
     if (settings.stop.stop_requested()) throw Cancelled();
     Lattice lattice(posterior, chart, step, std::min(step, 0.8));
@@ -471,6 +472,15 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
       exact.error = error;
     }
     if (error <= settings.tolerance) break;
+    // Across a kink or a jump errors fall by a power of the step, each four times as dear as the one
+    // before: what the evaluations will not suffice for is not begun.
+    const double steps = std::log(settings.tolerance / error) / std::log(error / before);
+    const bool hopeless =
+        std::isfinite(before) &&
+        (error >= before || std::pow(4, steps) * static_cast<double>(evaluations) >
+                                static_cast<double>(settings.max_evaluations));
+    before = error;
+    if (hopeless && error <= good_enough) break;
     exact.failure = fmt::format("no convergence in {} evaluations", evaluations);
   }
   if (exact.error <= good_enough && exact.nodes.values.rows() > 0) exact.failure.clear();

@@ -14,8 +14,8 @@ namespace wearwell {
 struct LooTerm {
   double elpd = 0;  ///< log density of the observation, predicted from all others
   double lpd = 0;   ///< the same, predicted from all with itself
-  double khat = 0;
-  int count = 1;          ///< as many observations were seen alike
+  double khat = 0;  ///< -infinity: weights more even than of those that have one (loo_of_many.h)
+  int count = 1;    ///< as many observations were seen alike
   bool refitted = false;  ///< elpd is from the exact posterior of all others
   double tail = 1;  ///< how improbable all others make an observation so far out on its side, twice
                     ///< for either side; 1 where that was not asked for

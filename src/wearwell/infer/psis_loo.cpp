@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "wearwell/infer/left_out.h"
+#include "wearwell/infer/loo_of_many.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/pareto_smoothing.h"
 #include "wearwell/math/log_sum_exp.h"
@@ -58,79 +60,6 @@ class Without final : public LogDensity {
   std::shared_ptr<const LogDensity> whole_;
   std::size_t term_;
 };
-
-// Sums over weighted points of a posterior that say how one term is predicted by all others: over
-// w/p, p the term's density at a point of weight w. Relative to the largest of them so far.
-class LeftOut {
- public:
-  void add(double log_weight, double log_p, const NormalScore* score) {
-    const double log_inverse = log_weight - log_p;
-    if (!std::isfinite(log_inverse)) return;
-    rescale(std::max(top_, log_inverse));
-    const double weight = std::exp(log_inverse - top_);
-    sum_ += weight;
-    with_ += std::exp(log_weight + log_p - top_);
-    if (!score) return;
-    below_ += weight * normal_cdf(score->high);
-    above_ += weight * normal_cdf(-score->low);
-  }
-
-  void add(const LeftOut& other) {
-    if (other.sum_ == 0) return;
-    rescale(std::max(top_, other.top_));
-    const double factor = std::exp(other.top_ - top_);
-    sum_ += factor * other.sum_;
-    with_ += factor * other.with_;
-    below_ += factor * other.below_;
-    above_ += factor * other.above_;
-  }
-
-  double elpd() const { return -(top_ + std::log(sum_)); }
-  double lpd() const { return top_ + std::log(with_); }
-  double tail() const { return std::min(1.0, 2 * std::min(below_, above_) / sum_); }
-
- private:
-  void rescale(double top) {
-    if (top == top_) return;
-    const double factor = std::exp(top_ - top);
-    for (double* each : {&sum_, &with_, &below_, &above_}) *each *= factor;
-    top_ = top;
-  }
-
-  double top_ = -infinity;
-  double sum_ = 0, with_ = 0, below_ = 0, above_ = 0;
-};
-
-std::vector<NormalScore> scores_at(const Scores* scores, const double* x) {
-  return scores ? (*scores)(x) : std::vector<NormalScore>{};
-}
-
-// Over all nodes of a quadrature, in parts of fixed size: the sums do not depend on threads.
-std::vector<LeftOut> left_out(const LogDensity& likelihood, const WeightedDraws& nodes,
-                              std::size_t terms, const Scores* scores) {
-  constexpr Eigen::Index part = 512;
-  const Eigen::Index count = nodes.values.rows();
-  std::vector<std::vector<LeftOut>> parts(static_cast<std::size_t>((count + part - 1) / part));
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    parts[i].resize(terms);
-    const Eigen::Index first = static_cast<Eigen::Index>(i) * part;
-    for (Eigen::Index row = first; row < std::min(count, first + part); ++row) {
-      if (!(nodes.weights[row] > 0)) continue;
-      const double log_weight = std::log(nodes.weights[row]);
-      const Eigen::VectorXd x = nodes.values.row(row);
-      const std::vector<double> log_p = likelihood.pointwise(view(x));
-      const std::vector<NormalScore> z = scores_at(scores, x.data());
-      for (std::size_t t = 0; t < terms; ++t) {
-        parts[i][t].add(log_weight, log_p[t], scores ? &z[t] : nullptr);
-      }
-    }
-  });
-  std::vector<LeftOut> sums(terms);
-  for (const auto& each : parts) {
-    for (std::size_t t = 0; t < terms; ++t) sums[t].add(each[t]);
-  }
-  return sums;
-}
 
 struct Refitted {
   double elpd = 0, tail = 1, error = 0;
@@ -212,6 +141,7 @@ Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double ef
   const Eigen::VectorXd first = draws.values.row(0);
   const std::size_t terms = likelihood.pointwise(view(first)).size();
   if (terms == 0) return loo;
+  if (terms >= terms_are_many) return loo_of_many(likelihood, draws, terms, efficiency, scores);
   const std::vector<int> counts = likelihood.pointwise_counts();
   Eigen::MatrixXd columns = log_densities(likelihood, draws, terms);
   const Eigen::Index used = columns.rows();
@@ -224,29 +154,9 @@ Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double ef
   loo.threshold = khat_threshold(static_cast<double>(used));
   loo.terms.resize(terms);
   tbb::parallel_for(std::size_t{0}, terms, [&](std::size_t i) {
-    auto column = columns.col(static_cast<Eigen::Index>(i));
-    std::vector<double> weights(column.begin(), column.end());
-    for (double& each : weights) each = -each;
-    LooTerm& term = loo.terms[i];
-    term.khat = pareto_smooth(weights);
-    const std::vector<double> log_p(column.begin(), column.end());
-    term.lpd = log_sum_exp(log_p) - std::log(static_cast<double>(used));
-    const double total = log_sum_exp(weights);
-    std::vector<double> with = weights;
-    for (std::size_t s = 0; s < with.size(); ++s) with[s] += log_p[s];
-    term.elpd = log_sum_exp(with) - total;
-    if (!counts.empty()) term.count = counts[i];
-    double below = 0, above = 0;
-    for (std::size_t s = 0; s < weights.size(); ++s) {
-      const double weight = std::exp(weights[s] - total);
-      // What this draw adds to the error of elpd, to the first order.
-      column[static_cast<Eigen::Index>(s)] =
-          term.count * weight * (std::exp(log_p[s] - term.elpd) - 1);
-      if (!scores) continue;
-      below += weight * normal_cdf(z[s][i].high);
-      above += weight * normal_cdf(-z[s][i].low);
-    }
-    if (scores) term.tail = std::min(1.0, 2 * std::min(below, above));
+    if (!counts.empty()) loo.terms[i].count = counts[i];
+    leave_out_smoothed(loo.terms[i], columns.col(static_cast<Eigen::Index>(i)),
+                       scores ? [&](std::size_t s) { return z[s][i]; } : ScoreAt());
   });
   loo.error = std::sqrt(columns.rowwise().sum().squaredNorm() / efficiency);
   return loo;
@@ -261,13 +171,14 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
                   const std::stop_token& stop) {
   const LogDensity& likelihood = *posterior.likelihood();
   if (!fit.exact) return psis_loo(likelihood, fit.pooled, efficiency_of(fit), scores);
+  const Eigen::VectorXd first = fit.pooled.values.row(0);
+  const std::size_t terms = likelihood.pointwise(view(first)).size();
+  const double numbers =
+      static_cast<double>(fit.exact->nodes.values.rows()) * static_cast<double>(terms);
+  if (terms >= many_terms && numbers > most_at_nodes)
+    return psis_loo(likelihood, fit.pooled, 1, scores);
   Loo loo = psis_loo(likelihood, fit.pooled);
   if (loo.terms.empty()) return loo;
-  const double numbers =
-      static_cast<double>(fit.exact->nodes.values.rows()) * static_cast<double>(loo.terms.size());
-  if (loo.terms.size() >= many_terms && numbers > most_at_nodes) {
-    return scores ? psis_loo(likelihood, fit.pooled, 1, scores) : loo;
-  }
   const std::vector<LeftOut> sums =
       left_out(likelihood, fit.exact->nodes, loo.terms.size(), scores);
   loo.by_quadrature = true;

@@ -209,7 +209,8 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
       tail.known = true;
     }
   }
-  if (all_proper && !way.likelihood_grows()) {
+  // Where the others have no mode, the likelihood is watched all the same.
+  if (all_proper && !(way.stations() < 2 ? all : way).likelihood_grows()) {
     tail.index = !tail.known          ? of_prior
                  : tail.towards_bound ? std::min(tail.index, of_prior)
                                       : std::max(tail.index, of_prior);

@@ -9,31 +9,122 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Of a density at nodes an even step apart, what lies between node i and the next: the integral of the
+// polynomial through six of them.
+double between(std::span<const double> share, std::size_t i) {
+  const auto at = [&](std::size_t k) {  // 0 is two nodes before i; there is nothing beyond the ends
+    return i + k >= 2 && i + k - 2 < share.size() ? share[i + k - 2] : 0;
+  };
+  const double mass = (11 * (at(0) + at(5)) - 93 * (at(1) + at(4)) + 802 * (at(2) + at(3))) / 1440;
+  return std::max(mass, 0.0);
+}
+
+// The derivative of numbers at such nodes by the step, of fourth order where there are neighbours; only
+// among nodes from `first` to `last`.
+double derivative(std::span<const double> value, std::size_t i, std::size_t first,
+                  std::size_t last) {
+  const auto y = [&](std::size_t k) { return value[k]; };
+  if (i >= first + 2 && i + 2 <= last) {
+    return (y(i - 2) - 8 * y(i - 1) + 8 * y(i + 1) - y(i + 2)) / 12;
+  }
+  if (i >= first + 1 && i + 1 <= last) return 0.5 * (y(i + 1) - y(i - 1));
+  if (i + 2 <= last) return -1.5 * y(i) + 2 * y(i + 1) - 0.5 * y(i + 2);
+  if (i >= first + 2) return 1.5 * y(i) - 2 * y(i - 1) + 0.5 * y(i - 2);
+  return i + 1 <= last ? y(i + 1) - y(i) : y(i) - y(i - 1);
+}
+
 }  // namespace
 
 void CellMixture::add(double weight, double a, double b) {
-  if (weight > 0) cells_.push_back({weight, std::min(a, b), std::max(a, b)});
+  if (weight > 0)
+    cells_.push_back({.weight = weight, .low = std::min(a, b), .high = std::max(a, b)});
 }
 
 void CellMixture::add(const CellMixture& other) {
   cells_.insert(cells_.end(), other.cells_.begin(), other.cells_.end());
 }
 
-double CellMixture::add_beyond(double weight, double a, double b, double x) {
-  const double low = std::min(a, b), high = std::max(a, b);
-  if (low >= x || high == infinity || std::isnan(a) || std::isnan(b)) {
-    add(weight, low - x, high - x);
-    return weight;
+double CellMixture::add_curve(double weight, std::span<const double> share,
+                              std::span<const double> value, double from) {
+  const std::size_t n = share.size();
+  if (n == 0) return 0;
+  if (n == 1) {
+    const double w = weight * share[0];
+    if (std::isnan(value[0]) || value[0] > from) {
+      add(w, value[0], value[0]);
+      return w;
+    }
+    return 0;
   }
-  if (!(high > x)) return 0;
-  const double rest = weight * (high - x) / (high - low);
-  add(rest, 0, high - x);
-  return rest;
+  double all = 0, inside = 0, beyond = 0;
+  for (std::size_t i = 0; i < n; ++i) all += share[i];
+  for (std::size_t i = 0; i + 1 < n; ++i) inside += between(share, i);
+  const double scale = weight * all / inside;
+  // Where numbers are finite the curve is followed.
+  std::size_t first = 0, last = n - 1;
+  while (first < last && !std::isfinite(value[first])) ++first;
+  while (last > first && !std::isfinite(value[last])) --last;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    Cell cell{scale * between(share, i), std::min(value[i], value[i + 1]),
+              std::max(value[i], value[i + 1])};
+    if (!(cell.weight > 0)) continue;
+    const double length = value[i + 1] - value[i];
+    if (std::isnan(length) && !(std::isinf(value[i]) && std::isinf(value[i + 1]))) {
+      add(cell.weight, value[i], value[i + 1]);
+      beyond += cell.weight;
+      continue;
+    }
+    if (!(cell.high > from)) continue;
+    if (i >= first && i + 1 <= last && length != 0) {
+      constexpr double most = 3;  // so that it falls nowhere
+      const double mean = cell.weight / scale;
+      double ends[] = {share[i] * length / (mean * derivative(value, i, first, last)),
+                       share[i + 1] * length / (mean * derivative(value, i + 1, first, last))};
+      for (double& end : ends) end = end >= 0 ? std::min(end, most) : 1;
+      if (length < 0) std::swap(ends[0], ends[1]);
+      cell.at_low = static_cast<float>(ends[0]);
+      cell.at_high = static_cast<float>(ends[1]);
+    }
+    if (cell.low < from && !cell.cut(from)) continue;
+    beyond += cell.weight;
+    cells_.push_back(cell);
+  }
+  return beyond;
+}
+
+void CellMixture::add_curve(double weight, std::span<const double> share,
+                            std::span<const double> value) {
+  add_curve(weight, share, value, -infinity);
+}
+
+double CellMixture::Cell::below(double x) const {
+  const double u = (x - low) / (high - low);
+  const double a = at_low, b = at_high;
+  return weight * u * (a * (1 - u) * (1 - u) + u * (3 - 2 * u) - b * u * (1 - u));
+}
+
+// The rest of a cubic is one.
+bool CellMixture::Cell::cut(double from) {
+  if (!std::isfinite(high)) return true;
+  const double u = (from - low) / (high - low), a = at_low, b = at_high;
+  const double rest = 1 - below(from) / weight;
+  const double density = a * (1 - u) * (1 - 3 * u) + 6 * u * (1 - u) + b * u * (3 * u - 2);
+  if (!(rest > 0)) return false;
+  weight *= rest;
+  low = from;
+  at_low = static_cast<float>(density * (1 - u) / rest);
+  at_high = static_cast<float>(b * (1 - u) / rest);
+  return true;
 }
 
 CellMixture CellMixture::beyond(double x) const {
   CellMixture rest;
-  for (const Cell& cell : cells_) rest.add_beyond(cell.weight, cell.low, cell.high, x);
+  for (Cell cell : cells_) {
+    if (cell.high <= x || (cell.low < x && !cell.cut(x))) continue;
+    cell.low -= x;
+    cell.high -= x;
+    rest.cells_.push_back(cell);
+  }
   return rest;
 }
 
@@ -52,7 +143,7 @@ double CellMixture::cdf(double x) const {
     if (x >= cell.high) {
       below += cell.weight;
     } else if (x > cell.low) {
-      below += cell.weight * (x - cell.low) / (cell.high - cell.low);
+      below += cell.below(x);
     }
   }
   return below / all;
@@ -82,7 +173,7 @@ double CellMixture::quantile(double p) const {
       if (middle >= cell.high) {
         sum += cell.weight;
       } else if (middle > cell.low) {
-        sum += cell.weight * (middle - cell.low) / (cell.high - cell.low);
+        sum += cell.below(middle);
       }
     }
     if (sum < wanted) {

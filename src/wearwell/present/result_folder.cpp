@@ -79,8 +79,6 @@ Content look_at(const fs::path& folder) {
   const auto foreign = [&](const std::string& name, const char* why) {
     if (content.foreign.empty()) content.foreign = fmt::format("it holds {}, {}", name, why);
   };
-  std::error_code error;
-  fs::directory_iterator(folder, error);
   for (const std::string& name : files_in(folder)) {
     if (list && name == list_name) {
       content.own.push_back(name);
@@ -95,6 +93,8 @@ Content look_at(const fs::path& folder) {
       content.own.push_back(name);
     }
   }
+  std::error_code error;
+  const fs::directory_iterator readable(folder, error);
   if (error) content.foreign = error.message();
   return content;
 }

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "wearwell/input/csv_reader.h"
 
@@ -55,6 +57,25 @@ std::vector<std::pair<std::string, std::string>> long_tables(const PosteriorSumm
     tables.emplace_back(pointwise_table_file, pointwise_csv(*result.pointwise));
   }
   return tables;
+}
+
+std::string shown_caption(const std::string& what, std::size_t rows, const char* which,
+                          const char* file) {
+  if (rows <= most_rows_inline) return what;
+  return fmt::format("{}: {} of {}, {}; all are in {}", what, most_rows_inline, rows, which, file);
+}
+
+std::vector<std::size_t> shown_terms(const std::vector<LooTerm>& terms) {
+  std::vector<std::size_t> order(terms.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (order.size() <= most_rows_inline) return order;
+  const auto end = order.begin() + static_cast<std::ptrdiff_t>(most_rows_inline);
+  std::nth_element(order.begin(), end, order.end(), [&](std::size_t a, std::size_t b) {
+    return terms[a].elpd != terms[b].elpd ? terms[a].elpd < terms[b].elpd : a < b;
+  });
+  order.erase(end, order.end());
+  std::sort(order.begin(), order.end());
+  return order;
 }
 
 std::string chosen_tests(const CoverageTable& table) {

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "wearwell/present/html.h"
+#include "wearwell/study/long_tables.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
@@ -276,31 +278,36 @@ Table coverage_table(const CoverageTable& coverage) {
 
 Table pointwise_table(const PointwiseTable& p) {
   Table table{"pointwise",
-              "Wear coefficient of each measurement for itself",
+              shown_caption("Wear coefficient of each measurement for itself", p.rows.size(),
+                            "the first", pointwise_table_file),
               {{"cycles", "1", given},
                {"F", p.force_unit},
                {"s", p.slip_unit},
                {"V", p.volume_unit},
                {"k = V/(F s)", p.k_unit}}};
-  for (const PointwiseRow& row : p.rows)
+  for (const PointwiseRow& row : p.rows) {
+    if (table.rows.size() == most_rows_inline) break;
     table.rows.push_back({row.cycles, row.force, row.slip, row.volume, row.k});
+  }
   return table;
 }
 
 Table loo_table(const LooSummary& summary) {
   const Loo& loo = summary.loo;
   Table table{"loo",
-              fmt::format("How well each {} is predicted from all others", summary.observation),
+              shown_caption(
+                  fmt::format("How well each {} is predicted from all others", summary.observation),
+                  loo.terms.size(), "the least probable", loo_table_file),
               {{html::capital(summary.observation), "1", given},
                {"Alike", "1", given},
                {"Log density", "1", fixed(3)},
                {"Log density with itself", "1", fixed(3)},
                {"Pareto k", "1", fixed(2)},
                {"Remark"}}};
-  for (std::size_t i = 0; i < loo.terms.size(); ++i) {
+  for (const std::size_t i : shown_terms(loo.terms)) {
     const LooTerm& term = loo.terms[i];
     table.rows.push_back({count(i + 1), static_cast<double>(term.count), term.elpd, term.lpd,
-                          term.khat,
+                          std::isinf(term.khat) && term.khat < 0 ? Cell() : Cell(term.khat),
                           term.refitted        ? "fitted anew"
                           : loo.doubtful(term) ? "Pareto k too large"
                                                : ""});

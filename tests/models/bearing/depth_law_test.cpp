@@ -21,13 +21,13 @@ Duty duty(Contact contact, double sigma) {
 RC_GTEST_PROP(DepthLaw, IsTheInverseGeometry, ()) {
   const Contact contact = contacts[*rc::gen::inRange(0, 3)];
   const double sigma = *between(1e-5, 0.1), k = *between(1e-17, 5e-13);
-  const double off = *between(0.01, 100);  // inside the table, near its ends, and outside
+  const double off = *between(0.01, 100);  // inside the tables, near their ends, and outside
   const DepthLaw law = depth_laws({duty(contact, sigma)}, k).front();
-  for (const double rate : {k, k * off, k * off * 1e-3}) {
+  for (const double rate : {k, k * off, k * off * 1e-3, k * off * 1e-6, k * off * 1e-18}) {
     const double w = rate * 1e11;
     if (std::log(rate) > law.limit()) continue;
     const double expected = 0.01 * depth_for(contact, sigma, w);
-    RC_ASSERT(std::abs(law.depth(std::log(rate)) / expected - 1) < (w < 0.1 ? 1e-9 : 1e-6));
+    RC_ASSERT(std::abs(law.depth(std::log(rate)) / expected - 1) < 1e-9);
   }
 }
 
@@ -54,6 +54,17 @@ TEST(DepthLaw, EndsWhereTheGeometryDoes) {
   const DepthLaw journal = depth_laws({duty(Contact::journal, 0.001)}, 1e-13).front();
   EXPECT_NEAR(std::exp(journal.limit()) * 1e11, 0.75, 1e-4);
   EXPECT_EQ(stationary.depth(-1000), 0) << "a wear number below any double";
+}
+
+// Towards the largest wear number the depth grows ever faster: no table follows it.
+TEST(DepthLaw, IsTheInverseGeometryUpToItsLimit) {
+  for (const Contact contact : {Contact::stationary, Contact::journal}) {
+    const DepthLaw law = depth_laws({duty(contact, 0.001)}, 1e-13).front();
+    for (double x = law.limit() - 2; x <= law.limit(); x += 0.003) {
+      const double expected = 0.01 * depth_for(contact, 0.001, std::exp(x) * 1e11);
+      ASSERT_NEAR(law.depth(x) / expected, 1, 1e-9) << "wear number " << std::exp(x) * 1e11;
+    }
+  }
 }
 
 TEST(DepthLaw, SharesACurveBetweenDutiesOfOneGeometry) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "all_laws.h"
 #include "support/between.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
 
@@ -24,10 +25,12 @@ std::vector<SnLaw> all_laws() {
       laws.push_back(law);
     }
   }
+  for (const SnLaw& law : bent_laws()) laws.push_back(law);
   return laws;
 }
 
 std::vector<double> plausible(const SnLaw& law) {
+  if (!law.integrated() && !law.straight()) return plausible_bent(law, 0);
   std::vector<double> x = {9.35, -0.15, 9, law.family == LifeFamily::normal ? 3e5 : 0.3};
   if (law.limit) x.insert(x.end(), {8.25, 0.06});
   return x;

@@ -12,6 +12,9 @@ namespace wearwell::bearing {
 namespace {
 
 constexpr double nodes_per_unit = 64;
+// Where bearings differ a posterior looks far below its middle.
+constexpr double reach_below = 40, logarithms_per_unit = 24;
+constexpr double lowest = -600;  // depths below 1e-170 radii, where solving would underflow
 
 // Just short of the wear numbers that no delta reaches (see depth_for).
 double largest_log_wear_number(Contact contact) {
@@ -27,21 +30,37 @@ double largest_log_wear_number(Contact contact) {
   return std::log(std::numeric_limits<double>::max()) / 2;
 }
 
+// Where a table is as good as its claim: towards its limit the stationary contact's depth grows
+// without bound.
+double end_of_table(Contact contact, double limit) {
+  return contact == Contact::stationary ? std::log(0.1) : limit;
+}
+
 }  // namespace
 
 DepthCurve::DepthCurve(Contact contact, double sigma, double from, double to)
     : contact_(contact),
       sigma_(sigma),
       limit_(largest_log_wear_number(contact)),
-      table_(from, std::min(to, limit_), nodes_per_unit, [this](double x) { return solve(x); }) {}
+      table_(from, std::min(to, end_of_table(contact, limit_)), nodes_per_unit,
+             [this](double x) { return solve(x); }),
+      logarithms_(std::max(from - reach_below, 0.9 * lowest),
+                  std::min(from + 2 / logarithms_per_unit, end_of_table(contact, limit_)),
+                  logarithms_per_unit, [this](double x) {
+                    const Point point = solve(x);
+                    return Point{std::log(point.value), point.slope / point.value};
+                  }) {}
 
 DepthCurve::Point DepthCurve::operator()(double x) const {
-  return table_.covers(x) ? table_(x) : solve(x);
+  if (table_.covers(x)) return table_(x);
+  if (!logarithms_.covers(x)) return solve(x);
+  const Point logarithm = logarithms_(x);
+  const double delta = std::exp(logarithm.value);
+  return {delta, delta * logarithm.slope};
 }
 
 DepthCurve::Point DepthCurve::solve(double x) const {
-  constexpr double nothing = -600;  // depths below 1e-170 radii, where solving would underflow
-  if (!(x > nothing)) return {0, 0};
+  if (!(x > lowest)) return {0, 0};
   const double w = std::exp(x);
   const double delta = depth_for(contact_, sigma_, w);
   if (!(delta > 0)) return {0, 0};  // w has underflown

@@ -12,8 +12,8 @@ namespace wearwell::bearing {
 /// delta = depth/r as a function of x = ln(wear number), for one contact and one sigma: the inverse
 /// geometry `depth_for` as a primitive of fits, where it is asked for millions of times. A table
 /// with nodes 1/64 apart, whose slopes come from the implicit function theorem, d delta/dx =
-/// w/(dw/d delta): a relative error below 1e-9 for wear numbers below 0.1 (tests). Beyond the table
-/// it solves.
+/// w/(dw/d delta), and below it one of ln delta, which is nearly straight there: a relative error
+/// below 1e-9 (tests). Beyond both it solves.
 class DepthCurve {
  public:
   using Point = HermiteTable::Point;
@@ -33,6 +33,7 @@ class DepthCurve {
   Contact contact_;
   double sigma_, limit_;
   HermiteTable table_;
+  HermiteTable logarithms_;  ///< of delta, below the table
 };
 
 /// The wear depth of one bearing after its revolutions under its load, as a function of the

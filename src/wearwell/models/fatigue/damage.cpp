@@ -34,7 +34,11 @@ BlockDamage::BlockDamage(const SnLaw& law, const double* x, const DamageRule& ru
     log10_reversed_.push_back(given_[i]);
     count_.push_back(cycles[i].count);
   }
-  if (fatal_ || log10_reversed_.empty() || law.limit) return;
+  if (fatal_ || log10_reversed_.empty()) return;
+  if (!law.straight()) {
+    if (!law.integrated()) add_lives();
+    return;
+  }
   top_ = log10_reversed_.front();
   // Sums of count (S/largest)^slope: by the slope above the knee, and by that below it.
   below_slope_ = rule.miner == MinerRule::haibach ? 2 * slope_ - 1 : slope_;
@@ -47,6 +51,36 @@ BlockDamage::BlockDamage(const SnLaw& law, const double* x, const DamageRule& ru
   };
   above_ = running(slope_);
   if (rule.miner == MinerRule::haibach) below_ = running(below_slope_);
+}
+
+// Of a curve that is no straight line: each stress's own life, and sums of damage from the largest down.
+void BlockDamage::add_lives() {
+  above_ = {0};
+  for (std::size_t i = 0; i < count_.size(); ++i) {
+    life_.push_back(law_.log10_life(x_, log10_reversed_[i]));
+    above_.push_back(above_.back() + count_[i] * power(life_.front() - life_[i]));
+  }
+}
+
+// To an item at place z of the scatter, by the cycles above a limit.
+double BlockDamage::log10_damage_of_lives(double z, double limit) const {
+  std::size_t n = life_.size();
+  if (law_.limit) {
+    const double* x = x_ + law_.limit_index();
+    const double least = x[0] + x[1] * limit;
+    n = static_cast<std::size_t>(std::partition_point(log10_reversed_.begin(),
+                                                      log10_reversed_.end(),
+                                                      [&](double s) { return s > least; }) -
+                                 log10_reversed_.begin());
+  }
+  if (n == 0 || life_.front() == infinity) return -infinity;
+  if (!law_.scatter_grows)
+    return std::log10(above_[n]) - life_.front() - x_[law_.sigma_index()] * z;
+  double sum = 0;
+  const double first = life_.front() + law_.sigma_at(x_, life_.front()) * z;
+  for (std::size_t i = 0; i < n && life_[i] < infinity; ++i)
+    sum += count_[i] * power(first - life_[i] - law_.sigma_at(x_, life_[i]) * z);
+  return std::log10(sum) - first;
 }
 
 // log10 of the knee's stress for an item at place z; -infinity without one.
@@ -62,6 +96,7 @@ double BlockDamage::knee(double z) const {
 double BlockDamage::log10_damage(double z, double limit) const {
   if (fatal_) return infinity;
   if (log10_reversed_.empty()) return -infinity;
+  if (!law_.straight() && !law_.integrated()) return log10_damage_of_lives(z, limit);
   const double scatter = x_[law_.sigma_index()] * z;
   if (law_.limit) {
     double sum = 0, first = infinity;
@@ -93,6 +128,7 @@ double BlockDamage::log10_damage_of_one(double at, double knee_at) const {
   if (at == infinity) return 0;
   if (at == -infinity || fatal_) return -infinity;
   if (law_.limit) return -law_.log10_life_of_item(x_, at, 0);
+  if (!law_.straight()) return -law_.log10_life(x_, at);
   const double at_top = -law_.log10_life(x_, top_);
   if (at >= knee_at) return at_top + slope_ * (at - top_);
   if (rule_.miner != MinerRule::haibach) return -infinity;
@@ -100,7 +136,7 @@ double BlockDamage::log10_damage_of_one(double at, double knee_at) const {
 }
 
 std::vector<double> BlockDamage::shares(const LoadCycles& cycles) const {
-  const double knee_at = law_.limit ? -infinity : knee(0);
+  const double knee_at = law_.straight() ? knee(0) : -infinity;
   std::vector<double> shares;
   double largest = -infinity, sum = 0;
   for (const double at : given_) {

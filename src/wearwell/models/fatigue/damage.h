@@ -52,6 +52,8 @@ class BlockDamage {
   std::vector<double> shares(const LoadCycles& cycles) const;
 
  private:
+  void add_lives();
+  double log10_damage_of_lives(double z, double limit) const;
   double knee(double z) const;
   double log10_damage_of_one(double log10_reversed, double knee_at) const;
 
@@ -62,6 +64,7 @@ class BlockDamage {
   std::vector<double> given_;       // log10 of the reversed stress, as the cycles are given
   std::vector<double> log10_reversed_, count_;  // from the largest stress down
   std::vector<double> above_, below_;           // running sums by the two slopes
+  std::vector<double> life_;                    // log10, of a curve that is no straight line
   double top_ = 0;
   bool fatal_ = false;
 };

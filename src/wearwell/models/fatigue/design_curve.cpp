@@ -56,7 +56,9 @@ std::vector<At> curve_points(const SnLaw& law, const SnData& data, const Weighte
   }
   const StressLine line = line_of_tests(law, data);
   const auto& levels = design_levels();
-  std::vector<At> points(!(high > low) ? 1 : law.limit ? table_points_with_limit : table_points);
+  std::vector<At> points(!(high > low)      ? 1
+                         : law.integrated() ? table_points_with_limit
+                                            : table_points);
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
     At& at = points[i];
     const double share =
@@ -118,7 +120,8 @@ std::string difference(const SnLaw& law, const StandardFit& standard) {
     text += fmt::format(" and leave out {} test{} that did not fail, which are long-lived ones",
                         standard.left_out, standard.left_out == 1 ? "" : "s");
   text += "; they know nothing before the tests, where the posterior knows its priors";
-  if (law.limit) text += ", and no fatigue limit, toward which the posterior's curve bends";
+  if (law.bends())
+    text += ", and no knee and no fatigue limit, toward which the posterior's curve bends";
   return text +
          ". ISO 12107 takes the uncertainty of the line for scatter, Owen's factor is exact.";
 }
@@ -130,9 +133,12 @@ struct ScatterRange {
 ScatterRange scatter_range(const SnLaw& law, const WeightedDraws& draws) {
   const double width = quantile(law.standard(), 0.9) - quantile(law.standard(), 0.1);
   const Distribution life(draws, [&](const double* x) { return width * x[law.sigma_index()]; });
+  const auto k = [&](const double* x) {
+    return law.curve == fatigue::SnCurve::knee ? x[0] : -1 / x[1];
+  };
   const Distribution stress(draws,
-                            [&](const double* x) { return -x[1] * width * x[law.sigma_index()]; });
-  const Distribution slope(draws, [](const double* x) { return -1 / x[1]; });
+                            [&](const double* x) { return width * x[law.sigma_index()] / k(x); });
+  const Distribution slope(draws, k);
   const auto of = [](const Distribution& d, double p) { return std::pow(10, d.quantile(p)); };
   return {of(life, 0.05),       of(life, 0.5),       of(life, 0.95),
           of(stress, 0.05),     of(stress, 0.5),     of(stress, 0.95),
@@ -265,7 +271,7 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
   TradeAddition added;
   added.body["fatigue"] = fatigue::sn_json(law, data);
   const WeightedDraws draws = thinned(fit.exact ? fit.exact->nodes : fit.pooled,
-                                      law.limit ? most_draws_with_limit : most_draws);
+                                      law.integrated() ? most_draws_with_limit : most_draws);
   const StandardFit standard = standard_fit(law, data);
   const std::vector<At> points = curve_points(law, data, draws, standard);
   const std::string why = difference(law, standard);
@@ -277,7 +283,8 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
   blocks.push_back({curves_table(data, points)});
   added.text += text_of(data, points, why);
   added.body["design_curves"] = json_of(data, points, standard, why);
-  if (!law.logarithmic()) return added;
+  const bool has_slope = law.curve == fatigue::SnCurve::basquin || law.curve == fatigue::SnCurve::knee;
+  if (!law.logarithmic() || !has_slope || law.scatter_grows) return added;
   const ScatterRange t = scatter_range(law, draws);
   present::Table table{"scatter",
                        "Slope and scatter ranges, 10 to 90 % of items (FKM, DIN 50100)",

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "wearwell/math/root.h"
+#include "wearwell/models/fatigue/random_limit.h"
 
 namespace wearwell::fatigue {
 namespace {
@@ -143,16 +144,26 @@ double MixedLife::density(double log10_life) const {
   return sums(life).density * life * std::log(10.0);
 }
 
+namespace {
+
+// Of a limit that scatters: the share of items that fail under a stress, however late.
+double reached(const SnLaw& law, const double* x, double log10_reversed) {
+  const double* limit = x + law.limit_index();
+  return wearwell::cdf(*law.limit, (log10_reversed - limit[0]) / limit[1]);
+}
+
+}  // namespace
+
 double life_center(const SnLaw& law, const double* x, double log10_reversed) {
   return center(law, law.log10_life(x, log10_reversed));
 }
 
 void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x,
               double log10_reversed, LimitStrata strata) {
-  const double sigma = x[law.sigma_index()];
-  if (!law.limit || std::isinf(log10_reversed)) {
-    return lives.add(weight, life_center(law, x, log10_reversed), sigma);
-  }
+  const double middle = life_center(law, x, log10_reversed);
+  const double sigma = law.sigma_at(x, middle);
+  if (!law.limit || std::isinf(log10_reversed)) return lives.add(weight, middle, sigma);
+  if (!law.integrated()) return lives.add(weight * reached(law, x, log10_reversed), middle, sigma);
   // Slices of equal width reach into the tails, where the weak items are.
   constexpr double golden = 0.6180339887498949;  // its multiples are the most even modulo 1
   constexpr double negligible = 1e-9;
@@ -172,11 +183,52 @@ void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x
   }
 }
 
+namespace {
+
+LimitedLife<double> limited(const SnLaw& law, const double* x, double log10_reversed) {
+  const int i = law.limit_index();
+  return {law.standard(), *law.limit,           log10_reversed, x[0],
+          x[1],           x[law.sigma_index()], x[i],           x[i + 1]};
+}
+
+// By Newton's method in the logarithm of the share that has failed, which is concave: from the life
+// of items without a limit, before which no such share fails, no step goes too far.
+double limited_quantile(const LimitedLife<double>& item, double p) {
+  double low =
+      (item.log10_reversed - item.log10_a) / item.b + item.sigma * wearwell::quantile(item.life, p);
+  double high = infinity, at = low;
+  for (int i = 0; i < 200; ++i) {
+    const LimitedLifeSlopes y = log_probability_and_slopes(item, Outcome::left, at, 0);
+    const double excess = y.value - std::log(p);
+    // By z of life alone does the share depend on the life: z = (life - center)/sigma.
+    const double slope = y.by_log10_a * item.b;
+    (excess < 0 ? low : high) = at;
+    double next = at - excess / slope;
+    const double reach = 10 * item.sigma + 1;
+    if (!std::isfinite(next) || next < low)
+      next = std::isfinite(high) ? 0.5 * (low + high) : low + reach;
+    if (next >= high) next = 0.5 * (low + high);
+    const double moved = std::abs(next - at);
+    at = next;
+    if (moved <= 1e-11 * (1 + std::abs(at))) return at;
+    if (at > most_decades) return infinity;
+  }
+  return at;
+}
+
+}  // namespace
+
 double life_quantile(const SnLaw& law, const double* x, const Stress& stress, double p) {
   const double log10_reversed = law.log10_reversed(x, stress);
-  if (law.limit) return std::log10(life_of(law, x, log10_reversed).quantile(p));
-  return life_center(law, x, log10_reversed) +
-         x[law.sigma_index()] * wearwell::quantile(law.standard(), p);
+  if (law.limit) {
+    if (std::isnan(log10_reversed)) return log10_reversed;
+    const double ever = reached(law, x, log10_reversed);
+    if (p >= ever) return infinity;
+    if (law.integrated()) return limited_quantile(limited(law, x, log10_reversed), p);
+    p /= ever;
+  }
+  const double middle = life_center(law, x, log10_reversed);
+  return middle + law.sigma_at(x, middle) * wearwell::quantile(law.standard(), p);
 }
 
 double cycles(const SnLaw& law, double at) {
@@ -184,10 +236,25 @@ double cycles(const SnLaw& law, double at) {
 }
 
 double survival(const SnLaw& law, const double* x, const Stress& stress, double life) {
-  return 1 - life_of(law, x, law.log10_reversed(x, stress)).cdf(life);
+  const double log10_reversed = law.log10_reversed(x, stress);
+  if (law.integrated() && std::isfinite(log10_reversed)) {
+    return std::exp(log_probability_and_slopes(limited(law, x, log10_reversed), Outcome::runout,
+                                               std::log10(life), 0)
+                        .value);
+  }
+  return 1 - life_of(law, x, log10_reversed).cdf(life);
 }
 
 double log10_reversed_allowed(const SnLaw& law, const double* x, double life, double reliability) {
+  if (!law.straight() && !law.integrated()) {
+    // A higher stress shortens all lives.
+    const auto excess = [&](double log10_reversed) {
+      return life_of(law, x, log10_reversed).cdf(life) - (1 - reliability);
+    };
+    const double root =
+        solve_increasing(excess, 8, 0.25, {.absolute = 1e-9}, -most_decades, most_decades);
+    return std::abs(root) == most_decades ? std::copysign(infinity, root) : root;
+  }
   const double scatter = x[law.sigma_index()] * wearwell::quantile(law.standard(), 1 - reliability);
   // Normal lives may scatter so far that this share outlasts it even about a mean of 0.
   if (!law.logarithmic() && scatter >= life) return infinity;
@@ -200,8 +267,11 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
   if (std::abs(unlimited) > most_decades) return std::copysign(infinity, unlimited);
   // The limit adds to what is borne: no less than without one, no more than with the limit of
   // nearly the toughest item on top.
+  const double at = std::log10(life);
   const auto excess = [&](double log10_reversed) {
-    return life_of(law, x, log10_reversed).cdf(life) - (1 - reliability);
+    const auto y =
+        log_probability_and_slopes(limited(law, x, log10_reversed), Outcome::runout, at, 0);
+    return reliability - std::exp(y.value);
   };
   const int i = law.limit_index();
   const double high = std::max(unlimited, x[i] + 8 * x[i + 1]) + std::log10(2.0);

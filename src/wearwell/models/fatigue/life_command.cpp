@@ -62,7 +62,7 @@ MinerRule read_rule(const std::string& text, const SnLaw& law, const Knee& knee)
   if (text.empty()) {
     if (knee.any())
       throw InputError("--knee: say what happens below it: --rule original, haibach or liu-zenner");
-    return law.limit ? MinerRule::original : MinerRule::elementary;
+    return law.bends() ? MinerRule::original : MinerRule::elementary;
   }
   const auto& names = miner_rule_names();
   const auto rule =
@@ -133,9 +133,10 @@ int run(const LoadLifeOptions& options) {
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
   report.cycles =
-      reduced(report.block.cycles, law.limit ? most_cycles_with_limit : most_cycles, with_mean);
-  report.result.draws =
-      thinned(report.result.draws, law.limit ? most_draws_with_limit : most_draws);
+      reduced(report.block.cycles,
+              law.limit || law.scatter_grows ? most_cycles_with_limit : most_cycles, with_mean);
+  report.result.draws = thinned(
+      report.result.draws, law.limit || law.scatter_grows ? most_draws_with_limit : most_draws);
   report.life = load_life(report.result, report.cycles, question);
   report.reduction = reduction(report.result, question.rule, report.block.cycles, report.cycles);
   if (folder) write_folder(report, *folder);

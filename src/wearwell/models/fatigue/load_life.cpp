@@ -29,14 +29,19 @@ void refuse_what_has_no_sum(const SnLaw& law, const DamageRule& rule) {
         "the study's lives are normal in cycles (likelihood.family = \"normal\"): under small "
         "stresses a scatter in cycles has no meaning, and damage no sum; fit log10-normal or "
         "weibull");
-  if (law.limit && rule.miner != MinerRule::original)
+  if (law.bends() && rule.miner != MinerRule::original)
     throw InputError(
-        "the study has a random fatigue limit of its own, toward which its curve bends: only "
-        "--rule "
-        "original goes with it; for another rule fit without law.fatigue_limit and give --knee");
-  if (law.limit && rule.knee.any())
-    throw InputError("--knee: the study has a fatigue limit of its own; leave --knee out");
-  if (!law.limit && rule.miner != MinerRule::elementary && !rule.knee.any())
+        "the study's curve has a knee or a fatigue limit of its own: only --rule original goes "
+        "with it; "
+        "for another rule fit without law.curve and law.fatigue_limit and give --knee");
+  if (law.bends() && rule.knee.any())
+    throw InputError(
+        "--knee: the study's curve has a knee or a limit of its own; leave --knee out");
+  if (law.scatter_grows && !law.bends() && rule.miner != MinerRule::elementary)
+    throw InputError(
+        "the study's scatter grows with life (law.scatter): items have no common knee; only --rule "
+        "elementary goes with it, or a curve with a knee of its own (law.curve = \"knee\")");
+  if (!law.bends() && rule.miner != MinerRule::elementary && !rule.knee.any())
     throw InputError(
         "--rule: the study's curve has no knee, so say where it is: --knee '2e6 cycles' or --knee "
         "'150 MPa'; or take --rule elementary, which has none");
@@ -68,7 +73,8 @@ class Draws {
       : result_(result),
         cycles_(cycles),
         question_(question),
-        places_(edges(result.law.standard(), result.law.limit ? 48 : 128)) {}
+        places_(edges(result.law.standard(),
+                      result.law.limit || result.law.scatter_grows ? 48 : 128)) {}
 
   /// `where` takes the shares of the cycles.
   Drawn operator()(Eigen::Index i, std::vector<double>& where) const {

@@ -30,8 +30,9 @@ std::string rule_in_words(const LoadLifeReport& report) {
   const DamageRule& rule = report.question.rule;
   std::string text =
       fmt::format("Miner, {}: {}", miner_rule_names()[static_cast<std::size_t>(rule.miner)],
-                  report.result.law.limit ? "no damage below each item's own fatigue limit"
-                                          : words[static_cast<int>(rule.miner)]);
+                  report.result.law.limit     ? "no damage below each item's own fatigue limit"
+                  : report.result.law.bends() ? "by the study's own curve"
+                                              : words[static_cast<int>(rule.miner)]);
   if (rule.knee.life) text += fmt::format("; knee at {:.6g} cycles", *rule.knee.life);
   if (rule.knee.stress)
     text +=

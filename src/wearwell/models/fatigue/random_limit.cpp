@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wearwell/models/fatigue/limit_integral.h"
+#include "wearwell/models/fatigue/limit_lattice.h"
 
 namespace wearwell::fatigue {
 namespace {
@@ -61,6 +62,12 @@ void scale_slopes(LimitedLifeSlopes& y, double factor) {
 
 LimitedLifeSlopes log_probability_and_slopes(const LimitedLife<double>& item, Outcome outcome,
                                              double at, double until) {
+  if (const auto quick = on_lattice(item, outcome, at)) return *quick;
+  return adaptive_probability_and_slopes(item, outcome, at, until);
+}
+
+LimitedLifeSlopes adaptive_probability_and_slopes(const LimitedLife<double>& item, Outcome outcome,
+                                                  double at, double until) {
   if (outcome != Outcome::runout) return integral(item, outcome, at, until);
 
   // All but those that have broken. Only where nearly all have would that cancel.

@@ -30,6 +30,10 @@ struct LimitedLifeSlopes {
 LimitedLifeSlopes log_probability_and_slopes(const LimitedLife<double>& item, Outcome outcome,
                                              double at, double until);
 
+/// The same by adaptive integration alone: what stands behind the quicker rule of limit_lattice.h.
+LimitedLifeSlopes adaptive_probability_and_slopes(const LimitedLife<double>& item, Outcome outcome,
+                                                  double at, double until);
+
 /// The same for a formula's scalar: double or Dual.
 template <class T>
 T log_probability(const LimitedLife<T>& item, Outcome outcome, double at, double until) {

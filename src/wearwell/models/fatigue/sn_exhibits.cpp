@@ -26,6 +26,8 @@ namespace colour = plot::colour;
 
 constexpr std::size_t curve_points = 40, density_points = 100, haigh_points = 24;
 constexpr std::size_t most_rows = 14;
+// A random limit makes a mixture of each point of the posterior.
+constexpr Eigen::Index most_draws = 4000, most_draws_with_limit = 600;
 constexpr std::size_t most_tests = 1000;  // drawn
 
 Numbers spaced(double low, double high, std::size_t count) {
@@ -74,7 +76,8 @@ class Drawing {
                                                               most_tests, data.tests.size())
                                                 : ""),
         predictions_(predictions),
-        draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled)),
+        draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled,
+                       law.integrated() ? most_draws_with_limit : most_draws)),
         line_(line_of_tests(law, data)) {
     for (const LifeTest& test : data.tests) {
       shortest_ = std::min(shortest_, test.life);
@@ -96,7 +99,8 @@ class Drawing {
     std::vector<Row> rows(stresses.size());
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
       const Stress stress = line_.at(stresses[i]);
-      const MixedLife next = next_life(law_, draws_, stress);
+      MixedLife next = next_life(law_, draws_, stress);
+      next.merge();
       const Distribution median(
           draws_, [&](const double* x) { return life_quantile(law_, x, stress, 0.5); });
       const auto at = [&](double p) { return shown(cycles(law_, median.quantile(p))); };
@@ -159,7 +163,8 @@ class Drawing {
     std::vector<Numbers> density(points.size(), Numbers(at.size()));
     Numbers b10(points.size());
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-      const MixedLife life = next_life(law_, draws_, points[i].stress);
+      MixedLife life = next_life(law_, draws_, points[i].stress);
+      life.merge();
       b10[i] = shown(life.quantile(0.1));
       for (std::size_t j = 0; j < at.size(); ++j) density[i][j] = life.density(at[j]);
     });

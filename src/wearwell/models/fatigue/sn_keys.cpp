@@ -80,6 +80,19 @@ StudyKeys parameter_keys() {
       {"prior.log10_Sy", logarithm, "logarithm of the yield strength"},
       {"prior.log10_sigma_f", logarithm, "logarithm of the true fracture strength"},
       {"prior.gamma", "{ law = \"beta\", alpha = 2, beta = 2 }", "Walker's exponent"},
+      {"prior.k", "{ law = \"normal\", mean = 8, sd = 3 }", "slope above a knee"},
+      {"prior.k2", "{ law = \"normal\", mean = 20, sd = 8 }", "slope below a knee"},
+      {"prior.log10_N_D", "{ law = \"normal\", mean = \"6 log10(cycles)\", sd = 0.4 }",
+       "logarithm of a knee's life"},
+      {"prior.log10_S_D", "{ law = \"normal\", mean = \"2.4 log10(MPa)\", sd = 0.2 }",
+       "logarithm of a knee's stress"},
+      {"prior.log10_N_B", "{ law = \"normal\", mean = \"6 log10(cycles)\", sd = 0.5 }",
+       "logarithm of Bastenaire's life"},
+      {"prior.log10_B", "{ law = \"normal\", mean = \"2 log10(MPa)\", sd = 0.4 }",
+       "logarithm of Bastenaire's stress"},
+      {"prior.C", "{ law = \"normal\", mean = 1, sd = 0.5 }", "Bastenaire's exponent"},
+      {"prior.sigma_growth", "{ law = \"normal\", mean = 0, sd = 0.15 }",
+       "decades by which the scatter grows over a decade of life"},
       {"prior.log10_limit", "{ law = \"normal\", mean = \"2.3 log10(MPa)\", sd = 0.3 }",
        "logarithm of the fatigue limit"},
       {"prior.sigma_limit", "{ law = \"half-normal\", scale = 0.1 }",
@@ -113,19 +126,23 @@ StudyKeys point_keys() {
 StudyKeys study_keys() {
   StudyKeys keys = posterior_keys();
   add_keys(keys, stress_keys());
-  add_keys(keys,
-           {needed_key("data.columns.life", "\"cycles\"",
-                       "cycles at which a test ended, or was stopped"),
-            {"data.columns.life_until", "\"cycles_until\"", "end of an interval in which it broke"},
-            {"data.columns.status", "\"status\"",
-             "failure, runout, left or interval; without it all failed"},
-            {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
-            {"data.columns.label", "\"type\"", "a name, for predict.types and the report"},
-            needed_key("law.mean_stress", "\"goodman\"",
-                       "how a mean stress shortens life ([fatigue.md](fatigue.md))"),
-            {"law.fatigue_limit", "\"random\"", "whether there is a fatigue limit (none)"},
-            {"law.limit_family", "\"normal\"", "how the logarithm of the limit scatters (normal)"},
-            {"likelihood.family", "\"log10-normal\"", "how lives scatter (log10-normal)"}});
+  add_keys(
+      keys,
+      {needed_key("data.columns.life", "\"cycles\"",
+                  "cycles at which a test ended, or was stopped"),
+       {"data.columns.life_until", "\"cycles_until\"", "end of an interval in which it broke"},
+       {"data.columns.status", "\"status\"",
+        "failure, runout, left or interval; without it all failed"},
+       {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
+       {"data.columns.label", "\"type\"", "a name, for predict.types and the report"},
+       needed_key("law.mean_stress", "\"goodman\"",
+                  "how a mean stress shortens life ([fatigue.md](fatigue.md))"),
+       {"law.fatigue_limit", "\"random\"", "whether there is a fatigue limit (none)"},
+       {"law.curve", "\"knee\"", "basquin, knee, stromeyer or bastenaire (basquin)"},
+       {"law.second_slope", "\"free\"", "below a knee: free, haibach (2k - 1) or infinite (free)"},
+       {"law.scatter", "\"grows\"", "whether scatter grows with life (constant)"},
+       {"law.limit_family", "\"normal\"", "how the logarithm of the limit scatters (normal)"},
+       {"likelihood.family", "\"log10-normal\"", "how lives scatter (log10-normal)"}});
   add_keys(keys, parameter_keys());
   add_keys(keys, {{"predict.types", "\"all\"", "the stresses of these labels, or of all tests"}});
   add_keys(keys, point_keys());

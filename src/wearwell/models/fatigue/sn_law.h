@@ -15,26 +15,65 @@ namespace wearwell::fatigue {
 ///   normal        life itself is normal, sigma in cycles (Heo et al. 2011 as printed)
 enum class LifeFamily { log10_normal, weibull, normal };
 
-/// Basquin's law with a mean-stress correction: S_f = a N^b, S_f the fully reversed amplitude, N
-/// cycles. With a random fatigue limit, S_f - limit = a N^b where S_f is above the item's limit,
-/// and life has no end below it; log10 of the limit is normal or smallest extreme value over items
-/// (Pascual and Meeker 1999).
+/// How life falls with the fully reversed stress S, N cycles.
+///
+///   basquin     S = a N^b
+///   knee        N = N_D (S/S_D)^-k, below S_D with k2 in place of k; or, where each item has a limit of
+///               its own about S_D, the first line above it and no end of life below
+///   stromeyer   S - limit = a N^b, no end of life below the limit (Stromeyer 1914)
+///   bastenaire  N = N_B B/(S - limit) exp(-((S - limit)/B)^C) (Bastenaire 1972)
+enum class SnCurve { basquin, knee, stromeyer, bastenaire };
+
+/// What k2 is: a parameter, or 2k - 1 (Haibach 1970), or without bound: a horizontal limit, which then
+/// scatters over items.
+enum class SecondSlope { free, haibach, infinite };
+
+/// An S-N curve with a mean-stress correction and scatter about it. With Basquin's curve and a random
+/// fatigue limit, S - limit = a N^b where S is above the item's limit, and life has no end below it;
+/// log10 of the limit is normal or smallest extreme value over items (Pascual and Meeker 1999).
 struct SnLaw {
   MeanStress correction = MeanStress::goodman;
   LifeFamily family = LifeFamily::log10_normal;
   std::optional<double> strength;    ///< Pa, where it is known
   std::optional<double> gamma;       ///< Walker's, where it is known
   std::optional<StandardLaw> limit;  ///< the law of log10 of the fatigue limit, if there is one
+  SnCurve curve = SnCurve::basquin;  ///< with a limit: basquin or knee
+  SecondSlope second_slope = SecondSlope::free;
+  /// sigma is the scatter at `scatter_at` cycles, and sigma (N/scatter_at)^growth at others.
+  bool scatter_grows = false;
+  static constexpr double log10_scatter_at = 6;
 
-  /// Parameters in order: log10 of a/Pa, b < 0, log10 of strength/Pa if unknown, gamma if unknown,
-  /// sigma, then log10 of the median (or location) fatigue limit/Pa and its scale if there is one.
+  /// Parameters in order: of the curve (log10 of a/Pa, b < 0; k, log10 of N_D, log10 of S_D/Pa, k2 if
+  /// free; log10 of a/Pa, b, log10 of limit/Pa; log10 of N_B, log10 of B/Pa, C, log10 of limit/Pa),
+  /// log10 of strength/Pa if unknown, gamma if unknown, sigma, its growth if it grows, then log10 of the
+  /// median (or location) fatigue limit/Pa and its scale if there is one (of a knee this is S_D).
+  int curve_dimension() const {
+    switch (curve) {
+      case SnCurve::knee:
+        return limit ? 2 : second_slope == SecondSlope::free ? 4 : 3;
+      case SnCurve::stromeyer:
+        return 3;
+      case SnCurve::bastenaire:
+        return 4;
+      case SnCurve::basquin:
+        break;
+    }
+    return 2;
+  }
   bool has_strength() const { return !strength_name(correction).empty() && !strength; }
   bool has_gamma() const { return correction == MeanStress::walker && !gamma; }
-  int strength_index() const { return 2; }
-  int gamma_index() const { return 2 + has_strength(); }
+  int strength_index() const { return curve_dimension(); }
+  int gamma_index() const { return curve_dimension() + has_strength(); }
   int sigma_index() const { return gamma_index() + has_gamma(); }
-  int limit_index() const { return sigma_index() + 1; }
+  int growth_index() const { return sigma_index() + 1; }
+  int limit_index() const { return sigma_index() + 1 + scatter_grows; }
   int dimension() const { return limit_index() + (limit ? 2 : 0); }
+
+  /// Whether lives are an integral over the limit; otherwise they have a closed form.
+  bool integrated() const { return limit && curve == SnCurve::basquin; }
+  /// Whether the curve is not one straight line.
+  bool bends() const { return limit || curve != SnCurve::basquin; }
+  bool straight() const { return !bends() && !scatter_grows; }
 
   StandardLaw standard() const {
     return family == LifeFamily::weibull ? StandardLaw::smallest_extreme_value
@@ -52,18 +91,62 @@ struct SnLaw {
     return std::log10(stress.alternating) + log10_factor(correction, stress, material, exponent);
   }
 
-  /// log10 of the life on the curve of an item without fatigue limit.
+  /// log10 of the life on the curve; of an item whose own limit is not reached. Infinite below a limit
+  /// that is the same for all.
   template <class T>
   T log10_life(const T* x, const T& log10_reversed) const {
+    using std::exp;
+    using std::log;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double decade = std::log(10.0);
+    // log10 of S - limit.
+    const auto above = [&](const T& log10_limit) {
+      const T rest = 1.0 - exp((log10_limit - log10_reversed) * decade);
+      return rest > 0.0 ? T(log10_reversed + log(rest) / decade) : T(-infinity);
+    };
+    switch (curve) {
+      case SnCurve::knee: {
+        const T at = limit ? x[limit_index()] : x[2];
+        const T k = limit || log10_reversed >= at          ? x[0]
+                    : second_slope == SecondSlope::haibach ? T(2.0 * x[0] - 1.0)
+                                                           : x[3];
+        return x[1] - k * (log10_reversed - at);
+      }
+      case SnCurve::stromeyer: {
+        const T rest = above(x[2]);
+        if (scalar(rest) == -infinity) return T(infinity);
+        return (rest - x[0]) / x[1];
+      }
+      case SnCurve::bastenaire: {
+        const T rest = above(x[3]) - x[1];
+        if (scalar(rest) == -infinity) return T(infinity);
+        return x[0] - rest - exp(rest * decade * x[2]) / decade;
+      }
+      case SnCurve::basquin:
+        break;
+    }
     return (log10_reversed - x[0]) / x[1];
   }
 
-  /// The same for an item of the population of fatigue limits: `z` is its place in the standard law
-  /// of log10 of the limit. Infinite below the limit.
+  /// The scatter of lives about a place of the curve, which log10_life gives.
+  template <class T>
+  T sigma_at(const T* x, const T& log10_life) const {
+    using std::exp;
+    if (!scatter_grows) return x[sigma_index()];
+    constexpr double most = 6;  // decades; farther out it stays
+    const double shift = scalar(log10_life) - log10_scatter_at;
+    const T decades =
+        std::abs(shift) < most ? T(log10_life - log10_scatter_at) : T(std::copysign(most, shift));
+    return x[sigma_index()] * exp(std::log(10.0) * x[growth_index()] * decades);
+  }
+
+  /// The life on the curve of an item of the population of fatigue limits: `z` is its place in the standard
+  /// law of log10 of the limit. Infinite below the limit.
   double log10_life_of_item(const double* x, double log10_reversed, double z) const {
     const int i = limit_index();
     const double share = std::pow(10, x[i] + x[i + 1] * z - log10_reversed);
     if (!(share < 1)) return std::numeric_limits<double>::infinity();
+    if (curve == SnCurve::knee) return log10_life(x, log10_reversed);
     return log10_life(x, log10_reversed + std::log1p(-share) / std::log(10.0));
   }
 };

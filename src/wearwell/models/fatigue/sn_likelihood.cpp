@@ -1,7 +1,9 @@
 #include "wearwell/models/fatigue/sn_likelihood.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "wearwell/math/dual.h"
 #include "wearwell/models/fatigue/random_limit.h"
@@ -10,7 +12,10 @@
 namespace wearwell::fatigue {
 namespace {
 
-constexpr int max_parameters = 7;
+constexpr int max_parameters = 8;
+
+// From so many tests on those that are alike are taken together.
+constexpr std::size_t tests_are_many = 2000;
 
 class SnLikelihood final : public LogDensity {
  public:
@@ -26,15 +31,27 @@ class SnLikelihood final : public LogDensity {
       }
       rows_.push_back(row);
     }
+    // An integral over the limit is worth the search; without one the sum of few keeps its order.
+    const bool many = tests_.size() >= tests_are_many;
+    const bool summed = many && law_.straight() && law_.standard() == StandardLaw::normal;
+    std::map<std::array<double, 5>, std::size_t> terms, levels;
     for (std::size_t i = 0; i < tests_.size(); ++i) {
-      const auto alike = [&](const Term& term) { return same(tests_[term.row], tests_[i]); };
-      // An integral over the limit is worth the search; without one the sum keeps its order.
-      const auto found =
-          law_.limit ? std::find_if(terms_.begin(), terms_.end(), alike) : terms_.end();
-      if (found != terms_.end()) {
-        found->count += tests_[i].count;
+      const LifeTest& test = tests_[i];
+      if (summed && test.outcome == Outcome::failure) {
+        const auto [level, first] =
+            levels.try_emplace({test.stress.alternating, test.stress.mean}, levels_.size());
+        if (first) levels_.push_back({i});
+        levels_[level->second].add(rows_[i].at, test.count, rows_[i].log_measure);
+        continue;
+      }
+      const auto [term, first] =
+          terms.try_emplace({test.stress.alternating, test.stress.mean,
+                             static_cast<double>(test.outcome), test.life, test.until},
+                            terms_.size());
+      if (first || !(many || law_.integrated())) {
+        terms_.push_back({i, test.count});
       } else {
-        terms_.push_back({i, tests_[i].count});
+        terms_[term->second].count += test.count;
       }
     }
   }
@@ -44,6 +61,7 @@ class SnLikelihood final : public LogDensity {
   double value(std::span<const double> x) const override { return formula(x.data()); }
 
   double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    if (law_.integrated() && !law_.has_strength() && !law_.has_gamma()) return limited(x, gradient);
     return wearwell::value_and_gradient<max_parameters>(
         [this](const auto* p) { return formula(p); }, x, gradient);
   }
@@ -74,16 +92,25 @@ class SnLikelihood final : public LogDensity {
     int count;
   };
 
-  static bool same(const LifeTest& a, const LifeTest& b) {
-    return a.stress.alternating == b.stress.alternating && a.stress.mean == b.stress.mean &&
-           a.outcome == b.outcome && a.life == b.life && a.until == b.until;
-  }
+  // Failures under one stress, whose normal law knows of them no more than this.
+  struct Level {
+    std::size_t row;                                           // of one of them
+    double count = 0, mean = 0, squares = 0, log_measure = 0;  // squares: about the mean
+
+    void add(double at, int times, double measure) {
+      count += times;
+      const double off = at - mean;
+      mean += times * off / count;
+      squares += times * off * (at - mean);
+      log_measure += times * measure;
+    }
+  };
 
   // What all rows have in common.
   template <class T>
   struct Shared {
     const T* x;
-    T strength, gamma, inverse_b, inverse_sigma, log_sigma;
+    T strength, gamma, inverse_sigma, log_sigma;
 
     Shared(const SnLaw& law, const T* parameters) : x(parameters) {
       using std::exp;
@@ -91,7 +118,6 @@ class SnLikelihood final : public LogDensity {
       strength = law.has_strength() ? T(exp(x[law.strength_index()] * std::log(10.0)))
                                     : T(law.strength.value_or(1));
       gamma = law.has_gamma() ? x[law.gamma_index()] : T(law.gamma.value_or(1));
-      inverse_b = 1.0 / x[1];
       inverse_sigma = 1.0 / x[law.sigma_index()];
       log_sigma = log(x[law.sigma_index()]);
     }
@@ -108,7 +134,52 @@ class SnLikelihood final : public LogDensity {
         sum += static_cast<double>(count) * term(shared, row);
       }
     }
+    for (const Level& level : levels_) {
+      const T reversed = log10_reversed(shared, level.row);
+      if (!std::isfinite(scalar(reversed))) return T(-std::numeric_limits<double>::infinity());
+      sum += level.count * normal_log_density(level.mean, location_at(shared, reversed),
+                                              shared.inverse_sigma, shared.log_sigma) +
+             level.log_measure - 0.5 * level.squares * shared.inverse_sigma * shared.inverse_sigma;
+    }
     return sum;
+  }
+
+  // With a random limit and no unknown of the mean stress: derivatives without dual numbers.
+  double limited(std::span<const double> x, std::span<double> gradient) const {
+    const Shared<double> shared(law_, x.data());
+    std::fill(gradient.begin(), gradient.end(), 0.0);
+    double sum = 0;
+    for (const auto& [row, count] : terms_) {
+      const LifeTest& test = tests_[row];
+      const double s = log10_reversed(shared, row);
+      if (!std::isfinite(s)) return -std::numeric_limits<double>::infinity();
+      const LimitedLife<double> life{law_.standard(), *law_.limit, s, x[0], x[1], x[2], x[3], x[4]};
+      const LimitedLifeSlopes y =
+          log_probability_and_slopes(life, test.outcome, rows_[row].at, rows_[row].until);
+      sum += count * (y.value + (test.outcome == Outcome::failure ? rows_[row].log_measure : 0));
+      gradient[0] += count * y.by_log10_a;
+      gradient[1] += count * y.by_b;
+      gradient[2] += count * y.by_sigma;
+      gradient[3] += count * y.by_location;
+      gradient[4] += count * y.by_scale;
+    }
+    return sum;
+  }
+
+  template <class T>
+  T log10_reversed(const Shared<T>& shared, std::size_t i) const {
+    return rows_[i].log10_alternating +
+           log10_factor(law_.correction, tests_[i].stress, shared.strength, shared.gamma);
+  }
+
+  // On the scale on which lives scatter.
+  template <class T>
+  T location_at(const Shared<T>& shared, const T& reversed) const {
+    using std::exp;
+    const T location = law_.log10_life(shared.x, reversed);
+    if (law_.logarithmic()) return location;
+    constexpr double most = 300;  // decades; a longer life is no number
+    return scalar(location) < most ? T(exp(location * std::log(10.0))) : T(1e300);
   }
 
   // The log-likelihood of one test of the row.
@@ -116,26 +187,22 @@ class SnLikelihood final : public LogDensity {
   T term(const Shared<T>& shared, std::size_t i) const {
     const LifeTest& test = tests_[i];
     const Row& row = rows_[i];
-    const T log10_reversed = row.log10_alternating + log10_factor(law_.correction, test.stress,
-                                                                  shared.strength, shared.gamma);
-    if (!std::isfinite(scalar(log10_reversed))) {
+    const T reversed = log10_reversed(shared, i);
+    if (!std::isfinite(scalar(reversed))) {
       return T(-std::numeric_limits<double>::infinity());
     }
-    if (law_.limit) {
+    if (law_.integrated()) {
       const T* x = shared.x;
       const T* limit = x + law_.limit_index();
       const LimitedLife<T> life{
-          law_.standard(), *law_.limit, log10_reversed, x[0], x[1], shared.x[law_.sigma_index()],
+          law_.standard(), *law_.limit, reversed, x[0], x[1], shared.x[law_.sigma_index()],
           limit[0],        limit[1]};
       const T value = log_probability(life, test.outcome, row.at, row.until);
       return test.outcome == Outcome::failure ? T(value + row.log_measure) : value;
     }
-    T location = (log10_reversed - shared.x[0]) * shared.inverse_b;
-    if (!law_.logarithmic()) {
-      using std::exp;
-      constexpr double most = 300;  // decades; a longer life is no number
-      location = scalar(location) < most ? T(exp(location * std::log(10.0))) : T(1e300);
-    }
+    if (law_.bends() || law_.scatter_grows)
+      return bent(shared, i, reversed, law_.log10_life(shared.x, reversed));
+    const T location = location_at(shared, reversed);
     const StandardLaw standard = law_.standard();
     if (test.outcome == Outcome::failure && standard == StandardLaw::normal) {
       return normal_log_density(row.at, location, shared.inverse_sigma, shared.log_sigma) +
@@ -156,10 +223,52 @@ class SnLikelihood final : public LogDensity {
     return log_between(standard, z, until);
   }
 
+  // About a curve that is no straight line, or with a scatter that is not the same everywhere; and of
+  // a knee with a limit that scatters: life has an end for those whose limit the stress reaches.
+  template <class T>
+  T bent(const Shared<T>& shared, std::size_t i, const T& reversed, const T& location) const {
+    using std::log;
+    const Row& row = rows_[i];
+    const Outcome outcome = tests_[i].outcome;
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!std::isfinite(scalar(location))) {
+      // Below a limit of all items life has no end.
+      return T(scalar(location) > 0 && outcome == Outcome::runout ? 0 : -infinity);
+    }
+    const StandardLaw standard = law_.standard();
+    const T sigma = law_.sigma_at(shared.x, location);
+    const T z = (row.at - location) / sigma;
+    T reached(0);  // log of the share of items whose limit the stress reaches
+    if (law_.limit) {
+      const T* limit = shared.x + law_.limit_index();
+      const T w = (reversed - limit[0]) / limit[1];
+      reached = log_cdf(*law_.limit, w);
+      if (outcome == Outcome::runout) {
+        const T safe = log_survival(*law_.limit, w), later = reached + log_survival(standard, z);
+        const bool more = scalar(safe) > scalar(later);
+        const T &larger = more ? safe : later, &smaller = more ? later : safe;
+        if (scalar(smaller) < scalar(larger) - 700) return larger;
+        return larger + log(1.0 + exp(smaller - larger));
+      }
+    }
+    switch (outcome) {
+      case Outcome::failure:
+        return reached + log_density(standard, z) - log(sigma) + row.log_measure;
+      case Outcome::runout:
+        return log_survival(standard, z);
+      case Outcome::left:
+        return reached + log_cdf(standard, z);
+      case Outcome::interval:
+        break;
+    }
+    return reached + log_between(standard, z, T((row.until - location) / sigma));
+  }
+
   SnLaw law_;
   LifeTests tests_;
   std::vector<Row> rows_;
   std::vector<Term> terms_;
+  std::vector<Level> levels_;
 };
 
 }  // namespace

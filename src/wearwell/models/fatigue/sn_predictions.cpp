@@ -110,7 +110,7 @@ class LivesAt {
     // All that matters here of a point is the centre of its lives and their scatter.
     draws_ = reduced(draws, 2, [&](const double* x, double* y) {
       y[0] = life_center(law, x, law.log10_reversed(x, stress));
-      y[1] = x[law.sigma_index()];
+      y[1] = law.sigma_at(x, y[0]);
     });
   }
 
@@ -461,7 +461,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
       group.requests.push_back(
           request(fmt::format("B{:.6g} life", percent_failed), of, at, data.life_unit));
       group.requests.back().headline = percent_failed == *nearest;
-      if (law.limit) continue;
+      if (!law.straight()) continue;
       study.profiled.push_back({group.requests.back().name, of, at, data.life_unit,
                                 life_by_likelihood(law, point.stress, percent_failed / 100),
                                 [=](double life) { return cycles(law, life); }});

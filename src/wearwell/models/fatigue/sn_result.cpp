@@ -17,6 +17,15 @@ using Json = nlohmann::ordered_json;
 // By the order of LifeFamily and of StandardLaw.
 constexpr const char* families[] = {"log10-normal", "weibull", "normal"};
 constexpr const char* limit_families[] = {"normal", "smallest-extreme-value"};
+// Of SnCurve and SecondSlope.
+constexpr const char* curves[] = {"basquin", "knee", "stromeyer", "bastenaire"};
+constexpr const char* second_slopes[] = {"free", "haibach", "infinite"};
+
+template <class Choice>
+Choice chosen(const JsonReader& json, std::initializer_list<const char*> names) {
+  const std::string name = json.one_of(names);
+  return static_cast<Choice>(std::find(names.begin(), names.end(), name) - names.begin());
+}
 
 TestedSpan span_of(const LifeTests& tests) {
   TestedSpan span{INFINITY, 0, INFINITY, -INFINITY, INFINITY, 0};
@@ -49,6 +58,13 @@ SnLaw read_law(const JsonReader& json) {
         json.at("limit_family").one_of({limit_families[0], limit_families[1]}) == limit_families[0]
             ? StandardLaw::normal
             : StandardLaw::smallest_extreme_value;
+  if (const auto curve = json.find("curve"))
+    law.curve = chosen<SnCurve>(*curve, {curves[0], curves[1], curves[2], curves[3]});
+  if (const auto slope = json.find("second_slope"))
+    law.second_slope =
+        chosen<SecondSlope>(*slope, {second_slopes[0], second_slopes[1], second_slopes[2]});
+  if (const auto scatter = json.find("scatter"))
+    law.scatter_grows = scatter->one_of({"constant", "grows"}) == "grows";
   return law;
 }
 
@@ -60,6 +76,7 @@ std::pair<double, double> read_span(const JsonReader& json, const Unit& unit) {
 
 // The dimension of a parameter.
 std::string si_of(const std::string& name) {
+  if (name == "log10_N_D" || name == "log10_N_B") return "log10(cycle)";
   return name.starts_with("log10_") ? "log10(Pa)" : "1";
 }
 
@@ -70,6 +87,10 @@ nlohmann::ordered_json sn_json(const SnLaw& law, const SnData& data) {
                {"family", families[static_cast<int>(law.family)]},
                {"fatigue_limit", law.limit ? "random" : "none"}};
   if (law.limit) json["limit_family"] = limit_families[*law.limit == StandardLaw::normal ? 0 : 1];
+  if (law.curve != SnCurve::basquin) json["curve"] = curves[static_cast<int>(law.curve)];
+  if (law.curve == SnCurve::knee)
+    json["second_slope"] = second_slopes[static_cast<int>(law.second_slope)];
+  if (law.scatter_grows) json["scatter"] = "grows";
   if (law.strength) json["strength"] = *law.strength;
   if (law.gamma) json["gamma"] = *law.gamma;
   const TestedSpan span = span_of(data.tests);

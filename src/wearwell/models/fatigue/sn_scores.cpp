@@ -11,10 +11,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+double cdf_above(StandardLaw law, double z) {
+  return std::exp(log_survival(law, z));
+}
+
 // Of one life [cycles] under a fully reversed stress.
 double score(const SnLaw& law, const double* x, double log10_reversed, double life) {
   const double at = law.logarithmic() ? std::log10(life) : life;
-  if (law.limit) {
+  if (law.integrated()) {
     const double* limit = x + law.limit_index();
     const LimitedLife<double> item{law.standard(), *law.limit,           log10_reversed, x[0],
                                    x[1],           x[law.sigma_index()], limit[0],       limit[1]};
@@ -22,9 +26,18 @@ double score(const SnLaw& law, const double* x, double log10_reversed, double li
                         log_probability(item, Outcome::runout, at, at));
   }
   constexpr double most = 300;  // decades; a longer life is no number
-  double center = std::min(law.log10_life(x, log10_reversed), most);
+  const double center_of_all = law.log10_life(x, log10_reversed);
+  double center = std::min(center_of_all, most);
   if (!law.logarithmic()) center = std::pow(10, center);
-  const double z = (at - center) / x[law.sigma_index()];
+  const double z = (at - center) / law.sigma_at(x, center_of_all);
+  if (law.limit) {
+    const double* limit = x + law.limit_index();
+    const double w = (log10_reversed - limit[0]) / limit[1];
+    const double failing = cdf(*law.limit, w), failed = cdf(law.standard(), z);
+    return normal_score(
+        std::log(failing * failed),
+        std::log(cdf_above(*law.limit, w) + failing * cdf_above(law.standard(), z)));
+  }
   if (law.standard() == StandardLaw::normal) return z;
   return normal_score(log_cdf(law.standard(), z), log_survival(law.standard(), z));
 }

@@ -11,6 +11,7 @@
 #include "wearwell/models/fatigue/sn_data.h"
 #include "wearwell/models/fatigue/sn_exhibits.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
+#include "wearwell/models/fatigue/sn_parameters.h"
 #include "wearwell/models/fatigue/sn_predictions.h"
 #include "wearwell/models/fatigue/sn_scores.h"
 
@@ -20,7 +21,42 @@ namespace {
 using fatigue::LifeFamily;
 using fatigue::LifeTest;
 using fatigue::MeanStress;
+using fatigue::SecondSlope;
+using fatigue::SnCurve;
 using fatigue::SnLaw;
+
+// The form of the curve and its scatter, where they are not Basquin's with the same scatter everywhere.
+void read_curve(const TomlReader& table, bool random_limit, SnLaw& law) {
+  const auto curve = table.choice("curve", {"basquin", "knee", "stromeyer", "bastenaire"});
+  const auto slope = table.choice("second_slope", {"free", "haibach", "infinite"});
+  const auto scatter = table.choice("scatter", {"constant", "grows"});
+  if (curve == "knee") law.curve = SnCurve::knee;
+  if (curve == "bastenaire") law.curve = SnCurve::bastenaire;
+  // With a limit of its own for each item Stromeyer's curve is that of a random fatigue limit.
+  if (curve == "stromeyer" && !random_limit) law.curve = SnCurve::stromeyer;
+  if (slope && law.curve != SnCurve::knee) {
+    table.fail("second_slope", "needs curve = \"knee\": it is the slope below the knee");
+  }
+  if (slope == "haibach") law.second_slope = SecondSlope::haibach;
+  if (slope == "infinite") law.second_slope = SecondSlope::infinite;
+  if (law.curve == SnCurve::knee && random_limit != (slope == "infinite")) {
+    table.fail(
+        random_limit ? "second_slope" : "fatigue_limit",
+        "below a knee life has either a second slope (second_slope = \"free\" or "
+        "\"haibach\"), or no end, and then the limit scatters: second_slope = \"infinite\" and "
+        "fatigue_limit = \"random\" together");
+  }
+  if (law.curve == SnCurve::bastenaire && random_limit) {
+    table.fail(
+        "fatigue_limit",
+        "Bastenaire's curve has one limit for all; random goes with basquin, stromeyer or knee");
+  }
+  law.scatter_grows = scatter == "grows";
+  if (law.scatter_grows && random_limit) {
+    table.fail("scatter",
+               "lives scatter more near a random fatigue limit already; grows goes with none");
+  }
+}
 
 SnLaw read_law(const TomlReader& root) {
   SnLaw law;
@@ -43,12 +79,18 @@ SnLaw read_law(const TomlReader& root) {
   } else if (limit_family) {
     table->fail("limit_family", "needs fatigue_limit = \"random\"");
   }
+  read_curve(*table, limit == "random", law);
   if (const auto likelihood = root.table("likelihood")) {
     const auto family = likelihood->choice("family", {"log10-normal", "weibull", "normal"});
     if (family == "weibull") law.family = LifeFamily::weibull;
     if (family == "normal") law.family = LifeFamily::normal;
     if (law.limit && law.family == LifeFamily::normal) {
       likelihood->fail("family", "normal on life has no random fatigue limit; use log10-normal");
+    }
+    if (!law.straight() && law.family == LifeFamily::normal) {
+      likelihood->fail("family",
+                       "normal on life goes with a straight curve of constant scatter alone; use "
+                       "log10-normal or weibull");
     }
   }
   const auto conditions = root.table("conditions");
@@ -65,144 +107,21 @@ SnLaw read_law(const TomlReader& root) {
   return law;
 }
 
-// "log10_Sut": how the logarithm of the strength is called.
-std::string log_strength_name(MeanStress correction) {
-  const std::string name = strength_name(correction);
-  return name == "S_ut" ? "log10_Sut" : name == "S_y" ? "log10_Sy" : "log10_" + name;
-}
-
-// Refuses tests whose mean stress no allowed strength bears.
-void refuse_beyond(const SnData& data, double strength, const std::string& name) {
-  for (std::size_t i = 0; i < data.tests.size(); ++i) {
-    const double mean = data.tests[i].stress.mean;
-    if (mean < strength) continue;
-    const std::string column = data.mean_stress_column.empty()
-                                   ? ""
-                                   : fmt::format(", column '{}'", data.mean_stress_column);
-    throw InputError(fmt::format(
-        "{}, row {}{}: the mean stress {:.6g} {} is not below {}, which is at most {:.6g} {}",
-        data.source, i + 1, column, from_si(data.stress_unit, mean), data.stress_unit.text, name,
-        from_si(data.stress_unit, strength), data.stress_unit.text));
+std::string curve_in_words(const SnLaw& law) {
+  switch (law.curve) {
+    case SnCurve::knee:
+      return law.limit ? "N = N_D (S_f/S_D)^-k"
+             : law.second_slope == SecondSlope::haibach
+                 ? "N = N_D (S_f/S_D)^-k, below S_D with 2k - 1 for k"
+                 : "N = N_D (S_f/S_D)^-k, below S_D with k2 for k";
+    case SnCurve::stromeyer:
+      return "S_f - limit = a N^b";
+    case SnCurve::bastenaire:
+      return "N = N_B B/(S_f - limit) exp(-((S_f - limit)/B)^C)";
+    case SnCurve::basquin:
+      break;
   }
-}
-
-// What is known of S-N curves before any test of this one, and the size of the stresses, which are
-// set and not measured (docs/priors.md).
-class Defaults {
- public:
-  explicit Defaults(const SnData& data) : data_(data) {
-    for (const LifeTest& test : data.tests) {
-      highest_ = std::max(highest_, test.stress.alternating);
-      largest_ = std::max(largest_, test.stress.alternating + std::abs(test.stress.mean));
-      lowest_ = std::min(lowest_, test.stress.alternating);
-      longest_ = std::max({longest_, test.life, test.until});
-    }
-  }
-
-  // Basquin's b of -0.05 to -0.12 (Basquin 1910, Dowling 2013) raises the highest stress by 2 to 6
-  // from 1e5 cycles to 1; welds, of -1/3, by 50.
-  DefaultPrior log10_a() const { return logarithm(4 * highest_, 0.7); }
-  // Long tails: welds have -0.33.
-  DefaultPrior b() const { return {"student-t", StudentT{4, -0.12, 0.06}, "1"}; }
-  DefaultPrior gamma() const { return {"beta", Beta{4, 3}, "1"}; }
-  DefaultPrior sigma(bool logarithmic) const {
-    return {"half-normal", Normal{0, logarithmic ? 0.5 : rounded_up(longest_)},
-            logarithmic ? "1" : data_.life_unit.text, 0};
-  }
-  // Tests run at about half of the strength.
-  DefaultPrior log_strength() const { return logarithm(2 * largest_, 0.2); }
-  DefaultPrior log_limit() const { return logarithm(lowest_, 0.3); }
-  DefaultPrior sigma_limit() const { return {"half-normal", Normal{0, 0.1}, "1", 0}; }
-
- private:
-  DefaultPrior logarithm(double stress, double sd) const {
-    return {"normal", Normal{std::log10(rounded_up(stress)), sd},
-            fmt::format("log10({})", data_.stress_unit.text)};
-  }
-
-  const SnData& data_;
-  double highest_ = 0, largest_ = 0, lowest_ = INFINITY, longest_ = 0;
-};
-
-std::vector<Parameter> read_parameters(const TomlReader& root, const SnLaw& law,
-                                       const SnData& data) {
-  const auto priors = root.table("prior");
-  const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
-    spec.fallback = std::move(fallback);
-    return read_prior(root, priors, spec);
-  };
-  const Defaults defaults(data);
-  double largest_mean = 0;
-  for (const LifeTest& test : data.tests) largest_mean = std::max(largest_mean, test.stress.mean);
-  const std::string strength = strength_name(law.correction);
-  double material = std::max(3 * largest_mean, 1e6);
-  std::optional<Parameter> log_strength;
-  if (law.strength) {
-    refuse_beyond(data, *law.strength, strength);
-    if (priors && priors->has(log_strength_name(law.correction))) {
-      priors->fail(
-          log_strength_name(law.correction),
-          fmt::format("is given, but conditions.{} says that it is known; keep one", strength));
-    }
-    material = *law.strength;
-  } else if (law.has_strength()) {
-    log_strength = read(
-        {log_strength_name(law.correction), "log10(Pa)", -INFINITY, INFINITY, std::log10(material)},
-        defaults.log_strength());
-    refuse_beyond(data, std::pow(10, log_strength->prior.upper), strength);
-    const double least = largest_mean > 0 ? std::log10(largest_mean) : -INFINITY;
-    if (log_strength->start < least + 0.01) {
-      const double upper = std::min(log_strength->prior.upper, least + 1);
-      log_strength->start = 0.5 * (least + upper);
-    }
-    material = std::pow(10, log_strength->start);
-  }
-  const fatigue::SnGuess guess = fatigue::guess(law, data.tests, material);
-
-  std::vector<Parameter> parameters;
-  parameters.push_back(
-      read({"log10_a", "log10(Pa)", -INFINITY, INFINITY, guess.log10_a}, defaults.log10_a()));
-  parameters.push_back(read({"b", "1", -INFINITY, 0, guess.b}, defaults.b()));
-  if (log_strength) parameters.push_back(*log_strength);
-  if (law.has_gamma()) parameters.push_back(read({"gamma", "1", 0, 1, 0.5}, defaults.gamma()));
-  const char* sigma_si = law.logarithmic() ? "1" : "cycle";
-  parameters.push_back(
-      read({"sigma", sigma_si, 0, INFINITY, guess.sigma}, defaults.sigma(law.logarithmic())));
-  if (law.limit) {
-    double lowest = INFINITY;
-    for (const LifeTest& test : data.tests) {
-      lowest = std::min(lowest, std::log10(test.stress.alternating) +
-                                    log10_factor(law.correction, test.stress, material, 0.5));
-    }
-    parameters.push_back(read({"log10_limit", "log10(Pa)", -INFINITY, INFINITY, lowest - 0.05},
-                              defaults.log_limit()));
-    parameters.push_back(read({"sigma_limit", "1", 0, INFINITY, 0.05}, defaults.sigma_limit()));
-  }
-  if (!law.logarithmic()) {
-    Parameter& sigma = parameters[static_cast<std::size_t>(law.sigma_index())];
-    sigma.unit = life_unit(sigma.unit);
-  }
-  return parameters;
-}
-
-std::vector<std::string> meanings(const SnLaw& law) {
-  std::vector<std::string> words = {"logarithm of the stress at one cycle", "Basquin's exponent"};
-  if (law.has_strength()) {
-    words.emplace_back(law.correction == MeanStress::soderberg ? "logarithm of the yield strength"
-                       : law.correction == MeanStress::morrow
-                           ? "logarithm of the true fracture strength"
-                           : "logarithm of the ultimate strength");
-  }
-  if (law.has_gamma()) words.emplace_back("Walker's exponent");
-  words.emplace_back(law.logarithmic() ? "scatter of log10 life" : "scatter of life");
-  if (law.limit) {
-    words.emplace_back("logarithm of the median fatigue limit");
-    words.emplace_back("scatter of the logarithm of the fatigue limit");
-  }
-  if (law.limit == StandardLaw::smallest_extreme_value) {
-    words[words.size() - 2] = "logarithm of the fatigue limit that 63.2 % stay below";
-  }
-  return words;
+  return law.limit ? "S_f - limit = a N^b" : "S_f = a N^b";
 }
 
 std::string in_words(const SnLaw& law) {
@@ -227,20 +146,21 @@ std::string in_words(const SnLaw& law) {
       reversed = "(S_m + S_a)^(1 - gamma) S_a^gamma";
       break;
   }
-  std::string words =
-      fmt::format("S_f = {}, {} = a N^b", reversed, law.limit ? "S_f - limit" : "S_f");
+  std::string words = fmt::format("S_f = {}, {}", reversed, curve_in_words(law));
   if (law.strength) words += fmt::format(", {} = {:.6g} MPa", strength, *law.strength * 1e-6);
   if (law.gamma) words += fmt::format(", gamma = {:.4g}", *law.gamma);
   words += law.family == LifeFamily::log10_normal
-               ? "; log10 N scatters normally with standard deviation sigma"
+               ? fmt::format("; log10 N scatters normally with standard deviation sigma{}",
+                             law.scatter_grows ? " (N/1e6)^sigma_growth" : "")
            : law.family == LifeFamily::weibull
                ? "; N is Weibull of shape 1/(sigma ln 10), 63.2 % below the curve"
                : "; N scatters normally with standard deviation sigma";
   if (law.limit) {
     words += fmt::format(
-        "; log10 of the limit is {} with location log10_limit and scale "
-        "sigma_limit, and no end of life below it",
-        *law.limit == StandardLaw::normal ? "normal" : "smallest extreme value");
+        "; log10 of the limit is {} with location {} and scale sigma_limit, and no end of life "
+        "below it",
+        *law.limit == StandardLaw::normal ? "normal" : "smallest extreme value",
+        law.curve == SnCurve::knee ? "log10_S_D" : "log10_limit");
   }
   return words;
 }
@@ -281,8 +201,13 @@ std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
 FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Parameter>& parameters) {
   std::vector<double> start;
   for (const Parameter& parameter : parameters) start.push_back(parameter.start);
-  FitData result{
-      fatigue::sn_scores(law, data.tests), {}, {{"stress", {}}}, Rise{}, "row", true, !law.limit};
+  FitData result{fatigue::sn_scores(law, data.tests),
+                 {},
+                 {{"stress", {}}},
+                 Rise{},
+                 "row",
+                 true,
+                 !law.integrated()};
   std::vector<double> mean;
   Rise& rise = *result.rise;
   rise.law = "life grows as stress falls";
@@ -310,7 +235,7 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
         "is not for model \"sn\": tests have no order; fit the first tests as a study of "
         "their own (data.sql = \"select ... limit 6\")");
   }
-  study.parameters = read_parameters(root, law, data);
+  study.parameters = sn_parameters(root, law, data);
   study.equation = in_words(law);
   study.data_rows = data.tests.size();
   study.quantity = "life";
@@ -319,7 +244,7 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
                            static_cast<double>(test.count)};
     study.observed.insert(study.observed.end(), std::begin(seen), std::end(seen));
   }
-  study.meanings = meanings(law);
+  study.meanings = sn_meanings(law);
   study.likelihood = [=, tests = data.tests](std::size_t rows) {
     return fatigue::sn_likelihood(law, tests, rows);
   };
@@ -332,13 +257,15 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
     predictions = read_sn_predictions(*predict, law, data);
   }
   add_sn_quantities(law, data, predictions, study);
-  study.curve = [=](const WeightedDraws& draws) {
-    const double log10_a = Distribution(draws, [](const double* x) { return x[0]; }).mean();
-    const double b = Distribution(draws, [](const double* x) { return x[1]; }).mean();
-    return fmt::format("the curve is {} = {:.4g} {} x N^({:.4g}) in the mean",
-                       law.limit ? "S_f - limit" : "S_f",
-                       from_si(data.stress_unit, std::pow(10, log10_a)), data.stress_unit.text, b);
-  };
+  if (law.curve != SnCurve::knee && law.curve != SnCurve::bastenaire)
+    study.curve = [=](const WeightedDraws& draws) {
+      const double log10_a = Distribution(draws, [](const double* x) { return x[0]; }).mean();
+      const double b = Distribution(draws, [](const double* x) { return x[1]; }).mean();
+      return fmt::format("the curve is {} = {:.4g} {} x N^({:.4g}) in the mean",
+                         law.bends() ? "S_f - limit" : "S_f",
+                         from_si(data.stress_unit, std::pow(10, log10_a)), data.stress_unit.text,
+                         b);
+    };
   study.coverage = [=](const WeightedDraws& draws) { return sn_coverage(law, data, draws); };
   study.addition = [=](const Fit& fit) { return sn_addition(law, data, fit); };
   study.exhibits = [=](const Fit& fit) { return sn_exhibits(law, data, predictions, fit); };

@@ -8,8 +8,10 @@
 
 namespace wearwell::ownlaw {
 
-/// A posterior as few points, of even weights where they were many: evenly along the order of its
-/// nodes, which lie box by box.
+/// A posterior as few of its own points. In each of many regions they are chosen, and weighted, so that means,
+/// variances and covariances are those of all points there: what changes smoothly over the posterior is summed
+/// far better by them than by as many points of even weights. Where there are too many parameters for that
+/// these are taken.
 struct FewPoints {
   FewPoints(const WeightedDraws& draws, std::size_t most);
   Points values;

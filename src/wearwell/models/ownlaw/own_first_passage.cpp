@@ -102,16 +102,16 @@ const ScoreTable& ScoreTable::increments(Process process) {
   return inverse_gaussian;
 }
 
-const std::vector<double>& ScoreTable::weights() {
+const std::vector<double>& ScoreTable::shares() {
   static const std::vector<double> all = [] {
-    std::vector<double> shares;
+    std::vector<double> each;
     double sum = 0;
-    for (int k = 0; k + 1 < edges; ++k) {
-      shares.push_back(normal_cdf(score(k + 1)) - normal_cdf(score(k)));
-      sum += shares.back();
+    for (int k = 0; k < edges; ++k) {
+      each.push_back(std::exp(-0.5 * score(k) * score(k)));
+      sum += each.back();
     }
-    for (double& each : shares) each /= sum;
-    return shares;
+    for (double& share : each) share /= sum;
+    return each;
   }();
   return all;
 }

@@ -23,8 +23,8 @@ class ScoreTable {
   static const ScoreTable& passages(Process process);
   static const ScoreTable& increments(Process process);
   static constexpr int edges = 21;
-  /// Of the scores: the weight of the cell from edge k to k + 1; they sum to 1.
-  static const std::vector<double>& weights();
+  /// Of the scores: what each has as a node of the trapezoidal rule; they sum to 1.
+  static const std::vector<double>& shares();
   /// Of a distance, or of a mean.
   void look_up(double size, double scale, double* values) const;
 

@@ -36,6 +36,19 @@ struct RowColumns {
   }
 };
 
+void note_growth(BoundColumn& bound) {
+  bound.log_growth.resize(bound.unit.size());
+  for (std::size_t u = 0; u + 1 < bound.begin.size(); ++u) {
+    double before = 0;
+    for (std::size_t i = bound.begin[u]; i < bound.begin[u + 1]; ++i) {
+      if (!(bound.count[i] > 0)) continue;
+      const double reading = bound.responses.rows[i].at;
+      bound.log_growth[i] = std::log(reading - before);
+      before = reading;
+    }
+  }
+}
+
 BoundColumn bind_column(const OwnLaw& law, const Measured& measured, std::size_t count) {
   constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<std::size_t> seen(law.data.table.rows, none);
@@ -72,6 +85,7 @@ BoundColumn bind_column(const OwnLaw& law, const Measured& measured, std::size_t
   }
   bound.data = measured.program.bind(columns.rows);
   bound.responses = ResponseColumn(std::move(responses));
+  if (measured.process && measured.process->process != Process::wiener) note_growth(bound);
   return bound;
 }
 
@@ -168,67 +182,82 @@ void UnitRows::forward(const Chunk& chunk, std::span<const double> z, bool slope
                 sloped ? std::span(slope_.data(), most_response_slots * n) : std::span<double>());
 }
 
-// Unit by unit, of the rows that have a reading.
-void UnitRows::forward_process(const Chunk& chunk, bool sloped) {
+// Unit by unit, of the rows that have a reading: `visit(rows of the chunk, ProcessRows)`.
+template <class Visit>
+void UnitRows::visit_processes(const Chunk& chunk, const Visit& visit) {
   const BoundColumn& column = *chunk.column;
-  const ProcessForm& form = *column.measured->process;
   const std::size_t n = chunk.end - chunk.begin;
   const bool noisy = !(slots_[2].uniform && slots_[2].at == &zero_);
+  const bool growing = !column.log_growth.empty();
   static thread_local std::vector<std::size_t> rows;
-  static thread_local std::vector<double> reading, mean, spread, noise, value, slope;
-  std::fill_n(value_.begin(), n, 0.0);
-  if (sloped) std::fill_n(slope_.begin(), most_response_slots * n, 0.0);
+  static thread_local std::vector<double> reading, mean, spread, noise, log_growth;
+  for (auto* each : {&reading, &mean, &spread, &noise, &log_growth}) each->resize(n);
+  rows.resize(n);
   for (std::size_t i = 0; i < n;) {
     const std::size_t unit = column.unit[chunk.begin + i];
-    rows.clear();
+    std::size_t m = 0;
     for (; i < n && column.unit[chunk.begin + i] == unit; ++i) {
-      if (column.count[chunk.begin + i] > 0) rows.push_back(i);
+      if (!(column.count[chunk.begin + i] > 0)) continue;
+      rows[m] = i;
+      reading[m] = column.responses.rows[chunk.begin + i].at;
+      mean[m] = slots_[0][i];
+      spread[m] = slots_[1][i];
+      if (noisy) noise[m] = slots_[2][i];
+      if (growing) log_growth[m] = column.log_growth[chunk.begin + i];
+      ++m;
     }
-    reading.clear();
-    mean.clear();
-    spread.clear();
-    noise.clear();
-    for (const std::size_t row : rows) {
-      reading.push_back(column.responses.rows[chunk.begin + row].at);
-      mean.push_back(slots_[0][row]);
-      spread.push_back(slots_[1][row]);
-      if (noisy) noise.push_back(slots_[2][row]);
-    }
-    value.resize(rows.size());
-    slope.resize(sloped ? most_response_slots * rows.size() : 0);
-    process_terms(form, {reading, mean, spread, noise}, value, slope);
-    for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto of = [m](const std::vector<double>& all, bool any = true) {
+      return std::span(all).first(any ? m : 0);
+    };
+    visit(
+        unit, std::span<const std::size_t>(rows).first(m),
+        ProcessRows{of(reading), of(mean), of(spread), of(noise, noisy), of(log_growth, growing)});
+  }
+}
+
+void UnitRows::forward_process(const Chunk& chunk, bool sloped) {
+  const std::size_t n = chunk.end - chunk.begin;
+  static thread_local std::vector<double> value, slope;
+  value.resize(n);
+  slope.resize(sloped ? most_response_slots * n : 0);
+  std::fill_n(value_.begin(), n, 0.0);
+  if (sloped) std::fill_n(slope_.begin(), most_response_slots * n, 0.0);
+  visit_processes(chunk, [&](std::size_t, auto rows, const ProcessRows& unit) {
+    const std::size_t m = rows.size();
+    const std::span<double> slopes = std::span(slope).first(sloped ? most_response_slots * m : 0);
+    process_terms(*chunk.column->measured->process, unit, std::span(value).first(m), slopes);
+    for (std::size_t k = 0; k < m; ++k) {
       value_[rows[k]] = value[k];
       for (std::size_t s = 0; s < (sloped ? most_response_slots : 0); ++s) {
-        slope_[s * n + rows[k]] = slope[s * rows.size() + k];
+        slope_[s * n + rows[k]] = slopes[s * m + k];
       }
     }
-  }
+  });
 }
 
 std::vector<Standing> UnitRows::standings(std::span<const double> z, std::size_t c) {
   std::vector<Standing> all(law_.units.size());
-  const BoundColumn& column = columns_[c];
   visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
     if (chunk.index != c) return;
     run(chunk, z);
-    const bool noisy = !(slots_[2].uniform && slots_[2].at == &zero_);
-    std::vector<double> reading, mean, spread, noise;
-    for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
-      const std::size_t unit = column.unit[i], at = i - chunk.begin;
-      if (column.count[i] > 0) {
-        reading.push_back(column.responses.rows[i].at);
-        mean.push_back(slots_[0][at]);
-        spread.push_back(slots_[1][at]);
-        if (noisy) noise.push_back(slots_[2][at]);
+    visit_processes(chunk, [&](std::size_t unit, auto, const ProcessRows& rows) {
+      all[unit] = standing(*chunk.column->measured->process, rows);
+    });
+  });
+  return all;
+}
+
+std::vector<NormalScore> UnitRows::step_scores(std::span<const double> z, std::size_t c) {
+  std::vector<NormalScore> all(columns_[c].measured->observed.rows.size()), some;
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    if (chunk.index != c) return;
+    run(chunk, z);
+    visit_processes(chunk, [&](std::size_t, auto rows, const ProcessRows& unit) {
+      process_scores(*chunk.column->measured->process, unit, some);
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        all[chunk.column->term[chunk.begin + rows[k]]] = some[k];
       }
-      if (i + 1 < chunk.end && column.unit[i + 1] == unit) continue;
-      all[unit] = standing(*column.measured->process, {reading, mean, spread, noise});
-      reading.clear();
-      mean.clear();
-      spread.clear();
-      noise.clear();
-    }
+    });
   });
   return all;
 }

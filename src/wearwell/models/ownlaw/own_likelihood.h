@@ -25,6 +25,7 @@ struct BoundColumn {
   std::vector<double> count;       ///< 0 where the row has no observation of this column
   std::vector<std::size_t> term;   ///< which observation of `Observed` it is, where there is one
   std::size_t most_rows = 0;       ///< of one call
+  std::vector<double> log_growth;  ///< of a process that only rises, by bound row: ProcessRows
 };
 
 /// All columns of the first `rows` rows of the table.
@@ -68,6 +69,8 @@ class UnitRows final : public latent::UnitTerms {
 
   /// Where the units' paths of column c, a process, stand after their last rows.
   std::vector<Standing> standings(std::span<const double> z, std::size_t c);
+  /// The scores of its readings, each in the light of those before it, in the order of `Observed`.
+  std::vector<NormalScore> step_scores(std::span<const double> z, std::size_t c);
 
   /// The slots of each observation at z, three each, by column in the order of `Observed`.
   std::vector<std::vector<double>> each_slot(std::span<const double> z);
@@ -83,6 +86,8 @@ class UnitRows final : public latent::UnitTerms {
   void forward(const Chunk& chunk, std::span<const double> z, bool sloped);
   void fill_adjoints(const Chunk& chunk, const double* weight);
   void forward_process(const Chunk& chunk, bool sloped);
+  template <class Visit>
+  void visit_processes(const Chunk& chunk, const Visit& visit);
   double weight_of(const Chunk& chunk, std::size_t i, const double* weight) const;
 
   const OwnLaw& law_;

@@ -1,36 +1,21 @@
 #include "wearwell/models/ownlaw/own_lives.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "wearwell/bayes/normal_score.h"
+#include "wearwell/models/ownlaw/effect_lines.h"
 #include "wearwell/models/ownlaw/few_points.h"
-#include "wearwell/predict/prediction.h"
 
 namespace wearwell::ownlaw {
 namespace {
 
 constexpr std::size_t most_points = 4000;
-constexpr double least_share = 1e-7;  // of a unit's posterior: nodes with less are left out
-
-// The ends of cells of equal width that fill the standard normal law, up to 1e-16 of it.
-struct NormalCells {
-  std::vector<double> end, weight;
-
-  explicit NormalCells(double width) {
-    constexpr double farthest = 8.25;
-    for (double z = -farthest; z < farthest + 0.5 * width; z += width) end.push_back(z);
-    for (std::size_t i = 0; i + 1 < end.size(); ++i) {
-      weight.push_back(end[i] < 0 ? normal_cdf(end[i + 1]) - normal_cdf(end[i])
-                                  : normal_cdf(-end[i]) - normal_cdf(-end[i + 1]));
-    }
-  }
-};
-
 // One thread's part: some points of the posterior, one after the other.
 class Part {
  public:
-  Part(const OwnRows& rows, const LimitedPath& path) : rows_(rows), path_(path) {
+  Part(const OwnRows& rows, const LimitedPath& path)
+      : rows_(rows), path_(path), fresh_(lines_of_new_unit(rows.law().effects.size())) {
     if (path.next) next_.emplace(*path.next, path.rising, path.begin, path.scale);
     for (const LimitedPath::Seen& each : path.seen) {
       ahead_.emplace_back(*each.ahead, path.rising, path.begin, path.scale);
@@ -65,172 +50,89 @@ class Part {
 
   void add_next(const double* x, double weight) {
     next_->at().move_to(x);
-    if (effects() == 0) {
-      solve(*next_, {}, 1, place_);
-      found.next.add(weight, place_[0], place_[0]);
-      if (!path_.shares.empty()) add_shares(weight);
-      return;
+    const EffectLines* lines = &fresh_;
+    if (effects() == 2) {
+      turn(fresh_, steepest().data(), lines_);
+      lines = &lines_;
     }
-    if (!path_.shares.empty()) add_shares(weight);
-    if (effects() == 1) {
-      static const NormalCells cells(0.25);
-      solve(*next_, cells.end, cells.end.size(), place_);
-      for (std::size_t i = 0; i < cells.weight.size(); ++i) {
-        found.next.add(weight * cells.weight[i], place_[i], place_[i + 1]);
-      }
-      return;
-    }
-    // A cell of the plane spreads from corner to corner.
-    static const NormalCells cells(0.5);
-    const std::size_t n = cells.end.size();
-    if (grid_.empty()) {
-      for (const double a : cells.end) {
-        for (const double b : cells.end) {
-          grid_.push_back(a);
-          grid_.push_back(b);
-        }
-      }
-    }
-    solve(*next_, grid_, n * n, place_);
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-      for (std::size_t j = 0; j + 1 < n; ++j) {
-        const double w = weight * cells.weight[i] * cells.weight[j];
-        if (w < 1e-12 * weight) continue;
-        const double corner[] = {place_[i * n + j], place_[i * n + j + 1], place_[(i + 1) * n + j],
-                                 place_[(i + 1) * n + j + 1]};
-        found.next.add(w, *std::min_element(corner, corner + 4),
-                       *std::max_element(corner, corner + 4));
-      }
-    }
+    solve(*next_, lines->z, lines->count(), place_);
+    CellMixture units;
+    lines->each(place_, [&](auto share, auto place) { units.add_curve(weight, share, place); });
+    found.next.add(units);
+    if (!path_.shares.empty()) found.add_shares(path_, units);
   }
 
-  // Of each point by itself: cells are finer than where many points smooth them. Of two effects a cell
-  // spreads from corner to corner along both diagonals, which keeps its variance.
-  void add_shares(double weight) {
-    CellMixture units;
-    if (effects() == 0) {
-      units.add(weight, place_[0], place_[0]);
-    } else if (effects() == 1) {
-      static const NormalCells cells(0.0625);
-      solve(*next_, cells.end, cells.end.size(), place_);
-      for (std::size_t i = 0; i < cells.weight.size(); ++i) {
-        units.add(weight * cells.weight[i], place_[i], place_[i + 1]);
-      }
-    } else {
-      static const NormalCells cells(0.5);
-      const std::size_t n = cells.end.size();
-      std::vector<double> z;
-      for (const double a : cells.end) {
-        for (const double b : cells.end) z.insert(z.end(), {a, b});
-      }
-      solve(*next_, z, n * n, place_);
-      for (std::size_t i = 0; i + 1 < n; ++i) {
-        for (std::size_t j = 0; j + 1 < n; ++j) {
-          const double half = 0.5 * weight * cells.weight[i] * cells.weight[j];
-          if (half < 1e-9 * weight) continue;
-          units.add(half, place_[i * n + j], place_[(i + 1) * n + j + 1]);
-          units.add(half, place_[i * n + j + 1], place_[(i + 1) * n + j]);
-        }
-      }
-    }
-    found.add_shares(path_, units);
+  // In which direction of two effects lives of new units change.
+  std::array<double, 2> steepest() {
+    constexpr double away = 0.5;
+    static const std::vector<double> z = {away, 0, -away, 0, 0, away, 0, -away};
+    solve(*next_, z, 4, place_);
+    return {place_[0] - place_[1], place_[2] - place_[3]};
   }
 
   void add_seen(const double* x, double weight) {
     const std::size_t d = effects(), units = path_.seen.size();
-    if (d == 0) {
-      for (std::size_t u = 0; u < units; ++u) {
-        ahead_[u].at().move_to(x);
-        solve(ahead_[u], {}, 1, place_);
-        if (path_.seen[u].ahead->goes_on()) {
-          add_ahead(u, weight, 0, 0);
-        } else {
-          add_remaining(u, x, {}, weight, place_[0], place_[0]);
-        }
-      }
-      return;
-    }
-    const auto& sweeps = rows_.integrate(x).sweeps;
+    const latent::UnitIntegrals* integrals = d > 0 ? &rows_.integrate(x) : nullptr;
     for (std::size_t u = 0; u < units; ++u) {
-      nodes_.clear();
-      for (const latent::Sweep& sweep : sweeps) {
-        if (!(sweep.weight[u] > least_share)) continue;
-        nodes_.push_back({sweep.weight[u], sweep.z[u * d], d > 1 ? sweep.z[u * d + 1] : 0});
-      }
-      std::sort(nodes_.begin(), nodes_.end(),
-                [](const Node& a, const Node& b) { return a.z0 < b.z0; });
-      z_.clear();
-      // Ends of the nodes' cells; of two effects the nodes themselves, which are many.
-      for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        if (d == 1) {
-          const double gap = nodes_.size() > 1 ? nodes_[1].z0 - nodes_[0].z0 : 0;
-          const double before = i > 0 ? nodes_[i].z0 - nodes_[i - 1].z0 : gap;
-          if (i == 0) z_.push_back(nodes_[0].z0 - 0.5 * before);
-          const double after = i + 1 < nodes_.size() ? nodes_[i + 1].z0 - nodes_[i].z0 : before;
-          z_.push_back(nodes_[i].z0 + 0.5 * after);
-        } else {
-          z_.push_back(nodes_[i].z0);
-          z_.push_back(nodes_[i].z1);
-        }
-      }
-      const std::size_t count = z_.size() / d;
-      if (nodes_.empty()) continue;
+      if (d > 0) lines_of_seen_unit(*integrals, u, d, lines_);
+      const EffectLines& lines = d > 0 ? lines_ : fresh_;
+      if (lines.count() == 0) continue;
       ahead_[u].at().move_to(x);
-      solve(ahead_[u], z_, count, place_);
-      for (std::size_t i = 0; i < nodes_.size(); ++i) {
-        const double z[2] = {nodes_[i].z0, nodes_[i].z1};
-        const std::size_t other = d == 1 ? i + 1 : i;
-        if (path_.seen[u].ahead->goes_on()) {
-          add_ahead(u, weight * nodes_[i].weight, i, other);
-          continue;
-        }
-        add_remaining(u, x, {z, d}, weight * nodes_[i].weight, place_[i], place_[other]);
-      }
+      solve(ahead_[u], lines.z, lines.count(), place_);
+      path_.seen[u].ahead->goes_on() ? from_last_row(u) : from_place(u, x, lines);
+      double left = 0, all = 0;
+      lines.each(place_, [&](auto share, auto place) {
+        left += found.remaining[u].add_curve(weight, share, place, 0);
+      });
+      for (const double each : lines.share) all += each;
+      found.passed[u] += std::max(weight * all - left, 0.0);
     }
   }
 
-  // A path that goes on from the unit's last row begins there; of a cell of which one end has passed the
-  // limit by then, the part that has.
-  void add_ahead(std::size_t u, double weight, std::size_t i, std::size_t j) {
+  // A path that goes on from the unit's last row begins there. Where it has passed the limit by then, so much
+  // before that a curve through its neighbours tells how many have.
+  void from_last_row(std::size_t u) {
     const double now = path_.seen[u].now;
-    const bool first = past_[i] >= 0, second = past_[j] >= 0;
-    double left = first && second ? 0 : 1;
-    if (first != second)
-      left = past_[first ? j : i] / (past_[first ? j : i] - past_[first ? i : j]);
-    found.passed[u] += weight * (1 - left);
-    if (left > 0) found.remaining[u].add(weight * left, place_[i] - now, place_[j] - now);
+    double pace = 0;
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      place_[i] -= now;
+      if (past_[i] < 0 && std::isfinite(place_[i])) {
+        const double own = place_[i] / -past_[i];
+        pace = pace > 0 ? std::min(pace, own) : own;
+      }
+    }
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+      if (past_[i] >= 0) place_[i] = -past_[i] * (pace > 0 ? pace : 1);
+    }
   }
 
   // What lies beyond the unit's last row counts. Where conditions change, its path goes on from where
   // it stands, wherever under the new ones that is.
-  void add_remaining(std::size_t u, const double* x, std::span<const double> z, double weight,
-                     double a, double b) {
+  void from_place(std::size_t u, const double* x, const EffectLines& lines) {
     const LimitedPath::Seen& seen = path_.seen[u];
-    double now = seen.now;
-    if (behind_[u]) {
-      behind_[u]->move_to(x);
-      behind_[u]->evaluate(1, z.empty() ? nullptr : z.data(), &seen.now);
-      const double level = behind_[u]->output(0, 0);
-      const bool there = path_.rising ? level >= path_.limit : level <= path_.limit;
-      if (there) {
-        found.passed[u] += weight;
-        return;
+    if (behind_[u]) behind_[u]->move_to(x);
+    for (std::size_t i = 0; i < lines.count(); ++i) {
+      double now = seen.now;
+      if (behind_[u]) {
+        const double* z = effects() > 0 ? &lines.z[i * effects()] : nullptr;
+        behind_[u]->evaluate(1, z, &seen.now);
+        const double level = behind_[u]->output(0, 0);
+        ahead_[u].solve(1, z, &level, &now);
+        const bool there = path_.rising ? level >= path_.limit : level <= path_.limit;
+        if (there && !(now > place_[i])) now = place_[i] = 0;
       }
-      ahead_[u].solve(1, z.empty() ? nullptr : z.data(), &level, &now);
+      place_[i] -= now;
     }
-    found.passed[u] += weight - found.remaining[u].add_beyond(weight, a, b, now);
   }
 
-  struct Node {
-    double weight, z0, z1;
-  };
   const OwnRows& rows_;
   const LimitedPath& path_;
   std::optional<Crossing> next_;
   std::vector<Crossing> ahead_;
   std::vector<std::unique_ptr<PathAt>> behind_;
-  std::vector<Node> nodes_;
-  std::vector<double> z_, place_, past_, level_, grid_;
+  const EffectLines fresh_;
+  EffectLines lines_;
+  std::vector<double> place_, past_, level_;
 };
 
 // Of paths that are dear, fewer.

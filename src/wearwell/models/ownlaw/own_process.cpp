@@ -74,17 +74,62 @@ class Slopes {
   std::size_t n_;
 };
 
+// A dear function of one row after the other. Steps of a unit are often all alike but for their last digit: there it
+// goes on along its slope, and what that leaves is less than a digit.
+class Logarithm {
+ public:
+  double operator()(double x) {
+    if (x == at_) return value_;
+    const double away = (x - at_) / at_;
+    if (std::abs(away) < 1e-9) return value_ + away;
+    at_ = x;
+    return value_ = std::log(x);
+  }
+
+ private:
+  double at_ = std::nan(""), value_ = 0;
+};
+
+// Not in long double, which is several times as dear.
+using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+
+class LogGamma {
+ public:
+  double value(double x) {
+    go_to(x);
+    return x == at_ ? value_ : value_ + (x - at_) * digamma(at_);
+  }
+  double slope(double x) {
+    go_to(x);
+    return digamma(at_);  // its relative change is less than theirs
+  }
+
+ private:
+  void go_to(double x) {
+    if (std::abs(x - at_) < 1e-9 * x) return;
+    at_ = x;
+    value_ = std::lgamma(x);
+    digamma_ = std::nan("");
+  }
+  double digamma(double x) {
+    if (std::isnan(digamma_)) digamma_ = boost::math::digamma(x, InDouble());
+    return digamma_;
+  }
+  double at_ = std::nan(""), value_ = 0, digamma_ = std::nan("");
+};
+
 void wiener_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
                   std::span<double> slope) {
   const std::size_t n = rows.reading.size();
   static thread_local std::vector<Filtered> all;
   all.clear();
+  Logarithm log_of_variance;
   double at = 0, variance = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Step step = step_of(form, rows, i);
     const Filtered f = filter(step, rows.reading[i], at, variance);
     if (!(step.variance >= 0) || !(f.all > 0) || !std::isfinite(f.off)) return fail(value, slope);
-    value[i] = -0.5 * (log_two_pi + std::log(f.all) + f.off * f.off / f.all);
+    value[i] = -0.5 * (log_two_pi + log_of_variance(f.all) + f.off * f.off / f.all);
     at = f.at;
     variance = f.variance;
     all.push_back(f);
@@ -108,32 +153,38 @@ void wiener_terms(const ProcessForm& form, const ProcessRows& rows, std::span<do
 // Increments that are seen as they are. Where the mean stands still, so does the path.
 void growing_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
                    std::span<double> slope) {
-  const bool gamma = form.process == Process::gamma;
-  Slopes slopes(form, rows, slope.empty() ? std::span<double>() : slope);
-  for (std::size_t i = 0; i < rows.reading.size(); ++i) {
-    const double dm = rows.mean[i] - (i > 0 ? rows.mean[i - 1] : 0), u = rows.spread[i];
-    const double dy = rows.reading[i] - (i > 0 ? rows.reading[i - 1] : 0);
+  const bool gamma = form.process == Process::gamma, sloped = !slope.empty();
+  const std::size_t n = rows.reading.size();
+  if (sloped) std::fill(slope.begin(), slope.end(), 0.0);
+  Logarithm log_of_scale, log_of_mean;
+  LogGamma log_gamma;
+  double mean_before = 0, reading_before = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double dm = rows.mean[i] - mean_before, u = rows.spread[i];
+    const double dy = rows.reading[i] - reading_before;
+    mean_before = rows.mean[i];
+    reading_before = rows.reading[i];
     value[i] = 0;
     if (dm == 0 && dy == 0) continue;
     if (!(dm > 0 && dy > 0 && u > 0 && std::isfinite(dm))) return fail(value, slope);
+    const double log_u = log_of_scale(u);
+    const double log_dy = rows.log_growth.empty() ? std::log(dy) : rows.log_growth[i];
     double by_mean = 0, by_scale = 0;
     if (gamma) {
-      const double a = dm / u, log_dy = std::log(dy / u);
-      value[i] = (a - 1) * log_dy - dy / u - std::log(u) - std::lgamma(a);
-      if (!slope.empty()) {
-        const double psi = boost::math::digamma(a);
-        by_mean = (log_dy - psi) / u;
-        by_scale = -a / u * (log_dy - psi) + (dy / u - a) / u;
-      }
+      const double a = dm / u, log_share = log_dy - log_u;
+      value[i] = (a - 1) * log_share - dy / u - log_u - log_gamma.value(a);
+      if (!sloped) continue;
+      const double off = log_share - log_gamma.slope(a);
+      by_mean = off / u;
+      by_scale = -a / u * off + (dy / u - a) / u;
     } else {
       const double off = dy - dm;
       value[i] =
-          std::log(dm) - 0.5 * (log_two_pi + std::log(u * dy * dy * dy)) - off * off / (2 * u * dy);
+          log_of_mean(dm) - 0.5 * (log_two_pi + log_u + 3 * log_dy) - off * off / (2 * u * dy);
+      if (!sloped) continue;
       by_mean = 1 / dm + off / (u * dy);
       by_scale = -0.5 / u + off * off / (2 * u * u * dy);
     }
-    if (slope.empty()) continue;
-    const std::size_t n = rows.mean.size();
     slope[i] += by_mean;
     if (i > 0) slope[i - 1] -= by_mean;
     slope[n + i] += by_scale;
@@ -186,6 +237,34 @@ Standing standing(const ProcessForm& form, const ProcessRows& rows) {
     }
   }
   return stands;
+}
+
+void process_scores(const ProcessForm& form, const ProcessRows& rows,
+                    std::vector<NormalScore>& scores) {
+  scores.clear();
+  double at = 0, variance = 0;
+  for (std::size_t i = 0; i < rows.reading.size(); ++i) {
+    const Step step = step_of(form, rows, i);
+    if (form.process == Process::wiener) {
+      const Filtered f = filter(step, rows.reading[i], at, variance);
+      at = f.at;
+      variance = f.variance;
+      const double z = f.off / std::sqrt(f.all);
+      scores.push_back({z, z});
+      continue;
+    }
+    const double dy = rows.reading[i] - (i > 0 ? rows.reading[i - 1] : 0), u = rows.spread[i];
+    if (!(step.mean > 0)) {  // it stands still, which says nothing
+      scores.push_back({-infinity, infinity});
+      continue;
+    }
+    const bool gamma = form.process == Process::gamma;
+    const ResponseFamily family = gamma ? ResponseFamily::gamma : ResponseFamily::inverse_gaussian;
+    const double slots[most_response_slots] = {gamma ? step.mean / u : step.mean,
+                                               gamma ? u : step.mean * step.mean / u};
+    const double z = normal_score(log_cdf(family, dy, slots), log_survival(family, dy, slots));
+    scores.push_back({z, z});
+  }
 }
 
 }  // namespace wearwell::ownlaw

@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "wearwell/bayes/normal_score.h"
+
 #include "wearwell/prob/response.h"
 #include "wearwell/prob/response_block.h"
 
@@ -39,6 +41,8 @@ struct Standing {
 struct ProcessRows {
   std::span<const double> reading;
   std::span<const double> mean, spread, noise;  ///< slots; `noise` may be empty
+  /// log of what each reading is above the one before, if the caller keeps it.
+  std::span<const double> log_growth = {};
 };
 
 /// log density of each reading given those before, which sum to the unit's; -infinity where there is none.
@@ -46,5 +50,8 @@ struct ProcessRows {
 void process_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
                    std::span<double> slope);
 Standing standing(const ProcessForm& form, const ProcessRows& rows);
+/// Where each reading lies among those that readings before it let expect.
+void process_scores(const ProcessForm& form, const ProcessRows& rows,
+                    std::vector<NormalScore>& scores);
 
 }  // namespace wearwell::ownlaw

@@ -1,10 +1,11 @@
 #include "wearwell/models/ownlaw/own_process_lives.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
 #include "wearwell/bayes/normal_score.h"
+#include "wearwell/math/quadrature.h"
+#include "wearwell/models/ownlaw/effect_lines.h"
 #include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
 
@@ -13,39 +14,22 @@ namespace {
 
 constexpr std::size_t most_points = 400;
 constexpr double least_share = 1e-4;  // of a unit's posterior: nodes with less are left out
-constexpr int strata = 12;            // of where a path stands that readings do not tell exactly
 
-double normal_quantile(double p) {
-  return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
-}
+// Where a path stands that readings do not tell exactly: nodes of the normal law below `highest`.
+struct Standings {
+  double z[16], weight[16];
 
-// Middles of cells of a unit's effect that is not known yet, of even width.
-struct NewUnits {
-  std::vector<double> z, weight;
-
-  explicit NewUnits(std::size_t effects) {
-    const double width = effects == 1 ? 0.25 : 0.5, farthest = 4;
-    std::vector<double> at, share;
+  explicit Standings(double highest) {
+    static const GaussLegendre rule = gauss_legendre(16);
+    constexpr double lowest = -5.5;
+    const double half = 0.5 * (std::min(highest, -lowest) - lowest);
     double sum = 0;
-    for (double x = -farthest; x < farthest + 0.5 * width; x += width) {
-      at.push_back(x);
-      share.push_back(normal_cdf(x + 0.5 * width) - normal_cdf(x - 0.5 * width));
-      sum += share.back();
+    for (std::size_t k = 0; k < 16; ++k) {
+      z[k] = lowest + half * (1 + rule.node[k]);
+      weight[k] = rule.weight[k] * std::exp(-0.5 * z[k] * z[k]);
+      sum += weight[k];
     }
-    for (double& each : share) each /= sum;
-    if (effects == 0) {
-      weight = {1};
-    } else if (effects == 1) {
-      z = at;
-      weight = share;
-    } else {
-      for (std::size_t i = 0; i < at.size(); ++i) {
-        for (std::size_t j = 0; j < at.size(); ++j) {
-          z.insert(z.end(), {at[i], at[j]});
-          weight.push_back(share[i] * share[j]);
-        }
-      }
-    }
+    for (double& each : weight) each /= sum;
   }
 };
 
@@ -58,7 +42,7 @@ class Part {
         form_(*rows.law().measured[limit.column].process),
         table_(ScoreTable::passages(form_.process)),
         effects_(rows.law().effects.size()),
-        fresh_(effects_) {
+        fresh_(lines_of_new_unit(effects_, 0.5, 5)) {
     const LimitedPath& path = limit.path;
     sign_ = path.rising ? 1 : -1;
     next_.emplace(*path.next, path.rising, path.begin, path.scale);
@@ -72,10 +56,10 @@ class Part {
   void add(const double* x, double weight) {
     next_->at().move_to(x);
     CellMixture units;
-    for (std::size_t i = 0; i < fresh_.weight.size(); ++i) {
+    for (std::size_t i = 0; i < fresh_.count(); ++i) {
       const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
       add_passage(*next_, z, limit_.path.begin, 0, sign_ * limit_.path.limit,
-                  weight * fresh_.weight[i], false, units);
+                  weight * fresh_.share[i], false, units);
     }
     found.next.add(units);
     if (!limit_.path.shares.empty()) found.add_shares(limit_.path, units);
@@ -107,10 +91,8 @@ class Part {
     for (std::size_t i = 0; i < same.size(); ++i) same[i] = z[i % effects_];
     crossing.solve(edges + 1, same.empty() ? nullptr : same.data(), level, place);
     const double start = counted_from ? place[edges] : 0;
-    for (int k = 0; k + 1 < edges; ++k) {
-      to.add(weight * ScoreTable::weights()[static_cast<std::size_t>(k)], place[k] - start,
-             place[k + 1] - start);
-    }
+    for (int k = 0; k < edges; ++k) place[k] -= start;
+    to.add_curve(weight, ScoreTable::shares(), {place, edges});
   }
 
   void add_seen(const double* x, double weight) {
@@ -149,11 +131,11 @@ class Part {
     const double below = normal_cdf(left / sd);  // it has not reached the limit
     found.passed[u] += weight * (1 - below);
     if (!(below > 1e-6)) return;
-    for (int k = 0; k < strata; ++k) {
-      const double distance = left - sd * normal_quantile(below * (k + 0.5) / strata);
-      if (!(distance > 0)) continue;
-      add_passage(ahead_[u], z, now, mean, distance, weight * below / strata, true,
-                  found.remaining[u]);
+    const Standings nodes(left / sd);
+    for (int k = 0; k < 16; ++k) {
+      const double distance = left - sd * nodes.z[k], share = below * nodes.weight[k];
+      if (!(distance > 0 && share > 1e-6)) continue;
+      add_passage(ahead_[u], z, now, mean, distance, weight * share, true, found.remaining[u]);
     }
   }
 
@@ -162,7 +144,7 @@ class Part {
   const ProcessForm& form_;
   const ScoreTable& table_;
   std::size_t effects_;
-  NewUnits fresh_;
+  const EffectLines fresh_;
   double sign_ = 1;
   std::optional<Crossing> next_;
   std::vector<Crossing> ahead_;

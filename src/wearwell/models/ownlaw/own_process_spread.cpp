@@ -1,9 +1,9 @@
 #include "wearwell/models/ownlaw/own_process_spread.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
+#include "wearwell/models/ownlaw/effect_lines.h"
 #include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
 
@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::size_t most_points = 100, most_points_of_effects = 25;
 constexpr double least_share = 2e-3;  // of a unit's posterior: nodes with less are left out
-constexpr int cells = 12;             // of a new unit's effect, of equal probability
-
-double normal_quantile(double p) {
-  return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
-}
 
 // One thread's part: some points of the posterior, one after the other.
 class Part {
@@ -26,7 +21,8 @@ class Part {
         column_(mean.column),
         form_(*rows.law().measured[mean.column].process),
         effects_(rows.law().effects.size()),
-        paths_(paths) {
+        paths_(paths),
+        fresh_(lines_of_new_unit(effects_, 0.5, 4)) {
     for (const SpreadPath& each : paths) {
       at_.push_back(
           std::make_unique<Crossing>(*each.path.ahead, each.rising, each.begin, each.scale));
@@ -59,15 +55,11 @@ class Part {
   Spreads found;
 
  private:
-  // Effects of a new unit in cells of equal probability.
   void add_new(double weight) {
-    std::vector<double> z(effects_);
-    const int each = effects_ == 0 ? 1 : cells, count = effects_ > 1 ? each * each : each;
-    for (int k = 0; k < count; ++k) {
-      if (effects_ > 0) z[0] = normal_quantile((k % each + 0.5) / each);
-      if (effects_ > 1) z[1] = normal_quantile((k / each + 0.5) / each);
+    for (std::size_t i = 0; i < fresh_.count(); ++i) {
+      const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
       for (std::size_t p = 0; p < paths_.size(); ++p) {
-        if (!paths_[p].unit) look_ahead(p, z.data(), 0, {}, weight / count);
+        if (!paths_[p].unit) look_ahead(p, z, 0, {}, weight * fresh_.share[i]);
       }
     }
   }
@@ -100,10 +92,8 @@ class Part {
       } else if (grown > 0) {
         ScoreTable::increments(form_.process).look_up(grown, scale, step);
       }
-      for (int e = 0; e + 1 < edges; ++e) {
-        found.paths[p].ahead[k].add(weight * ScoreTable::weights()[static_cast<std::size_t>(e)],
-                                    stands.at + step[e], stands.at + step[e + 1]);
-      }
+      for (double& each : step) each += stands.at;
+      found.paths[p].ahead[k].add_curve(weight, ScoreTable::shares(), step);
     }
   }
 
@@ -112,6 +102,7 @@ class Part {
   const ProcessForm& form_;
   std::size_t effects_;
   const std::vector<SpreadPath>& paths_;
+  const EffectLines fresh_;
   std::vector<std::unique_ptr<Crossing>> at_;
 };
 

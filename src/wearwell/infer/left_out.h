@@ -1,0 +1,74 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "wearwell/bayes/log_density.h"
+#include "wearwell/bayes/normal_score.h"
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/infer/loo.h"
+
+namespace wearwell {
+
+/// Sums over weighted points of a posterior that say how one term is predicted by all others: over
+/// w/p, p the term's density at a point of weight w. Relative to the largest of them so far.
+class LeftOut {
+ public:
+  void add(double log_weight, double log_p, const NormalScore* score) {
+    const double log_inverse = log_weight - log_p;
+    if (!std::isfinite(log_inverse)) return;
+    rescale(std::max(top_, log_inverse));
+    const double weight = std::exp(log_inverse - top_);
+    sum_ += weight;
+    with_ += std::exp(log_weight + log_p - top_);
+    if (!score) return;
+    below_ += weight * normal_cdf(score->high);
+    above_ += weight * normal_cdf(-score->low);
+  }
+
+  void add(const LeftOut& other) {
+    if (other.sum_ == 0) return;
+    rescale(std::max(top_, other.top_));
+    const double factor = std::exp(other.top_ - top_);
+    sum_ += factor * other.sum_;
+    with_ += factor * other.with_;
+    below_ += factor * other.below_;
+    above_ += factor * other.above_;
+  }
+
+  double log_sum() const { return top_ + std::log(sum_); }  ///< log of the sum of w/p
+  double elpd() const { return -log_sum(); }
+  double lpd() const { return top_ + std::log(with_); }
+  double tail() const { return std::min(1.0, 2 * std::min(below_, above_) / sum_); }
+
+ private:
+  void rescale(double top) {
+    if (top == top_) return;
+    const double factor = std::exp(top_ - top);
+    for (double* each : {&sum_, &with_, &below_, &above_}) *each *= factor;
+    top_ = top;
+  }
+
+  double top_ = -std::numeric_limits<double>::infinity();
+  double sum_ = 0, with_ = 0, below_ = 0, above_ = 0;
+};
+
+/// Of each of so many terms, over all points, in parts of so many: the sums do not depend on threads.
+std::vector<LeftOut> left_out(const LogDensity& likelihood, const WeightedDraws& points,
+                              std::size_t terms, const Scores* scores, Eigen::Index part = 512);
+
+/// The score of one term at a draw; empty where tails are not asked for.
+using ScoreAt = std::function<NormalScore(std::size_t draw)>;
+
+/// One term by draws of one weight, their weights smoothed: elpd, lpd, k-hat, tail. `log_p` are its
+/// log densities at the draws; they become what each draw adds to the error of elpd, to the first
+/// order, over all observations that the term stands for.
+void leave_out_smoothed(LooTerm& term, Eigen::Ref<Eigen::VectorXd> log_p, const ScoreAt& score);
+
+/// What a draw of that weight adds to the error of elpd, to the first order.
+double influence(const LooTerm& term, double log_weight, double log_p);
+
+}  // namespace wearwell

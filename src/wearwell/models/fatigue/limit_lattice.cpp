@@ -1,0 +1,528 @@
+#include "wearwell/models/fatigue/limit_lattice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+// Longer than others: one rule, whose nodes are found, filled and judged over the same table.
+namespace wearwell::fatigue {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double root_half = M_SQRT1_2, per_root_two_pi = 0.3989422804014327;
+const double decade = std::log(10.0);
+
+constexpr double negligible = 34;       // e^-34 is 2e-15
+constexpr double no_digits = 1e12;      // logarithms beyond are told by their largest term
+constexpr int finest = 15, reach = 64;  // steps of 2^-1 to 2^-finest, from -reach to reach
+constexpr double narrowest = 0.01;      // features below are integrated about their own place
+constexpr double farthest = 0.4;        // so far their series reach
+
+/// Of a law of location and scale: its density, or the probability below or above.
+enum class Role { density, below, above };
+
+/// exp(bound) is no less than the factor; factor = exp(bound) value, its derivative exp(bound) slope.
+struct Share {
+  double value, slope;
+};
+
+template <StandardLaw law, Role role>
+struct Factor;
+
+template <>
+struct Factor<StandardLaw::normal, Role::density> {
+  static double bound(double z) { return -0.5 * z * z; }
+  static Share share(double z) { return {per_root_two_pi, -per_root_two_pi * z}; }
+};
+
+/// P(Z > t) exp(t^2/2), t >= 0: by the series about the nearest entry of a table, whose derivatives
+/// follow from m' = t m - 1/sqrt(2 pi) alone; far out by continued fractions.
+class Mills {
+ public:
+  static double at(double t) {
+    static const Mills mills;
+    if (!(t < last)) {
+      const double r = 1 / (t * t);  // Abramowitz and Stegun 26.2.12, to 1e-12
+      return per_root_two_pi / t * (1 - r * (1 - 3 * r * (1 - 5 * r * (1 - 7 * r * (1 - 9 * r)))));
+    }
+    const int i = static_cast<int>(t * per_unit + 0.5);
+    const double from = i * (1.0 / per_unit), d = t - from;
+    const auto& m = mills.series_[static_cast<std::size_t>(i)];
+    double sum = m[terms - 1];
+    for (int k = terms - 2; k >= 0; --k) sum = sum * d + m[static_cast<std::size_t>(k)];
+    return sum;
+  }
+
+ private:
+  static constexpr int per_unit = 16, last = 20, terms = 8;
+
+  Mills() {
+    for (int i = 0; i <= last * per_unit; ++i) {
+      const double t = static_cast<double>(i) / per_unit;
+      std::array<double, terms> m{};
+      m[0] = 0.5 * std::erfc(t * root_half) * std::exp(0.5 * t * t);
+      m[1] = t * m[0] - per_root_two_pi;
+      // The derivative of order n + 1 is t times that of order n and n times the one before it.
+      for (std::size_t n = 1; n + 1 < terms; ++n)
+        m[n + 1] = (t * m[n] + m[n - 1]) / static_cast<double>(n + 1);
+      series_.push_back(m);
+    }
+  }
+  std::vector<std::array<double, terms>> series_;
+};
+
+template <>
+struct Factor<StandardLaw::normal, Role::below> {
+  static double bound(double z) { return z < 0 ? -0.5 * z * z : 0; }
+  static Share share(double z) {
+    if (z < 0) return {Mills::at(-z), per_root_two_pi};
+    if (z > 8.5) return {1, 0};
+    const double e = std::exp(-0.5 * z * z);
+    return {1 - e * Mills::at(z), per_root_two_pi * e};
+  }
+};
+
+template <>
+struct Factor<StandardLaw::normal, Role::above> {
+  using Mirror = Factor<StandardLaw::normal, Role::below>;
+  static double bound(double z) { return Mirror::bound(-z); }
+  static Share share(double z) {
+    const Share mirrored = Mirror::share(-z);
+    return {mirrored.value, -mirrored.slope};
+  }
+};
+
+template <>
+struct Factor<StandardLaw::smallest_extreme_value, Role::density> {
+  static double bound(double z) { return z - std::exp(z); }
+  static Share share(double z) { return {1, 1 - std::exp(z)}; }
+};
+
+template <>
+struct Factor<StandardLaw::smallest_extreme_value, Role::below> {
+  static double bound(double z) { return z < 0 ? z : 0; }
+  static Share share(double z) {
+    const double e = std::exp(z);
+    if (z >= 0) return {-std::expm1(-e), e * std::exp(-e)};
+    return {e > 0 ? -std::expm1(-e) / e : 1, std::exp(-e)};
+  }
+};
+
+template <>
+struct Factor<StandardLaw::smallest_extreme_value, Role::above> {
+  static double bound(double z) { return -std::exp(z); }
+  static Share share(double z) { return {1, -std::exp(z)}; }
+};
+
+/// log of the limit's share of the stress, 1/(1 + exp(-u)), and of what remains.
+struct Logs {
+  double share, rest;
+};
+Logs logs_at(double u) {
+  if (u < 0) {
+    const double rest = -std::log1p(std::exp(u));
+    return {rest + u, rest};
+  }
+  const double share = -std::log1p(std::exp(-u));
+  return {share, share - u};
+}
+
+double step_of(int level) {
+  return std::exp2(-0.5 * (level + 1));
+}
+
+/// These at multiples of a level's step, from -reach to reach.
+class Table {
+ public:
+  explicit Table(int level) : step(step_of(level)) {
+    const int n = static_cast<int>(reach / step);
+    logs.reserve(2 * static_cast<std::size_t>(n) + 1);
+    for (int k = -n; k <= n; ++k) logs.push_back(logs_at(k * step));
+    middle = n;
+  }
+  double step;
+  std::ptrdiff_t middle = 0;
+  std::vector<Logs> logs;
+};
+const Table& table(int level) {
+  static const std::vector<Table> tables = [] {
+    std::vector<Table> all;
+    for (int each = 1; each <= finest; ++each) all.emplace_back(each);
+    return all;
+  }();
+  return tables[static_cast<std::size_t>(level - 1)];
+}
+
+/// The limit's place w in its law and the life's place z in its, linear in the logarithms.
+struct Places {
+  double w0, w_slope, z0, z_slope;
+  double w(const Logs& at) const { return w0 + w_slope * at.share; }
+  double z(const Logs& at) const { return z0 + z_slope * at.rest; }
+};
+
+/// Where a law is about its location: u, and the places of both there, the one of them exactly 0.
+struct Mark {
+  double u = 0, share_log = 0, rest_log = 0;
+  double w = 0, z = 0;
+};
+
+/// The nodes of one integral, evenly spaced in u: outward from `origin` both ways.
+struct Nodes {
+  static constexpr int most = 400, origin = most + 1;
+  double step = 0;
+  int first = origin, last = origin;
+  std::array<double, 2 * most + 3> w, z, bound;
+};
+
+struct Sums {
+  double mass = 0, of_w = 0, of_w_w = 0, of_z = 0, of_z_z = 0, reference = 0;
+};
+
+template <class OfLimit, class OfLife, bool by_rest>
+class Lattice {
+ public:
+  explicit Lattice(const Places& places) : places_(places) {}
+
+  /// Without constant factors; `marks` are where each law is about its location, if anywhere.
+  std::optional<Sums> operator()(std::span<const Mark> marks, bool extreme) {
+    const Mark* best = &marks.front();
+    double highest = -infinity;
+    for (const Mark& mark : marks) {
+      const double here = bound(mark);
+      if (std::isnan(here)) return {};
+      if (!(here > highest)) continue;
+      highest = here;
+      best = &mark;
+    }
+    const double resolution = extreme ? 0.4 : 0.63;
+    const double wide = width(best->u);
+    if (!(wide > narrowest)) return about(*best, resolution * wide);
+    for (int level = level_of(resolution * wide); level <= finest;) {
+      const int finer = fill(level, best->u, marks, resolution);
+      if (finer < 0) return {};
+      if (finer > level) {
+        level = finer;
+        continue;
+      }
+      if (const auto sums = summed()) return sums;
+      ++level;
+    }
+    return {};
+  }
+
+ private:
+  static int level_of(double step) {
+    int level = 1;
+    while (level <= finest && step_of(level) > step) ++level;
+    return level;
+  }
+
+  double bound(const Logs& at) const {
+    return OfLimit::bound(places_.w(at)) + OfLife::bound(places_.z(at)) +
+           (by_rest ? at.rest : at.share);
+  }
+
+  static double bound(const Mark& at) {
+    return OfLimit::bound(at.w) + OfLife::bound(at.z) + (by_rest ? at.rest_log : at.share_log);
+  }
+
+  // Of the narrowest feature that may stand at u.
+  double width(double u) const {
+    const double share = 1 / (1 + std::exp(-u)), rest = 1 / (1 + std::exp(u));
+    return 1 / std::sqrt(places_.w_slope * places_.w_slope * rest * rest +
+                         places_.z_slope * places_.z_slope * share * share);
+  }
+
+  // All nodes of a level that count. Returns the level, a finer one where it takes that, or -1.
+  int fill(int level, double near, std::span<const Mark> marks, double resolution) {
+    const Table& t = table(level);
+    const auto last = std::ssize(t.logs) - 1;
+    const auto index = [&](double u) {
+      return std::clamp<std::ptrdiff_t>(t.middle + std::lround(std::clamp(u, -1e3, 1e3) / t.step),
+                                        0, last);
+    };
+    const auto at = [&](std::ptrdiff_t i) { return bound(t.logs[static_cast<std::size_t>(i)]); };
+    // Uphill in steps that double while they lead up.
+    std::ptrdiff_t top = index(near);
+    double highest = at(top);
+    for (std::ptrdiff_t stride = 1; stride > 0;) {
+      bool moved = false;
+      for (const std::ptrdiff_t way : {stride, -stride}) {
+        const std::ptrdiff_t next = top + way;
+        if (next < 0 || next > last) continue;
+        const double there = at(next);
+        if (!(there > highest)) continue;
+        highest = there;
+        top = next;
+        moved = true;
+        break;
+      }
+      stride = moved ? 2 * stride : stride / 2;
+    }
+    if (!std::isfinite(highest)) return -1;
+    // Another hump may stand at another mark.
+    std::ptrdiff_t low = top, high = top;
+    for (const Mark& mark : marks) {
+      const std::ptrdiff_t i = index(mark.u);
+      const double there = at(i);
+      if (!(there > highest - negligible)) continue;
+      low = std::min(low, i);
+      high = std::max(high, i);
+      highest = std::max(highest, there);
+    }
+    const auto put = [&](int node, std::ptrdiff_t i) {
+      const Logs& logs = t.logs[static_cast<std::size_t>(i)];
+      nodes_.w[node] = places_.w(logs);
+      nodes_.z[node] = places_.z(logs);
+      return nodes_.bound[node] = OfLimit::bound(nodes_.w[node]) + OfLife::bound(nodes_.z[node]) +
+                                  (by_rest ? logs.rest : logs.share);
+    };
+    const auto walked = [&](int way, std::ptrdiff_t must) {
+      for (int k = way > 0 ? 0 : 1; k <= Nodes::most; ++k) {
+        const std::ptrdiff_t i = top + way * k;
+        if (i <= 0 || i >= last) return -1;
+        if (!(put(Nodes::origin + way * k, i) > highest - negligible) && k >= must) return k;
+      }
+      return -1;
+    };
+    const int up = walked(1, high - top), down = walked(-1, top - low);
+    if (up < 0 || down < 0) return -1;
+    nodes_.step = t.step;
+    nodes_.first = Nodes::origin - down;
+    nodes_.last = Nodes::origin + up;
+    // Where a law is steep at an edge of the region there is little of it: its middle half tells.
+    const double u = static_cast<double>(top - t.middle) * t.step;
+    const int needed = level_of(
+        resolution * std::min(width(u + 0.5 * up * t.step), width(u - 0.5 * down * t.step)));
+    if (needed <= level) return level;
+    return needed <= finest ? needed : -1;
+  }
+
+  // The logarithms about u by their series: far closer than the logarithm's singularity, pi away.
+  std::optional<Sums> about(const Mark& center, double step) {
+    if (!(step > 0)) return {};
+    const auto of_rest = series(1 / (1 + std::exp(-center.u))),
+               of_share = series(1 / (1 + std::exp(center.u)));
+    const auto put = [&](int node, double d) {
+      double r = 0, s = 0;
+      for (std::size_t k = terms; k-- > 0;) {
+        r = (r + of_rest[k]) * d;
+        s = (s + of_share[k]) * -d;
+      }
+      nodes_.w[node] = center.w + places_.w_slope * s;
+      nodes_.z[node] = center.z + places_.z_slope * r;
+      return nodes_.bound[node] = OfLimit::bound(nodes_.w[node]) + OfLife::bound(nodes_.z[node]) +
+                                  (by_rest ? center.rest_log + r : center.share_log + s);
+    };
+    for (int attempt = 0; attempt < 2; ++attempt, step *= 0.5) {
+      double highest = -infinity;
+      nodes_.step = step;
+      for (const int way : {1, -1}) {
+        for (int k = way > 0 ? 0 : 1;; ++k) {
+          if (k > Nodes::most || k * step > farthest) return {};
+          const double there = put(Nodes::origin + way * k, way * k * step);
+          highest = std::max(highest, there);
+          (way > 0 ? nodes_.last : nodes_.first) = Nodes::origin + way * k;
+          if (!(there > highest - negligible)) break;
+        }
+      }
+      if (!std::isfinite(highest)) return {};
+      if (const auto sums = summed()) return sums;
+    }
+    return {};
+  }
+
+  static constexpr std::size_t terms = 14;
+
+  // Of -log(1 - p + p exp(d)) = -log(1 + exp(u + d)) + log(1 + exp(u)), p = 1/(1 + exp(-u)): each
+  // derivative is a polynomial in p, as dp/dd = p (1 - p).
+  static std::array<double, terms> series(double p) {
+    std::array<double, terms> c{};
+    const auto& polynomials = derivatives();
+    for (std::size_t k = 0; k < terms; ++k) {
+      double value = 0;
+      for (std::size_t i = polynomials[k].size(); i-- > 0;) value = value * p + polynomials[k][i];
+      c[k] = value;
+    }
+    return c;
+  }
+  using Polynomial = std::array<double, terms + 1>;
+  static const std::array<Polynomial, terms>& derivatives() {
+    static const std::array<Polynomial, terms> all = [] {
+      std::array<Polynomial, terms> each{};
+      Polynomial now{};
+      now[1] = -1;
+      double factorial = 1;
+      for (std::size_t k = 0; k < terms; ++k) {
+        factorial *= static_cast<double>(k + 1);
+        for (std::size_t i = 0; i <= terms; ++i) each[k][i] = now[i] / factorial;
+        Polynomial next{};
+        for (std::size_t i = 1; i <= terms; ++i) {
+          next[i] += static_cast<double>(i) * now[i];
+          if (i < terms) next[i + 1] -= static_cast<double>(i) * now[i];
+        }
+        now = next;
+      }
+      return each;
+    }();
+    return all;
+  }
+
+  // None where the transform of the integrand at the nodes' frequency is not small (limit_integral.cpp).
+  std::optional<Sums> summed() const {
+    Sums sums;
+    sums.reference = *std::max_element(&nodes_.bound[nodes_.first], &nodes_.bound[nodes_.last + 1]);
+    std::array<double, 6> every_sixth{};
+    for (int i = nodes_.first, sixth = 0; i <= nodes_.last;
+         ++i, sixth = sixth == 5 ? 0 : sixth + 1) {
+      const double below = nodes_.bound[i] - sums.reference;
+      if (!(below > -negligible)) continue;
+      const double e = nodes_.step * std::exp(below), w = nodes_.w[i], z = nodes_.z[i];
+      const Share limit = OfLimit::share(w), life = OfLife::share(z);
+      const double f = e * limit.value * life.value;
+      const double dw = e * limit.slope * life.value, dz = e * limit.value * life.slope;
+      every_sixth[sixth] += f;
+      sums.mass += f;
+      sums.of_w += dw;
+      sums.of_w_w += dw * w;
+      sums.of_z += dz;
+      sums.of_z_z += dz * z;
+    }
+    if (!(sums.mass > 0)) return {};
+    const auto& [a, b, c, d, e, f] = every_sixth;
+    const double p = a + d, q = b + e, r = c + f;
+    const double half = std::abs(a - b + c - d + e - f) / sums.mass;
+    const double third =
+        std::sqrt(std::max(0.0, p * p + q * q + r * r - p * q - q * r - r * p)) / sums.mass;
+    // The integrand has no more digits than its logarithm.
+    const double noise = 1e-15 * std::abs(sums.reference);
+    if (sums.reference < -no_digits || (third <= 3e-2 + noise && half <= 1e-5 + noise)) return sums;
+    return {};
+  }
+
+  const Places& places_;
+  inline static thread_local Nodes nodes_;
+};
+
+/// Where each law is about its location, as far as it is on the line at all; else the middle.
+struct Marks {
+  std::array<Mark, 2> at{};
+  std::size_t count = 0;
+  bool narrow_life =
+      false;  // the life's law is the narrower, where the limit or the life is the usual one
+};
+Marks marks_of(const LimitedLife<double>& item, const Places& places, double at) {
+  Marks marks;
+  const auto add = [&](double share_log, double rest_log) {
+    Mark& mark = marks.at[marks.count++];
+    mark = {share_log - rest_log, share_log, rest_log, places.w({share_log, rest_log}),
+            places.z({share_log, rest_log})};
+    if (marks.count == 1)
+      marks.narrow_life =
+          places.z_slope * std::exp(share_log) > places.w_slope * std::exp(rest_log);
+    return &mark;
+  };
+  const double log_share = decade * (item.location - item.log10_reversed);
+  if (log_share < -1e-12) add(log_share, std::log(-std::expm1(log_share)))->w = 0;
+  const double log_rest = decade * (item.b * at + item.log10_a - item.log10_reversed);
+  if (log_rest < -1e-12) add(std::log(-std::expm1(log_rest)), log_rest)->z = 0;
+  if (marks.count == 0) add(-std::log(2.0), -std::log(2.0));
+  return marks;
+}
+
+template <Role of_limit, Role of_life, bool by_rest>
+std::optional<Sums> integral(const LimitedLife<double>& item, const Places& places,
+                             const Marks& marks) {
+  constexpr auto normal = StandardLaw::normal, extreme = StandardLaw::smallest_extreme_value;
+  const std::span<const Mark> at(marks.at.data(), marks.count);
+  const auto by = [&]<StandardLaw limit, StandardLaw life>() {
+    return Lattice<Factor<limit, of_limit>, Factor<life, of_life>, by_rest>(places)(
+        at, limit == extreme || life == extreme);
+  };
+  if (item.limit == normal) {
+    if (item.life == normal) return by.template operator()<normal, normal>();
+    if (item.life == extreme) return by.template operator()<normal, extreme>();
+  } else if (item.limit == extreme) {
+    if (item.life == normal) return by.template operator()<extreme, normal>();
+    if (item.life == extreme) return by.template operator()<extreme, extreme>();
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<LimitedLifeSlopes> on_lattice(const LimitedLife<double>& item, Outcome outcome,
+                                            double at) {
+  if (outcome == Outcome::interval || !(item.b < 0)) return {};
+  const double by_log10_s = 1 / item.scale, by_y = 1 / item.sigma, by_b = 1 / item.b;
+  const double longest = (item.log10_reversed - item.log10_a) * by_b;  // of an item without limit
+  const Places places{(item.log10_reversed - item.location) * by_log10_s, by_log10_s / decade,
+                      (at - longest) * by_y, -by_b * by_y / decade};
+  const Marks marks = marks_of(item, places, at);
+  std::optional<Sums> found;
+  bool dense_limit = true;
+  double log_factor = 0;
+  if (outcome == Outcome::failure) {
+    found = integral<Role::density, Role::density, true>(item, places, marks);
+    log_factor = std::log(places.w_slope * by_y);
+  } else {
+    dense_limit = !marks.narrow_life;
+    const bool runout = outcome == Outcome::runout;
+    if (dense_limit) {
+      found = runout ? integral<Role::density, Role::above, true>(item, places, marks)
+                     : integral<Role::density, Role::below, true>(item, places, marks);
+    } else {
+      found = runout ? integral<Role::above, Role::density, false>(item, places, marks)
+                     : integral<Role::below, Role::density, false>(item, places, marks);
+    }
+    log_factor = std::log(dense_limit ? places.w_slope : places.z_slope);
+  }
+  if (!found) return {};
+  const Sums& sums = *found;
+  LimitedLifeSlopes y;
+  y.value = std::log(sums.mass) + sums.reference + log_factor;
+  const double of_w = sums.of_w / sums.mass, of_z = sums.of_z / sums.mass,
+               of_z_z = sums.of_z_z / sums.mass;
+  y.by_log10_reversed = of_w * by_log10_s - of_z * by_b * by_y;
+  y.by_location = -of_w * by_log10_s;
+  y.by_scale = -sums.of_w_w / sums.mass * by_log10_s;
+  y.by_log10_a = of_z * by_b * by_y;
+  y.by_sigma = -of_z_z * by_y;
+  // z = (at - center)/sigma, and the center falls with b by center/b.
+  y.by_b = (of_z * at * by_y - of_z_z) * by_b;
+  if (dense_limit) y.by_scale -= by_log10_s;
+  if (outcome == Outcome::failure) y.by_sigma -= by_y;
+  if (!dense_limit) {
+    y.by_sigma -= by_y;
+    y.by_b -= by_b;
+  }
+  if (outcome != Outcome::runout) return y;
+
+  // Those whose limit the stress does not reach, or the life of items without one.
+  const double place = dense_limit ? places.w0 : places.z0;
+  const ValueAndSlope safe = log_survival_and_slope(dense_limit ? item.limit : item.life, place);
+  const double larger = std::max(y.value, safe.value), smaller = std::min(y.value, safe.value);
+  const double all = larger + std::log1p(std::exp(smaller - larger));
+  const double kept = std::exp(y.value - all), spared = std::exp(safe.value - all);
+  for (double* slope :
+       {&y.by_log10_reversed, &y.by_log10_a, &y.by_b, &y.by_sigma, &y.by_location, &y.by_scale}) {
+    *slope *= kept;
+  }
+  if (spared > 0 && dense_limit) {
+    y.by_log10_reversed += spared * safe.slope * by_log10_s;
+    y.by_location -= spared * safe.slope * by_log10_s;
+    y.by_scale -= spared * safe.slope * place * by_log10_s;
+  } else if (spared > 0) {
+    y.by_log10_reversed -= spared * safe.slope * by_b * by_y;
+    y.by_log10_a += spared * safe.slope * by_b * by_y;
+    y.by_b += spared * safe.slope * longest * by_b * by_y;
+    y.by_sigma -= spared * safe.slope * place * by_y;
+  }
+  y.value = all;
+  return y;
+}
+
+}  // namespace wearwell::fatigue

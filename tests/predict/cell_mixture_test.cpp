@@ -1,0 +1,97 @@
+// Distributions read off the nodes of a rule, against the laws that they are nodes of.
+#include "wearwell/predict/cell_mixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace wearwell {
+namespace {
+
+double normal_cdf_of(double z) {
+  return 0.5 * std::erfc(-z / std::sqrt(2.0));
+}
+
+struct Nodes {
+  std::vector<double> z, share;
+  explicit Nodes(double step, double shift = 0) {
+    double sum = 0;
+    for (double x = -8 + shift; x <= 8; x += step) {
+      z.push_back(x);
+      share.push_back(std::exp(-0.5 * x * x));
+      sum += share.back();
+    }
+    for (double& each : share) each /= sum;
+  }
+  std::vector<double> values(double scatter) const {
+    std::vector<double> all;
+    for (const double each : z) all.push_back(std::exp(scatter * each));
+    return all;
+  }
+};
+
+// The z that the lognormal law gives the quantile for p, less the right one.
+double off(const CellMixture& mixture, double scatter, double p) {
+  const double z = std::log(mixture.quantile(p)) / scatter;
+  return (normal_cdf_of(z) - p) / std::exp(-0.5 * z * z) * std::sqrt(2 * M_PI);
+}
+
+TEST(CurveOfNodes, HasTheQuantilesOfItsLaw) {
+  for (const double scatter : {0.2, -0.2, 1.0}) {
+    for (const double shift : {0.0, 0.1}) {
+      const Nodes nodes(0.25, shift);
+      CellMixture mixture;
+      mixture.add_curve(0.7, nodes.share, nodes.values(scatter));
+      EXPECT_NEAR(mixture.mass(), 0.7, 1e-12);
+      for (const double p : {0.001, 0.01, 0.05, 0.3, 0.5, 0.95, 0.99}) {
+        EXPECT_NEAR(off(mixture, std::abs(scatter), p), 0, scatter == 1 ? 5e-4 : 1.5e-4)
+            << scatter << ' ' << shift << ' ' << p;
+      }
+    }
+  }
+}
+
+// Cells spread evenly between the nodes are wider by a twelfth of the step's square and more: this test can fail.
+TEST(CurveOfNodes, EvenCellsWouldNotHaveThem) {
+  const Nodes nodes(0.25);
+  const std::vector<double> values = nodes.values(0.2);
+  CellMixture even;
+  for (std::size_t i = 0; i + 1 < nodes.z.size(); ++i) {
+    even.add(normal_cdf_of(nodes.z[i + 1]) - normal_cdf_of(nodes.z[i]), values[i], values[i + 1]);
+  }
+  EXPECT_LT(off(even, 0.2, 0.01), -2e-3);
+}
+
+TEST(CurveOfNodes, WhatLiesBeyondIsTheLawBeyond) {
+  const Nodes nodes(0.25);
+  const std::vector<double> values = nodes.values(0.2);
+  for (const double from : {0.83, 1.02, 1.3}) {
+    CellMixture mixture;
+    const double beyond = 1 - normal_cdf_of(std::log(from) / 0.2);
+    EXPECT_NEAR(mixture.add_curve(1, nodes.share, values, from), beyond, 1e-5);
+    EXPECT_NEAR(mixture.mass(), beyond, 1e-5);
+    for (const double p : {0.01, 0.05, 0.5, 0.95}) {
+      const double cdf = normal_cdf_of(std::log(mixture.quantile(p)) / 0.2);
+      EXPECT_NEAR((cdf - (1 - beyond)) / beyond, p, 5e-5) << from << ' ' << p;
+    }
+  }
+}
+
+TEST(CurveOfNodes, WhatNeverComesNeverComes) {
+  const Nodes nodes(0.25);
+  std::vector<double> values = nodes.values(0.2);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (nodes.z[i] > 1) values[i] = std::numeric_limits<double>::infinity();
+  }
+  CellMixture mixture;
+  mixture.add_curve(1, nodes.share, values);
+  EXPECT_NEAR(std::log(mixture.quantile(0.5)) / 0.2, 0, 1e-3);
+  EXPECT_EQ(mixture.quantile(0.9), std::numeric_limits<double>::infinity());
+  values[3] = std::nan("");
+  mixture.add_curve(1, nodes.share, values);
+  EXPECT_TRUE(std::isnan(mixture.quantile(0.5)));
+}
+
+}  // namespace
+}  // namespace wearwell
