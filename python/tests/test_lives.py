@@ -192,6 +192,13 @@ def test_program_and_python_agree(fit, wearwell, tmp_path):
     unit = [p for p in said["predictions"] if p.get("mean_of") == "joint J5"]
     row = fit.predict({"joint": ["J5"], "F": [200.0], "s": [6e4]}, kind="unit", along="s").loc[0]
     assert (unit[0]["exact"]["mean"], unit[0]["exact"]["pi95"]) == (row["mean"], row["upper"])
+    # Every row of a table says whose it is.
+    written = pd.read_csv(tmp_path / "results" / "predictions.csv", float_precision="round_trip")
+    assert written["of"].tolist() == ["new joint", "joint J5"] and written["mean"][1] == row["mean"]
+    shown = pd.read_csv(tmp_path / "results" / "tables" / "predictions.csv", float_precision="round_trip")
+    assert shown["Of"].tolist() == ["median joint, readings of a new joint", "joint J5"]
+    again = ww.fit(tmp_path / "study.toml", seed=1, method="exact", draws=500, report=False)
+    assert "joint J5 5 %..95 %  joint J5 reads 5 %..95 %" in str(again)
 
 
 @pytest.fixture(scope="module")
