@@ -252,5 +252,29 @@ TEST(ElpdDifference, ByHand) {
   EXPECT_THROW(elpd_difference(a, std::span(b).first(2)), std::invalid_argument);
 }
 
+// Beyond 5e7 numbers terms are looked at block by block, each as it is among few.
+TEST(PsisLoo, ManyObservationsAreLookedAtInBlocks) {
+  std::vector<double> mu;
+  Rng rng(5, 0);
+  for (int i = 0; i < 400; ++i) mu.push_back(0.1 * rng.normal());
+  const auto with = [&](std::size_t terms) {
+    std::vector<double> y;
+    std::vector<int> counts;
+    for (std::size_t i = 0; i < terms; ++i) {
+      y.push_back(0.3 * static_cast<double>(i % 7));
+      counts.push_back(static_cast<int>(1 + i % 7));
+    }
+    return psis_loo(NormalMean(y, counts), draws_of(mu));
+  };
+  const Loo few = with(1400), many = with(140'000);
+  ASSERT_EQ(many.terms.size(), 140'000u);
+  for (std::size_t i = 0; i < many.terms.size(); i += 997) {
+    EXPECT_EQ(many.terms[i].elpd, few.terms[i % 7].elpd) << i;
+    EXPECT_EQ(many.terms[i].khat, few.terms[i % 7].khat) << i;
+    EXPECT_EQ(many.terms[i].count, few.terms[i % 7].count) << i;
+  }
+  EXPECT_NEAR(many.error / few.error, 100, 1e-9);
+}
+
 }  // namespace
 }  // namespace wearwell

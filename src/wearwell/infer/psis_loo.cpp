@@ -18,7 +18,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Numbers held at once: draws are thinned beyond.
+// Numbers held at once: of few observations draws are thinned beyond, many are looked at block by block.
 constexpr double most_numbers = 5e7;
 
 // Of nodes and observations: beyond, draws serve instead of nodes, and fewer of them.
@@ -171,28 +171,41 @@ std::optional<Refitted> fitted_without(const Posterior& posterior, const Whiteni
   return Refitted{elpd, scores ? std::min(1.0, 2 * std::min(below, above)) : 1, exact.error};
 }
 
-// Log densities of the terms at draws: a column a term.
-Eigen::MatrixXd log_densities(const LogDensity& likelihood, const WeightedDraws& draws,
-                              std::size_t terms) {
-  // Each of many observations moves the posterior so little that some hundred draws tell how it is predicted.
-  const double rows = static_cast<double>(draws.values.rows()),
-               all = rows * static_cast<double>(terms);
+// Every so manieth draw is used. Each of many observations moves the posterior so little that some hundred draws
+// tell how it is predicted.
+Eigen::Index thinning(const WeightedDraws& draws, std::size_t terms) {
+  const double all = static_cast<double>(draws.values.rows()) * static_cast<double>(terms);
   const double wanted = terms < many_terms
                             ? most_numbers
                             : std::max(most_at_draws, fewest_draws * static_cast<double>(terms));
-  const auto thin = static_cast<Eigen::Index>(std::ceil(all / wanted));
-  const Eigen::Index used = (draws.values.rows() + thin - 1) / thin;
-  Eigen::MatrixXd log_density(used, static_cast<Eigen::Index>(terms));
-  tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, used, 64), [&](const auto& part) {
-    for (Eigen::Index row = part.begin(); row != part.end(); ++row) {
-      const Eigen::VectorXd x = draws.values.row(row * thin);
-      const std::vector<double> each = likelihood.pointwise(view(x));
-      log_density.row(row) =
-          Eigen::Map<const Eigen::RowVectorXd>(each.data(), static_cast<Eigen::Index>(each.size()));
-    }
-  });
-  return log_density;
+  return static_cast<Eigen::Index>(std::ceil(all / wanted));
 }
+
+// Some terms at all draws that are used: log densities, a column a term, and scores, by draw.
+struct Block {
+  Eigen::MatrixXd log_density;
+  std::vector<std::vector<NormalScore>> scores;
+
+  // The likelihood gives all its terms at once, and so does what scores them: each block asks for them anew.
+  Block(const LogDensity& likelihood, const WeightedDraws& draws, Eigen::Index thin,
+        std::size_t first, std::size_t count, const Scores* scores_of) {
+    const Eigen::Index used = (draws.values.rows() + thin - 1) / thin;
+    const auto columns = static_cast<Eigen::Index>(count);
+    log_density.resize(used, columns);
+    scores.resize(scores_of ? static_cast<std::size_t>(used) : 0);
+    tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, used, 64), [&](const auto& part) {
+      for (Eigen::Index row = part.begin(); row != part.end(); ++row) {
+        const Eigen::VectorXd x = draws.values.row(row * thin);
+        const std::vector<double> each = likelihood.pointwise(view(x));
+        log_density.row(row) = Eigen::Map<const Eigen::RowVectorXd>(each.data() + first, columns);
+        if (!scores_of) continue;
+        const std::vector<NormalScore> z = (*scores_of)(x.data());
+        const auto begin = z.begin() + static_cast<std::ptrdiff_t>(first);
+        scores[static_cast<std::size_t>(row)].assign(begin, begin + columns);
+      }
+    });
+  }
+};
 
 // Draws that count for fewer independent ones, on the average over the bulk of all parameters.
 double efficiency_of(const Fit& fit) {
@@ -209,46 +222,50 @@ double efficiency_of(const Fit& fit) {
 Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double efficiency,
              const Scores* scores) {
   Loo loo;
-  const Eigen::VectorXd first = draws.values.row(0);
-  const std::size_t terms = likelihood.pointwise(view(first)).size();
+  const Eigen::VectorXd any = draws.values.row(0);
+  const std::size_t terms = likelihood.pointwise(view(any)).size();
   if (terms == 0) return loo;
   const std::vector<int> counts = likelihood.pointwise_counts();
-  Eigen::MatrixXd columns = log_densities(likelihood, draws, terms);
-  const Eigen::Index used = columns.rows();
-  const Eigen::Index thin = (draws.values.rows() + used - 1) / used;
-  std::vector<std::vector<NormalScore>> z(scores ? static_cast<std::size_t>(used) : 0);
-  tbb::parallel_for(std::size_t{0}, z.size(), [&](std::size_t s) {
-    const Eigen::VectorXd x = draws.values.row(static_cast<Eigen::Index>(s) * thin);
-    z[s] = (*scores)(x.data());
-  });
+  const Eigen::Index thin = thinning(draws, terms);
+  const Eigen::Index used = (draws.values.rows() + thin - 1) / thin;
   loo.threshold = khat_threshold(static_cast<double>(used));
   loo.terms.resize(terms);
-  tbb::parallel_for(std::size_t{0}, terms, [&](std::size_t i) {
-    auto column = columns.col(static_cast<Eigen::Index>(i));
-    std::vector<double> weights(column.begin(), column.end());
-    for (double& each : weights) each = -each;
-    LooTerm& term = loo.terms[i];
-    term.khat = pareto_smooth(weights);
-    const std::vector<double> log_p(column.begin(), column.end());
-    term.lpd = log_sum_exp(log_p) - std::log(static_cast<double>(used));
-    const double total = log_sum_exp(weights);
-    std::vector<double> with = weights;
-    for (std::size_t s = 0; s < with.size(); ++s) with[s] += log_p[s];
-    term.elpd = log_sum_exp(with) - total;
-    if (!counts.empty()) term.count = counts[i];
-    double below = 0, above = 0;
-    for (std::size_t s = 0; s < weights.size(); ++s) {
-      const double weight = std::exp(weights[s] - total);
-      // What this draw adds to the error of elpd, to the first order.
-      column[static_cast<Eigen::Index>(s)] =
-          term.count * weight * (std::exp(log_p[s] - term.elpd) - 1);
-      if (!scores) continue;
-      below += weight * normal_cdf(z[s][i].high);
-      above += weight * normal_cdf(-z[s][i].low);
-    }
-    if (scores) term.tail = std::min(1.0, 2 * std::min(below, above));
-  });
-  loo.error = std::sqrt(columns.rowwise().sum().squaredNorm() / efficiency);
+  const std::size_t most = terms < many_terms
+                               ? terms
+                               : static_cast<std::size_t>(most_numbers / static_cast<double>(used));
+  Eigen::VectorXd errors = Eigen::VectorXd::Zero(used);
+  for (std::size_t first = 0; first < terms; first += most) {
+    const std::size_t count = std::min(most, terms - first);
+    Block block(likelihood, draws, thin, first, count, scores);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      auto column = block.log_density.col(static_cast<Eigen::Index>(i));
+      std::vector<double> weights(column.begin(), column.end());
+      for (double& each : weights) each = -each;
+      LooTerm& term = loo.terms[first + i];
+      term.khat = pareto_smooth(weights);
+      const std::vector<double> log_p(column.begin(), column.end());
+      term.lpd = log_sum_exp(log_p) - std::log(static_cast<double>(used));
+      const double total = log_sum_exp(weights);
+      std::vector<double> with = weights;
+      for (std::size_t s = 0; s < with.size(); ++s) with[s] += log_p[s];
+      term.elpd = log_sum_exp(with) - total;
+      if (!counts.empty()) term.count = counts[first + i];
+      double below = 0, above = 0;
+      for (std::size_t s = 0; s < weights.size(); ++s) {
+        const double weight = std::exp(weights[s] - total);
+        // What this draw adds to the error of elpd, to the first order.
+        column[static_cast<Eigen::Index>(s)] =
+            term.count * weight * (std::exp(log_p[s] - term.elpd) - 1);
+        if (!scores) continue;
+        below += weight * normal_cdf(block.scores[s][i].high);
+        above += weight * normal_cdf(-block.scores[s][i].low);
+      }
+      if (scores) term.tail = std::min(1.0, 2 * std::min(below, above));
+    });
+    const Eigen::VectorXd sums = block.log_density.rowwise().sum();
+    errors = first == 0 ? sums : Eigen::VectorXd(errors + sums);
+  }
+  loo.error = std::sqrt(errors.squaredNorm() / efficiency);
   return loo;
 }
 
