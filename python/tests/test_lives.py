@@ -192,6 +192,12 @@ def test_program_and_python_agree(fit, wearwell, tmp_path):
     unit = [p for p in said["predictions"] if p.get("mean_of") == "joint J5"]
     row = fit.predict({"joint": ["J5"], "F": [200.0], "s": [6e4]}, kind="unit", along="s").loc[0]
     assert (unit[0]["exact"]["mean"], unit[0]["exact"]["pi95"]) == (row["mean"], row["upper"])
+    # Every row of a table says whose it is.
+    written = pd.read_csv(tmp_path / "results" / "predictions.csv", float_precision="round_trip")
+    assert written["of"].tolist() == ["new joint", "joint J5"] and written["mean"][1] == row["mean"]
+    again = ww.fit(tmp_path / "study.toml", seed=1, method="exact", draws=500)
+    assert again.tables["predictions"]["Of"].tolist() == ["median joint, readings of a new joint", "joint J5"]
+    assert "joint J5 5 %..95 %  joint J5 reads 5 %..95 %" in str(again)
 
 
 @pytest.fixture(scope="module")
@@ -252,6 +258,6 @@ def test_weibull_lives_given_that_they_were_reached():
 def test_studies_of_other_models_are_refused_in_words():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
-        clutch = ww.fit(os.path.join(source, "examples", "clutch", "study.toml"), report=False)
-    with pytest.raises(ValueError, match="of the model clutch-wear"):
-        clutch.life(limit="1 mm")
+        stairs = ww.fit(os.path.join(source, "examples", "staircase", "study.toml"), seed=1, method="exact", draws=100, report=False)
+    with pytest.raises(ValueError, match="of the model staircase"):
+        stairs.life(limit="1 mm")

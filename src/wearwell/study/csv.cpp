@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "wearwell/input/csv_reader.h"
@@ -11,12 +12,13 @@ namespace wearwell {
 namespace {
 
 void add_predictions(std::string& out, std::size_t rows,
-                     const std::vector<PredictionSummary>& predictions) {
+                     const std::vector<PredictionSummary>& predictions, bool of_items) {
   for (const PredictionSummary& p : predictions) {
     const Prediction& b = p.best();
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{}\n", rows, p.at,
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{}{}\n", rows, p.at,
                    p.quantity, p.unit, b.mean, b.ci05, b.ci95, b.pi05, b.pi95,
-                   p.measured ? fmt::format("{}", *p.measured) : "");
+                   p.measured ? fmt::format("{}", *p.measured) : "",
+                   of_items ? "," + csv_cell(p.measured_of) : "");
   }
 }
 
@@ -61,10 +63,15 @@ std::string predictions_csv(const PosteriorSummary& result) {
     const PredictionSummary& first = result.predictions.front();
     at = csv_cell(present::heading(first.at_name, first.at_unit.empty() ? "1" : first.at_unit));
   }
-  std::string out = fmt::format("rows,{},quantity,unit,mean,ci05,ci95,pi05,pi95,measured\n", at);
+  // Where some are of items that were seen, each row says whose measurement it is.
+  const bool of_items = std::any_of(
+      result.predictions.begin(), result.predictions.end(),
+      [](const auto& p) { return !p.measured_of.empty() && p.mean_of == p.measured_of; });
+  std::string out = fmt::format("rows,{},quantity,unit,mean,ci05,ci95,pi05,pi95,measured{}\n", at,
+                                of_items ? ",of" : "");
   for (const StageSummary& stage : result.stages)
-    add_predictions(out, stage.rows, stage.predictions);
-  if (result.stages.empty()) add_predictions(out, result.data_rows, result.predictions);
+    add_predictions(out, stage.rows, stage.predictions, of_items);
+  if (result.stages.empty()) add_predictions(out, result.data_rows, result.predictions, of_items);
   return out;
 }
 

@@ -107,7 +107,7 @@ std::string study_in_words(const PosteriorStudy& study) {
   }
   for (const QuantityRequest& q : quantities) {
     out += fmt::format("  {} [{}] of a {} {}{}\n", q.name, q.unit.text, q.of, q.at,
-                       q.credible_level
+                       q.credible_level && !q.name.ends_with("remaining life")
                            ? fmt::format("; at least, with {:.4g} % confidence (credible), "
                                          "and of the next one",
                                          100 * *q.credible_level)

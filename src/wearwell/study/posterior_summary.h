@@ -58,6 +58,10 @@ struct PredictionSummary {
   /// What follows the number in a sentence: "at 5000 cycles", "at 5000 h".
   const std::string& at_word() const { return at_unit.empty() ? at_name : at_unit; }
   const Prediction& best() const { return exact ? *exact : drawn; }
+  /// Of the same thing and of the same items, so that one table can hold both.
+  bool is_like(const PredictionSummary& other) const {
+    return quantity == other.quantity && unit == other.unit && mean_of == other.mean_of;
+  }
 };
 
 /// A quantity derived from the parameters: a pressure, a length, a life.

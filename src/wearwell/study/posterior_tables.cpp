@@ -62,7 +62,27 @@ Format life_format(const std::string& unit, int digits) {
   return is_count(unit) ? present::life(digits) : present::digits(digits);
 }
 
+// Where not all are of one thing and of the same items, each row says of what it is.
+Table mixed_prediction_table(const PosteriorSummary& result) {
+  PredictionSummary plain = result.predictions.front();
+  plain.quantity = "Mean";
+  plain.unit = "1";
+  plain.mean_of.clear();
+  Table table = prediction_rows("predictions", "Predictions", plain);
+  table.columns.insert(table.columns.begin() + 2, {{"Quantity"}, {"Unit"}, {"Of"}});
+  for (const PredictionSummary& p : result.predictions) {
+    add_row(table, result.data_rows, p);
+    const std::string next = p.mean_of == p.measured_of ? "" : ", readings of a " + p.measured_of;
+    std::vector<Cell>& cells = table.rows.back();
+    cells.insert(cells.begin() + 2, {Cell(p.quantity), Cell(p.unit), Cell(p.mean_of + next)});
+  }
+  return table;
+}
+
 Table prediction_table(const PosteriorSummary& result) {
+  const auto& all = result.predictions;
+  if (!std::all_of(all.begin(), all.end(), [&](const auto& p) { return p.is_like(all.front()); }))
+    return mixed_prediction_table(result);
   Table table = prediction_rows("predictions", "Predictions", result.predictions.front());
   for (const PredictionSummary& p : result.predictions) add_row(table, result.data_rows, p);
   return table;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "wearwell/base/printable.h"
 #include "wearwell/present/html.h"
@@ -126,7 +127,7 @@ std::string histogram_lines(const PosteriorSummary& result) {
   return out;
 }
 
-std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
+std::string prediction_rows(std::span<const PredictionSummary> predictions) {
   const PredictionSummary& first = predictions.front();
   std::vector<std::vector<std::string>> rows = {
       {printable_heading(first.at_name, first.at_unit.empty() ? "1" : first.at_unit),
@@ -142,6 +143,16 @@ std::string prediction_table(const std::vector<PredictionSummary>& predictions) 
                     each.measured ? plain_number(*each.measured) : "-"});
   }
   return text_table(rows);
+}
+
+// One table for each thing that is measured, and for each item that was seen.
+std::string prediction_table(const std::vector<PredictionSummary>& predictions) {
+  std::string tables;
+  for (std::size_t begin = 0, end = 0; begin < predictions.size(); begin = end) {
+    while (end < predictions.size() && predictions[end].is_like(predictions[begin])) ++end;
+    tables += prediction_rows(std::span(predictions).subspan(begin, end - begin));
+  }
+  return tables;
 }
 
 std::string b_value(const QuantitySummary& each, double x) {
@@ -181,10 +192,12 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
 std::string bound_table(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows;
   std::string above, level;
+  bool seen = false;
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (!q.predictive) continue;
     level = fmt::format("{:.4g} %", 100 * *each.credible_level);
+    seen |= each.name.ends_with("remaining life");
     if (rows.empty()) {
       rows.push_back({"", "at least, " + level, "5 %", "50 %", "95 %", "next one"});
     }
@@ -208,7 +221,9 @@ std::string bound_table(const std::vector<QuantitySummary>& quantities) {
              "next one: what the next item has with just that chance, all that is unknown "
              "averaged in (predictive). It has no margin for few tests: it is not the number to "
              "design with.",
-             2, 4);
+             2, 4) +
+         (seen ? wrapped("Of an item that was seen both are of its own remaining life.", 2, 4)
+               : "");
 }
 
 // How many, and which not.
