@@ -283,7 +283,8 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
   blocks.push_back({curves_table(data, points)});
   added.text += text_of(data, points, why);
   added.body["design_curves"] = json_of(data, points, standard, why);
-  const bool has_slope = law.curve == fatigue::SnCurve::basquin || law.curve == fatigue::SnCurve::knee;
+  const bool has_slope =
+      law.curve == fatigue::SnCurve::basquin || law.curve == fatigue::SnCurve::knee;
   if (!law.logarithmic() || !has_slope || law.scatter_grows) return added;
   const ScatterRange t = scatter_range(law, draws);
   present::Table table{"scatter",
