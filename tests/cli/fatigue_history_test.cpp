@@ -161,6 +161,36 @@ TEST_F(FatigueLife, OfConstantAmplitudeIsTheStudys) {
   EXPECT_EQ(life["unit"], "h");
 }
 
+// The same of curves with a form of their own, whose results are read back with it.
+TEST_F(FatigueHistory, ConstantAmplitudeAlongEveryCurve) {
+  write("cycles.csv", "amplitude [MPa],cycles\n400,1000\n");
+  fs::copy_file(example + "tests.csv", folder() / "tests.csv");
+  for (const std::string law :
+       {"curve = \"knee\"",
+        "curve = \"knee\"\nsecond_slope = \"infinite\"\nfatigue_limit = \"random\"",
+        "curve = \"stromeyer\"", "curve = \"bastenaire\"", "scatter = \"grows\"",
+        "fatigue_limit = \"random\""}) {
+    write("study.toml",
+          "model = \"sn\"\n[data]\nfile = \"tests.csv\"\n[data.columns]\n"
+          "alternating_stress = \"amplitude\"\nlife = \"cycles\"\nstatus = \"status\"\n"
+          "[law]\nmean_stress = \"none\"\n" +
+              law +
+              "\n[predict]\nb_lives = [10]\n[predict.stress]\np = { alternating_stress = \"400 "
+              "MPa\" }\n");
+    const CommandResult fit = run_command(
+        "cd '" + folder().string() +
+        "'; rm -rf r; '" WEARWELL_BINARY
+        "' fit study.toml --method nuts --draws 500 --warmup 500 --no-report --json -o r");
+    ASSERT_LE(fit.exit_code, 1) << fit.err;  // so few draws may not be trusted
+    const json expected = json::parse(fit.out)["quantities"][1];
+    const json life = json::parse(run("life r cycles.csv --damage-sum 1 --json").out);
+    const json& b10 = life["lives"][1];
+    for (const char* key : {"q05", "q50", "q95", "bound", "predictive"})
+      EXPECT_NEAR(1000 * b10[key].get<double>() / expected[key].get<double>(), 1, 0.02)
+          << law << " " << key;
+  }
+}
+
 TEST_F(FatigueLife, OfASignalAndOfItsCyclesAgree) {
   const std::string loads = "'" + example + "loads.csv'";
   const json of_signal = result("life res " + loads + " --column stress --block '350 km'");

@@ -10,9 +10,9 @@ namespace wearwell {
 
 Models all_models() {
   static const Model models[] = {
-      joint::model(),        bearing::model(),      clutch::model(), fatigue::model(),
-      fatigue::spectrum(),   fatigue::staircase(),  ownlaw::model(), ownlaw::life(),
-      ownlaw::accelerated(), ownlaw::degradation(),
+      joint::model(),      bearing::model(),       clutch::model(),       fatigue::model(),
+      fatigue::spectrum(), fatigue::strain_life(), fatigue::staircase(),  ownlaw::model(),
+      ownlaw::life(),      ownlaw::accelerated(),  ownlaw::degradation(),
   };
   return models;
 }

@@ -21,7 +21,7 @@ inline std::vector<SnLaw> bent_laws() {
       law.limit = limit;
       laws.push_back(law);
     }
-    for (const auto curve : {SnCurve::stromeyer, SnCurve::bastenaire}) {
+    for (const auto curve : {SnCurve::stromeyer, SnCurve::bastenaire, SnCurve::strain_life}) {
       SnLaw other;
       other.family = family;
       other.curve = curve;
@@ -52,6 +52,9 @@ inline std::vector<double> plausible_bent(const SnLaw& law, double shift) {
       break;
     case SnCurve::stromeyer:
       x = {9.6 + 0.05 * shift, -0.25 - 0.01 * shift, 8.1 + 0.03 * shift};
+      break;
+    case SnCurve::strain_life:
+      x = {9 + 0.05 * shift, -0.09 - 0.01 * shift, 11.3 + 0.1 * shift, -0.6 - 0.02 * shift};
       break;
     case SnCurve::bastenaire:
       x = {5.9 + 0.1 * shift, 8.3 + 0.1 * shift, 0.8 + 0.1 * shift, 8.1 + 0.03 * shift};

@@ -103,6 +103,16 @@ TEST(SnCurve, BastenairesFormula) {
   EXPECT_EQ(law.log10_life(x, 8.34), INFINITY);
 }
 
+TEST(SnCurve, TheTwoLinesOfAStrainLifeCurveAddUp) {
+  const SnLaw law = law_of(SnCurve::strain_life);
+  const double x[] = {std::log10(0.0046), -0.09, std::log10(0.6), -0.59};
+  for (const double strain : {0.1, 0.02, 0.005, 0.002, 0.0008}) {
+    const double reversals = 2 * std::pow(10, law.log10_life(x, std::log10(strain)));
+    EXPECT_NEAR((0.0046 * std::pow(reversals, -0.09) + 0.6 * std::pow(reversals, -0.59)) / strain,
+                1, 1e-12);
+  }
+}
+
 TEST(SnCurve, BelowALimitOfAllTestsRunOutAndNoneFails) {
   for (const SnCurve curve : {SnCurve::stromeyer, SnCurve::bastenaire}) {
     const SnLaw law = law_of(curve);
@@ -186,6 +196,35 @@ class CurveStudy : public ScratchTest {
     return "";
   }
 };
+
+// What drives the lives need not be a stress; what is stated beside it must have its dimension.
+TEST_F(CurveStudy, DriversOfOtherDimensions) {
+  const auto study = [&](const std::string& unit, const std::string& more) {
+    write("d.csv", "s,n\n400,1e5\n300,8e5\n350,3e5\n");
+    const auto file =
+        write("study.toml",
+              "model = \"sn\"\n[data]\nfile = \"d.csv\"\n[data.columns]\nalternating_stress "
+              "= { column = \"s\", unit = \"" +
+                  unit + "\" }\nlife = \"n\"\n[law]\nmean_stress = \"none\"\n" + more);
+    try {
+      return read_posterior_study(file).parameters[0].unit.text;
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string asked = "[predict.stress]\np = { alternating_stress = \"";
+  EXPECT_EQ(study("MPa", ""), "log10(MPa)");
+  EXPECT_EQ(study("kN", asked + "320 N\" }\n"), "log10(kN)");
+  EXPECT_EQ(study("um/m", asked + "0.03 %\" }\n"), "1");
+  EXPECT_EQ(study("um/m", "curve = \"strain-life\"\n"), "1");
+  EXPECT_NE(study("kN", asked + "320 MPa\" }\n").find("MPa"), std::string::npos);
+  EXPECT_NE(
+      study("um/m", "[prior]\nlog10_a = { law = \"normal\", mean = \"3 log10(MPa)\", sd = 1 }\n")
+          .find("log10(MPa)"),
+      std::string::npos);
+  EXPECT_NE(study("MPa", "curve = \"strain-life\"\n").find("needs strains"), std::string::npos);
+  EXPECT_NE(study("s", "").find("'s'"), std::string::npos);
+}
 
 TEST_F(CurveStudy, FormsThatDoNotGoTogetherAreRefusedWithWhatDoes) {
   const auto has = [](const std::string& text, const std::string& part) {

@@ -95,19 +95,63 @@ Table curves_table(const SnData& data, const std::vector<At>& points) {
                {"alternating stress", data.stress_unit.text},
                {"life", unit},
                {"ISO 12107", unit},
-               {"Owen", unit}}};
+               {"Owen", unit},
+               {"ASTM E739, band of the median", unit}}};
   const auto life = [&](double cycles) { return from_si(data.life_unit, cycles); };
   const auto& levels = design_levels();
   for (std::size_t l = 0; l < levels.size(); ++l) {
     for (const At& at : points) {
-      table.rows.push_back(
-          {levels[l].name, from_si(data.stress_unit, at.stress), life(at.posterior[l]), {}, {}});
+      table.rows.push_back({levels[l].name,
+                            from_si(data.stress_unit, at.stress),
+                            life(at.posterior[l]),
+                            {},
+                            {},
+                            {}});
       if (at.iso.empty()) continue;
       table.rows.back()[3] = life(at.iso[l]);
       table.rows.back()[4] = life(at.owen[l]);
     }
   }
+  for (const At& at : points) {
+    table.rows.push_back(
+        {"median", from_si(data.stress_unit, at.stress), life(at.median), {}, {}, {}});
+    if (at.band > 0) table.rows.back()[5] = life(at.band);
+  }
   return table;
+}
+
+// ASTM E739's line log10 N = A + B log10 S in the table's own units.
+struct OwnUnits {
+  double a = 0, b = 0, sd = 0;
+};
+OwnUnits e739_line(const SnData& data, const fatigue::FittedLine& line) {
+  const double shift = std::log10(data.stress_unit.scale);
+  return {line.intercept + line.slope * shift - std::log10(data.life_unit.scale), line.slope,
+          line.sd};
+}
+
+// What E739 tells of the same tests, and the closed form of Owen's and ISO's curves.
+std::string e739_in_words(const SnData& data, const std::vector<At>& points,
+                          const StandardFit& standard) {
+  if (!standard.line) return "";
+  const OwnUnits e739 = e739_line(data, *standard.line);
+  const auto life = [&](const At& at) {
+    return fmt::format("{} at {}", plain_number(from_si(data.life_unit, at.band)),
+                       with_unit(data, at.stress));
+  };
+  std::string text = fmt::format(
+      "ASTM E739: log10 N = {:.4f} {} {:.4f} log10 S, standard deviation {:.4f} (N in {}, S in "
+      "{}); its 95 "
+      "% band of the median begins at {}",
+      e739.a, e739.b < 0 ? "-" : "+", std::abs(e739.b), e739.sd, data.life_unit.text,
+      data.stress_unit.text, life(points.front()));
+  if (points.size() > 1) text += fmt::format(" and {}", life(points.back()));
+  return text +
+         fmt::format(
+             ". ISO 12107 lies k sd sqrt(1 + 1/n + (x - {0:.4f})^2/{1:.4g}) below that line, x = "
+             "log10 S, n = {2:.0f}; Owen k sd with the k of 1/n + (x - {0:.4f})^2/{1:.4g}.",
+             standard.line->mean_x - std::log10(data.stress_unit.scale), standard.line->sum_xx,
+             standard.line->n);
 }
 
 std::string difference(const SnLaw& law, const StandardFit& standard) {
@@ -145,7 +189,8 @@ ScatterRange scatter_range(const SnLaw& law, const WeightedDraws& draws) {
           slope.quantile(0.05), slope.quantile(0.5), slope.quantile(0.95)};
 }
 
-std::string text_of(const SnData& data, const std::vector<At>& points, const std::string& why) {
+std::string text_of(const SnData& data, const std::vector<At>& points, const std::string& why,
+                    const std::string& e739) {
   const auto& levels = design_levels();
   std::vector<std::vector<std::string>> rows = {{""}};
   for (const DesignLevel& level : levels) rows[0].push_back(level.name);
@@ -164,7 +209,7 @@ std::string text_of(const SnData& data, const std::vector<At>& points, const std
     add("Owen", at.owen);
   }
   return fmt::format("Design curves, life [{}]\n", data.life_unit.text) + text_table(rows) +
-         wrapped(why, 2, 4);
+         wrapped(why, 2, 4) + (e739.empty() ? "" : wrapped(e739, 2, 4));
 }
 
 nlohmann::ordered_json json_of(const SnData& data, const std::vector<At>& points,
@@ -191,15 +236,16 @@ nlohmann::ordered_json json_of(const SnData& data, const std::vector<At>& points
   }
   Json json = {{"curves", std::move(curves)}, {"why", why}};
   if (standard.line) {
-    // As ASTM E739 writes it, log10 N = A + B log10 S, in the table's own units.
-    const fatigue::FittedLine& line = *standard.line;
-    const double shift = std::log10(data.stress_unit.scale);
-    json["astm_e739"] = {
-        {"A", line.intercept + line.slope * shift - std::log10(data.life_unit.scale)},
-        {"B", line.slope},
-        {"sd", line.sd},
-        {"failures", standard.failures},
-        {"left_out", standard.left_out}};
+    const OwnUnits e739 = e739_line(data, *standard.line);
+    Json band = Json::array();
+    for (const At& at : points)
+      band.push_back({{"stress", from_si(data.stress_unit, at.stress)}, {"life", life(at.band)}});
+    json["astm_e739"] = {{"A", e739.a},
+                         {"B", e739.b},
+                         {"sd", e739.sd},
+                         {"failures", standard.failures},
+                         {"left_out", standard.left_out},
+                         {"band", std::move(band)}};
   }
   return json;
 }
@@ -274,16 +320,17 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
                                       law.integrated() ? most_draws_with_limit : most_draws);
   const StandardFit standard = standard_fit(law, data);
   const std::vector<At> points = curve_points(law, data, draws, standard);
-  const std::string why = difference(law, standard);
+  const std::string why = difference(law, standard), e739 = e739_in_words(data, points, standard);
   std::vector<present::Block>& blocks = added.blocks["predictions"];
   blocks.push_back({present::Prose{
       "Design curves: 90/90, B-basis (90 % with 95 % confidence), A-basis (99 % with 95 %) and "
       "97.7 % with 90 % (FKM's probability of survival). " +
-      why}});
+      why + " " + e739}});
   blocks.push_back({curves_table(data, points)});
-  added.text += text_of(data, points, why);
+  added.text += text_of(data, points, why, e739);
   added.body["design_curves"] = json_of(data, points, standard, why);
-  const bool has_slope = law.curve == fatigue::SnCurve::basquin || law.curve == fatigue::SnCurve::knee;
+  const bool has_slope =
+      law.curve == fatigue::SnCurve::basquin || law.curve == fatigue::SnCurve::knee;
   if (!law.logarithmic() || !has_slope || law.scatter_grows) return added;
   const ScatterRange t = scatter_range(law, draws);
   present::Table table{"scatter",

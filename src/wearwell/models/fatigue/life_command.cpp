@@ -34,12 +34,12 @@ struct LoadLifeOptions {
   bool json = false;
 };
 
-Knee read_knee(const std::string& text) {
+Knee read_knee(const std::string& text, const std::string& si) {
   Knee knee;
   if (text.empty()) return knee;
   const auto unit = parse_unit(text);
-  const bool stress = unit && unit->dimension == parse_unit("Pa")->dimension;
-  const double value = option_value("--knee", text, stress ? "Pa" : "cycle", Allowed::positive);
+  const bool stress = unit && unit->dimension == parse_unit(si)->dimension && si != "1";
+  const double value = option_value("--knee", text, stress ? si : "cycle", Allowed::positive);
   (stress ? knee.stress : knee.life) = value;
   return knee;
 }
@@ -121,15 +121,15 @@ int run(const LoadLifeOptions& options) {
   LoadLifeReport report{read_sn_result(options.result), {}, {}, 0, {}, {}};
   const SnLaw& law = report.result.law;
   LoadQuestion& question = report.question;
-  question.rule.knee = read_knee(options.knee);
+  question.rule.knee = read_knee(options.knee, report.result.stress_si);
   question.rule.miner = read_rule(options.rule, law, question.rule.knee);
   question.sum = read_damage_sum(options.damage_sum);
   question.percents = options.b_lives;
   question.confidence = options.confidence / 100;
   read_block_length(options.block, report);
   const bool with_mean = law.correction != MeanStress::none;
-  report.block =
-      read_block({options.counting.signal, options.counting.rule(), options.scale, with_mean});
+  report.block = read_block({options.counting.signal, options.counting.rule(), options.scale,
+                             with_mean, report.result.stress_si});
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
   report.cycles =

@@ -17,13 +17,10 @@
 namespace wearwell::fatigue {
 namespace {
 
-const Dimension& stress_dimension() {
-  static const Dimension pascal = parse_unit("Pa")->dimension;
-  return pascal;
-}
-
-// From the unit of the load to Pa.
-double to_pascal(const std::string& unit, const std::string& scale, const std::string& where) {
+// From the unit of the load to that of the curve's stress, or of what stands for it, in SI.
+double to_si_of_curve(const std::string& unit, const std::string& scale, const std::string& where,
+                      const std::string& si) {
+  const Dimension wanted = parse_unit(si)->dimension;
   const auto load = parse_unit(unit.empty() ? "1" : unit);
   if (!load) throw InputError(fmt::format("{}: '{}' is no unit", where, unit));
   if (scale.empty()) {
@@ -32,7 +29,12 @@ double to_pascal(const std::string& unit, const std::string& scale, const std::s
           fmt::format("{} has no unit: say it in the heading, \"stress [MPa]\", or by "
                       "--unit MPa",
                       where));
-    if (load->dimension == stress_dimension()) return load->scale;
+    if (load->dimension == wanted) return load->scale;
+    if (si != "Pa")
+      throw InputError(fmt::format(
+          "{} is in {}, and the study's tests are told in the dimension of {}; say how one "
+          "makes the other by --scale",
+          where, unit, si));
     const bool strain = load->dimension.empty();
     throw InputError(
         fmt::format("{} is in {}, which is {}, no stress; say how it makes stress: --scale '{}'",
@@ -53,7 +55,7 @@ double to_pascal(const std::string& unit, const std::string& scale, const std::s
   for (const auto& [base, power] : load->dimension) {
     if ((product[base] += power) == 0) product.erase(base);
   }
-  if (product != stress_dimension())
+  if (product != wanted)
     throw InputError(fmt::format("--scale: {} times a load in {} is no stress", scale,
                                  unit.empty() ? "1" : unit));
   if (!(std::abs(factor) > 0 && std::isfinite(factor)) || load->offset != 0 || per->offset != 0)
@@ -87,8 +89,9 @@ double largest_amplitude(const LoadCycles& cycles) {
 
 Block counted_signal(const BlockChoice& choice) {
   SignalFile file(choice.signal);
-  const double pascal = to_pascal(file.unit(), choice.scale,
-                                  fmt::format("{}, column '{}'", file.source(), file.column()));
+  const double pascal = to_si_of_curve(file.unit(), choice.scale,
+                                       fmt::format("{}, column '{}'", file.source(), file.column()),
+                                       choice.stress_si);
   LoadHistory history(choice.rule);
   for (auto samples = file.next(); !samples.empty(); samples = file.next()) history.add(samples);
   const LoadHistory::Counted counted = history.counted();
@@ -172,8 +175,9 @@ class CountedTable {
 
  private:
   double pascal(const Column& column) const {
-    return to_pascal(unit_in(column, choice_.signal.unit), choice_.scale,
-                     fmt::format("{}, column '{}'", table_.source, column.name));
+    return to_si_of_curve(unit_in(column, choice_.signal.unit), choice_.scale,
+                          fmt::format("{}, column '{}'", table_.source, column.name),
+                          choice_.stress_si);
   }
   double cell(const Column& column, std::size_t row) const {
     const double value = cell_number(table_, column, row);

@@ -13,8 +13,9 @@ namespace wearwell::fatigue {
 struct BlockChoice {
   SignalChoice signal;  ///< with a column named it is a signal
   CountingRule rule;
-  std::string scale;      ///< "0.35 MPa/N": from load to stress; empty for none
-  bool with_mean = true;  ///< whether the mean stress matters
+  std::string scale;             ///< "0.35 MPa/N": from load to stress; empty for none
+  bool with_mean = true;         ///< whether the mean stress matters
+  std::string stress_si = "Pa";  ///< of the curve that the cycles are for
 };
 
 struct Block {

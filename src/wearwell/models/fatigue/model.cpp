@@ -11,6 +11,8 @@ namespace resource {
 
 std::string_view fatigue_study();
 std::string_view fatigue_data();
+std::string_view strain_study();
+std::string_view strain_data();
 std::string_view staircase_study();
 std::string_view staircase_data();
 std::string_view spectrum_study();
@@ -51,6 +53,17 @@ Model staircase() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_staircase_study);
               },
+          .add_commands = nullptr,
+          .keys = staircase_keys};
+}
+
+Model strain_life() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::strain_study},
+                                            {"tests.csv", resource::strain_data}};
+  return {.key = "sn",
+          .trade = "strain-life",
+          .example = example,
+          .read = read,
           .add_commands = nullptr};
 }
 

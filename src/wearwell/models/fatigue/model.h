@@ -7,6 +7,9 @@ namespace wearwell::fatigue {
 /// Fatigue lives, S-N curves: model = "sn".
 Model model();
 
+/// The same, with strain-controlled tests for `wearwell new strain-life`.
+Model strain_life();
+
 /// Fatigue limits from up-and-down tests: model = "staircase".
 Model staircase();
 

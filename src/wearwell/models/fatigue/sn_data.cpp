@@ -7,6 +7,8 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/heading.h"
 #include "wearwell/models/fatigue/read_outcome.h"
 #include "wearwell/models/fatigue/spring.h"
 
@@ -80,10 +82,36 @@ fatigue::HelicalSpring read_spring(const TomlReader& conditions) {
   return spring;
 }
 
+// What the study or the table says first of the unit of the stress; nothing is asked for.
+std::string stated_si(const TomlReader& root, const Table& table) {
+  for (const std::string key : {"alternating_stress", "max_stress"}) {
+    std::string column, unit;
+    for (const TomlReader::Present& each : root.present()) {
+      const std::string at = "data.columns." + key;
+      if (each.path == at + ".unit") unit = each.text;
+      if (each.path == at || each.path == at + ".column") column = each.text;
+      if (each.path == "conditions." + key)
+        unit = each.text.substr(std::min(each.text.find(' '), each.text.size()));
+    }
+    if (unit.empty() && !column.empty()) {
+      for (const Column& each : table.columns) {
+        const Heading heading = read_heading(each.name, "");
+        if (each.name != column && heading.name != column) continue;
+        unit = !each.unit.empty() ? each.unit : heading.certain ? heading.unit : "";
+      }
+    }
+    if (unit.empty()) continue;
+    const std::string si = driver_si(unit);
+    return si.empty() ? "Pa" : si;
+  }
+  return "Pa";
+}
+
 std::vector<Stress> read_stresses(const TomlReader& columns,
                                   const std::optional<TomlReader>& conditions, const Table& table,
                                   MeanStress correction, SnData& data) {
   const Inputs inputs(columns, conditions, table);
+  const std::string& si = data.stress_si;
   std::vector<Stress> stresses(table.rows);
   const bool displacement = inputs.has("displacement_amplitude");
   const bool extremes = inputs.has("max_stress");
@@ -112,7 +140,7 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
     return stresses;
   }
   if (extremes) {
-    const auto high = inputs.read("max_stress", "Pa"), low = inputs.read("min_stress", "Pa");
+    const auto high = inputs.read("max_stress", si), low = inputs.read("min_stress", si);
     data.stress_unit = high.unit;
     for (std::size_t i = 0; i < table.rows; ++i) {
       inputs.require(high.values[i] > low.values[i], high, i, "max_stress",
@@ -121,13 +149,13 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
                      0.5 * (high.values[i] + low.values[i])};
     }
     data.mean_stress_column = high.column ? high.column->column : "";
-    data.columns.push_back({"max_stress", "Pa", high.unit, high.values, true});
-    if (low.column) data.columns.push_back({"min_stress", "Pa", low.unit, low.values});
+    data.columns.push_back({"max_stress", si, high.unit, high.values, true});
+    if (low.column) data.columns.push_back({"min_stress", si, low.unit, low.values});
     return stresses;
   }
-  const auto alternating = inputs.read("alternating_stress", "Pa");
+  const auto alternating = inputs.read("alternating_stress", si);
   data.stress_unit = alternating.unit;
-  data.columns.push_back({"alternating_stress", "Pa", alternating.unit, alternating.values, true});
+  data.columns.push_back({"alternating_stress", si, alternating.unit, alternating.values, true});
   for (std::size_t i = 0; i < table.rows; ++i) {
     inputs.require(alternating.values[i] > 0, alternating, i, "alternating_stress", "positive");
     stresses[i].alternating = alternating.values[i];
@@ -146,10 +174,10 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
     data.mean_stress_column = ratios.column ? ratios.column->column : "";
     if (ratios.column) data.columns.push_back({"stress_ratio", "1", ratios.unit, ratios.values});
   } else if (inputs.has("mean_stress") || correction != MeanStress::none) {
-    const auto mean = inputs.read("mean_stress", "Pa");
+    const auto mean = inputs.read("mean_stress", si);
     for (std::size_t i = 0; i < table.rows; ++i) stresses[i].mean = mean.values[i];
     data.mean_stress_column = mean.column ? mean.column->column : "";
-    if (mean.column) data.columns.push_back({"mean_stress", "Pa", mean.unit, mean.values});
+    if (mean.column) data.columns.push_back({"mean_stress", si, mean.unit, mean.values});
   }
   return stresses;
 }
@@ -193,8 +221,18 @@ std::vector<Quantity> read_lives(const TomlReader& table, const std::string& key
   return lives;
 }
 
+std::string driver_si(const std::string& unit) {
+  const auto read = parse_unit(unit);
+  if (!read) return "";
+  for (const char* si : {"Pa", "N", "N m", "1", "m", "V", "A"}) {
+    if (read->dimension == parse_unit(si)->dimension) return si;
+  }
+  return "";
+}
+
 Stress read_stress(const TomlReader& table, MeanStress correction,
-                   const std::optional<fatigue::HelicalSpring>& spring) {
+                   const std::optional<fatigue::HelicalSpring>& spring,
+                   const std::string& stress_si) {
   const bool displacement = table.has("displacement_amplitude");
   const bool extremes = table.has("max_stress");
   if (displacement + extremes + table.has("alternating_stress") != 1) {
@@ -209,24 +247,24 @@ Stress read_stress(const TomlReader& table, MeanStress correction,
             shear_stress(*spring, mean)};
   }
   if (extremes) {
-    const double high = table.required_quantity("max_stress", "Pa").si();
-    const double low = table.required_quantity("min_stress", "Pa").si();
+    const double high = table.required_quantity("max_stress", stress_si).si();
+    const double low = table.required_quantity("min_stress", stress_si).si();
     if (!(high > low)) table.fail("max_stress", "must be larger than min_stress");
     return {0.5 * (high - low), 0.5 * (high + low)};
   }
-  const double alternating = positive(table, "alternating_stress", "Pa");
+  const double alternating = positive(table, "alternating_stress", stress_si.c_str());
   if (!table.has("mean_stress") && !table.has("stress_ratio") && correction == MeanStress::none) {
     return {alternating, 0};
   }
-  return read_line(table).at(alternating);
+  return read_line(table, stress_si).at(alternating);
 }
 
-fatigue::StressLine read_line(const TomlReader& table) {
+fatigue::StressLine read_line(const TomlReader& table, const std::string& stress_si) {
   if (table.has("mean_stress") == table.has("stress_ratio")) {
     table.fail(table.has("mean_stress") ? "stress_ratio" : "mean_stress",
                "give one of mean_stress and stress_ratio (smallest over largest stress)");
   }
-  if (table.has("mean_stress")) return {table.required_quantity("mean_stress", "Pa").si(), {}};
+  if (table.has("mean_stress")) return {table.required_quantity("mean_stress", stress_si).si(), {}};
   const double ratio = table.required_quantity("stress_ratio", "1").si();
   if (!(ratio < 1)) table.fail("stress_ratio", "must be less than 1");
   return {0, ratio};
@@ -240,6 +278,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   SnData data;
   data.source = table.source;
   data.layout = table.layout;
+  data.stress_si = stated_si(root, table);
   const std::vector<Stress> stresses = read_stresses(columns, conditions, table, correction, data);
 
   ColumnChoice life = required_column(columns, "life", "cycle", table);

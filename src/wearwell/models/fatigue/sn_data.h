@@ -17,6 +17,7 @@ namespace wearwell {
 struct SnData {
   fatigue::LifeTests tests;         ///< one a row
   std::vector<std::string> labels;  ///< one a row: the type of specimen; empty where there is none
+  std::string stress_si = "Pa";     ///< what drives the lives: a stress, or a force, a strain, ...
   Unit stress_unit;
   Unit life_unit;      ///< "cycles", "1e5 cycles"
   std::string source;  ///< the file, for messages
@@ -25,6 +26,11 @@ struct SnData {
   std::optional<fatigue::HelicalSpring> spring;  ///< where the study gives displacements
   std::vector<DataColumn> columns;               ///< as they were read
 };
+
+/// The SI unit of what stands where an S-N curve has its stress: of a stress, a force, a moment, a
+/// displacement, a voltage, a current, or a plain number (strain, a share of the strength). Empty for any
+/// other.
+std::string driver_si(const std::string& unit);
 
 /// Reads [data] and what [conditions] holds for all rows. Stress stands there in one of four ways:
 /// alternating_stress with mean_stress (0 where it does not matter), max_stress with min_stress,
@@ -39,11 +45,12 @@ Unit life_unit(Unit unit);
 std::vector<Quantity> read_lives(const TomlReader& table, const std::string& key);
 
 /// Where the mean stress is: mean_stress or stress_ratio.
-fatigue::StressLine read_line(const TomlReader& table);
+fatigue::StressLine read_line(const TomlReader& table, const std::string& stress_si = "Pa");
 
 /// One stress, in the keys that columns have: alternating_stress with mean_stress or stress_ratio,
 /// max_stress with min_stress, or displacement_amplitude with displacement_mean.
 fatigue::Stress read_stress(const TomlReader& table, fatigue::MeanStress correction,
-                            const std::optional<fatigue::HelicalSpring>& spring);
+                            const std::optional<fatigue::HelicalSpring>& spring,
+                            const std::string& stress_si = "Pa");
 
 }  // namespace wearwell

@@ -78,7 +78,8 @@ class Drawing {
         predictions_(predictions),
         draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled,
                        law.integrated() ? most_draws_with_limit : most_draws)),
-        line_(line_of_tests(law, data)) {
+        line_(line_of_tests(law, data)),
+        standard_(standard_fit(law, data)) {
     for (const LifeTest& test : data.tests) {
       shortest_ = std::min(shortest_, test.life);
       longest_ = std::max({longest_, test.life, test.until});
@@ -132,6 +133,7 @@ class Drawing {
                    {colour::posterior, "half outlast it", 1, 2}),
         plot::line({{"x", bound}, {"y", y}, {"B10 at least", bound}, {"stress", y}},
                    {colour::limit, "B10, at least with " + confidence, 1, 2, true})};
+    add_standards(stresses, marks);
     add_tests(moved, low, high, marks);
     return {
         "sn-curve", "S-N curve: life against stress",
@@ -311,6 +313,23 @@ class Drawing {
  private:
   double in_unit(double stress) const { return from_si(data_.stress_unit, stress); }
 
+  // What the standards make of the same tests, 90/90, where they apply.
+  void add_standards(const Numbers& stresses, std::vector<plot::Json>& marks) const {
+    if (!standard_.line) return;
+    Numbers y, iso, owen;
+    for (const double each : stresses) {
+      const std::vector<double> known(static_cast<std::size_t>(law_.dimension()), 0.0);
+      const double x = law_.log10_reversed(known.data(), line_.at(each));
+      y.push_back(in_unit(each));
+      iso.push_back(shown(std::pow(10, fatigue::iso_12107_limit(*standard_.line, x, 0.9, 0.9))));
+      owen.push_back(shown(std::pow(10, fatigue::owen_limit(*standard_.line, x, 0.9, 0.9))));
+    }
+    marks.push_back(plot::line({{"x", iso}, {"y", y}, {"ISO 12107", iso}, {"stress", y}},
+                               {colour::chains[1], "ISO 12107, 90/90", 1, 1.2, true}));
+    marks.push_back(plot::line({{"x", owen}, {"y", y}, {"Owen", owen}, {"stress", y}},
+                               {colour::chains[3], "Owen, 90/90", 1, 1.2, true}));
+  }
+
   std::string life_title() const {
     return fmt::format("Life [{}]", html::unit(data_.life_unit.text));
   }
@@ -391,6 +410,7 @@ class Drawing {
   const SnPredictions& predictions_;
   WeightedDraws draws_;
   StressLine line_;
+  StandardFit standard_;
   double shortest_ = INFINITY, longest_ = 0;
 };
 

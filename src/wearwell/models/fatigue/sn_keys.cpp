@@ -91,6 +91,13 @@ StudyKeys parameter_keys() {
       {"prior.log10_B", "{ law = \"normal\", mean = \"2 log10(MPa)\", sd = 0.4 }",
        "logarithm of Bastenaire's stress"},
       {"prior.C", "{ law = \"normal\", mean = 1, sd = 0.5 }", "Bastenaire's exponent"},
+      {"conditions.E", "\"206 GPa\"", "of strain-life: for the cyclic curve"},
+      {"prior.log10_elastic", "{ law = \"normal\", mean = -2.3, sd = 0.2 }",
+       "of strain-life: logarithm of sigma_f'/E"},
+      {"prior.log10_plastic", "{ law = \"normal\", mean = -0.3, sd = 0.3 }",
+       "of strain-life: logarithm of eps_f'"},
+      {"prior.c", "{ law = \"normal\", mean = -0.6, sd = 0.1 }",
+       "of strain-life: the plastic exponent"},
       {"prior.sigma_growth", "{ law = \"normal\", mean = 0, sd = 0.15 }",
        "decades by which the scatter grows over a decade of life"},
       {"prior.log10_limit", "{ law = \"normal\", mean = \"2.3 log10(MPa)\", sd = 0.3 }",
@@ -138,7 +145,7 @@ StudyKeys study_keys() {
        needed_key("law.mean_stress", "\"goodman\"",
                   "how a mean stress shortens life ([fatigue.md](fatigue.md))"),
        {"law.fatigue_limit", "\"random\"", "whether there is a fatigue limit (none)"},
-       {"law.curve", "\"knee\"", "basquin, knee, stromeyer or bastenaire (basquin)"},
+       {"law.curve", "\"knee\"", "basquin, knee, stromeyer, bastenaire or strain-life (basquin)"},
        {"law.second_slope", "\"free\"", "below a knee: free, haibach (2k - 1) or infinite (free)"},
        {"law.scatter", "\"grows\"", "whether scatter grows with life (constant)"},
        {"law.limit_family", "\"normal\"", "how the logarithm of the limit scatters (normal)"},
@@ -156,6 +163,24 @@ StudyKeys study_keys() {
                        {"predict.required_life"}),
             {"predict.stress_ratio", "0.1", "of that stress"},
             {"predict.mean_stress", "\"300 MPa\"", "of that stress, instead of stress_ratio"}});
+  return keys;
+}
+
+StudyKeys staircase_keys() {
+  StudyKeys keys = posterior_keys();
+  add_keys(
+      keys,
+      {needed_key("data.columns.alternating_stress",
+                  "{ column = \"alternating_stress\", unit = \"MPa\" }", "stress of the test"),
+       needed_key("data.columns.status", "\"status\"", "failure or runout"),
+       {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
+       {"law.limit_family", "\"normal\"", "how the logarithm of the limit scatters (normal)"},
+       {"prior.log10_limit", "{ law = \"normal\", mean = \"2.5 log10(MPa)\", sd = 0.2 }",
+        "logarithm of the median fatigue limit"},
+       {"prior.sigma_limit", "{ law = \"half-normal\", scale = 0.05 }",
+        "scatter of the logarithm of the limit"},
+       {"predict.reliability", "[\"50 %\", \"90 %\"]", "which stress is borne by such a share?"},
+       {"predict.credible_level", "0.9", "of the lower bound"}});
   return keys;
 }
 

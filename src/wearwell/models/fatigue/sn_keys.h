@@ -7,4 +7,7 @@ namespace wearwell::fatigue {
 /// All keys that a study of this model may hold.
 StudyKeys study_keys();
 
+/// And of model "staircase".
+StudyKeys staircase_keys();
+
 }  // namespace wearwell::fatigue

@@ -22,7 +22,8 @@ enum class LifeFamily { log10_normal, weibull, normal };
 ///               its own about S_D, the first line above it and no end of life below
 ///   stromeyer   S - limit = a N^b, no end of life below the limit (Stromeyer 1914)
 ///   bastenaire  N = N_B B/(S - limit) exp(-((S - limit)/B)^C) (Bastenaire 1972)
-enum class SnCurve { basquin, knee, stromeyer, bastenaire };
+///   strain_life S, a strain, = elastic (2N)^b + plastic (2N)^c (Coffin, Manson, Basquin)
+enum class SnCurve { basquin, knee, stromeyer, bastenaire, strain_life };
 
 /// What k2 is: a parameter, or 2k - 1 (Haibach 1970), or without bound: a horizontal limit, which then
 /// scatters over items.
@@ -44,7 +45,8 @@ struct SnLaw {
   static constexpr double log10_scatter_at = 6;
 
   /// Parameters in order: of the curve (log10 of a/Pa, b < 0; k, log10 of N_D, log10 of S_D/Pa, k2 if
-  /// free; log10 of a/Pa, b, log10 of limit/Pa; log10 of N_B, log10 of B/Pa, C, log10 of limit/Pa),
+  /// free; log10 of a/Pa, b, log10 of limit/Pa; log10 of N_B, log10 of B/Pa, C, log10 of limit/Pa;
+  /// log10 of elastic, b, log10 of plastic, c),
   /// log10 of strength/Pa if unknown, gamma if unknown, sigma, its growth if it grows, then log10 of the
   /// median (or location) fatigue limit/Pa and its scale if there is one (of a knee this is S_D).
   int curve_dimension() const {
@@ -54,6 +56,7 @@ struct SnLaw {
       case SnCurve::stromeyer:
         return 3;
       case SnCurve::bastenaire:
+      case SnCurve::strain_life:
         return 4;
       case SnCurve::basquin:
         break;
@@ -122,10 +125,42 @@ struct SnLaw {
         if (scalar(rest) == -infinity) return T(infinity);
         return x[0] - rest - exp(rest * decade * x[2]) / decade;
       }
+      case SnCurve::strain_life: {
+        // Solved for plain numbers; one more step of Newton's brings the derivatives.
+        const double plain[] = {scalar(x[0]), scalar(x[1]), scalar(x[2]), scalar(x[3])};
+        const double y = log10_reversals(plain, scalar(log10_reversed));
+        if (!std::isfinite(y)) return T(y);
+        const T elastic = (x[0] + x[1] * y) * decade, plastic = (x[2] + x[3] * y) * decade;
+        const bool more = elastic > plastic;
+        const T &larger = more ? elastic : plastic, &smaller = more ? plastic : elastic;
+        const T strain = (larger + log(1.0 + exp(smaller - larger))) / decade;
+        const double share = 1 / (1 + std::exp(scalar(plastic) - scalar(elastic)));
+        const double slope = share * plain[1] + (1 - share) * plain[3];
+        return y - std::log10(2.0) - (strain - log10_reversed) / slope;
+      }
       case SnCurve::basquin:
         break;
     }
     return (log10_reversed - x[0]) / x[1];
+  }
+
+  /// log10 of the reversals 2N of a strain-life curve at the logarithm of a strain: the sum of both lines
+  /// is convex and falls, so that Newton's method from the longer of their own lives only falls short of
+  /// it, and from the left does not go too far.
+  static double log10_reversals(const double* x, double log10_strain) {
+    const double decade = std::log(10.0);
+    double y = std::max((log10_strain - x[0]) / x[1], (log10_strain - x[2]) / x[3]);
+    for (int i = 0; i < 100 && std::isfinite(y); ++i) {
+      const double elastic = x[0] + x[1] * y, plastic = x[2] + x[3] * y;
+      const double larger = std::max(elastic, plastic);
+      const double strain =
+          larger + std::log1p(std::exp(-std::abs(elastic - plastic) * decade)) / decade;
+      const double share = 1 / (1 + std::exp((plastic - elastic) * decade));
+      const double step = (strain - log10_strain) / (share * x[1] + (1 - share) * x[3]);
+      y -= step;
+      if (std::abs(step) <= 1e-14 * (1 + std::abs(y))) break;
+    }
+    return y;
   }
 
   /// The scatter of lives about a place of the curve, which log10_life gives.

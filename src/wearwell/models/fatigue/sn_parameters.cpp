@@ -78,8 +78,9 @@ class Defaults {
 
  private:
   DefaultPrior logarithm(double stress, double sd) const {
+    const bool plain = data_.stress_si == "1";
     return {"normal", Normal{std::log10(rounded_up(stress)), sd},
-            fmt::format("log10({})", data_.stress_unit.text)};
+            plain ? "1" : fmt::format("log10({})", data_.stress_unit.text)};
   }
 
   const SnData& data_;
@@ -95,6 +96,8 @@ std::vector<Parameter> sn_parameters(const TomlReader& root, const SnLaw& law, c
     return read_prior(root, priors, spec);
   };
   const Defaults defaults(data);
+  const std::string log_stress =
+      data.stress_si == "1" ? "1" : fmt::format("log10({})", data.stress_si);
   double largest_mean = 0;
   for (const LifeTest& test : data.tests) largest_mean = std::max(largest_mean, test.stress.mean);
   const std::string strength = strength_name(law.correction);
@@ -109,9 +112,9 @@ std::vector<Parameter> sn_parameters(const TomlReader& root, const SnLaw& law, c
     }
     material = *law.strength;
   } else if (law.has_strength()) {
-    log_strength = read(
-        {log_strength_name(law.correction), "log10(Pa)", -INFINITY, INFINITY, std::log10(material)},
-        defaults.log_strength());
+    log_strength = read({log_strength_name(law.correction), log_stress.c_str(), -INFINITY, INFINITY,
+                         std::log10(material)},
+                        defaults.log_strength());
     refuse_beyond(data, std::pow(10, log_strength->prior.upper), strength);
     const double least = largest_mean > 0 ? std::log10(largest_mean) : -INFINITY;
     if (log_strength->start < least + 0.01) {
@@ -131,7 +134,9 @@ std::vector<Parameter> sn_parameters(const TomlReader& root, const SnLaw& law, c
   const auto add = [&](const char* name, const char* si, double least, double start,
                        const DefaultPrior& prior) {
     parameters.push_back(
-        read({name, si, least, name == std::string("b") ? 0 : INFINITY, start}, prior));
+        read({name, si, least, name == std::string("b") || name == std::string("c") ? 0 : INFINITY,
+              start},
+             prior));
   };
   const double at_million = guess.log10_a + 6 * guess.b;  // log10 of the stress
   const double knee = std::max(at_million, lowest + 0.01);
@@ -141,21 +146,27 @@ std::vector<Parameter> sn_parameters(const TomlReader& root, const SnLaw& law, c
       add("log10_N_D", "log10(cycle)", -INFINITY, (knee - guess.log10_a) / guess.b,
           defaults.log_knee_life());
       if (law.limit) break;
-      add("log10_S_D", "log10(Pa)", -INFINITY, knee, defaults.log_limit());
+      add("log10_S_D", log_stress.c_str(), -INFINITY, knee, defaults.log_limit());
       if (law.second_slope == SecondSlope::free) add("k2", "1", 0, 20, defaults.k2());
       break;
     case SnCurve::bastenaire:
       add("log10_N_B", "log10(cycle)", -INFINITY, 6, defaults.log_knee_life());
-      add("log10_B", "log10(Pa)", -INFINITY, lowest - 0.3, defaults.log_bend());
+      add("log10_B", log_stress.c_str(), -INFINITY, lowest - 0.3, defaults.log_bend());
       add("C", "1", 0, 1, defaults.bend_power());
-      add("log10_limit", "log10(Pa)", -INFINITY, lowest - 0.1, defaults.log_limit());
+      add("log10_limit", log_stress.c_str(), -INFINITY, lowest - 0.1, defaults.log_limit());
+      break;
+    case SnCurve::strain_life:
+      add("log10_elastic", "1", -INFINITY, -2.3, {"normal", Normal{-2.3, 0.3}, "1"});
+      add("b", "1", -INFINITY, -0.09, {"student-t", StudentT{4, -0.09, 0.02}, "1"});
+      add("log10_plastic", "1", -INFINITY, -0.3, {"normal", Normal{-0.3, 0.4}, "1"});
+      add("c", "1", -INFINITY, -0.6, {"student-t", StudentT{4, -0.6, 0.08}, "1"});
       break;
     case SnCurve::basquin:
     case SnCurve::stromeyer:
-      add("log10_a", "log10(Pa)", -INFINITY, guess.log10_a, defaults.log10_a());
+      add("log10_a", log_stress.c_str(), -INFINITY, guess.log10_a, defaults.log10_a());
       add("b", "1", -INFINITY, guess.b, defaults.b());
       if (law.curve == SnCurve::stromeyer)
-        add("log10_limit", "log10(Pa)", -INFINITY, lowest - 0.1, defaults.log_limit());
+        add("log10_limit", log_stress.c_str(), -INFINITY, lowest - 0.1, defaults.log_limit());
   }
   if (log_strength) parameters.push_back(*log_strength);
   if (law.has_gamma()) parameters.push_back(read({"gamma", "1", 0, 1, 0.5}, defaults.gamma()));
@@ -165,9 +176,9 @@ std::vector<Parameter> sn_parameters(const TomlReader& root, const SnLaw& law, c
   if (law.scatter_grows) add("sigma_growth", "1", -INFINITY, 0, defaults.growth());
   if (law.limit) {
     if (law.curve == SnCurve::knee) {
-      add("log10_S_D", "log10(Pa)", -INFINITY, knee, defaults.log_limit());
+      add("log10_S_D", log_stress.c_str(), -INFINITY, knee, defaults.log_limit());
     } else {
-      add("log10_limit", "log10(Pa)", -INFINITY, lowest - 0.05, defaults.log_limit());
+      add("log10_limit", log_stress.c_str(), -INFINITY, lowest - 0.05, defaults.log_limit());
     }
     parameters.push_back(read({"sigma_limit", "1", 0, INFINITY, 0.05}, defaults.sigma_limit()));
   }
@@ -186,6 +197,9 @@ std::vector<std::string> sn_meanings(const SnLaw& law) {
   } else if (law.curve == SnCurve::bastenaire) {
     words = {"logarithm of Bastenaire's life", "logarithm of Bastenaire's stress",
              "Bastenaire's exponent", "logarithm of the fatigue limit"};
+  } else if (law.curve == SnCurve::strain_life) {
+    words = {"logarithm of sigma_f'/E, of the elastic line", "its exponent",
+             "logarithm of eps_f', of the plastic line", "its exponent"};
   } else if (law.curve == SnCurve::knee) {
     words = {"slope above the knee", "logarithm of the knee's life"};
     if (!law.limit) words.emplace_back("logarithm of the knee's stress");

@@ -370,7 +370,7 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
   if (const auto stresses = predict.table("stress")) {
     for (const std::string& name : stresses->keys()) {
       const Stress stress =
-          read_stress(stresses->required_table(name), law.correction, data.spring);
+          read_stress(stresses->required_table(name), law.correction, data.spring, data.stress_si);
       result.points.push_back({name, stress});
     }
   }
@@ -403,7 +403,7 @@ SnPredictions read_sn_predictions(const TomlReader& predict, const SnLaw& law, c
   }
   if (required.empty()) return result;
   StressLine line;
-  if (law.correction != MeanStress::none) line = read_line(predict);
+  if (law.correction != MeanStress::none) line = read_line(predict, data.stress_si);
   for (const Quantity& life : required) {
     for (const Quantity& reliability : reliabilities) {
       result.allowed.push_back({life, share("reliability", reliability), line});

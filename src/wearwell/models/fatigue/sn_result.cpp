@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* families[] = {"log10-normal", "weibull", "normal"};
 constexpr const char* limit_families[] = {"normal", "smallest-extreme-value"};
 // Of SnCurve and SecondSlope.
-constexpr const char* curves[] = {"basquin", "knee", "stromeyer", "bastenaire"};
+constexpr const char* curves[] = {"basquin", "knee", "stromeyer", "bastenaire", "strain-life"};
 constexpr const char* second_slopes[] = {"free", "haibach", "infinite"};
 
 template <class Choice>
@@ -59,7 +59,7 @@ SnLaw read_law(const JsonReader& json) {
             ? StandardLaw::normal
             : StandardLaw::smallest_extreme_value;
   if (const auto curve = json.find("curve"))
-    law.curve = chosen<SnCurve>(*curve, {curves[0], curves[1], curves[2], curves[3]});
+    law.curve = chosen<SnCurve>(*curve, {curves[0], curves[1], curves[2], curves[3], curves[4]});
   if (const auto slope = json.find("second_slope"))
     law.second_slope =
         chosen<SecondSlope>(*slope, {second_slopes[0], second_slopes[1], second_slopes[2]});
@@ -75,9 +75,9 @@ std::pair<double, double> read_span(const JsonReader& json, const Unit& unit) {
 }
 
 // The dimension of a parameter.
-std::string si_of(const std::string& name) {
+std::string si_of(const std::string& name, const std::string& stress_si) {
   if (name == "log10_N_D" || name == "log10_N_B") return "log10(cycle)";
-  return name.starts_with("log10_") ? "log10(Pa)" : "1";
+  return name.starts_with("log10_") && stress_si != "1" ? fmt::format("log10({})", stress_si) : "1";
 }
 
 }  // namespace
@@ -127,9 +127,12 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
                   saved.header.trusted,
                   read_law(*json),
                   {},
-                  read_unit(json->at("stress_unit").text(), "Pa"),
                   {},
-                  {}};
+                  {},
+                  {},
+                  driver_si(json->at("stress_unit").text())};
+  if (result.stress_si.empty()) json->at("stress_unit").fail("is no unit of a stress");
+  result.stress_unit = read_unit(json->at("stress_unit").text(), result.stress_si);
   const JsonReader tested = json->at("tested");
   TestedSpan& span = result.tested;
   std::tie(span.alternating_low, span.alternating_high) =
@@ -156,7 +159,7 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
     const ParameterSummary& parameter = saved.parameters[static_cast<std::size_t>(c)];
     result.parameters.push_back(parameter.name);
     if (result.law.family == LifeFamily::normal) continue;  // of no use here
-    const Unit unit = read_unit(parameter.unit, si_of(parameter.name));
+    const Unit unit = read_unit(parameter.unit, si_of(parameter.name, result.stress_si));
     for (double& value : result.draws.col(c)) value = to_si(unit, value);
   }
   return result;

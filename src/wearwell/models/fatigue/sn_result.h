@@ -28,6 +28,7 @@ struct SnResult {
   Unit stress_unit;
   std::vector<std::string> parameters;  ///< names, as SnLaw counts them
   Points draws;                         ///< of the posterior, SI
+  std::string stress_si = "Pa";         ///< of the stress, or of what stands for it
 };
 
 /// What `fit` writes as "fatigue" into summary.json: the law's choices and what was tested.

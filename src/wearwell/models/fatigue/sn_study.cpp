@@ -27,11 +27,18 @@ using fatigue::SnLaw;
 
 // The form of the curve and its scatter, where they are not Basquin's with the same scatter everywhere.
 void read_curve(const TomlReader& table, bool random_limit, SnLaw& law) {
-  const auto curve = table.choice("curve", {"basquin", "knee", "stromeyer", "bastenaire"});
+  const auto curve =
+      table.choice("curve", {"basquin", "knee", "stromeyer", "bastenaire", "strain-life"});
   const auto slope = table.choice("second_slope", {"free", "haibach", "infinite"});
   const auto scatter = table.choice("scatter", {"constant", "grows"});
   if (curve == "knee") law.curve = SnCurve::knee;
   if (curve == "bastenaire") law.curve = SnCurve::bastenaire;
+  if (curve == "strain-life") {
+    law.curve = SnCurve::strain_life;
+    if (law.correction != MeanStress::none)
+      table.fail("mean_stress", "strain-life curves are of fully reversed tests here: \"none\"");
+    if (random_limit) table.fail("fatigue_limit", "a strain-life curve has none");
+  }
   // With a limit of its own for each item Stromeyer's curve is that of a random fatigue limit.
   if (curve == "stromeyer" && !random_limit) law.curve = SnCurve::stromeyer;
   if (slope && law.curve != SnCurve::knee) {
@@ -118,6 +125,8 @@ std::string curve_in_words(const SnLaw& law) {
       return "S_f - limit = a N^b";
     case SnCurve::bastenaire:
       return "N = N_B B/(S_f - limit) exp(-((S_f - limit)/B)^C)";
+    case SnCurve::strain_life:
+      return "S_f = elastic (2N)^b + plastic (2N)^c, S_f a strain";
     case SnCurve::basquin:
       break;
   }
@@ -196,6 +205,31 @@ std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
   return {tests, stresses, "life " + span(life, data.life_unit.text)};
 }
 
+// Of the strains of a strain-life curve: Ramberg and Osgood's cyclic stress-strain curve, eps = sigma/E +
+// (sigma/K')^(1/n'), whose parts are the two lines: n' = b/c, K' = sigma_f'/eps_f'^n'.
+QuantityGroup cyclic_curve(const TomlReader& root) {
+  const auto conditions = root.table("conditions");
+  const auto modulus = conditions ? conditions->quantity("E", "Pa") : std::nullopt;
+  if (modulus && !(modulus->si() > 0)) conditions->fail("E", "must be positive");
+  const double e = modulus ? modulus->si() : 1;
+  const Unit stress = modulus ? read_unit("MPa", "Pa") : Unit{"1", 1, 0};
+  const auto request = [](const std::string& name, const Unit& unit) {
+    return QuantityRequest{name, "cyclic curve", "", unit, true, false, {}, {}, {}};
+  };
+  return {{request("n'", Unit{"1", 1, 0}), request(modulus ? "K'" : "K'/E", stress)},
+          [=](const WeightedDraws& draws) {
+            const Distribution n(draws, [](const double* x) { return x[1] / x[3]; });
+            const Distribution k(draws, [=](const double* x) {
+              return e * std::pow(10, x[0] - x[1] / x[3] * x[2]);
+            });
+            std::vector<QuantityQuantiles> both;
+            for (const Distribution* each : {&n, &k})
+              both.push_back(
+                  {each->quantile(0.05), each->quantile(0.5), each->quantile(0.95), 0, 0, 0});
+            return both;
+          }};
+}
+
 // By what residuals may follow: the stress that the law takes for the cause, at the values where
 // searches start, and the mean stress.
 FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Parameter>& parameters) {
@@ -229,6 +263,21 @@ FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Paramet
 void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
   const SnLaw law = read_law(root);
   const SnData data = read_sn_data(root, source, law.correction);
+  if (law.curve == SnCurve::strain_life && data.stress_si != "1") {
+    root.required_table("law").fail(
+        "curve",
+        fmt::format("\"strain-life\" needs strains: data.columns.alternating_stress is in {}; a "
+                    "strain has the unit %, um/m or 1",
+                    data.stress_unit.text));
+  }
+  if (data.stress_si != "Pa" && law.strength) {
+    root.required_table("conditions")
+        .fail(strength_name(law.correction),
+              fmt::format("is a stress, but what drives the lives is in {}; use law.mean_stress = "
+                          "\"none\", \"swt\" "
+                          "or \"walker\"",
+                          data.stress_unit.text));
+  }
   if (study.stages) {
     root.required_table("update").fail(
         "stages",
@@ -257,7 +306,9 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
     predictions = read_sn_predictions(*predict, law, data);
   }
   add_sn_quantities(law, data, predictions, study);
-  if (law.curve != SnCurve::knee && law.curve != SnCurve::bastenaire)
+  if (law.curve == SnCurve::strain_life) {
+    study.quantity_groups.push_back(cyclic_curve(root));
+  } else if (law.curve != SnCurve::knee && law.curve != SnCurve::bastenaire)
     study.curve = [=](const WeightedDraws& draws) {
       const double log10_a = Distribution(draws, [](const double* x) { return x[0]; }).mean();
       const double b = Distribution(draws, [](const double* x) { return x[1]; }).mean();
