@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -91,7 +92,76 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
                    },
                    "residuals of neighbours along " + data.drivers.front().name + " are alike",
                    other_law});
+  if (data.unit.empty()) return tests;
+  // Unit by unit: what is alike within one may cancel over all of them.
+  std::vector<std::size_t> within = order;
+  std::stable_sort(within.begin(), within.end(), [&](std::size_t a, std::size_t b) {
+    return data.unit[row[a]] < data.unit[row[b]];
+  });
+  tests.push_back({"order within units",
+                   [within](std::span<const double> z) {
+                     std::vector<double> ordered;
+                     for (const std::size_t i : within) ordered.push_back(z[i]);
+                     return neighbour_test(ordered);
+                   },
+                   "residuals of neighbours of one unit are alike", other_law});
   return tests;
+}
+
+// Grubbs' test (1969): the one farthest from the mean of all, by Student's law and Bonferroni's bound. Sees neither
+// where a population lies nor how wide it is, both of which one far outside takes along.
+double outsider_test(std::span<const double> z) {
+  const auto n = static_cast<double>(z.size());
+  if (n < 4) return 1;
+  double mean = 0, squares = 0, most = 0;
+  for (const double each : z) mean += each / n;
+  for (const double each : z) {
+    const double square = (each - mean) * (each - mean);
+    squares += square;
+    most = std::max(most, square);
+  }
+  const double share = most / squares * n / (n - 1);  // of what one alone could have
+  if (!(share < 1)) return 0;
+  const double t = std::sqrt((n - 2) * share / (1 - share));
+  const boost::math::students_t law(n - 2);
+  return std::min(1.0, 2 * n * boost::math::cdf(boost::math::complement(law, t)));
+}
+
+// Whether units differ as the law of what varies says.
+void judge_effects(const FitData& data, const std::vector<std::vector<double>>& drawn_effects,
+                   FitOutcome& outcome) {
+  std::size_t begin = 0;
+  for (const UnitEffect& effect : data.effects) {
+    const std::size_t count = effect.of.size();
+    const auto p_of = [&](const ResidualTest& test) {
+      std::vector<double> p;
+      for (const auto& z : drawn_effects) p.push_back(test(std::span(z).subspan(begin, count)));
+      return std::min(1.0, 2 * median(p));
+    };
+    const auto middle = [&](std::size_t u) {
+      std::vector<double> values;
+      for (const auto& z : drawn_effects) values.push_back(z[begin + u]);
+      return std::abs(median(values));
+    };
+    std::size_t farthest = 0;
+    for (std::size_t u = 1; u < count; ++u) farthest = middle(u) > middle(farthest) ? u : farthest;
+    outcome.tests.push_back(
+        {"spread of " + effect.name, p_of(scatter_test),
+         fmt::format("units do not differ in {} by as much as its scatter says", effect.name),
+         "The scatter between units that is known or believed is not that of these units: see what "
+         "it was taken for, or give it a wider prior."});
+    outcome.tests.push_back(
+        {"middle of " + effect.name, p_of(location_test),
+         fmt::format("{} of the units does not lie about its middle", effect.name),
+         "See what is known of the middle of the population: the data say another one."});
+    outcome.tests.push_back(
+        {"outermost unit by " + effect.name, p_of(outsider_test),
+         fmt::format("{} lies farther out by its {} than the others let expect",
+                     effect.of[farthest], effect.name),
+         "Look whether that unit is of another kind, or its rows of another unit; if not, the law "
+         "by which units differ cannot expect it."});
+    begin += count;
+  }
 }
 
 std::string suspect(const FitData& data, std::size_t row) {
@@ -135,7 +205,9 @@ FitTest extreme(const FitData& data, const Loo& loo, const std::vector<double>& 
 FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo& loo) {
   FitOutcome outcome;
   const Eigen::VectorXd first = draws.values.row(0);
-  const std::size_t rows = data.scores(first.data()).size();
+  std::size_t of_effects = 0;
+  for (const UnitEffect& effect : data.effects) of_effects += effect.of.size();
+  const std::size_t rows = data.scores(first.data()).size() - of_effects;
   std::vector<std::size_t> row;  // of each single observation
   for (std::size_t i = 0; i < rows; ++i) {
     row.insert(
@@ -147,13 +219,14 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
       std::min(draws.values.rows(),
                std::clamp(static_cast<Eigen::Index>(evaluations / static_cast<double>(row.size())),
                           fewest_draws, most_draws));
-  std::vector<std::vector<double>> scores(static_cast<std::size_t>(count));
+  std::vector<std::vector<double>> scores(static_cast<std::size_t>(count)), effects(scores.size());
   tbb::parallel_for(std::size_t{0}, scores.size(), [&](std::size_t s) {
     const Eigen::VectorXd x =
         draws.values.row(static_cast<Eigen::Index>(s) * draws.values.rows() / count);
     const std::vector<NormalScore> ends = data.scores(x.data());
     Rng rng(seed, s);
     for (const std::size_t i : row) scores[s].push_back(drawn(ends[i], rng));
+    for (std::size_t i = rows; i < ends.size(); ++i) effects[s].push_back(ends[i].low);
   });
   for (std::size_t i = 0, at = 0; i < rows; ++i) {
     std::vector<double> values;
@@ -170,6 +243,7 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
         {judged.name, std::min(1.0, 2 * median(p)), judged.finding, judged.advice});
   }
   outcome.tests.push_back(extreme(data, loo, outcome.residuals, scores));
+  judge_effects(data, effects, outcome);
   if (data.rise) {
     const std::string impossible =
         "No parameters of the law can do that. Look whether signs, columns or units were mistaken, "

@@ -34,15 +34,24 @@ struct Rise {
   bool from_zero = false;          ///< the law vanishes with its driver
 };
 
+/// What differs from unit to unit, in standard normal terms: effects that a draw of the posterior says of
+/// the units seen are a sample of the standard normal law, as residuals are.
+struct UnitEffect {
+  std::string name;             ///< "rate"
+  std::vector<std::string> of;  ///< "laser 1", ...
+};
+
 /// What a study tells of its observations.
 struct FitData {
-  Scores scores;
+  Scores scores;  ///< of the observations, then those of `effects`, one effect after the other
   std::vector<int> counts;      ///< so many observations were alike; empty: one each
   std::vector<Driver> drivers;  ///< along the first one neighbours are judged
   std::optional<Rise> rise;
   std::string noun = "row";
-  bool terms = true;  ///< scores are of the factors of the likelihood, one by one
-  bool cheap = true;  ///< may be asked for at every node of a quadrature
+  bool terms = true;                   ///< scores are of the factors of the likelihood, one by one
+  bool cheap = true;                   ///< may be asked for at every node of a quadrature
+  std::vector<std::size_t> unit = {};  ///< of each observation, where units differ
+  std::vector<UnitEffect> effects = {};
 };
 
 /// One test, over all draws.

@@ -479,6 +479,10 @@ class OwnLikelihood final : public LogDensity {
       scratch.linear->add_gradient(scratch.integrals, gradient);
       return sum;
     }
+    if (scratch.steps) {
+      scratch.steps->add_gradient(scratch.integrals, gradient);
+      return sum;
+    }
     // The derivative of a log integral is the mean of the integrand's under the unit's posterior.
     constexpr double negligible = 1e-13;
     for (latent::Sweep& sweep : scratch.integrals.sweeps) {
@@ -546,6 +550,7 @@ class OwnLikelihood final : public LogDensity {
 OwnRows::OwnRows(std::shared_ptr<const OwnLaw> law, std::size_t rows)
     : law_(std::move(law)), columns_(bind_columns(*law_, rows)) {
   linear_ = is_linear(*law_, columns_);
+  proportional_ = is_proportional(*law_, columns_);
 }
 
 const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
@@ -556,6 +561,9 @@ const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
     if (!scratch.linear->integrate_one(scratch.integrals)) {
       latent::integrate(*scratch.linear, scratch.integrals);
     }
+  } else if (scratch.steps) {
+    scratch.steps->move();
+    latent::integrate(*scratch.steps, scratch.integrals);
   } else {
     latent::integrate(scratch.rows, scratch.integrals);
   }
@@ -565,8 +573,9 @@ const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
 OwnRows::Scratch& OwnRows::mine() const {
   std::unique_ptr<Scratch>& scratch = scratch_.local();
   if (!scratch) {
-    scratch.reset(new Scratch{UnitRows(*law_, columns_), {}, {}, {}});
+    scratch.reset(new Scratch{UnitRows(*law_, columns_), {}, {}, {}, {}});
     if (linear_) scratch->linear = std::make_unique<LinearUnits>(scratch->rows);
+    if (proportional_) scratch->steps = std::make_unique<StepUnits>(scratch->rows);
   }
   return *scratch;
 }

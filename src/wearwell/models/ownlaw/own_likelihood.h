@@ -11,6 +11,7 @@
 #include "wearwell/latent/unit_integral.h"
 #include "wearwell/models/ownlaw/own_law.h"
 #include "wearwell/models/ownlaw/own_linear.h"
+#include "wearwell/models/ownlaw/own_steps.h"
 #include "wearwell/prob/response_block.h"
 
 namespace wearwell::ownlaw {
@@ -115,6 +116,7 @@ class OwnRows {
   struct Scratch {
     UnitRows rows;
     std::unique_ptr<LinearUnits> linear;  ///< where means are straight in what differs
+    std::unique_ptr<StepUnits> steps;     ///< of a process whose mean is in proportion to it
     latent::UnitIntegrals integrals;
     std::vector<double> value;
   };
@@ -127,7 +129,7 @@ class OwnRows {
  private:
   std::shared_ptr<const OwnLaw> law_;
   std::vector<BoundColumn> columns_;
-  bool linear_ = false;
+  bool linear_ = false, proportional_ = false;
   mutable tbb::enumerable_thread_specific<std::unique_ptr<Scratch>> scratch_;
 };
 

@@ -18,17 +18,6 @@ constexpr double half_log_two_pi = 0.91893853320467274178;
 using Matrix2 = Eigen::Matrix2d;
 using Vector2 = Eigen::Vector2d;
 
-bool has_cases(const OwnLaw& law) {
-  static const std::regex cases(R"(\b(where|min|max|abs)\b|[<>=])");
-  const auto found = [&](const std::string& text) { return std::regex_search(text, cases); };
-  return std::any_of(law.measured.begin(), law.measured.end(), [&](const Measured& measured) {
-    for (std::size_t o = 0; o < measured.program.outputs().size(); ++o) {
-      if (found(measured.program.text(o))) return true;
-    }
-    return measured.program.has_paths();
-  });
-}
-
 // Means of the rows at three places on a line through the effects: the middle one halfway?
 bool straight(UnitRows& rows, std::size_t c, const double* from, const double* to,
               std::size_t effects) {
@@ -53,6 +42,17 @@ bool straight(UnitRows& rows, std::size_t c, const double* from, const double* t
 }
 
 }  // namespace
+
+bool has_cases(const OwnLaw& law) {
+  static const std::regex cases(R"(\b(where|min|max|abs)\b|[<>=])");
+  const auto found = [&](const std::string& text) { return std::regex_search(text, cases); };
+  return std::any_of(law.measured.begin(), law.measured.end(), [&](const Measured& measured) {
+    for (std::size_t o = 0; o < measured.program.outputs().size(); ++o) {
+      if (found(measured.program.text(o))) return true;
+    }
+    return measured.program.has_paths();
+  });
+}
 
 bool is_linear(const OwnLaw& law, const std::vector<BoundColumn>& columns) {
   if (!law.varies() || has_cases(law)) return false;

@@ -10,7 +10,12 @@
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr std::size_t most_points = 4000;
+// How many points of the posterior. Where they are dear fewer for units that have shown their own pace: lives of
+// new ones hang on the tail of what is known of the population.
+struct Most {
+  std::size_t next = 4000, seen = 4000;
+};
+
 // One thread's part: some points of the posterior, one after the other.
 class Part {
  public:
@@ -135,18 +140,28 @@ class Part {
   std::vector<double> place_, past_, level_;
 };
 
-// Of paths that are dear, fewer.
-std::size_t points_of(const LimitedPath& path) {
-  const auto& any = path.next ? path.next : path.seen.front().ahead;
-  if (!any->goes_on()) return most_points;
-  return any->running->running.solved ? 200 : 1000;
+Most points_of(const Path& any) {
+  if (!any.goes_on()) return {};
+  return any.running->running.solved ? Most{400, 200} : Most{2000, 1000};
 }
 
 }  // namespace
 
 LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
                            const WeightedDraws& draws) {
-  return sum_over(FewPoints(draws, points_of(path)), [&] { return Part(rows, path); });
+  const Most most = points_of(path.next ? *path.next : *path.seen.front().ahead);
+  LimitedLives lives;
+  LimitedPath seen = path, next = path;
+  seen.next.reset();
+  next.seen.clear();
+  if (!path.seen.empty()) {
+    lives = sum_over(FewPoints(draws, most.seen), [&] { return Part(rows, seen); });
+  }
+  if (!path.next) return lives;
+  LimitedLives of_next = sum_over(FewPoints(draws, most.next), [&] { return Part(rows, next); });
+  lives.next = std::move(of_next.next);
+  lives.by_share = std::move(of_next.by_share);
+  return lives;
 }
 
 void LimitedLives::add_shares(const LimitedPath& path, const CellMixture& units) {

@@ -12,7 +12,7 @@
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr std::size_t most_points = 400;
+constexpr std::size_t most_points = 400, most_points_of_next = 2000;
 constexpr double least_share = 1e-4;  // of a unit's posterior: nodes with less are left out
 
 // Where a path stands that readings do not tell exactly: nodes of the normal law below `highest`.
@@ -45,7 +45,7 @@ class Part {
         fresh_(lines_of_new_unit(effects_, 0.5, 5)) {
     const LimitedPath& path = limit.path;
     sign_ = path.rising ? 1 : -1;
-    next_.emplace(*path.next, path.rising, path.begin, path.scale);
+    if (path.next) next_.emplace(*path.next, path.rising, path.begin, path.scale);
     for (const LimitedPath::Seen& each : path.seen) {
       ahead_.emplace_back(*each.ahead, path.rising, path.begin, path.scale);
     }
@@ -54,6 +54,14 @@ class Part {
   }
 
   void add(const double* x, double weight) {
+    if (next_) add_next(x, weight);
+    if (!limit_.path.seen.empty()) add_seen(x, weight);
+  }
+
+  LimitedLives found;
+
+ private:
+  void add_next(const double* x, double weight) {
     next_->at().move_to(x);
     CellMixture units;
     for (std::size_t i = 0; i < fresh_.count(); ++i) {
@@ -63,12 +71,8 @@ class Part {
     }
     found.next.add(units);
     if (!limit_.path.shares.empty()) found.add_shares(limit_.path, units);
-    if (!limit_.path.seen.empty()) add_seen(x, weight);
   }
 
-  LimitedLives found;
-
- private:
   // The scale of a path at z; where its standard deviation is given, by what it is far along.
   double scale_at(Crossing& crossing, const double* z, double from) {
     const double place = std::max(from, limit_.path.begin + limit_.path.scale);
@@ -154,7 +158,20 @@ class Part {
 
 LimitedLives process_lives(const OwnRows& rows, const ProcessLimit& limit,
                            const WeightedDraws& draws) {
-  return sum_over(FewPoints(draws, most_points), [&] { return Part(rows, limit); });
+  ProcessLimit seen = limit, next = limit;
+  seen.path.next.reset();
+  next.path.seen.clear();
+  LimitedLives lives;
+  if (!limit.path.seen.empty()) {
+    lives = sum_over(FewPoints(draws, most_points), [&] { return Part(rows, seen); });
+  }
+  if (!limit.path.next) return lives;
+  // Lives of new units hang on the tail of what is known of the population.
+  LimitedLives of_next =
+      sum_over(FewPoints(draws, most_points_of_next), [&] { return Part(rows, next); });
+  lives.next = std::move(of_next.next);
+  lives.by_share = std::move(of_next.by_share);
+  return lives;
 }
 
 }  // namespace wearwell::ownlaw

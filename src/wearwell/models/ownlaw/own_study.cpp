@@ -10,6 +10,7 @@
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/models/ownlaw/identified.h"
 #include "wearwell/models/ownlaw/life_paper.h"
+#include "wearwell/models/ownlaw/own_fit_data.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/models/ownlaw/own_predictions.h"
 #include "wearwell/models/ownlaw/own_reader.h"
@@ -125,66 +126,6 @@ void tell_data(const OwnLaw& law, PosteriorStudy& study) {
   }
 }
 
-// Places of observations in their laws; of a count those of its ends.
-NormalScore score(const Measured& measured, const Response& y, const double* slots) {
-  const ResponseFamily family = measured.form->family;
-  const auto at = [&](double value) {
-    return normal_score(log_cdf(family, value, slots, y.trials),
-                        log_survival(family, value, slots, y.trials));
-  };
-  if (measured.form->counted) {
-    const double high = y.trials > 0 && y.at >= y.trials ? infinity : at(y.at);
-    return {y.at > 0 ? at(y.at - 1) : -infinity, high};
-  }
-  switch (y.seen) {
-    case Seen::exactly: {
-      const double z = at(y.at);
-      return {z, z};
-    }
-    case Seen::above:
-      return {at(y.at), infinity};
-    case Seen::below:
-      return {-infinity, at(y.at)};
-    case Seen::between:
-      break;
-  }
-  return {at(y.at), at(y.until)};
-}
-
-std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
-  const OwnLaw& law = rows->law();
-  // Of units that differ each row would have to be seen in the light of those before it.
-  if (law.by_unit() || law.measured.size() > 1) return {};
-  const Measured& measured = law.measured.front();
-  for (const Response& each : measured.observed.responses) {
-    if (each.entry > -infinity) return {};
-  }
-  FitData data;
-  data.scores = [rows](const double* x) {
-    ownlaw::UnitRows& units = rows->mine().rows;
-    units.move_to(x);
-    const Measured& column = rows->law().measured.front();
-    const std::vector<double> slots = units.each_slot({}).front();
-    std::vector<NormalScore> scores;
-    for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
-      scores.push_back(
-          score(column, column.observed.responses[i], &slots[i * most_response_slots]));
-    }
-    return scores;
-  };
-  data.counts = measured.observed.counts;
-  for (std::size_t c = 0; c < law.row_symbols.columns.size(); ++c) {
-    const std::string& name = law.row_symbols.columns[c].name;
-    if (!measured.program.uses_column(c)) continue;
-    Driver driver{name, {}};
-    for (const std::size_t row : measured.observed.rows) {
-      driver.value.push_back(law.data.number(name)->values[row]);
-    }
-    data.drivers.push_back(std::move(driver));
-  }
-  return data;
-}
-
 // The first expression that is no number where the search starts, with its row: a clearer word than that
 // the posterior is not finite there.
 void require_numbers(const OwnLaw& law) {
@@ -235,7 +176,7 @@ void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy
     if (count == law->data.table.rows) return likelihood;
     return ownlaw::own_likelihood(std::make_shared<const OwnRows>(law, count));
   };
-  study.fit_data = fit_data(rows);
+  study.fit_data = ownlaw::fit_data(rows);
   study.checks = [rows](const Fit& fit) {
     return std::vector<Check>{ownlaw::identified(*rows, rows->law().parameters, fit)};
   };

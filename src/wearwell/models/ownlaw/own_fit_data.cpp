@@ -1,0 +1,126 @@
+#include "wearwell/models/ownlaw/own_fit_data.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "wearwell/base/rng.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Places of observations in their laws; of a count those of its ends.
+NormalScore score(const Measured& measured, const Response& y, const double* slots) {
+  const ResponseFamily family = measured.form->family;
+  const auto at = [&](double value) {
+    return normal_score(log_cdf(family, value, slots, y.trials),
+                        log_survival(family, value, slots, y.trials));
+  };
+  if (measured.form->counted) {
+    const double high = y.trials > 0 && y.at >= y.trials ? infinity : at(y.at);
+    return {y.at > 0 ? at(y.at - 1) : -infinity, high};
+  }
+  switch (y.seen) {
+    case Seen::exactly: {
+      const double z = at(y.at);
+      return {z, z};
+    }
+    case Seen::above:
+      return {at(y.at), infinity};
+    case Seen::below:
+      return {-infinity, at(y.at)};
+    case Seen::between:
+      break;
+  }
+  return {at(y.at), at(y.until)};
+}
+
+// The same lots for the same parameters, whoever asks.
+Rng lots_at(const double* x, std::size_t count) {
+  std::uint64_t stream = 14695981039346656037ULL;
+  for (std::size_t i = 0; i < count; ++i) {
+    stream = (stream ^ std::bit_cast<std::uint64_t>(x[i])) * 1099511628211ULL;
+    stream ^= stream >> 29;
+  }
+  constexpr std::uint64_t seed = 20261122;
+  return Rng(seed, stream);
+}
+
+// One of the nodes of each unit, by lot.
+std::vector<double> drawn_effects(const OwnRows& rows, const double* x) {
+  const std::size_t d = rows.law().effects.size(), units = rows.law().units.size();
+  std::vector<double> z(units * d);
+  if (d == 0) return z;
+  const latent::UnitIntegrals& integrals = rows.integrate(x);
+  Rng rng = lots_at(x, rows.law().parameters.size());
+  for (std::size_t u = 0; u < units; ++u) {
+    double left = rng.uniform();
+    for (const latent::Sweep& sweep : integrals.sweeps) {
+      if (!(sweep.weight[u] > 0)) continue;
+      for (std::size_t e = 0; e < d; ++e) z[u * d + e] = sweep.z[u * d + e];
+      left -= sweep.weight[u];
+      if (left < 0) break;
+    }
+  }
+  return z;
+}
+
+}  // namespace
+
+std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
+  const OwnLaw& law = rows->law();
+  if (law.measured.size() > 1) return {};
+  const Measured& measured = law.measured.front();
+  for (const Response& each : measured.observed.responses) {
+    if (each.entry > -infinity) return {};
+  }
+  FitData data;
+  data.scores = [rows](const double* x) {
+    const std::vector<double> z = drawn_effects(*rows, x);
+    UnitRows& units = rows->mine().rows;
+    units.move_to(x);
+    const Measured& column = rows->law().measured.front();
+    std::vector<NormalScore> scores;
+    if (column.process) {
+      scores = units.step_scores(z, 0);
+    } else {
+      const std::vector<double> slots = units.each_slot(z).front();
+      for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
+        scores.push_back(
+            score(column, column.observed.responses[i], &slots[i * most_response_slots]));
+      }
+    }
+    const std::size_t d = rows->law().effects.size();
+    for (std::size_t e = 0; e < d; ++e) {
+      for (std::size_t i = e; i < z.size(); i += d) scores.push_back({z[i], z[i]});
+    }
+    return scores;
+  };
+  data.counts = measured.observed.counts;
+  for (std::size_t c = 0; c < law.row_symbols.columns.size(); ++c) {
+    const std::string& name = law.row_symbols.columns[c].name;
+    if (!measured.program.uses_column(c)) continue;
+    Driver driver{name, {}};
+    for (const std::size_t row : measured.observed.rows) {
+      driver.value.push_back(law.data.number(name)->values[row]);
+    }
+    data.drivers.push_back(std::move(driver));
+  }
+  if (!law.by_unit()) return data;
+  data.terms = false;  // factors of the likelihood are units
+  for (const std::size_t row : measured.observed.rows) data.unit.push_back(law.unit_of_row[row]);
+  for (const Effect& effect : law.effects) {
+    UnitEffect named{effect.name, {}};
+    for (const std::string& unit : law.units) {
+      named.of.push_back(fmt::format("{} {}", *law.label, unit));
+    }
+    data.effects.push_back(std::move(named));
+  }
+  return data;
+}
+
+}  // namespace wearwell::ownlaw

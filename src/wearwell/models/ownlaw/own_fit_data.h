@@ -1,0 +1,17 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "wearwell/infer/fit_check.h"
+#include "wearwell/models/ownlaw/own_likelihood.h"
+
+namespace wearwell::ownlaw {
+
+/// The scores by which the check of fit judges a law of one measured column (docs/checks.md); none where rows are
+/// truncated. Where units differ their effects are drawn from what x and their rows say of them: a draw of both
+/// together is one of the posterior, under which residuals and effects are standard normal. A reading of a
+/// process is scored in the light of those before it.
+std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows);
+
+}  // namespace wearwell::ownlaw

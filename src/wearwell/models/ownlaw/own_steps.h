@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "wearwell/latent/unit_integral.h"
+#include "wearwell/models/ownlaw/own_law.h"
+
+namespace wearwell::ownlaw {
+
+class UnitRows;
+struct BoundColumn;
+
+/// Whether the one column is a process without noise of its readings, its mean in proportion to the one effect of a
+/// unit, and its scale or standard deviation without it. Tried with numbers, as `is_linear` does.
+bool is_proportional(const OwnLaw& law, const std::vector<BoundColumn>& columns);
+
+/// The same likelihood as that of `UnitRows`, from one look at the rows: with q the unit's effect over the middle,
+///
+///   log L(q) = constant + powers of q + a logarithm of q - log Gamma(q alpha) of steps that are alike,
+///
+/// whatever the number of its rows.
+class StepUnits final : public latent::UnitTerms {
+ public:
+  explicit StepUnits(UnitRows& rows);
+
+  /// To where the rows have been moved.
+  void move();
+
+  std::size_t units() const override;
+  int effects() const override { return 1; }
+  void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
+                std::span<double> value, std::span<double> slope) override;
+  /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
+  void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);
+
+ private:
+  // Steps of a gamma process with about the same mean over scale.
+  struct Alike {
+    double count, shape;
+    double slope = 0;  // the mean of q digamma(q shape) over the unit's posterior
+  };
+  struct Unit {
+    double constant = 0, by_log = 0, by_inverse = 0, by_one = 0, by_square = 0;
+    std::vector<Alike> alike;
+  };
+  struct Moments {
+    double one = 0, square = 0, inverse = 0;  // of q
+  };
+  void add_step(std::size_t row, double w, double dy, double spread, double before, Unit& unit);
+  double slope_of(const Unit& unit, double q) const;
+
+  UnitRows& rows_;
+  const OwnLaw& law_;
+  const BoundColumn& column_;
+  double base_ = 1;
+  std::vector<double> mean_, spread_, by_mean_, by_spread_;
+  std::vector<std::size_t> alike_of_;  // of each row
+  std::vector<Unit> unit_;
+};
+
+}  // namespace wearwell::ownlaw

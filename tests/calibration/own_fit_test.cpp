@@ -1,0 +1,124 @@
+// How often the check of fit accuses a right law whose units differ, or whose paths take random steps: parameters drawn
+// from their priors, units from the parameters, readings from both. WEARWELL_REPLICATIONS says how many.
+#include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "calibration/own_design.h"
+#include "wearwell/base/rng.h"
+#include "wearwell/infer/loo.h"
+#include "wearwell/models/ownlaw/own_fit_data.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr std::size_t units = 6, readings = 6;
+
+std::string study(const std::string& family, const std::string& slots, bool varies) {
+  std::string text = R"(
+[data.columns]
+y = "y"
+t = "t"
+unit = "unit"
+[likelihood.y]
+family = ")" + family +
+                     "\"\nmean = \"b*t\"\n" + slots + R"(
+[prior]
+b = { law = "lognormal", median = 1, log_sd = 0.5 }
+sigma = { law = "half-normal", scale = 0.5 }
+)";
+  if (varies) {
+    text +=
+        "scatter = { law = \"half-normal\", scale = 0.5 }\n[varies.unit]\n"
+        "b = { law = \"lognormal\", log_sd = \"scatter\" }\n";
+  }
+  return text + "[predict]\nalong = \"t\"\n";
+}
+
+OwnDesign design(const std::string& text) {
+  std::vector<double> y, t;
+  std::vector<std::string> unit;
+  for (std::size_t u = 0; u < units; ++u) {
+    for (std::size_t i = 1; i <= readings; ++i) {
+      y.push_back(static_cast<double>(i));
+      t.push_back(static_cast<double>(i));
+      unit.push_back("u" + std::to_string(u));
+    }
+  }
+  return {text, {numbers("y", y), numbers("t", t), texts("unit", unit)}};
+}
+
+// The smallest p value times the number of tests; NaN where there was no posterior.
+double judged(const OwnDesign& own, bool walks, double bent, std::uint64_t stream) {
+  Rng rng(20261123, stream);
+  const std::vector<double> x = own.from_priors(rng);
+  const double scatter = x.size() > 2 ? x[2] : 0;
+  std::vector<Response> responses;
+  for (std::size_t u = 0; u < units; ++u) {
+    const double rate = x[0] * std::exp(scatter * rng.normal());
+    double path = 0;
+    for (std::size_t i = 1; i <= readings; ++i) {
+      const double t = static_cast<double>(i);
+      const double mean = rate * (t + bent * t * (t - 3.5));
+      path += walks ? rate + x[1] * rng.normal() : 0;
+      responses.push_back({.at = walks ? path : mean + x[1] * rng.normal()});
+    }
+  }
+  const auto rows = std::make_shared<const OwnRows>(own.with(responses), responses.size());
+  const ExactPosterior exact = exact_posterior(rows, 3e-3);
+  if (!exact.failure.empty()) return NAN;
+  const WeightedSampler sampler(exact.nodes);
+  WeightedDraws draws;
+  draws.values.resize(100, static_cast<Eigen::Index>(x.size()));
+  for (Eigen::Index i = 0; i < 100; ++i) draws.values.row(i) = sampler(rng).transpose();
+  draws.weights.setConstant(100, 0.01);
+  return judge_fit(*fit_data(rows), draws, Loo{}).p;
+}
+
+struct Alarms {
+  int warned = 0, failed = 0, without = 0, count = 0;
+};
+
+Alarms simulate(const char* name, const OwnDesign& own, bool walks, double bent, int otherwise) {
+  const char* wanted = std::getenv("WEARWELL_REPLICATIONS");
+  const int count = wanted ? std::max(20, std::atoi(wanted)) : otherwise;
+  std::vector<double> p(static_cast<std::size_t>(count));
+  tbb::parallel_for(0, count, [&](int i) {
+    p[static_cast<std::size_t>(i)] = judged(own, walks, bent, static_cast<std::uint64_t>(i));
+  });
+  Alarms alarms{.count = count};
+  for (const double each : p) {
+    alarms.without += std::isnan(each);
+    alarms.warned += each < fit_warns_below;
+    alarms.failed += each < fit_fails_below;
+  }
+  std::printf("%s, %d studies: warned %d, failed %d; %d without quadrature\n", name, count,
+              alarms.warned, alarms.failed, alarms.without);
+  std::fflush(stdout);
+  return alarms;
+}
+
+// A share of 0.01 may be warned of: more than three standard errors and one above that are none.
+void expect_few(const Alarms& alarms) {
+  EXPECT_LE(alarms.warned, 1 + 0.01 * alarms.count + 3 * std::sqrt(0.01 * alarms.count));
+  EXPECT_LE(alarms.failed, 1 + 0.001 * alarms.count + 3 * std::sqrt(0.001 * alarms.count));
+  EXPECT_EQ(alarms.without, 0);
+}
+
+TEST(OwnFitCalibration, UnitsThatDiffer) {
+  const OwnDesign own = design(study("normal", "sd = \"sigma\"", true));
+  expect_few(simulate("units that differ", own, false, 0, 400));
+  EXPECT_GT(simulate("the same, bent", own, false, 0.1, 40).failed, 8);
+}
+
+TEST(OwnFitCalibration, RandomSteps) {
+  expect_few(simulate("random steps",
+                      design(study("wiener-process", "sd = \"sigma*sqrt(t)\"", false)), true, 0,
+                      400));
+}
+
+}  // namespace
+}  // namespace wearwell::ownlaw

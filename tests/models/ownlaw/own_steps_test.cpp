@@ -1,0 +1,101 @@
+// Units of a process whose mean is in proportion to what differs: against the rows themselves.
+#include "wearwell/models/ownlaw/own_steps.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scratch.h"
+#include "wearwell/models/ownlaw/own_likelihood.h"
+#include "wearwell/models/ownlaw/own_reader.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+class OwnSteps : public ScratchTest {
+ protected:
+  // Steps that are alike (unit a) and not (unit b).
+  std::shared_ptr<OwnLaw> read(const std::string& family, const std::string& slots,
+                               const std::string& mean, bool lognormal) const {
+    write("d.csv", "m,t,y\na,1,1.1\na,2,1.9\na,3,3.3\na,4,4.2\nb,0.5,0.8\nb,2,1.7\nb,2.7,2.1\n");
+    const Source source = source_of(
+        write("study.toml", R"(
+model = "law"
+[data]
+file = "d.csv"
+[data.columns]
+y = "y"
+t = "t"
+m = "m"
+[likelihood.y]
+family = ")" + family + "\"\nmean = \"" +
+                                mean + "\"\n" + slots + R"(
+[prior]
+k = { law = "lognormal", median = 1, log_sd = 1 }
+p = { law = "lognormal", median = 1, log_sd = 0.5 }
+u = { law = "half-normal", scale = 1 }
+s = { law = "half-normal", scale = 1 }
+[varies.m]
+)" +
+                                (lognormal ? "k = { law = \"lognormal\", log_sd = \"s\" }\n"
+                                           : "k = { law = \"normal\", sd = \"s\" }\n") +
+                                "[predict]\nalong = \"t\"\n"));
+    return read_own_law(TomlReader::parse(source.study), source);
+  }
+};
+
+TEST_F(OwnSteps, AreWhatTheRowsSay) {
+  const std::vector<std::pair<std::string, std::string>> processes = {
+      {"gamma-process", "scale = \"u\"\n"},
+      {"inverse-gaussian-process", "scale = \"u\"\n"},
+      {"wiener-process", "scale = \"u\"\n"},
+      {"wiener-process", "sd = \"u*t^p\"\n"}};
+  const std::vector<double> x = {1.2, 1.1, 0.13, 0.4};
+  for (const auto& [family, slots] : processes) {
+    for (const bool lognormal : {true, false}) {
+      const auto law = read(family, slots, "k*t^p", lognormal);
+      const auto columns = bind_columns(*law, law->data.table.rows);
+      ASSERT_TRUE(is_proportional(*law, columns)) << family << slots;
+      UnitRows rows(*law, columns);
+      rows.move_to(x.data());
+      StepUnits steps(rows);
+      steps.move();
+      for (const double z : {-1.3, 0.0, 0.8, 2.0}) {
+        const std::vector<double> at = {z, -0.4 * z};
+        const std::vector<std::uint8_t> all = {1, 1};
+        std::vector<double> value(2), slope(2), expected(2), expected_slope(2);
+        steps.evaluate(at, all, value, slope);
+        rows.evaluate(at, all, expected, expected_slope);
+        for (int u = 0; u < 2; ++u) {
+          EXPECT_NEAR(value[u], expected[u], 1e-10 * (1 + std::abs(expected[u])))
+              << family << slots << lognormal << z;
+          EXPECT_NEAR(slope[u], expected_slope[u], 1e-8 * (1 + std::abs(expected_slope[u])))
+              << family << slots << lognormal << z;
+        }
+      }
+      const auto likelihood = own_likelihood(std::make_shared<const OwnRows>(law, 7));
+      std::vector<double> gradient(4), moved = x;
+      likelihood->value_and_gradient(x, gradient);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double h = 1e-4 * x[i];
+        moved[i] = x[i] + h;
+        const double above = likelihood->value(moved);
+        moved[i] = x[i] - h;
+        EXPECT_NEAR(gradient[i], (above - likelihood->value(moved)) / (2 * h),
+                    1e-4 * (1 + std::abs(gradient[i])))
+            << family << slots << lognormal << i;
+        moved[i] = x[i];
+      }
+    }
+  }
+}
+
+TEST_F(OwnSteps, AreNoneWhereTheMeanIsNotInProportion) {
+  const auto law = read("wiener-process", "scale = \"u\"\n", "k^2*t^p", true);
+  EXPECT_FALSE(is_proportional(*law, bind_columns(*law, law->data.table.rows)));
+  const auto other = read("wiener-process", "sd = \"u*k*t^p\"\n", "k*t^p", true);
+  EXPECT_FALSE(is_proportional(*other, bind_columns(*other, other->data.table.rows)));
+}
+
+}  // namespace
+}  // namespace wearwell::ownlaw
