@@ -18,8 +18,6 @@
 namespace wearwell {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Numbers held at once: draws are thinned beyond.
 constexpr double most_numbers = 5e7;
 

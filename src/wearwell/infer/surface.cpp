@@ -61,7 +61,8 @@ class Series {
     U of{};
     for (int l = 0; l < third; ++l) {
       for (int k = 0; k < second - l; ++k) {
-        const double* c = &coefficient_[static_cast<std::size_t>(n_ * (k + n_ * l))];
+        const double* c =
+            &coefficient_[static_cast<std::size_t>(n_) * static_cast<std::size_t>(k + n_ * l)];
         double line = 0, line_slope = 0;
         for (int j = 0; j < n_ - k - l; ++j) {
           line += c[j] * value[0][j];

@@ -42,7 +42,7 @@ class Compiler {
 
   std::vector<int> run(const std::vector<Wanted>& wanted) {
     const int lines = static_cast<int>(lines_.named.size());
-    done_.assign(static_cast<std::size_t>(2 * lines + 2), 0);
+    done_.assign(2 * static_cast<std::size_t>(lines) + 2, 0);
     for (int i = 0; i < lines; ++i) visit(i);
     if (!lines_.state.empty()) visit(state_item());
     std::vector<int> roots;

@@ -23,6 +23,28 @@ bool positive(double x) {
   return x > 0 && x < infinity;
 }
 
+// Of two parameters, its logarithms at hand.
+void weibull_responses(const ResponseColumn& column, std::size_t begin,
+                       std::span<const SlotValues> slots, std::span<double> value,
+                       std::span<double> slope, const auto& refuse) {
+  const std::size_t n = value.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double scale = slots[0][i], shape = slots[1][i];
+    if (!(positive(scale) && positive(shape))) {
+      refuse(i);
+      continue;
+    }
+    const double log_y = column.log_at[begin + i], off = log_y - std::log(scale);
+    const double z = shape * off, e = std::exp(z);
+    value[i] = z - e + std::log(shape) - log_y;
+    if (!slope.empty()) {
+      slope[i] = (e - 1) * shape / scale;
+      slope[n + i] = (1 - e) * off + 1 / shape;
+      slope[2 * n + i] = shape / std::exp(log_y) * (e - 1 + 1 / shape);
+    }
+  }
+}
+
 }  // namespace
 
 ResponseColumn::ResponseColumn(std::vector<Response> responses) : rows(std::move(responses)) {
@@ -84,21 +106,7 @@ void log_responses(ResponseFamily family, const ResponseColumn& column, std::siz
     return;
   }
   if (logs && family == ResponseFamily::weibull && slots[2].uniform && *slots[2].at == 0) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const double scale = slots[0][i], shape = slots[1][i];
-      if (!(positive(scale) && positive(shape))) {
-        refuse(i);
-        continue;
-      }
-      const double log_y = column.log_at[begin + i], off = log_y - std::log(scale);
-      const double z = shape * off, e = std::exp(z);
-      value[i] = z - e + std::log(shape) - log_y;
-      if (sloped) {
-        slope[i] = (e - 1) * shape / scale;
-        slope[n + i] = (1 - e) * off + 1 / shape;
-        slope[2 * n + i] = shape / std::exp(log_y) * (e - 1 + 1 / shape);
-      }
-    }
+    weibull_responses(column, begin, slots, value, slope, refuse);
     return;
   }
   double s[most_response_slots] = {};

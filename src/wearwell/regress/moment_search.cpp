@@ -119,7 +119,7 @@ void MomentSearch::relax(Node& node) {
   const int rows = submodel.rows(), count = submodel.count();
   const Index dimension = problem_.moments.dimension();
   const Eigen::LLT<Eigen::MatrixXd> root(node.weight);  // at least the identity
-  weighted_.assign(static_cast<std::size_t>((count + 1) * rows), 0.0);
+  weighted_.assign(static_cast<std::size_t>(count + 1) * static_cast<std::size_t>(rows), 0.0);
   columns_.clear();
   const auto weigh = [&](const double* from, double* to) {
     Eigen::Map<Eigen::VectorXd>(to, dimension) = root.matrixU() * coordinates(from, dimension);

@@ -124,7 +124,7 @@ void PressSearch::relax(Node& node) {
   node.scale.resize(rows);
   for (int i = 0; i < rows; ++i)
     node.scale[i] = std::min(1 / submodel.complements()[i], most_scale);
-  weighted_.resize(static_cast<std::size_t>((count + 1) * rows));
+  weighted_.resize(static_cast<std::size_t>(count + 1) * static_cast<std::size_t>(rows));
   columns_.clear();
   for (int t = 0; t < count; ++t) {
     columns_.push_back(weighted_.data() + t * rows);

@@ -24,7 +24,7 @@ void Relaxation::factor(std::span<double* const> columns, double* response, int 
   const int count = static_cast<int>(columns.size());
   size_ = count;
   stride_ = filled(count);
-  upper_.resize(static_cast<std::size_t>(count * stride_));
+  upper_.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(stride_));
   length2_.resize(count);
   original2_.resize(count);
   coordinate_.assign(count, -1);
@@ -54,7 +54,7 @@ void Relaxation::factor(std::span<double* const> columns, double* response, int 
 
 void Relaxation::invert(int count) {
   // The inverse of the unit triangle, its rows from the bottom.
-  x_.assign(static_cast<std::size_t>(count * stride_), 0.0);
+  x_.assign(static_cast<std::size_t>(count) * static_cast<std::size_t>(stride_), 0.0);
   for (int j = count - 1; j >= 0; --j) {
     if (coordinate_[j] < 0) continue;
     row(j)[coordinate_[j]] = 1;
@@ -126,7 +126,7 @@ void Relaxation::drop_first(const Relaxation& from, std::span<const int> order) 
   rank_ = from.rank_ - 1;
   stride_ = filled(from.rank_);
   dependent_ = false;
-  x_.resize(static_cast<std::size_t>(size_ * stride_));
+  x_.resize(static_cast<std::size_t>(size_) * static_cast<std::size_t>(stride_));
   z_.resize(stride_);
   costless_.assign(size_, 0);
   coefficient_.resize(size_);

@@ -21,7 +21,8 @@ class Sense {
     if (!defined) {
       findings_.add(Verdict::fail, fmt::format("{} could not be computed", what),
                     "Some parameters that the posterior holds possible give no number: bound the "
-                    "prior that lets them be.");
+                    "prior that lets them be. Of lives from somewhere on: where it hardly ever "
+                    "comes so far, nothing remains to be told; ask for others, or for less.");
       return;
     }
     if (std::isinf(q95) && may_never_end) {
