@@ -111,7 +111,8 @@ TEST_F(Door, SlipsInAStudy) {
        "prior.log10_a.mean: 'MPa' is not the logarithm of a quantity"},
       // keys that are misspelt, before what follows from that
       {"joint", "^limit", "limt",
-       "predict.limt: unknown key; did you mean 'limit'? (possible: cycles, limit, risk, "
+       "predict.limt: unknown key; did you mean 'limit'? (possible: b_lives, credible_level, "
+       "cycles, limit, risk, "
        "work_per_cycle)"},
       {"joint", "\\[predict\\]", "[predct]", "predct: unknown key; did you mean 'predict'?"},
       {"joint", "data.columns", "data.coloumns",
@@ -195,9 +196,10 @@ TEST_F(Door, SlipsInAStudy) {
 TEST_F(Door, TwoSlipsAreOneMessage) {
   EXPECT_EQ(
       slipped("joint", "^limit  =|^risk   =", "x$&"),
-      "slip.toml:29:11: predict.xlimit: unknown key; did you mean 'limit'? (possible: cycles, "
-      "limit, risk, work_per_cycle); and 30:11: predict.xrisk: unknown key; did you mean "
-      "'risk'? (possible: cycles, limit, risk, work_per_cycle)");
+      "slip.toml:29:11: predict.xlimit: unknown key; did you mean 'limit'? (possible: b_lives, "
+      "credible_level, cycles, limit, risk, work_per_cycle); and 30:11: predict.xrisk: unknown "
+      "key; did you mean "
+      "'risk'? (possible: b_lives, credible_level, cycles, limit, risk, work_per_cycle)");
   EXPECT_THAT(
       slipped("joint", "^(cycles = \"cycles\"|volume =|family =|work_per_cycle =|sigma|k ).*", ""),
       AllOf(HasSubstr("4 keys are missing"), HasSubstr("data.columns.cycles = "),

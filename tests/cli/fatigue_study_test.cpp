@@ -465,7 +465,8 @@ TEST_F(FatigueStudy, RefusesContradictionsAndGapsByKey) {
   };
   expect(
       head + "alternating_stress = { column = \"s\", unit = \"mm\" }\nlife = \"n\"\n" + law + prior,
-      "unit 'mm' has the wrong dimension");
+      "prior.log10_a.mean: unit 'MPa' has the wrong dimension (expected one like 'm'), since "
+      "data.columns says that lives are driven by what is in 'mm'");
   expect(head + "alternating_stress = \"s\"\nlife = \"n\"\n" + law + prior, "needs a unit");
   expect(head + columns + "max_stress = { column = \"s\", unit = \"MPa\" }\n" + law + prior,
          "give the stress in one way");

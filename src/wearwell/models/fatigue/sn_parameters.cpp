@@ -93,7 +93,16 @@ std::vector<Parameter> sn_parameters(const TomlReader& root, const SnLaw& law, c
   const auto priors = root.table("prior");
   const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
     spec.fallback = std::move(fallback);
-    return read_prior(root, priors, spec);
+    try {
+      return read_prior(root, priors, spec);
+    } catch (const InputError& error) {
+      // Whatever drives lives sets the dimension: where a prior contradicts it, either may be the slip.
+      const std::string what = error.what();
+      if (data.stress_si == "Pa" || what.find("wrong dimension") == std::string::npos) throw;
+      throw InputError(
+          fmt::format("{}, since data.columns says that lives are driven by what is in '{}'", what,
+                      data.stress_unit.text));
+    }
   };
   const Defaults defaults(data);
   const std::string log_stress =
