@@ -49,7 +49,7 @@ struct Lasers {
   }
 };
 
-// The posterior of examples/degradation/study.toml by the trapezoidal rule: over the logarithms of rate, sigma and
+// The posterior of examples/degradation/lines.toml by the trapezoidal rule: over the logarithms of rate, sigma and
 // scatter, and over the rate of each laser.
 class Dense {
  public:
@@ -150,7 +150,7 @@ class Dense {
 };
 
 TEST(OwnLives, OfLasersAreThoseOfADenseGrid) {
-  const PosteriorStudy study = wearwell::read_posterior_study(folder_of_lasers + "study.toml");
+  const PosteriorStudy study = wearwell::read_posterior_study(folder_of_lasers + "lines.toml");
   const PosteriorSummary result = run_study(study, {Method::exact, 1, {}, 2000, {}}, {}, false);
   const Lasers lasers;
   const Dense dense(lasers);

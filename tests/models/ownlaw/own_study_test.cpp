@@ -179,7 +179,7 @@ sigma = {{ law = "half-normal", scale = "1 um" }}
 // Lasers of Meeker and Escobar (1998), straight paths: what is known of a path ahead is what is known of
 // the remaining life, seen along the other axis.
 TEST_F(OwnStudy, PathsAheadAndRemainingLivesAreOneThing) {
-  const PosteriorStudy study = wearwell::read_posterior_study(examples + "degradation/study.toml");
+  const PosteriorStudy study = wearwell::read_posterior_study(examples + "degradation/lines.toml");
   // With fewer draws each laser would be left out in earnest.
   const PosteriorSummary result = run_study(study, {Method::exact, 1, {}, 2000, {}}, {}, true);
   const auto found = [&](const std::string& name, const std::string& of) {
