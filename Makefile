@@ -11,7 +11,7 @@ python: setup-python
 	@cmake --preset release -DWEARWELL_BUILD_PYTHON=ON >/dev/null
 	@cmake --build --preset release --target wearwell_python
 	@WEARWELL_BUILD=$(CURDIR)/build/release /usr/bin/python3 -m pip wheel python/ --no-build-isolation --no-deps -q -w build/wheel
-	@echo "python3 -m pip install $$(ls -t build/wheel/*.whl | head -1)"
+	@echo "$$(ls -t build/wheel/*.whl | head -1): for pip in a virtual environment (docs/python.md)"
 
 # The R package, built, in build/r (docs/r.md).
 r: setup-r

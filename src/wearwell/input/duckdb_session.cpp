@@ -159,7 +159,7 @@ DuckdbSession::DuckdbSession(const TableFile& file, const TableSettings& setting
       duckdb_connect(database_, &connection_) != DuckDBSuccess)
     throw MachineError("cannot start DuckDB");
   try {
-    DuckdbResult(
+    const DuckdbResult configured(
         *this, fmt::format("set temp_directory = ''; set autoinstall_known_extensions = false; set "
                            "autoload_known_extensions = false; set allowed_paths = [{}]; set "
                            "memory_limit = '{}MiB'; set enable_external_access = false; set "

@@ -298,7 +298,7 @@ class Survey {
       if (!records.next()) return false;
     }
     for (std::size_t c = 0; c < std::min(units.size(), records.cells().size()); ++c) {
-      if (boost::algorithm::trim_copy(std::string(units[c])).size() == 0) continue;
+      if (boost::algorithm::trim_copy(std::string(units[c])).empty()) continue;
       if (number_form(records.cells()[c]).kind == NumberForm::Kind::text) return false;
     }
     return true;
