@@ -15,6 +15,11 @@ namespace CLI {
 class App;
 }
 
+namespace wearwell::prognosis {
+struct CarriedState;
+class Tracker;
+}  // namespace wearwell::prognosis
+
 namespace wearwell {
 
 /// A file that `wearwell new` writes.
@@ -38,6 +43,9 @@ struct Model {
   /// A study of a table of that name, as far as its headings say; nothing where it is of another
   /// trade. May be null.
   std::optional<FirstStudy> (*first_study)(const Table& table, const std::string& file) = nullptr;
+  /// Follows single units on line, from what a fit of this model left (prognosis/tracker.h). May be null.
+  std::unique_ptr<const prognosis::Tracker> (*track)(const prognosis::CarriedState& state) =
+      nullptr;
 };
 
 /// A list of models; programs hand in those that they know (models/registry.h).

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wearwell::monitor {
+
+enum class Alarm { ok, watch, act, unknown };
+const char* name(Alarm alarm);
+
+/// Three quantiles, in the units that `FleetView` names; infinite where a limit is never reached.
+struct Interval {
+  double q05 = 0, q50 = 0, q95 = 0;
+};
+
+/// What became of a unit's messages.
+struct Quality {
+  std::uint64_t readings = 0, repeated = 0, late = 0, contradicting = 0, refused = 0;
+  std::string last_problem = {};
+};
+
+/// One unit as people look at it.
+struct UnitView {
+  std::string unit;
+  Alarm alarm = Alarm::unknown;
+  double at = 0;                     ///< along the axis
+  std::int64_t last_reading_ms = 0;  ///< Unix time of its last message; 0: none
+  Interval level;                    ///< wear, now
+  Interval remaining;                ///< life, from now on
+  double b10 = 0;                    ///< remaining life that 90 % exceed
+  double risk = 0;                   ///< probability that the limit is reached within the horizon
+  double passed = 0;                 ///< probability that it is reached already
+  Quality quality;
+};
+
+/// One moment in the history of a unit: what it read, and what was forecast then.
+struct UnitMoment {
+  std::int64_t time_ms = 0;
+  double at = 0;
+  std::optional<double> measured;
+  Interval level, life;  ///< `life`: where along the axis the limit was expected, not what remained
+};
+
+struct UnitDetail {
+  UnitView view;
+  std::vector<UnitMoment> moments;  ///< thinned to some hundred, first and last kept
+  struct PathPoint {
+    double at;
+    Interval level;
+  };
+  std::vector<PathPoint> path;  ///< behind and ahead
+  struct CurvePoint {
+    double remaining, survival;
+  };
+  std::vector<CurvePoint> survival;
+  /// Of earlier forecasts of `level` (5 to 95 %) at the next reading: how many held, of how many.
+  std::uint64_t held = 0, judged = 0;
+};
+
+/// What all have in common.
+struct FleetView {
+  std::string title, noun, axis, axis_unit, limited, level_unit;
+  double limit = 0, horizon = 0;  ///< in these units
+  bool trusted = true;            ///< the result that the population was learned from
+  std::uint64_t units = 0, ok = 0, watch = 0, act = 0, unknown = 0;
+  std::uint64_t messages = 0, stored = 0, refused = 0, repeated = 0;
+  std::int64_t now_ms = 0, started_ms = 0;
+};
+
+/// What the page, the API and the metrics read: any thread may ask; answers are copies.
+class FleetReader {
+ public:
+  virtual ~FleetReader() = default;
+  virtual FleetView fleet() const = 0;
+  /// Sorted by risk, highest first; units whose name holds `search` (any case).
+  virtual std::vector<UnitView> units(const std::string& search, std::size_t offset,
+                                      std::size_t count,
+                                      std::uint64_t* matching = nullptr) const = 0;
+  virtual std::optional<UnitDetail> unit(const std::string& name) const = 0;
+  /// Grows with every change; `changed_since` names the units that changed after that.
+  virtual std::uint64_t version() const = 0;
+  virtual std::vector<std::string> changed_since(std::uint64_t version) const = 0;
+};
+
+/// Where messages from elsewhere enter (HTTP POST, MQTT, files): stored when it returns true.
+struct Delivery {
+  bool stored = false;
+  std::uint64_t readings = 0, repeated = 0, refused = 0;
+  std::string problem = {};  ///< the first one
+};
+class Inbox {
+ public:
+  virtual ~Inbox() = default;
+  /// One message: JSON (an object, or lines of objects) or CSV with a heading; `topic` as MQTT has it, "" elsewhere.
+  virtual Delivery deliver(const std::string& topic, const std::string& payload) = 0;
+};
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/input/source.h"
+
+namespace wearwell::prognosis {
+
+/// What `wearwell fit` leaves for those who go on from it, state.bin (docs/state.md): the study with its data, and
+/// the posterior as nodes.
+struct CarriedState {
+  std::string model;                    ///< key: "law"
+  bool trusted = true;                  ///< whether the fit was
+  Source source;                        ///< the study file, and its tables as they were read
+  std::vector<std::string> parameters;  ///< names, as columns of the posterior
+  WeightedDraws posterior;              ///< natural, SI; nodes of the quadrature, or draws
+};
+
+/// The bytes of state.bin: versioned, the same on every machine, with a checksum.
+std::string state_bytes(const CarriedState& state);
+
+/// Reads RESULT/state.bin or such a file. Throws InputError where there is none, it is of another version, or damaged.
+CarriedState read_state(const std::filesystem::path& result);
+
+}  // namespace wearwell::prognosis

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wearwell/base/unit.h"
+#include "wearwell/prognosis/weighted_lives.h"
+
+namespace wearwell::prognosis {
+
+/// A number that a reading may bring.
+struct ReadingColumn {
+  std::string name;       ///< as the study names it: "force"
+  Unit unit;              ///< of the study
+  bool measured = false;  ///< what is observed; else a condition under which it was
+};
+
+/// One reading of one unit: a row of the study's table. Order of columns: `Tracker::columns`, `labels`.
+struct Reading {
+  std::vector<double> numbers;      ///< SI; NaN where the reading does not bring it
+  std::vector<std::string> labels;  ///< of the study's label columns but the unit's own
+};
+
+/// What became of a reading.
+struct Taken {
+  bool counted = false;      ///< the state has moved
+  bool contradicts = false;  ///< counted, but hardly possible given what the unit showed before
+  double surprise = 0;       ///< its place in its predictive distribution: a two-sided probability
+  std::string problem = {};  ///< why it was not counted: "force is missing"
+};
+
+/// What is known of a unit now: SI along the axis.
+struct Forecast {
+  double now = 0;                                ///< where its farthest reading lies
+  double level05 = 0, level50 = 0, level95 = 0;  ///< what the limit is of, there (wear), SI
+  double passed = 0;                             ///< the probability that the limit is behind it
+  WeightedLives remaining;                       ///< from `now` on, given that it is not
+  double effective = 0;                          ///< nodes that carry this: 1 / sum of squares
+};
+
+/// All readings of a unit so far, in the order in which they were taken: asked for where nodes are laid
+/// anew. Calls back once a reading.
+using History = std::function<void(const std::function<void(const Reading&)>& visit)>;
+
+/// One unit on line: weights over nodes that do not move, so that a reading multiplies them and the order of
+/// arrival does not matter. A sequence of readings gives the same bits whenever and wherever it is taken, and
+/// from a saved state on.
+class TrackedUnit {
+ public:
+  virtual ~TrackedUnit() = default;
+  /// Takes a reading that was not taken before; a repeated one is the caller's to find. `history` has all
+  /// readings taken before this one.
+  virtual Taken take(const Reading& reading, const History& history) = 0;
+  virtual Forecast forecast() const = 0;
+  virtual std::size_t readings() const = 0;
+  virtual std::string save() const = 0;  ///< bytes for `Tracker::restore`
+};
+
+/// What tracks the units of a population that a study has learned: made once, shared by all threads, never
+/// changed.
+class Tracker {
+ public:
+  virtual ~Tracker() = default;
+  virtual std::span<const ReadingColumn> columns() const = 0;
+  virtual std::span<const std::string> labels() const = 0;
+  virtual const ReadingColumn& axis()
+      const = 0;  ///< along which life is counted; one of the columns
+  virtual const std::string& limited() const = 0;  ///< what the limit is of: "wear"
+  virtual const Quantity& limit() const = 0;
+  virtual bool rising() const = 0;              ///< whether the limit is reached from below
+  virtual const std::string& noun() const = 0;  ///< what a unit is: "machine"
+  /// The units that the study has seen.
+  virtual std::span<const std::string> seen() const = 0;
+  /// A unit before its first reading here: one of the study's, with what it showed there, or a new one.
+  virtual std::unique_ptr<TrackedUnit> begin(const std::string& unit) const = 0;
+  /// Throws InputError where the bytes are of another population or damaged.
+  virtual std::unique_ptr<TrackedUnit> restore(const std::string& bytes) const = 0;
+};
+
+}  // namespace wearwell::prognosis
