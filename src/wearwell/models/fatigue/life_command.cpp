@@ -132,11 +132,10 @@ int run(const LoadLifeOptions& options) {
                              with_mean, report.result.stress_si});
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
+  const bool dear = law.limit || law.scatter_grows;
   report.cycles =
-      reduced(report.block.cycles,
-              law.limit || law.scatter_grows ? most_cycles_with_limit : most_cycles, with_mean);
-  report.result.draws = thinned(
-      report.result.draws, law.limit || law.scatter_grows ? most_draws_with_limit : most_draws);
+      reduced(report.block.cycles, dear ? most_cycles_with_limit : most_cycles, with_mean);
+  report.result.draws = thinned(report.result.draws, dear ? most_draws_with_limit : most_draws);
   report.life = load_life(report.result, report.cycles, question);
   report.reduction = reduction(report.result, question.rule, report.block.cycles, report.cycles);
   if (folder) write_folder(report, *folder);
