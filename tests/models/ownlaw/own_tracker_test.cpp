@@ -135,7 +135,9 @@ void expect_alike(const Forecast& forecast, const CellMixture& fit, double passe
   if (passed > 0.95) return;
   for (const double p : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99}) {
     const double life = fit.quantile(p);
-    if (std::isfinite(life)) EXPECT_NEAR(forecast.remaining.cdf(life), p, tolerance) << p;
+    if (std::isfinite(life)) {
+      EXPECT_NEAR(forecast.remaining.cdf(life), p, tolerance) << p;
+    }
   }
 }
 
@@ -163,8 +165,9 @@ TEST(OwnTracker, ASmallCaseByBruteForce) {
   const std::vector<std::pair<double, double>> readings = {
       {1.9 * um, 1 * h}, {3.4 * um, 2 * h}, {5.0 * um, 3 * h}};
   for (std::size_t shown = 0; shown <= readings.size(); ++shown) {
-    if (shown > 0)
+    if (shown > 0) {
       EXPECT_TRUE(unit.take({readings[shown - 1].first, readings[shown - 1].second}).counted);
+    }
     const Forecast forecast = unit.unit->forecast();
     std::vector<std::pair<double, double>> lives;
     double sum = 0, passed = 0;
@@ -193,7 +196,9 @@ TEST(OwnTracker, ASmallCaseByBruteForce) {
       const double before = below;
       below += weight / (sum - passed);
       for (const double p : {0.05, 0.5, 0.95}) {
-        if (before < p && below >= p) EXPECT_NEAR(forecast.remaining.cdf(life), p, 0.02) << shown;
+        if (before < p && below >= p) {
+          EXPECT_NEAR(forecast.remaining.cdf(life), p, 0.02) << shown;
+        }
       }
     }
   }
