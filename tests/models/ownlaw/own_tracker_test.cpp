@@ -260,7 +260,7 @@ TEST(OwnTracker, TheOrderOfReadingsDoesNotMatter) {
   const Watched watched(straight, lines(rates, 5, 0.3));
   std::vector<std::vector<double>> readings;
   for (int i = 1; i <= 20; ++i)
-    readings.push_back({(0.9 * i + 0.3 * std::sin(7.0 * i)) * um, i * h});
+    readings.push_back({(0.36 * i + 0.3 * std::sin(7.0 * i)) * um, 0.4 * i * h});
   Followed in_order(*watched.tracker, "new"), reversed(*watched.tracker, "new");
   for (const auto& each : readings) in_order.take(each);
   std::reverse(readings.begin(), readings.end());
