@@ -216,9 +216,11 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
   Ahead ahead(*this, nodes, last, paths.back());
   double square = 0, left_over = 0, all = 0;
   for (const double each : weight) square += each * each;
-  for (std::size_t begin = 0; begin < nodes.count(); begin += most_crossings) {
+  const std::size_t line = law_->effects.size() == 1 ? nodes.per_line : 1;
+  const std::size_t pass = most_crossings / line * line;  // whole lines
+  for (std::size_t begin = 0; begin < nodes.count(); begin += pass) {
     ahead.begin = begin;
-    ahead.count = std::min(most_crossings, nodes.count() - begin);
+    ahead.count = std::min(pass, nodes.count() - begin);
     const std::span<const double> own = std::span(weight).subspan(begin, ahead.count);
     if (std::all_of(own.begin(), own.end(), [](double w) { return w < 1e-14; })) continue;
     double level[most_crossings], start[most_crossings], place[most_crossings];
@@ -230,7 +232,6 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
       std::fill_n(limit, ahead.count, path_.limit);
       ahead.cross(limit, place);
       ahead.count_from(start, place);
-      const std::size_t line = law_->effects.size() == 1 ? nodes.per_line : 1;
       for (std::size_t i = 0; i < ahead.count; i += line) {
         draw_out(own.subspan(i, line), {level + i, line}, [&](double w, double value) {
           levels.push_back(value);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double log_two_pi = 1.8378770664093454836;
-constexpr std::size_t few_lines = 128, many_lines = 2000, per_line = 16;
+constexpr std::size_t few_lines = 256, many_lines = 2000, per_line = 10;
 constexpr std::size_t few_alone = 2000, many_alone = 20'000;  // where nothing varies
 constexpr double tail = 1e-5;      // of a line: beyond its nodes lies as much on either side
 constexpr double least_few = 0.3;  // of the few points' effective number: then others are chosen
