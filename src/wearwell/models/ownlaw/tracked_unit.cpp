@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "wearwell/base/error.h"
+#include "wearwell/law/kernels.h"
 #include "wearwell/models/ownlaw/state_bytes.h"
 
 namespace wearwell::ownlaw {
@@ -16,8 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_effective =
     0.5;  // of the number when nodes were laid: then they are laid anew
 constexpr double hardly_possible = 1e-4;  // a surprise below contradicts
-constexpr std::size_t most_sampled = 256;
-constexpr double doubtful = 0.02;  // a surprise below is summed over all nodes
+constexpr std::size_t most_sampled = 128;
+constexpr double doubtful = 0.05;  // a surprise below is summed over all nodes
 
 bool has_noiseless_process(const OwnLaw& law) {
   return std::any_of(law.measured.begin(), law.measured.end(),
@@ -72,12 +73,15 @@ void TrackedUnit::weigh() {
   sample_.weight.clear();
   effective_ = 0;
   if (!(top > -infinity)) return;
-  static thread_local std::vector<double> weight;
+  static thread_local std::vector<double> weight, exponent;
   weight.resize(log_weight_.size());
-  for (std::size_t i = 0; i < weight.size(); ++i) {
-    weight[i] = log_weight_[i] > top - 40 ? std::exp(log_weight_[i] - top) : 0;
-    sum += weight[i];
-    square += weight[i] * weight[i];
+  exponent.resize(log_weight_.size());
+  for (std::size_t i = 0; i < weight.size(); ++i) exponent[i] = log_weight_[i] - top;
+  static const law::Kernels exponential = law::kernels_of(law::Op::exp, 0);
+  exponential.forward(exponent.data(), nullptr, nullptr, weight.data(), weight.size(), 0);
+  for (const double each : weight) {
+    sum += each;
+    square += each * each;
   }
   effective_ = sum * sum / square;
   const double share = sum / most_sampled;
