@@ -8,6 +8,7 @@
 #include "wearwell/cli/new.h"
 #include "wearwell/cli/report.h"
 #include "wearwell/cli/select.h"
+#include "wearwell/cli/update.h"
 
 namespace wearwell {
 
@@ -18,6 +19,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   app->require_subcommand(1);
   app->set_version_flag("--version", WEARWELL_VERSION, "Print the version and exit");
   add_fit_command(*app, models, exit_code);
+  add_update_command(*app, models, exit_code);
   for (const Model& model : models) {
     if (model.add_commands) model.add_commands(*app, exit_code);
   }
