@@ -25,7 +25,7 @@ struct HttpLimits {
 /// Where the server listens, and whom it answers.
 struct HttpSettings {
   std::string host = "127.0.0.1";  ///< an address, or a name of this machine
-  unsigned short port = 8080;      ///< 0: any that is free
+  int port = 8080;                 ///< 0: any that is free
   std::string token = {};          ///< whoever asks must know it; "": nobody has to
   std::filesystem::path certificate = {}, key = {};  ///< PEM, for TLS; both or none
   /// Under which other names people reach it: of a proxy, or of this machine. Names of the certificate need
