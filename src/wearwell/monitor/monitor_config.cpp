@@ -169,7 +169,7 @@ HttpSettings read_http(const TomlReader& table) {
   const std::string listen = table.text("listen").value_or("127.0.0.1:8080");
   const HostAndPort address = read_address(table, "listen", listen, 8080);
   http.host = address.host;
-  http.port = static_cast<unsigned short>(address.port);
+  http.port = address.port;
   http.names = table.texts("names");
   http.token = table.text("token").value_or("");
   constexpr std::size_t shortest_token = 16;

@@ -11,7 +11,9 @@
 #include <thread>
 
 #include "wearwell/base/error.h"
+#include "wearwell/monitor/http_server.h"
 #include "wearwell/monitor/intake.h"
+#include "wearwell/monitor/publisher.h"
 #include "wearwell/monitor/source.h"
 
 namespace wearwell::monitor {
@@ -171,6 +173,29 @@ class Follower {
   Clock::time_point saved_ = Clock::now();
 };
 
+/// The server and the publisher, while they live.
+class Outlets {
+ public:
+  Outlets(const MonitorConfig& config, const MonitorOptions& options, const Fleet& fleet,
+          Intake& intake, Notices& notices) {
+    if (options.once) return;
+    for (const SourceSettings& source : config.sources) {
+      if (source.kind == SourceKind::http) inbox_ = std::make_unique<SourceInbox>(intake, source);
+    }
+    if (config.http) server_ = std::make_unique<HttpServer>(*config.http, fleet, inbox_.get());
+    if (config.publish)
+      publisher_ = std::jthread([&](std::stop_token stop) {
+        publish_states(fleet, *config.publish, notices, std::move(stop));
+      });
+  }
+  std::string address() const { return server_ ? server_->address() : std::string(); }
+
+ private:
+  std::unique_ptr<SourceInbox> inbox_;
+  std::unique_ptr<HttpServer> server_;
+  std::jthread publisher_;
+};
+
 void refuse_endless_sources(const MonitorConfig& config) {
   for (const SourceSettings& source : config.sources) {
     if (source.kind == SourceKind::mqtt || source.kind == SourceKind::http)
@@ -191,7 +216,7 @@ StoreColumns store_columns(const MonitorConfig& config, const prognosis::Tracker
 }
 
 void run_monitor(const MonitorConfig& config, const Population& population,
-                 const MonitorOptions& options, const std::function<void(const Fleet&)>& started,
+                 const MonitorOptions& options, const Begun& started,
                  const std::function<void(const Fleet&)>& ended) {
   if (options.once) refuse_endless_sources(config);
   const EndingSignals signals;  // before there are threads
@@ -217,7 +242,8 @@ void run_monitor(const MonitorConfig& config, const Population& population,
 
   Bell bell;
   Intake intake(*store, tally, notices, [&] { bell.ring(); });
-  started(fleet);
+  const Outlets outlets(config, options, fleet, intake, notices);
+  started(fleet, outlets.address());
   Sources sources(config, options.once, intake, *store, notices, bell);
   Follower follower(fleet, notices);
   while (!signals.arrived()) {

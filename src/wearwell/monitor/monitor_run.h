@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "wearwell/monitor/fleet.h"
@@ -20,10 +21,13 @@ struct MonitorOptions {
   int threads = 0;    ///< 0: all
 };
 
-/// Runs until SIGINT, SIGTERM or SIGHUP, or until all its sources have ended. `started` is called with the fleet when it takes readings, `ended`
+/// Tells where a monitor that has begun can be seen: its fleet, and the page's address, "" where it serves none.
+using Begun = std::function<void(const Fleet& fleet, const std::string& address)>;
+
+/// Runs until SIGINT, SIGTERM or SIGHUP, or until all its sources have ended. `started` is called when it takes readings, `ended`
 /// when it has taken the last. Throws InputError: nothing was begun; MachineError.
 void run_monitor(const MonitorConfig& config, const Population& population,
-                 const MonitorOptions& options, const std::function<void(const Fleet&)>& started,
+                 const MonitorOptions& options, const Begun& started,
                  const std::function<void(const Fleet&)>& ended);
 
 /// What the store of a configuration must hold.

@@ -25,7 +25,4 @@ class PostgresSession {
   std::unique_ptr<pqxx::connection> connection_;
 };
 
-/// The host and database of a URL, without who logs in, for messages.
-std::string shown_url(const std::string& url);
-
 }  // namespace wearwell::monitor

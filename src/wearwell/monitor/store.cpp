@@ -18,6 +18,10 @@ bool is_postgres(const std::string& url) {
   return url.starts_with("postgresql://") || url.starts_with("postgres://");
 }
 
+std::string shown_store(const std::string& url) {
+  return is_postgres(url) ? shown_url(url) : url;
+}
+
 std::unique_ptr<Store> open_store(const std::string& url, const std::filesystem::path& folder,
                                   const StoreColumns& columns, Access access) {
   if (is_postgres(url)) return open_postgres_store(url, columns, access);

@@ -97,6 +97,11 @@ enum class Access { write, read };
 std::unique_ptr<Store> open_store(const std::string& url, const std::filesystem::path& folder,
                                   const StoreColumns& columns, Access access = Access::write);
 bool is_postgres(const std::string& url);
+/// As messages name it: without who logs in.
+std::string shown_store(const std::string& url);
+
+/// A URL of PostgreSQL without user and password.
+std::string shown_url(const std::string& url);
 
 /// The version of the tables that this program writes.
 inline constexpr int store_version = 1;
