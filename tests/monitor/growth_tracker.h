@@ -8,11 +8,12 @@
 
 namespace wearwell {
 
-/// Wear that grows in proportion to time, at a rate that is known as a normal distribution: mean 1 um/h, sd 0.3 um/h before
-/// any reading; readings are good to 5 um. Its posterior is two sums, which are added in the order of the readings.
+/// Wear that grows in proportion to time, at a rate that is known as a normal distribution: mean 1 m/h, sd 0.3 m/h before
+/// any reading; readings are good to 5 m. Its posterior is two sums, which are added in the order of the readings.
 class GrowthUnit : public prognosis::TrackedUnit {
  public:
-  prognosis::Taken take(const prognosis::Reading& reading, const prognosis::History& history) override {
+  prognosis::Taken take(const prognosis::Reading& reading,
+                        const prognosis::History& history) override {
     const double wear = reading.numbers[0], hours = reading.numbers[1] / 3600;
     prognosis::Taken taken;
     if (!(hours >= 0)) {
@@ -79,7 +80,7 @@ class GrowthUnit : public prognosis::TrackedUnit {
     return unit;
   }
 
-  static constexpr double limit = 1000;  // um
+  static constexpr double limit = 1000;  // m
 
  private:
   static constexpr double noise = 5;
@@ -89,7 +90,7 @@ class GrowthUnit : public prognosis::TrackedUnit {
   std::size_t readings_ = 0;
 };
 
-/// In units that are their own SI here: wear in um of scale 1, so that tests see the numbers that they send.
+/// In units that are their own SI here: wear in metres, so that tests see the numbers that they send.
 class GrowthTracker : public prognosis::Tracker {
  public:
   std::span<const prognosis::ReadingColumn> columns() const override { return columns_; }

@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "support/run_command.h"
@@ -111,9 +112,7 @@ class ChildProcess {
   pid_t pid() const { return pid_; }
 
  private:
-  int code() const {
-    return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
-  }
+  int code() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_); }
   pid_t pid_ = -1;
   int status_ = 0;
 };
@@ -164,7 +163,8 @@ class PostgresServer {
     std::filesystem::create_directories(folder_);
     if (geteuid() == 0) run_or_throw("chown postgres '" + folder_.string() + "'");
     // Who is not root must come to it.
-    for (auto at = folder_.parent_path(); geteuid() == 0 && at != at.root_path() && at != "/tmp"; at = at.parent_path())
+    for (auto at = folder_.parent_path(); geteuid() == 0 && at != at.root_path() && at != "/tmp";
+         at = at.parent_path())
       run_or_throw("chmod a+x '" + at.string() + "'");
     run_or_throw(as_user() + binaries() + "initdb -D '" + data() +
                  "' -A trust -U wearwell --no-sync -E UTF8 --locale=C > /dev/null");
@@ -174,10 +174,18 @@ class PostgresServer {
   }
   void start() {
     std::vector<std::string> command = {"postgres"};
-    command = {binaries() + "postgres", "-D", data(), "-p", std::to_string(port_), "-c",
-               "listen_addresses=127.0.0.1", "-c", "unix_socket_directories="};
+    command = {binaries() + "postgres",
+               "-D",
+               data(),
+               "-p",
+               std::to_string(port_),
+               "-c",
+               "listen_addresses=127.0.0.1",
+               "-c",
+               "unix_socket_directories="};
     if (geteuid() == 0)
-      command.insert(command.begin(), {"setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"});
+      command.insert(command.begin(),
+                     {"setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"});
     process_ = ChildProcess(command, "/dev/null");
     const std::string ready = binaries() + "pg_isready -q -h 127.0.0.1 -p " + std::to_string(port_);
     if (!eventually([&] { return run_command(ready).exit_code == 0; }))

@@ -73,13 +73,13 @@ class Database {
     return message;
   }
 
-  std::string fill(const std::vector<TextColumn>& texts, const std::vector<NumberColumn>& columns) {
+  std::string fill(const std::vector<WordColumn>& texts, const std::vector<NumberColumn>& columns) {
     duckdb_appender appender = nullptr;
     bool good = duckdb_appender_create(connection_, nullptr, "t", &appender) == DuckDBSuccess;
     const std::size_t rows =
         texts.empty() ? columns.front().values.size() : texts.front().values.size();
     for (std::size_t i = 0; good && i < rows; ++i) {
-      for (const TextColumn& column : texts) {
+      for (const WordColumn& column : texts) {
         const std::string& value = column.values[i];
         good = good &&
                duckdb_append_varchar_length(appender, value.data(), value.size()) == DuckDBSuccess;
@@ -109,10 +109,10 @@ std::string parquet_of(const std::vector<NumberColumn>& columns) {
   return parquet_of({}, columns);
 }
 
-std::string parquet_of(const std::vector<TextColumn>& texts,
+std::string parquet_of(const std::vector<WordColumn>& texts,
                        const std::vector<NumberColumn>& columns) {
   std::string names;
-  for (const TextColumn& column : texts)
+  for (const WordColumn& column : texts)
     names += fmt::format("{}{} varchar", names.empty() ? "" : ", ", quoted(column.name, '"'));
   for (const NumberColumn& column : columns)
     names += fmt::format("{}{} double", names.empty() ? "" : ", ", quoted(column.name, '"'));

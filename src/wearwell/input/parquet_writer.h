@@ -12,7 +12,7 @@ struct NumberColumn {
 };
 
 /// A column of texts, UTF-8.
-struct TextColumn {
+struct WordColumn {
   std::string name;
   std::vector<std::string> values;
 };
@@ -20,7 +20,7 @@ struct TextColumn {
 /// A Parquet file of columns of equal length, as its bytes. Throws MachineError.
 std::string parquet_of(const std::vector<NumberColumn>& columns);
 /// The texts first. There is one column at least.
-std::string parquet_of(const std::vector<TextColumn>& texts,
+std::string parquet_of(const std::vector<WordColumn>& texts,
                        const std::vector<NumberColumn>& columns);
 
 }  // namespace wearwell

@@ -32,8 +32,8 @@ std::string heading(const prognosis::ReadingColumn& column) {
 
 std::string readings_as_parquet(Store& store, const prognosis::Tracker& tracker,
                                 std::uint64_t& count) {
-  TextColumn unit{tracker.noun().empty() ? "unit" : tracker.noun(), {}};
-  std::vector<TextColumn> labels;
+  WordColumn unit{tracker.noun().empty() ? "unit" : tracker.noun(), {}};
+  std::vector<WordColumn> labels;
   for (const std::string& each : tracker.labels()) labels.push_back({each, {}});
   const auto columns = tracker.columns();
   std::vector<NumberColumn> numbers = {{"key", {}}, {"time_ms", {}}, {"received_ms", {}}};
@@ -51,7 +51,7 @@ std::string readings_as_parquet(Store& store, const prognosis::Tracker& tracker,
     for (std::size_t i = 0; i < columns.size(); ++i)
       numbers[first + i].values.push_back(from_si(columns[i].unit, reading.numbers[i]));
   });
-  std::vector<TextColumn> texts = {std::move(unit)};
+  std::vector<WordColumn> texts = {std::move(unit)};
   texts.insert(texts.end(), labels.begin(), labels.end());
   return parquet_of(texts, numbers);
 }
