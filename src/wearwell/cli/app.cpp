@@ -6,6 +6,7 @@
 #include "wearwell/cli/generate.h"
 #include "wearwell/cli/help.h"
 #include "wearwell/cli/life.h"
+#include "wearwell/cli/monitor.h"
 #include "wearwell/cli/new.h"
 #include "wearwell/cli/report.h"
 #include "wearwell/cli/select.h"
@@ -28,6 +29,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   add_select_command(*app, exit_code);
   add_check_command(*app, models, exit_code);
   add_compare_command(*app, exit_code);
+  add_monitor_command(*app, models, exit_code);
   add_new_command(*app, models, exit_code);
   add_report_command(*app, exit_code);
   add_help_command(*app, exit_code);
