@@ -73,10 +73,13 @@ class Database {
     return message;
   }
 
-  std::string fill(const std::vector<NumberColumn>& columns) {
+  std::string fill(const WordColumn* words, const std::vector<NumberColumn>& columns) {
     duckdb_appender appender = nullptr;
     bool good = duckdb_appender_create(connection_, nullptr, "t", &appender) == DuckDBSuccess;
     for (std::size_t i = 0; good && i < columns.front().values.size(); ++i) {
+      if (words)
+        good = duckdb_append_varchar_length(appender, words->values[i].data(),
+                                            words->values[i].size()) == DuckDBSuccess;
       for (const NumberColumn& column : columns) {
         const double value = column.values[i];
         good = good && (std::isnan(value) ? duckdb_append_null(appender)
@@ -96,10 +99,9 @@ class Database {
   duckdb_connection connection_ = nullptr;
 };
 
-}  // namespace
-
-std::string parquet_of(const std::vector<NumberColumn>& columns) {
+std::string written(const WordColumn* words, const std::vector<NumberColumn>& columns) {
   std::string names;
+  if (words) names = quoted(words->name, '"') + " varchar";
   for (const NumberColumn& column : columns)
     names += fmt::format("{}{} double", names.empty() ? "" : ", ", quoted(column.name, '"'));
   const MemoryFile file;
@@ -108,13 +110,23 @@ std::string parquet_of(const std::vector<NumberColumn>& columns) {
     Database database;
     message = database.run("set threads to 1");
     if (message.empty()) message = database.run(fmt::format("create table t ({})", names));
-    if (message.empty()) message = database.fill(columns);
+    if (message.empty()) message = database.fill(words, columns);
     if (message.empty())
       message = database.run(
           fmt::format("copy t to '{}' (format parquet, use_tmp_file false)", file.path()));
   }
   if (!message.empty()) throw MachineError(fmt::format("cannot write Parquet: {}", message));
   return file.content();
+}
+
+}  // namespace
+
+std::string parquet_of(const std::vector<NumberColumn>& columns) {
+  return written(nullptr, columns);
+}
+
+std::string parquet_of(const WordColumn& words, const std::vector<NumberColumn>& columns) {
+  return written(&words, columns);
 }
 
 }  // namespace wearwell

@@ -11,7 +11,15 @@ struct NumberColumn {
   std::vector<double> values;
 };
 
+/// A column of words.
+struct WordColumn {
+  std::string name;
+  std::vector<std::string> values;
+};
+
 /// A Parquet file of columns of equal length, as its bytes. Throws MachineError.
 std::string parquet_of(const std::vector<NumberColumn>& columns);
+/// The same with a column of words before them.
+std::string parquet_of(const WordColumn& words, const std::vector<NumberColumn>& columns);
 
 }  // namespace wearwell
