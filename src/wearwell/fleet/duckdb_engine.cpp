@@ -84,12 +84,13 @@ class DuckdbEngine : public Engine {
     execute(statements, answer);
   }
   std::vector<std::string> expand(const std::vector<std::string>& patterns);
-  std::string view_of(const std::vector<std::string>& files);
+  std::string view_of(const std::vector<std::string>& files, const std::string& unit);
   [[noreturn]] void fail(const std::string& message) const;
 
   SpillFolder spill_;
   long memory_;
   std::string source_;
+  bool csv_ = false;
   duckdb_database database_ = nullptr;
   duckdb_connection connection_ = nullptr;
 };
@@ -124,7 +125,12 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
                     "lock_configuration = true",
                     memory_, quoted((spill_.path() / "spill").string(), '\''),
                     fmt::join(allowed, ", "), quoted(spill_.path().string() + "/", '\'')));
-    execute("create temp view cycles as select * from " + view_of(files));
+    execute("create temp view cycles as select * from " + view_of(files, ""));
+    for (const EngineColumn& each : columns()) {
+      if (each.name == settings.unit && each.is_number && csv_)
+        execute("create or replace temp view cycles as select * from " +
+                view_of(files, settings.unit));
+    }
   } catch (...) {
     close();
     throw;
@@ -173,7 +179,7 @@ std::vector<std::string> DuckdbEngine::expand(const std::vector<std::string>& pa
   return files;
 }
 
-std::string DuckdbEngine::view_of(const std::vector<std::string>& files) {
+std::string DuckdbEngine::view_of(const std::vector<std::string>& files, const std::string& unit) {
   const auto ends = [](const std::string& file, const char* end) {
     return boost::algorithm::iends_with(file, end);
   };
@@ -192,21 +198,25 @@ std::string DuckdbEngine::view_of(const std::vector<std::string>& files) {
         "{}: a fleet's cycles are Parquet files or CSV files, all of one kind", source_));
   if (parquet)
     return fmt::format("read_parquet([{}], hive_partitioning = false)", fmt::join(names, ", "));
+  // Without BIGINT: where the first thousands of cells are whole numbers, 2.5 would be read as 3.
   return fmt::format(
       "read_csv([{}], header = true, delim = ',', quote = '\"', escape = '\"', strict_mode = true, "
       "null_padding = false, ignore_errors = false, hive_partitioning = false, "
-      "auto_type_candidates = "
-      "['BIGINT', 'DOUBLE', 'VARCHAR'], sample_size = -1)",
-      fmt::join(names, ", "));
+      "auto_type_candidates = ['DOUBLE', 'VARCHAR']{})",
+      fmt::join(names, ", "),
+      unit.empty() ? "" : fmt::format(", types = {{{}: 'VARCHAR'}}", quoted(unit, '\'')));
 }
 
 std::vector<EngineColumn> DuckdbEngine::columns() {
   Answer answer;
   execute("select * from cycles limit 0", answer);
   std::vector<EngineColumn> found;
-  for (idx_t c = 0; c < duckdb_column_count(&answer.result); ++c)
+  for (idx_t c = 0; c < duckdb_column_count(&answer.result); ++c) {
+    const duckdb_type type = duckdb_column_type(&answer.result, c);
     found.push_back(
-        {duckdb_column_name(&answer.result, c), is_number(duckdb_column_type(&answer.result, c))});
+        {duckdb_column_name(&answer.result, c), is_number(type),
+         type == DUCKDB_TYPE_DOUBLE || type == DUCKDB_TYPE_FLOAT || type == DUCKDB_TYPE_DECIMAL});
+  }
   return found;
 }
 

@@ -19,6 +19,7 @@ struct Row {
 struct EngineColumn {
   std::string name;
   bool is_number = false;
+  bool is_real = false;  ///< a number with a fraction, perhaps
 };
 
 /// A database with a fleet's cycles in it. Everything throws InputError with what the engine says, as

@@ -99,6 +99,13 @@ std::string SqlWriter::in_si(const SqlColumn& column) const {
   return text;
 }
 
+/// Nothing where a number that names a unit is not whole.
+std::string SqlWriter::unit() const {
+  const std::string name = "t." + fleet::identifier(dialect_, source_.unit.name);
+  if (!source_.unit.is_real) return name;
+  return fmt::format("case when {0} = floor({0}) then cast({0} as bigint) end", name);
+}
+
 /// What `wearwell clutch predict` demands of a row. NaN is above every number, or no comparison with it
 /// is true.
 std::string SqlWriter::valid() const {
@@ -109,7 +116,7 @@ std::string SqlWriter::valid() const {
 }
 
 std::string SqlWriter::si(bool fresh) const {
-  const std::string unit = "t." + fleet::identifier(dialect_, source_.unit.name);
+  const std::string unit = this->unit();
   const std::string cycle = "t." + fleet::identifier(dialect_, source_.cycle.name);
   SqlColumns columns;
   columns.add(unit, "unit");

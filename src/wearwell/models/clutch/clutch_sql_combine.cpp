@@ -182,8 +182,7 @@ std::string SqlWriter::size() const {
 }
 
 std::string SqlWriter::late() const {
-  const std::string unit =
-      fleet::text(dialect_, "t." + fleet::identifier(dialect_, source_.unit.name));
+  const std::string unit = fleet::text(dialect_, this->unit());
   return fmt::format(
       "select unit, found, counted from (\nselect last.unit as unit, {} as found, {} as counted\n"
       "from {} as t inner join (\n  select unit, max(last_cycle) as after_cycle, sum(cycles) as "

@@ -74,6 +74,12 @@ SqlColumn with_unit(const std::string& name, const std::string& text, const char
 
 }  // namespace
 
+std::string unit_column(const std::vector<std::string>& options) {
+  const auto given = split(options);
+  const auto at = given.find("unit");
+  return at == given.end() ? "plate" : at->second;
+}
+
 void read_fleet_columns(const std::vector<std::string>& options,
                         const std::vector<fleet::EngineColumn>& known, const std::string& table,
                         SqlSource& source) {
@@ -84,6 +90,7 @@ void read_fleet_columns(const std::vector<std::string>& options,
     const auto at = given.find(name);
     SqlColumn column{at == given.end() ? otherwise : at->second};
     require_known(known, column.name, table, is_number);
+    for (const auto& each : known) column.is_real |= each.name == column.name && each.is_real;
     return column;
   };
   const auto quantity = [&](const char* name, const char* si) {

@@ -16,4 +16,7 @@ void read_fleet_columns(const std::vector<std::string>& options,
                         const std::vector<fleet::EngineColumn>& known, const std::string& table,
                         SqlSource& source);
 
+/// The column that names units. Throws InputError.
+std::string unit_column(const std::vector<std::string>& options);
+
 }  // namespace wearwell::clutch

@@ -148,6 +148,7 @@ void run_fleet(const FleetOptions& options, int& exit_code) {
   ResultFolder folder(options.output);
   const bool first = options.state.empty() || !std::filesystem::exists(options.state);
   const auto engine = fleet::duckdb_engine({.files = options.files,
+                                            .unit = unit_column(options.columns),
                                             .state = options.state,
                                             .spill = folder.path().parent_path(),
                                             .threads = options.threads,

@@ -49,6 +49,7 @@ class SqlWriter {
   std::vector<std::string> sum_names() const;
   std::string parameters() const;
   std::string in_si(const SqlColumn& column) const;
+  std::string unit() const;
   std::string valid() const;
   std::string sigma() const;
   std::string si(bool fresh) const;
