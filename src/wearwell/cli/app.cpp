@@ -2,6 +2,7 @@
 
 #include "wearwell/cli/check.h"
 #include "wearwell/cli/compare.h"
+#include "wearwell/cli/decide.h"
 #include "wearwell/cli/fit.h"
 #include "wearwell/cli/generate.h"
 #include "wearwell/cli/help.h"
@@ -24,6 +25,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   add_select_command(*app, exit_code);
   add_check_command(*app, models, exit_code);
   add_compare_command(*app, exit_code);
+  add_decide_command(*app, models, exit_code);
   add_new_command(*app, models, exit_code);
   add_report_command(*app, exit_code);
   add_help_command(*app, exit_code);

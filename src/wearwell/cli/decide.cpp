@@ -1,0 +1,181 @@
+#include "wearwell/cli/decide.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/present/page.h"
+#include "wearwell/present/result_folder.h"
+#include "wearwell/prognosis/decisions_report.h"
+
+namespace wearwell {
+namespace {
+
+using namespace prognosis;
+
+struct DecideOptions {
+  std::filesystem::path lives, output;
+  std::string failure, replacement, inspection, downtime, month;
+  int months = 12;
+  double service = 95;
+  bool json = false;
+};
+
+// "12000 EUR": all amounts are of one currency, or of none.
+double amount(const std::string& option, const std::string& text, std::string& currency,
+              bool& first) {
+  const std::size_t end = text.find_first_of(" ");
+  const double value = option_value(option, text.substr(0, end), "1", Allowed::not_negative);
+  const std::size_t word = end == std::string::npos ? end : text.find_first_not_of(' ', end);
+  const std::string said = word == std::string::npos ? "" : text.substr(word);
+  if (first) {
+    currency = said;
+    first = false;
+  } else if (said != currency) {
+    throw InputError(fmt::format(
+        "{}: '{}' is in another currency than '{}'; give all amounts in one, or all without",
+        option, printable(text), currency.empty() ? "no word" : printable(currency)));
+  }
+  return value;
+}
+
+// "50 EUR/h": the amount for so much of the axis.
+double amount_per(const std::string& option, const std::string& text, const Unit& axis,
+                  std::string& currency, bool& first) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos)
+    throw InputError(fmt::format("{}: '{}' must be an amount for so much use, like '50 EUR/{}'",
+                                 option, printable(text), axis.text));
+  const auto per = parse_unit(text.substr(slash + 1));
+  const auto of_axis = parse_unit(axis.text);
+  if (!per || !of_axis || per->dimension != of_axis->dimension)
+    throw InputError(fmt::format("{}: '{}' is no unit like {}, in which lives are counted", option,
+                                 printable(text.substr(slash + 1)), axis.text));
+  std::string before = text.substr(0, slash);
+  while (!before.empty() && before.back() == ' ') before.pop_back();
+  return amount(option, before, currency, first) / per->scale;
+}
+
+// A number of the dimension of the axis.
+double use_of(const std::string& option, const std::string& text, const Unit& axis) {
+  const std::size_t at = text.find_first_not_of("0123456789.eE+- ");
+  const std::string unit = at == std::string::npos ? "" : text.substr(at);
+  const auto parsed = parse_unit(unit), of_axis = parse_unit(axis.text);
+  if (unit.empty() || !parsed || !of_axis || parsed->dimension != of_axis->dimension)
+    throw InputError(fmt::format("{}: '{}' must be a number with a unit like {}", option,
+                                 printable(text), axis.text));
+  return parsed->scale * option_value(option, text.substr(0, at), "1", Allowed::positive);
+}
+
+Question question_of(const DecideOptions& options, const Unit& axis) {
+  Question question;
+  bool first = true;
+  question.costs.failure = amount("--failure-cost", options.failure, question.currency, first);
+  question.costs.replacement =
+      amount("--replacement-cost", options.replacement, question.currency, first);
+  if (question.costs.replacement <= 0)
+    throw InputError("--replacement-cost: must be above 0, or nothing is worth waiting for");
+  if (!options.inspection.empty()) {
+    question.costs.inspection =
+        amount("--inspection-cost", options.inspection, question.currency, first);
+    question.inspected = true;
+    if (question.costs.inspection <= 0)
+      throw InputError("--inspection-cost: must be above 0, or one would inspect all the time");
+  }
+  if (!options.downtime.empty()) {
+    if (!question.inspected)
+      throw InputError(
+          "--downtime-cost: a failure that only an inspection shows needs --inspection-cost");
+    question.hidden =
+        amount_per("--downtime-cost", options.downtime, axis, question.currency, first);
+  }
+  if (!options.month.empty()) question.per_month = use_of("--month", options.month, axis);
+  question.months = options.months;
+  question.service = options.service / 100;
+  return question;
+}
+
+KnownLives read_lives(const DecideOptions& options, [[maybe_unused]] Models models) {
+  return lives_of_table(read_table(options.lives));
+}
+
+int run_decide(const DecideOptions& options, Models models) {
+  DecisionsReport report;
+  report.lives = read_lives(options, models);
+  report.question = question_of(options, report.lives.unit);
+  if (report.question.per_month && report.lives.units.empty())
+    throw InputError("--month: there is no running unit to be counted");
+  report.decisions = decide(report.lives, report.question);
+  std::optional<ResultFolder> folder;
+  if (!options.output.empty()) folder.emplace(options.output);
+  if (folder) {
+    const std::vector<present::Section> sections = decisions_sections(report);
+    folder->write("decisions.json", decisions_json(report).dump(2) + "\n");
+    for (const present::Table* table : present::tables(sections))
+      folder->write(fmt::format("tables/{}.csv", table->id), present::csv(*table));
+    folder->write("report.html",
+                  html_page({WEARWELL_VERSION, "Decisions", report.lives.title, sections}));
+    folder->commit();
+  }
+  if (options.json) {
+    fmt::print("{}\n", decisions_json(report).dump(2));
+  } else {
+    fmt::print("{}", decisions_text(report));
+    if (folder) fmt::print("Results are in {}\n", options.output.string());
+  }
+  return report.lives.trusted ? 0 : 1;
+}
+
+}  // namespace
+
+void add_decide_command(CLI::App& app, Models models, int& exit_code) {
+  auto options = std::make_shared<DecideOptions>();
+  CLI::App* command = app.add_subcommand(
+      "decide", "When to replace and to inspect, and how many spare parts, at least cost");
+  command
+      ->add_option("LIVES", options->lives,
+                   "A table of lives: column 'life [h]'; weight, unit and population if there are")
+      ->required();
+  command
+      ->add_option("--failure-cost", options->failure,
+                   "Of a failure in service, its replacement included: '12000 EUR'")
+      ->required();
+  command
+      ->add_option("--replacement-cost", options->replacement, "Of a replacement before: '900 EUR'")
+      ->required();
+  command->add_option("--inspection-cost", options->inspection,
+                      "Of one inspection: then also how often to inspect");
+  command->add_option(
+      "--downtime-cost", options->downtime,
+      "Failures show at an inspection only, and cost so much until then: '5 EUR/h'");
+  command->add_option(
+      "--month", options->month,
+      "What a unit runs in a month, '600 h': then also the fleet and spare parts by month");
+  command->add_option("--months", options->months, "So many months ahead")
+      ->check(number_between(1, 600))
+      ->capture_default_str();
+  command
+      ->add_option("--service-level", options->service,
+                   "Probability that the spare parts are enough, %")
+      ->check(number_between(1, 99.9999))
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "Folder for the page, tables and JSON");
+  command->add_flag("--json", options->json, "Print one JSON object and nothing else");
+  command->footer(
+      "Examples:\n"
+      "  wearwell decide lives.csv --failure-cost '12000 EUR' --replacement-cost '900 EUR'\n"
+      "  wearwell decide lives.csv --failure-cost 12 --replacement-cost 1 --inspection-cost 0.1 "
+      "--month '600 h'\n\n"
+      "Exit codes: 0 done; 1 the study is not trusted; 2 the request is wrong, nothing written.");
+  command->callback([options, models, &exit_code] { exit_code = run_decide(*options, models); });
+}
+
+}  // namespace wearwell

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "wearwell/infer/check.h"
+#include "wearwell/present/section.h"
+#include "wearwell/prognosis/decisions.h"
+
+namespace wearwell::prognosis {
+
+/// Decisions with what is needed to speak of them.
+struct DecisionsReport {
+  KnownLives lives;
+  Question question;
+  Decisions decisions;
+};
+
+/// What the decisions rest on that may not hold.
+std::vector<Check> decision_checks(const DecisionsReport& report);
+
+std::string decisions_text(const DecisionsReport& report);
+std::vector<present::Section> decisions_sections(const DecisionsReport& report);
+nlohmann::ordered_json decisions_json(const DecisionsReport& report);
+
+}  // namespace wearwell::prognosis
