@@ -1,29 +1,35 @@
 #include "wearwell/cli/decide.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
+#include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/decisions_report.h"
 
 namespace wearwell {
+namespace prognosis {
 namespace {
-
-using namespace prognosis;
 
 struct DecideOptions {
   std::filesystem::path lives, output;
-  std::string failure, replacement, inspection, downtime, month;
+  std::string failure, replacement, inspection, downtime, month, unit, after;
+  std::vector<std::string> given;
   int months = 12;
   double service = 95;
   bool json = false;
@@ -65,14 +71,15 @@ double amount_per(const std::string& option, const std::string& text, const Unit
 }
 
 // A number of the dimension of the axis.
-double use_of(const std::string& option, const std::string& text, const Unit& axis) {
+double use_of(const std::string& option, const std::string& text, const Unit& axis,
+              Allowed allowed = Allowed::positive) {
   const std::size_t at = text.find_first_not_of("0123456789.eE+- ");
   const std::string unit = at == std::string::npos ? "" : text.substr(at);
   const auto parsed = parse_unit(unit), of_axis = parse_unit(axis.text);
   if (unit.empty() || !parsed || !of_axis || parsed->dimension != of_axis->dimension)
     throw InputError(fmt::format("{}: '{}' must be a number with a unit like {}", option,
                                  printable(text), axis.text));
-  return parsed->scale * option_value(option, text.substr(0, at), "1", Allowed::positive);
+  return parsed->scale * option_value(option, text.substr(0, at), "1", allowed);
 }
 
 Question question_of(const DecideOptions& options, const Unit& axis) {
@@ -103,17 +110,106 @@ Question question_of(const DecideOptions& options, const Unit& axis) {
   return question;
 }
 
-KnownLives read_lives(const DecideOptions& options, [[maybe_unused]] Models models) {
-  return lives_of_table(read_table(options.lives));
+struct Read {
+  KnownLives lives;
+  std::unique_ptr<const Tracker> tracker;  ///< of a result
+};
+
+Read read_lives(const DecideOptions& options, Models models) {
+  Read read;
+  if (!std::filesystem::is_directory(options.lives)) {
+    read.lives = lives_of_table(read_table(options.lives));
+    return read;
+  }
+  const CarriedState state = read_state(options.lives);
+  for (const Model& model : models) {
+    if (model.key != state.model || !model.track) continue;
+    read.tracker = model.track(state);
+    read.lives = lives_of_tracker(*read.tracker, options.lives.string(), state.trusted);
+    return read;
+  }
+  throw InputError(fmt::format("{}: units of a study of model \"{}\" cannot be followed one by one",
+                               options.lives.string(), printable(state.model)));
+}
+
+std::size_t column_at(const Tracker& tracker, const std::string& name) {
+  std::vector<std::string> names;
+  for (const ReadingColumn& each : tracker.columns()) {
+    if (each.name == name) return names.size();
+    names.push_back(each.name);
+  }
+  throw InputError(fmt::format("--given: there is no '{}'; it is one of {}{}", printable(name),
+                               fmt::join(names, ", "), did_you_mean(name, names)));
+}
+
+// "force = 20 N": under which the reading ahead is taken.
+void add_given(const Tracker& tracker, const std::string& text, Reading& reading) {
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos)
+    throw InputError(fmt::format("--given: '{}' must be like 'force = 20 N'", printable(text)));
+  const auto trimmed = [](std::string word) {
+    while (!word.empty() && word.back() == ' ') word.pop_back();
+    return word.substr(std::min(word.find_first_not_of(' '), word.size()));
+  };
+  const std::string name = trimmed(text.substr(0, sign)), value = trimmed(text.substr(sign + 1));
+  const auto labels = tracker.labels();
+  const auto label = std::find(labels.begin(), labels.end(), name);
+  if (label != labels.end()) {
+    reading.labels[static_cast<std::size_t>(label - labels.begin())] = value;
+    return;
+  }
+  const std::size_t column = column_at(tracker, name);
+  reading.numbers[column] =
+      option_value("--given", value, tracker.columns()[column].unit.text, Allowed::any);
+}
+
+// What another reading of one unit is worth.
+WorthReport worth_of(const DecideOptions& options, const Read& read, const Question& question,
+                     double rate) {
+  if (!read.tracker)
+    throw InputError("--inspect-after: a table of lives does not say what a reading would show");
+  if (!question.inspected) throw InputError("--inspect-after: needs --inspection-cost");
+  const Tracker& tracker = *read.tracker;
+  const auto seen = tracker.seen();
+  if (std::find(seen.begin(), seen.end(), options.unit) == seen.end())
+    throw InputError(fmt::format(
+        "--unit: the study has no {} '{}'{}", tracker.noun(), printable(options.unit),
+        did_you_mean(options.unit, std::vector<std::string>(seen.begin(), seen.end()))));
+  const auto unit = tracker.begin(options.unit);
+  const Forecast now = unit->forecast();
+  WorthReport report;
+  report.unit = options.unit;
+  report.after =
+      use_of("--inspect-after", options.after, tracker.axis().unit, Allowed::not_negative);
+  const auto columns = tracker.columns();
+  Reading reading{std::vector<double>(columns.size(), std::nan("")),
+                  std::vector<std::string>(tracker.labels().size())};
+  for (const std::string& each : options.given) add_given(tracker, each, reading);
+  reading.numbers[column_at(tracker, tracker.axis().name)] = now.now + report.after;
+  std::size_t measured = columns.size();
+  for (std::size_t i = 0; i < columns.size() && measured == columns.size(); ++i)
+    if (columns[i].measured) measured = i;
+  report.column = columns[measured].name;
+  report.reading_unit = columns[measured].unit;
+  const History none = [](const auto&) {};
+  report.outcomes = possible_outcomes(tracker, *unit, reading, measured, none);
+  report.worth = inspection_worth(now.remaining, now.passed, report.outcomes, report.after,
+                                  question.costs, rate);
+  return report;
 }
 
 int run_decide(const DecideOptions& options, Models models) {
   DecisionsReport report;
-  report.lives = read_lives(options, models);
+  if (options.unit.empty() != options.after.empty())
+    throw InputError("--unit and --inspect-after: one says little without the other");
+  Read read = read_lives(options, models);
+  report.lives = std::move(read.lives);
   report.question = question_of(options, report.lives.unit);
   if (report.question.per_month && report.lives.units.empty())
     throw InputError("--month: there is no running unit to be counted");
   report.decisions = decide(report.lives, report.question);
+  if (!options.unit.empty())
+    report.worth = worth_of(options, read, report.question, report.decisions.reference);
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
   if (folder) {
@@ -135,14 +231,17 @@ int run_decide(const DecideOptions& options, Models models) {
 }
 
 }  // namespace
+}  // namespace prognosis
 
 void add_decide_command(CLI::App& app, Models models, int& exit_code) {
-  auto options = std::make_shared<DecideOptions>();
+  auto options = std::make_shared<prognosis::DecideOptions>();
   CLI::App* command = app.add_subcommand(
       "decide", "When to replace and to inspect, and how many spare parts, at least cost");
   command
-      ->add_option("LIVES", options->lives,
-                   "A table of lives: column 'life [h]'; weight, unit and population if there are")
+      ->add_option(
+          "LIVES", options->lives,
+          "Folder that wearwell fit wrote of a model \"law\" with a limit; or a table of lives: "
+          "column 'life [h]', and weight, unit, population where there are such")
       ->required();
   command
       ->add_option("--failure-cost", options->failure,
@@ -173,9 +272,12 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
       "Examples:\n"
       "  wearwell decide lives.csv --failure-cost '12000 EUR' --replacement-cost '900 EUR'\n"
       "  wearwell decide lives.csv --failure-cost 12 --replacement-cost 1 --inspection-cost 0.1 "
-      "--month '600 h'\n\n"
+      "--month '600 h'\n"
+      "  wearwell decide study-results --failure-cost 12 --replacement-cost 1 --inspection-cost "
+      "0.1 \\\n"
+      "    --unit 7 --inspect-after '5 km' --given 'force = 20 N'\n\n"
       "Exit codes: 0 done; 1 the study is not trusted; 2 the request is wrong, nothing written.");
-  command->callback([options, models, &exit_code] { exit_code = run_decide(*options, models); });
+  command->callback([options, models, &exit_code] { exit_code = prognosis::run_decide(*options, models); });
 }
 
 }  // namespace wearwell

@@ -59,6 +59,24 @@ std::string answer(const DecisionsReport& report) {
   return text + ".";
 }
 
+std::string worth_in_words(const DecisionsReport& report) {
+  const Shown shown{report};
+  const WorthReport& asked = *report.worth;
+  const InspectionWorth& worth = asked.worth;
+  const std::string money = report.question.currency.empty() ? "" : " " + report.question.currency;
+  return fmt::format(
+      "A reading of {} of {} {} {} {} from now is worth {}{}: {} after its cost. Its 90 % lie from "
+      "{} to {} {}; "
+      "with {} the {} is replaced upon it.",
+      asked.column, report.lives.noun, asked.unit, plain_number(shown.at(asked.after)),
+      shown.unit(), plain_number(worth.worth, 3), money, plain_number(worth.net, 3),
+      plain_number(from_si(asked.reading_unit, asked.outcomes[asked.outcomes.size() / 20].reading)),
+      plain_number(
+          from_si(asked.reading_unit,
+                  asked.outcomes[asked.outcomes.size() - 1 - asked.outcomes.size() / 20].reading)),
+      asked.reading_unit.text, percent(worth.replaced), report.lives.noun);
+}
+
 std::vector<std::string> cells(const Table& table, const std::vector<present::Cell>& row) {
   std::vector<std::string> words;
   for (std::size_t c = 0; c < row.size(); ++c) {
@@ -120,6 +138,14 @@ std::vector<Check> decision_checks(const DecisionsReport& report) {
                                : "of a new one"),
          "How likely such early failures are is not known from these points: more of them, or "
          "weighted ones in the tail, would tell."});
+  if (report.worth && std::abs(report.worth->worth.error) > 0.02)
+    checks.push_back(
+        {"inspection", Verdict::warn,
+         fmt::format(
+             "what the reading may show does not add up to what is known now, by {:.2g} of the "
+             "probability to fail",
+             report.worth->worth.error),
+         "Take its worth as a rough number."});
   if (costs.failure <= costs.replacement)
     checks.push_back({"costs", Verdict::warn,
                       "a failure costs no more than a replacement before it",
@@ -137,6 +163,7 @@ std::string decisions_text(const DecisionsReport& report) {
   }
   if (!report.decisions.months.empty())
     text += table_text(months_table(report)) + wrapped(how_counted, 2, 2);
+  if (report.worth) text += "\n" + wrapped(printable(worth_in_words(report)), 0, 2);
   const std::vector<Check> checks = decision_checks(report);
   if (!checks.empty()) text += "\nChecks\n";
   static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
@@ -164,6 +191,7 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
     units.add(present::Prose{
         "Replace after: the moment that costs least, held against what use costs the fleet in the "
         "long run. Waiting saves: against replacing now."});
+    if (report.worth) units.add(present::Prose{worth_in_words(report)});
     units.add(units_table(report));
     sections.push_back(units);
   }
@@ -233,6 +261,13 @@ nlohmann::ordered_json decisions_json(const DecisionsReport& report) {
                       {"q95", each.high},
                       {"parts", each.parts},
                       {"parts_planned", each.parts_planned}});
+  if (report.worth) {
+    const WorthReport& asked = *report.worth;
+    json["inspection_ahead"] = {{"unit", asked.unit},        {"after", shown.at(asked.after)},
+                                {"reads", asked.column},     {"worth", asked.worth.worth},
+                                {"net", asked.worth.net},    {"replaced", asked.worth.replaced},
+                                {"error", asked.worth.error}};
+  }
   json["service"] = question.service;
   json["months"] = std::move(months);
   Json checks = Json::array();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -100,6 +101,28 @@ KnownLives lives_of_table(const Table& table) {
       throw InputError(
           fmt::format("{}: the unit '{}' has no weight", table.source, printable(who)));
     known.units.push_back({who, std::numeric_limits<double>::quiet_NaN(), 0, points.lives()});
+  }
+  return known;
+}
+
+std::string new_name(const Tracker& tracker) {
+  const auto seen = tracker.seen();
+  std::string name = "new";
+  while (std::find(seen.begin(), seen.end(), name) != seen.end()) name += " one";
+  return name;
+}
+
+KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bool trusted) {
+  KnownLives known;
+  known.title = title;
+  known.noun = tracker.noun();
+  known.axis = tracker.axis().name;
+  known.unit = tracker.axis().unit;
+  known.trusted = trusted;
+  known.fresh = PopulationLives(tracker.begin(new_name(tracker))->forecast().remaining);
+  for (const std::string& each : tracker.seen()) {
+    Forecast forecast = tracker.begin(each)->forecast();
+    known.units.push_back({each, forecast.now, forecast.passed, std::move(forecast.remaining)});
   }
   return known;
 }

@@ -7,6 +7,7 @@
 #include "wearwell/base/unit.h"
 #include "wearwell/input/table.h"
 #include "wearwell/prognosis/replacement.h"
+#include "wearwell/prognosis/tracker.h"
 
 namespace wearwell::prognosis {
 
@@ -33,5 +34,11 @@ struct KnownLives {
 /// `weight` of each (1 without), `unit` (a name, whose rows are what remains to it; empty: of a new one) and `population` (rows of
 /// new units that share one). "inf" is a life that never ends. Throws InputError naming row, column and value.
 KnownLives lives_of_table(const Table& table);
+
+/// Lives of the units that a study has seen, and of a new one, averaged over what is not known of the population.
+KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bool trusted);
+
+/// A name that none of the study's units has.
+std::string new_name(const Tracker& tracker);
 
 }  // namespace wearwell::prognosis
