@@ -78,7 +78,7 @@ TEST_F(Decide, RefusesWhatItCannotTell) {
   EXPECT_THAT(refusal(lives + costs + " --downtime-cost '1 EUR/h'"),
               HasSubstr("--inspection-cost"));
   EXPECT_THAT(refusal(lives + costs + " --inspection-cost '1 EUR' --downtime-cost '1 EUR/km'"),
-              HasSubstr("km is no unit like h"));
+              HasSubstr("'km' is no unit like h"));
   EXPECT_THAT(refusal(lives + costs + " --inspection-cost '1 EUR' --unit P2 --inspect-after '9 h'"),
               HasSubstr("what a reading would show"));
   EXPECT_THAT(refusal("no-such.csv" + costs), HasSubstr("no-such.csv"));

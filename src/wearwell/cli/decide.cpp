@@ -277,7 +277,15 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
       "0.1 \\\n"
       "    --unit 7 --inspect-after '5 km' --given 'force = 20 N'\n\n"
       "Exit codes: 0 done; 1 the study is not trusted; 2 the request is wrong, nothing written.");
-  command->callback([options, models, &exit_code] { exit_code = prognosis::run_decide(*options, models); });
+  command->callback(
+      [options, models, &exit_code] { exit_code = prognosis::run_decide(*options, models); });
 }
 
 }  // namespace wearwell
+                      "One unit of a result: what another reading of it is worth");
+                      command->add_option(
+                          "--inspect-after", options->after,
+                          "So much use from now that reading is taken: '5 km'; '0 km' for now");
+                      command->add_option("--given", options->given,
+                                          "Under which it is taken: 'force = 20 N', for each "
+                                          "column that a reading needs");
