@@ -255,6 +255,13 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
   command->add_option(
       "--downtime-cost", options->downtime,
       "Failures show at an inspection only, and cost so much until then: '5 EUR/h'");
+  command->add_option("--unit", options->unit,
+                      "One unit of a result: what another reading of it is worth");
+  command->add_option("--inspect-after", options->after,
+                      "So much use from now that reading is taken: '5 km'; '0 km' for now");
+  command->add_option(
+      "--given", options->given,
+      "Under which it is taken: 'force = 20 N', for each column that a reading needs");
   command->add_option(
       "--month", options->month,
       "What a unit runs in a month, '600 h': then also the fleet and spare parts by month");
@@ -282,10 +289,3 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
 }
 
 }  // namespace wearwell
-                      "One unit of a result: what another reading of it is worth");
-                      command->add_option(
-                          "--inspect-after", options->after,
-                          "So much use from now that reading is taken: '5 km'; '0 km' for now");
-                      command->add_option("--given", options->given,
-                                          "Under which it is taken: 'force = 20 N', for each "
-                                          "column that a reading needs");
