@@ -15,12 +15,12 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
-#include "wearwell/base/unit_system.h"
+#include "wearwell/cli/followed_result.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
-#include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/decisions_report.h"
+#include "wearwell/prognosis/unit_like.h"
 
 namespace wearwell {
 namespace prognosis {
@@ -60,9 +60,8 @@ double amount_per(const std::string& option, const std::string& text, const Unit
   if (slash == std::string::npos)
     throw InputError(fmt::format("{}: '{}' must be an amount for so much use, like '50 EUR/{}'",
                                  option, printable(text), axis.text));
-  const auto per = parse_unit(text.substr(slash + 1));
-  const auto of_axis = parse_unit(axis.text);
-  if (!per || !of_axis || per->dimension != of_axis->dimension)
+  const auto per = unit_like(text.substr(slash + 1), axis);
+  if (!per)
     throw InputError(fmt::format("{}: '{}' is no unit like {}, in which lives are counted", option,
                                  printable(text.substr(slash + 1)), axis.text));
   std::string before = text.substr(0, slash);
@@ -70,16 +69,15 @@ double amount_per(const std::string& option, const std::string& text, const Unit
   return amount(option, before, currency, first) / per->scale;
 }
 
-// A number of the dimension of the axis.
-double use_of(const std::string& option, const std::string& text, const Unit& axis,
-              Allowed allowed = Allowed::positive) {
-  const std::size_t at = text.find_first_not_of("0123456789.eE+- ");
-  const std::string unit = at == std::string::npos ? "" : text.substr(at);
-  const auto parsed = parse_unit(unit), of_axis = parse_unit(axis.text);
-  if (unit.empty() || !parsed || !of_axis || parsed->dimension != of_axis->dimension)
+// A number with a unit of the dimension of one that is known, in SI.
+double like_value(const std::string& option, const std::string& text, const Unit& like,
+                  Allowed allowed = Allowed::any) {
+  const std::size_t at = std::min(text.find_first_not_of("0123456789.eE+- "), text.size());
+  const auto unit = unit_like(at == text.size() ? "1" : text.substr(at), like);
+  if (!unit)
     throw InputError(fmt::format("{}: '{}' must be a number with a unit like {}", option,
-                                 printable(text), axis.text));
-  return parsed->scale * option_value(option, text.substr(0, at), "1", allowed);
+                                 printable(text), like.text));
+  return to_si(*unit, option_value(option, text.substr(0, at), "1", allowed));
 }
 
 Question question_of(const DecideOptions& options, const Unit& axis) {
@@ -104,7 +102,8 @@ Question question_of(const DecideOptions& options, const Unit& axis) {
     question.hidden =
         amount_per("--downtime-cost", options.downtime, axis, question.currency, first);
   }
-  if (!options.month.empty()) question.per_month = use_of("--month", options.month, axis);
+  if (!options.month.empty())
+    question.per_month = like_value("--month", options.month, axis, Allowed::positive);
   question.months = options.months;
   question.service = options.service / 100;
   return question;
@@ -121,15 +120,10 @@ Read read_lives(const DecideOptions& options, Models models) {
     read.lives = lives_of_table(read_table(options.lives));
     return read;
   }
-  const CarriedState state = read_state(options.lives);
-  for (const Model& model : models) {
-    if (model.key != state.model || !model.track) continue;
-    read.tracker = model.track(state);
-    read.lives = lives_of_tracker(*read.tracker, options.lives.string(), state.trusted);
-    return read;
-  }
-  throw InputError(fmt::format("{}: units of a study of model \"{}\" cannot be followed one by one",
-                               options.lives.string(), printable(state.model)));
+  FollowedResult result = followed_result(options.lives, models);
+  read.tracker = std::move(result.tracker);
+  read.lives = lives_of_tracker(*read.tracker, options.lives.string(), result.trusted);
+  return read;
 }
 
 std::size_t column_at(const Tracker& tracker, const std::string& name) {
@@ -159,8 +153,7 @@ void add_given(const Tracker& tracker, const std::string& text, Reading& reading
     return;
   }
   const std::size_t column = column_at(tracker, name);
-  reading.numbers[column] =
-      option_value("--given", value, tracker.columns()[column].unit.text, Allowed::any);
+  reading.numbers[column] = like_value("--given", value, tracker.columns()[column].unit);
 }
 
 // What another reading of one unit is worth.
@@ -180,7 +173,7 @@ WorthReport worth_of(const DecideOptions& options, const Read& read, const Quest
   WorthReport report;
   report.unit = options.unit;
   report.after =
-      use_of("--inspect-after", options.after, tracker.axis().unit, Allowed::not_negative);
+      like_value("--inspect-after", options.after, tracker.axis().unit, Allowed::not_negative);
   const auto columns = tracker.columns();
   Reading reading{std::vector<double>(columns.size(), std::nan("")),
                   std::vector<std::string>(tracker.labels().size())};

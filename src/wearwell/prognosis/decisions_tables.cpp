@@ -74,8 +74,9 @@ Table units_table(const DecisionsReport& report) {
     const double at = each.unit->now;
     table.rows.push_back(
         {each.unit->name, std::isnan(at) ? present::Cell{} : present::Cell{shown.at(at)},
-         shown.at(each.q05), shown.at(each.q50), shown.at(each.q95), 100 * each.unit->passed,
-         shown.at(each.best.after), 100 * each.best.failing, each.best.now - each.best.cost});
+         shown.at(each.q05), shown.at(each.q50), shown.at(each.q95),
+         each.unit->passed < 1e-9 ? 0 : 100 * each.unit->passed, shown.at(each.best.after),
+         100 * each.best.failing, each.best.now - each.best.cost});
   }
   if (std::all_of(table.rows.begin(), table.rows.end(),
                   [](const auto& row) { return std::holds_alternative<std::monostate>(row[1]); })) {

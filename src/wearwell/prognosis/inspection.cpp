@@ -1,5 +1,6 @@
 #include "wearwell/prognosis/inspection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -12,19 +13,21 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double as_good = 1.01;
 
-// The sum of S(k interval) over k = 1, 2, ...; infinite where some never fail.
+// The sum of S(k interval) over k = 1, 2, ...; infinite where some never fail. Far out, where S is small, it is the
+// integral of S (Euler and Maclaurin).
 double later_inspections(const WeightedLives& lives, double interval) {
   const auto points = lives.points();
   if (!std::isfinite(points.back())) return never;
-  // A life in a cell between low and high is inspected about life / interval times: by survival, exactly.
-  double sum = 0;
-  const double end = 4 * points.back();
-  for (double at = interval; at <= end; at += interval) {
-    const double left = 1 - lives.cdf(at);
-    if (left <= 0) break;
+  constexpr double small = 1e-4;
+  constexpr int most = 100'000;
+  double sum = 0, at = 0, left = 1;
+  for (int k = 1; k <= most && left > small; ++k) {
+    at = k * interval;
+    left = 1 - lives.cdf(at);
     sum += left;
   }
-  return sum;
+  const double beyond = lives.mean_up_to(4 * points.back()) - lives.mean_up_to(at);
+  return left > 0 ? sum + std::max(0.0, beyond / interval - left / 2) : sum;
 }
 
 using Inspected = std::function<InspectedLife(const WeightedLives&, double)>;
@@ -39,11 +42,15 @@ double rate_of(const PopulationLives& lives, const Inspected& inspected, double 
   return sum / mass;
 }
 
-// Intervals from a thousandth of the shortest life that matters to the longest.
+// From a hundredth of a life that few do not reach to one that few exceed.
 std::vector<double> intervals_of(const PopulationLives& lives) {
-  const std::vector<double> ages = ages_of(lives.lives);
-  const double high = ages.back();
-  const double low = std::max(ages.front() / 10, high / 5000);
+  double low = never, high = 0;
+  for (const WeightedLives& each : lives.lives) {
+    low = std::min(low, each.quantile(0.05) / 100);
+    const double most = each.quantile(0.95);
+    high = std::max(high, std::isfinite(most) ? most : 10 * each.quantile(0.05));
+  }
+  if (!(low > 0) || !std::isfinite(low)) low = high / 5000;
   std::vector<double> intervals;
   constexpr int count = 240;
   for (int i = 0; i <= count; ++i)

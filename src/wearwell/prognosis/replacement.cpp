@@ -39,16 +39,6 @@ double rate_of(const WeightedLives& lives, const Costs& costs, double age) {
   return (costs.replacement * (1 - failed) + costs.failure * failed) / lived;
 }
 
-// Where the rate leaves what is as good as the least, going from `inside` to `outside`.
-double edge(const PopulationLives& lives, const Costs& costs, double bound, double inside,
-            double outside) {
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (inside + outside) / 2;
-    (cost_rate(lives, costs, middle) <= bound ? inside : outside) = middle;
-  }
-  return inside;
-}
-
 }  // namespace
 
 double PopulationLives::survival(double x) const {
@@ -86,10 +76,13 @@ AgeReplacement cheapest_age(const PopulationLives& lives, const Costs& costs) {
   }
   best.beyond_known = some_never && best.age >= ages.back() * (1 - 1e-9);
   best.failing = 1 - lives.survival(best.age);
-  const double bound = as_good * best.rate, at = std::min(best.age, ages.back());
-  best.from = edge(lives, costs, bound, at, 0);
-  best.to = rate(ages.back()) <= bound && !some_never ? never
-                                                      : edge(lives, costs, bound, at, ages.back());
+  best.from = best.to = std::min(best.age, ages.back());
+  for (const double each : ages) {
+    if (rate(each) > as_good * best.rate) continue;
+    best.from = std::min(best.from, each);
+    best.to = std::max(best.to, each);
+  }
+  if (!some_never && best.at_failure <= as_good * best.rate) best.to = never;
   return best;
 }
 
