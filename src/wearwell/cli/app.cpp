@@ -1,7 +1,9 @@
 #include "wearwell/cli/app.h"
 
+#include "wearwell/cli/backtest.h"
 #include "wearwell/cli/check.h"
 #include "wearwell/cli/compare.h"
+#include "wearwell/cli/decide.h"
 #include "wearwell/cli/fit.h"
 #include "wearwell/cli/generate.h"
 #include "wearwell/cli/help.h"
@@ -30,6 +32,8 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   add_check_command(*app, models, exit_code);
   add_compare_command(*app, exit_code);
   add_monitor_command(*app, models, exit_code);
+  add_decide_command(*app, models, exit_code);
+  add_backtest_command(*app, models, exit_code);
   add_new_command(*app, models, exit_code);
   add_report_command(*app, exit_code);
   add_help_command(*app, exit_code);
