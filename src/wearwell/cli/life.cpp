@@ -78,6 +78,12 @@ ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json();
 }
 
+// 0.93, not 0.9299999999999999.
+double survival(double share) {
+  constexpr double digits = 1e12;
+  return std::round((1 - share) * digits) / digits;
+}
+
 ordered_json json_of(const UnitLife& life, const Moved& moved, bool trusted) {
   ordered_json json = {{"of", life.of},
                        {"name", life.name},
@@ -98,7 +104,8 @@ ordered_json json_of(const UnitLife& life, const Moved& moved, bool trusted) {
   if (life.horizon) json["horizon"] = {{"within", *life.horizon}, {"reached", *life.reached}};
   json["survival"] = ordered_json::array();
   for (std::size_t i = 0; i < life.share.size(); ++i)
-    json["survival"].push_back({{"life", number(life.life[i])}, {"survival", 1 - life.share[i]}});
+    json["survival"].push_back(
+        {{"life", number(life.life[i])}, {"survival", survival(life.share[i])}});
   if (!moved.how.empty())
     json["readings"] = {
         {"counted", moved.counted}, {"repeated", moved.repeated}, {"how", moved.how}};
@@ -109,7 +116,7 @@ present::Table table_of(const UnitLife& life) {
   present::Table table{
       "survival", "Survival", {{life.name, life.unit, present::life()}, {"survival", "1"}}};
   for (std::size_t i = 0; i < life.share.size(); ++i)
-    table.rows.push_back({life.life[i], 1 - life.share[i]});
+    table.rows.push_back({life.life[i], survival(life.share[i])});
   return table;
 }
 
