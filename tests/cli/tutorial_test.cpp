@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(, Tutorial,
                                          "docs/compare.md", "docs/degradation.md",
                                          "docs/fatigue.md", "docs/joint.md", "docs/life.md",
                                          "docs/select.md", "docs/spectrum.md", "docs/staircase.md",
-                                         "docs/tables.md", "docs/units.md"),
+                                         "docs/state.md", "docs/tables.md", "docs/units.md"),
                          [](const auto& each) {
                            return std::filesystem::path(each.param).stem().string();
                          });

@@ -122,26 +122,26 @@ present::Table table_of(const UnitLife& life) {
 
 void print(const UnitLife& life, const Moved& moved, bool trusted) {
   const auto shown = [&](double value) {
-    return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("never");
+    return std::isfinite(value) ? plain_number(value) : std::string("never");
   };
   if (!trusted)
     fmt::print(
         "Not trusted: a check of the fit failed; wearwell report or its summary say which.\n");
   fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining life", life.of, life.at);
-  if (life.from) fmt::print("  counted from {:.6g} {} on\n", *life.from, life.unit);
-  if (life.passed)
-    fmt::print("  the end lies before that with a probability of {}; given that it does not:\n",
-               probability_in_words(*life.passed));
+  if (life.from) fmt::print("  counted from {} {} on\n", plain_number(*life.from, 6), life.unit);
   if (!moved.how.empty())
     fmt::print("  with {} new reading{} ({} there already); {}\n", moved.counted,
                moved.counted == 1 ? "" : "s", moved.repeated, moved.how);
+  if (life.passed)
+    fmt::print("  the end lies before that with a probability of {}; given that it does not:\n",
+               probability_in_words(*life.passed));
   fmt::print("  median {} {}, 90 % interval {} .. {}\n", shown(life.quantile(0.5)), life.unit,
              shown(life.quantile(0.05)), shown(life.quantile(0.95)));
   fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
              shown(life.quantile(0.5)));
   if (life.horizon)
-    fmt::print("  within {:.6g} {} the end is reached with a probability of {}\n", *life.horizon,
-               life.unit, probability_in_words(*life.reached));
+    fmt::print("  within {} {} the end is reached with a probability of {}\n",
+               plain_number(*life.horizon, 6), life.unit, probability_in_words(*life.reached));
   fmt::print("  inspect again within {} {}: {} risk of reaching the end before\n",
              shown(life.inspect_within), life.unit, probability_in_words(life.risk));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,9 +11,11 @@ namespace wearwell::prognosis {
 
 /// Readings that the posterior before them hardly bears: each by its place in its predictive distribution over
 /// `before`, two-sided; given, where units differ, what all readings of its own unit say of that (which makes it
-/// milder). Told below one in a thousand over all that are new. Nothing where the study's scores are not one a row.
-std::vector<Contradiction> hardly_possible(const PosteriorStudy& study, const WeightedDraws& before,
-                                           const JoinedData& joined);
+/// milder). Told below one in a thousand over all that are new. None where the study's scores are not one a row: then it
+/// cannot be said.
+std::optional<std::vector<Contradiction>> hardly_possible(const PosteriorStudy& study,
+                                                          const WeightedDraws& before,
+                                                          const JoinedData& joined);
 
 /// The study with a check `new-data` more, which says what became of the rows; summary.json has it under `update`.
 PosteriorStudy updated_study(const PosteriorStudy& study, const WeightedDraws& before,
