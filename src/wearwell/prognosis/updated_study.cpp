@@ -126,8 +126,7 @@ std::optional<std::vector<Contradiction>> hardly_possible(const PosteriorStudy& 
   return found;
 }
 
-PosteriorStudy updated_study(const PosteriorStudy& study, const WeightedDraws& before,
-                             JoinedData joined, const std::string& files) {
+void judge_new_data(const PosteriorStudy& study, const WeightedDraws& before, JoinedData& joined) {
   auto found = hardly_possible(study, before, joined);
   if (!found) {
     joined.notes.push_back(
@@ -146,6 +145,10 @@ PosteriorStudy updated_study(const PosteriorStudy& study, const WeightedDraws& b
     each.place = place_in_words(data_table(joined.source), joined.roles, each.row);
     joined.contradictions.push_back(std::move(each));
   }
+}
+
+PosteriorStudy updated_study(const PosteriorStudy& study, JoinedData joined,
+                             const std::string& files) {
   PosteriorStudy updated = study;
   const auto shared = std::make_shared<const JoinedData>(std::move(joined));
   updated.checks = [shared, files, own = study.checks](const Fit& fit) {

@@ -17,8 +17,11 @@ std::optional<std::vector<Contradiction>> hardly_possible(const PosteriorStudy& 
                                                           const WeightedDraws& before,
                                                           const JoinedData& joined);
 
+/// Adds them to the contradictions that are known; where it cannot be said, a note.
+void judge_new_data(const PosteriorStudy& study, const WeightedDraws& before, JoinedData& joined);
+
 /// The study with a check `new-data` more, which says what became of the rows; summary.json has it under `update`.
-PosteriorStudy updated_study(const PosteriorStudy& study, const WeightedDraws& before,
-                             JoinedData joined, const std::string& files);
+PosteriorStudy updated_study(const PosteriorStudy& study, JoinedData joined,
+                             const std::string& files);
 
 }  // namespace wearwell::prognosis
