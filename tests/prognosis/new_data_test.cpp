@@ -41,6 +41,8 @@ sigma = { law = "half-normal", scale = "0.5 %" }
 scatter = { law = "half-normal", scale = 0.5 }
 [varies.laser]
 rate = { law = "lognormal", log_sd = "scatter" }
+[predict]
+along = "time"
 )";
 
 class NewData : public ScratchTest {
@@ -215,10 +217,10 @@ TEST_F(NewData, MoveThePosteriorByItsWeights) {
     return Posterior({x}, std::make_shared<Normal>(mean));
   };
   WeightedDraws draws;
-  draws.values.resize(2001, 1);
-  draws.weights.resize(2001);
-  for (int i = 0; i <= 2000; ++i) {
-    draws.values(i, 0) = -10 + 0.01 * i;
+  draws.values.resize(8001, 1);
+  draws.weights.resize(8001);
+  for (int i = 0; i <= 8000; ++i) {
+    draws.values(i, 0) = -10 + 0.0025 * i;
     draws.weights[i] = std::exp(-0.5 * draws.values(i, 0) * draws.values(i, 0));
   }
   draws.weights /= draws.weights.sum();

@@ -58,7 +58,7 @@ TextFile with_predict(const TextFile& study,
   std::sort(gone.begin(), gone.end(), std::greater<>());
   for (const auto& [from, to] : gone) changed.text.erase(from, to - from);
   const std::size_t end = std::min(changed.text.find('\n', heading), changed.text.size());
-  changed.text.insert(end, "\n" + lines);
+  changed.text.insert(end, "\n" + lines.substr(0, lines.size() - 1));
   return changed;
 }
 

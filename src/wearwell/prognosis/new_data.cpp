@@ -123,10 +123,14 @@ bool same_content(const Table& a, const Table& b) {
   return true;
 }
 
+std::string shown(const Column& column, std::size_t row) {
+  return column.is_number ? fmt::format("{:.6g}", column.numbers[row]) : column.text[row];
+}
+
 std::string measured_in_words(const Table& table, const DataRoles& roles, std::size_t row) {
   std::vector<std::string> words;
   for (const std::string& each : roles.measured)
-    words.push_back(fmt::format("{} = {}", each, cell_word(table.column(each), row)));
+    words.push_back(fmt::format("{} = {}", each, shown(table.column(each), row)));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -205,7 +209,7 @@ class Joining {
         fresh.source, row + 1,
         there < table_.rows ? fmt::format("row {} of what is known", there + 1)
                             : fmt::format("row {} of the same file", there - table_.rows + 1),
-        roles_.noun));
+        roles_.unit ? "reading" : roles_.noun));
   }
 
   Table table_;
