@@ -29,7 +29,7 @@ struct Kind {
 WeightedDraws around(const Kind& kind) {
   std::vector<std::vector<double>> x;
   Rng rng(11, 0);
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 600; ++i) {
     x.push_back(kind.middle);
     for (double& each : x.back()) each *= std::exp(kind.spread * rng.normal());
   }
