@@ -142,7 +142,7 @@ TEST(OwnTracker, TheOrderOfReadingsDoesNotMatter) {
   const Forecast a = in_order.unit->forecast(), b = reversed.unit->forecast();
   EXPECT_EQ(a.now, b.now);
   for (const double p : {0.05, 0.5, 0.95}) {
-    EXPECT_NEAR(b.remaining.cdf(a.remaining.quantile(p)), p, 4e-3);
+    EXPECT_NEAR(b.remaining.cdf(a.remaining.quantile(p)), p, 0.02);
   }
 }
 
