@@ -140,6 +140,7 @@ TEST(OwnTracker, TheOrderOfReadingsDoesNotMatter) {
   std::reverse(readings.begin(), readings.end());
   for (const auto& each : readings) reversed.take(each);
   const Forecast a = in_order.unit->forecast(), b = reversed.unit->forecast();
+  for (const auto* f : {&a, &b}) std::printf("q05 %.4f q50 %.4f q95 %.4f eff %.1f\n", f->remaining.quantile(.05)/h, f->remaining.quantile(.5)/h, f->remaining.quantile(.95)/h, f->effective);
   EXPECT_EQ(a.now, b.now);
   for (const double p : {0.05, 0.5, 0.95}) {
     EXPECT_NEAR(b.remaining.cdf(a.remaining.quantile(p)), p, 0.02);
