@@ -9,6 +9,7 @@
 #include "models/ownlaw/watched.h"
 #include "wearwell/base/rng.h"
 
+// Longer than others: a study for every kind of law.
 namespace wearwell::ownlaw {
 namespace {
 
