@@ -37,7 +37,8 @@ double at_score(const double* values, double score) {
   return std::exp(sum);
 }
 
-constexpr int parts = 4;  // of a node's place on its line
+constexpr int parts = 4;             // of a node's place on its line
+constexpr double negligible = 1e-8;  // nodes with less are left out
 
 // What nodes of one line have, drawn out between them: a parabola through each and its neighbours, of the logarithm
 // of the weight and of the number. The sum of the weights is that of the trapezoidal rule with a step so much finer.
@@ -45,7 +46,7 @@ template <class Put>
 void draw_out(std::span<const double> weight, std::span<const double> number, const Put& put) {
   const std::size_t n = weight.size();
   for (std::size_t k = 0; k < n; ++k) {
-    if (!(weight[k] > 1e-10)) continue;
+    if (!(weight[k] > negligible)) continue;
     const bool inner = k > 0 && k + 1 < n && weight[k - 1] > 0 && weight[k + 1] > 0 &&
                        std::isfinite(number[k - 1] + number[k] + number[k + 1]);
     if (!inner) {
@@ -167,9 +168,14 @@ struct NodeLives::Ahead {
     changes &= !runs;
   }
 
+  // Where paths are looked at from.
+  double from() const { return runs && path->begun ? path->place : lives.path_.begin; }
+
   void evaluate(const NodeRow& row, const double* place) {
     NodeProgram::GoesOn on;
-    if (runs && path->begun) on = {path->place, &path->carried, &lives.steps_, lives.row_length_};
+    if (runs) {
+      on = {from(), path->begun ? &path->carried : nullptr, &lives.steps_, lives.row_length_};
+    }
     lives.program_->evaluate(nodes, begin, count, row, place, on, scratch);
   }
   double at(std::size_t o, std::size_t i) const { return output(*lives.program_, scratch, o, i); }
@@ -198,9 +204,8 @@ struct NodeLives::Ahead {
   }
 
   void cross(const double* level, double* place) {
-    const double from = runs && path->begun ? path->place : lives.path_.begin;
     search_crossings(
-        lives.path_.rising, from, lives.path_.scale, count, level,
+        lives.path_.rising, from(), lives.path_.scale, count, level,
         [&](const double* trial) { evaluate(ahead, trial); },
         [&](std::size_t i) { return at(0, i); }, place, passed_by);
   }

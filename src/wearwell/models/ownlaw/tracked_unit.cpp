@@ -46,8 +46,8 @@ TrackedUnit::TrackedUnit(std::shared_ptr<const Tracked> tracked, std::string uni
 void TrackedUnit::lay(std::vector<UnitReading> all) {
   all.insert(all.begin(), seen_.begin(), seen_.end());
   sort_along(all);
-  nodes_ = lay_nodes(tracked_->population, seen_, all);
-  log_weight_ = nodes_.log_before;
+  nodes_ = lay_nodes(tracked_->population, seen_, all, nodes_);
+  log_weight_ = std::move(nodes_.log_before);
   paths_ = tracked_->rows.paths();
   std::vector<double> value(log_weight_.size());
   std::vector<NodePath> after = paths_;
@@ -76,7 +76,10 @@ void TrackedUnit::weigh() {
   static thread_local std::vector<double> weight, exponent;
   weight.resize(log_weight_.size());
   exponent.resize(log_weight_.size());
-  for (std::size_t i = 0; i < weight.size(); ++i) exponent[i] = log_weight_[i] - top;
+  // To single precision, as states are saved: weights to a relative 1e-6.
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    exponent[i] = log_weight_[i] = static_cast<float>(log_weight_[i] - top);
+  }
   static const law::Kernels exponential = law::kernels_of(law::Op::exp, 0);
   exponential.forward(exponent.data(), nullptr, nullptr, weight.data(), weight.size(), 0);
   for (const double each : weight) {
@@ -209,9 +212,10 @@ std::string TrackedUnit::save() const {
     to.numbers({nodes_.nodes.parameters->data(),
                 static_cast<std::size_t>(nodes_.nodes.parameters->size())});
   }
-  to.numbers(nodes_.log_point);
-  to.numbers(nodes_.shape);
-  to.numbers(log_weight_);
+  to.short_numbers(nodes_.log_point);
+  if (!seen_.empty()) to.short_numbers(nodes_.log_seen);
+  to.short_numbers(nodes_.shape);
+  to.short_numbers(log_weight_);
   to.numbers({&laid_effective_, 1});
   for (const NodePath& each : paths_) {
     to.number((each.begun ? 1 : 0) + (each.measured ? 2 : 0));
@@ -256,12 +260,17 @@ std::unique_ptr<TrackedUnit> TrackedUnit::restore(
         Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(rows), columns));
   }
   const std::size_t effects = tracked->population.effects();
-  nodes.log_point = from.numbers();
-  nodes.shape = from.numbers();
+  nodes.log_point = from.short_numbers();
+  nodes.log_seen =
+      unit->seen_.empty() ? std::vector<double>(nodes.nodes.lines()) : from.short_numbers();
+  nodes.shape = from.short_numbers();
   from.demand(nodes.log_point.size() == nodes.nodes.lines() &&
+              nodes.log_seen.size() == nodes.nodes.lines() &&
               nodes.shape.size() == nodes.nodes.lines() * UnitNodes::shape_size(effects));
   nodes.fill(*tracked->law);
-  unit->log_weight_ = from.numbers();
+  nodes.log_before.clear();
+  nodes.log_before.shrink_to_fit();
+  unit->log_weight_ = from.short_numbers();
   from.demand(unit->log_weight_.size() == nodes.nodes.count());
   unit->laid_effective_ = from.numbers().at(0);
   unit->paths_ = tracked->rows.paths();

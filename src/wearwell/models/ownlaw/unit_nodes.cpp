@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double log_two_pi = 1.8378770664093454836;
-constexpr std::size_t few_lines = 256, many_lines = 2000, per_line = 10;
+constexpr std::size_t few_lines = 256, most_lines = 600, many_lines = 2000, per_line = 10;
 constexpr std::size_t few_alone = 2000, many_alone = 20'000;  // where nothing varies
 constexpr double tail = 1e-5;      // of a line: beyond its nodes lies as much on either side
 constexpr double least_few = 0.3;  // of the few points' effective number: then others are chosen
@@ -169,7 +169,11 @@ NodePopulation::NodePopulation(std::shared_ptr<const OwnLaw> own_law,
                                const WeightedDraws& posterior)
     : law(std::move(own_law)) {
   const bool alone = law->effects.empty();
-  few = PopulationPoints(FewPoints(posterior, alone ? few_alone : few_lines));
+  // As many as keep means, variances and covariances of all parameters in several regions.
+  const auto d = static_cast<std::size_t>(posterior.values.cols());
+  const std::size_t moments = 1 + d + d * (d + 1) / 2;
+  const std::size_t lines = std::min(std::max(few_lines, 8 * moments), most_lines);
+  few = PopulationPoints(FewPoints(posterior, alone ? few_alone : lines));
   many = PopulationPoints(FewPoints(posterior, alone ? many_alone : many_lines));
 }
 
@@ -181,7 +185,7 @@ void UnitNodes::fill(const OwnLaw& law) {
   PopulationAt population_at(law);
   for (std::size_t j = 0; j < lines; ++j) {
     if (d == 0) {
-      log_before[j] = log_point[j];
+      log_before[j] = log_point[j] - log_seen[j];
       continue;
     }
     const double* own_shape = &shape[j * size];
@@ -202,22 +206,27 @@ void UnitNodes::fill(const OwnLaw& law) {
         log_share = std::log(own_shape[2] * own_shape[4] / static_cast<double>(per_line)) +
                     0.5 * (u * u + v * v - z[0] * z[0] - z[1] * z[1]);
       }
-      log_before[i] = log_point[j] + log_share;
+      log_before[i] = log_point[j] - log_seen[j] + log_share;
       for (std::size_t e = 0; e < d; ++e) nodes.effect[e][i] = population.value(law, e, z);
     }
   }
 }
 
 UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
-                    const std::vector<UnitReading>& all) {
+                    const std::vector<UnitReading>& all, const UnitNodes& before) {
   const OwnLaw& law = *population.law;
   const UnitAt at_seen(law, seen), at_all(law, all);
-  PopulationPoints points = population.few;
-  Looked looked = look_at(points, at_seen, at_all);
   UnitNodes laid;
-  const double few = effective_number(looked.log_weight);
+  laid.own = before.own;
+  PopulationPoints points = population.few;
+  if (before.own) {
+    points.values = before.nodes.parameters;
+    points.log_weight = before.log_point;
+  }
+  Looked looked = look_at(points, at_seen, at_all);
+  const double least = least_few * effective_number(population.few.log_weight);
   const bool more = population.many.log_weight.size() > population.few.log_weight.size();
-  if (more && few < least_few * effective_number(points.log_weight)) {
+  if (more && effective_number(looked.log_weight) < least) {
     const Looked of_many = look_at(population.many, at_seen, at_all);
     if (effective_number(of_many.log_weight) > 0) {
       laid.own = true;
@@ -231,11 +240,18 @@ UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitRead
   }
   const std::size_t d = law.effects.size(), size = UnitNodes::shape_size(d);
   laid.nodes.parameters = points.values;
+  laid.log_point = points.log_weight;
+  laid.log_seen = looked.log_seen;
   laid.shape.resize(points.log_weight.size() * size);
   for (std::size_t j = 0; j < points.log_weight.size(); ++j) {
-    laid.log_point.push_back(points.log_weight[j] - looked.log_seen[j]);
     shape_of(looked.all[j], d, j, laid.shape.data() + j * size);
   }
+  // In single precision, as states are saved.
+  for (auto* each : {&laid.log_point, &laid.log_seen}) {
+    const double top = *std::max_element(each->begin(), each->end());
+    for (double& one : *each) one = static_cast<float>(one - top);
+  }
+  for (double& each : laid.shape) each = static_cast<float>(each);
   laid.fill(law);
   return laid;
 }
