@@ -5,6 +5,7 @@
 #include "wearwell/cli/fit.h"
 #include "wearwell/cli/generate.h"
 #include "wearwell/cli/help.h"
+#include "wearwell/cli/life.h"
 #include "wearwell/cli/monitor.h"
 #include "wearwell/cli/new.h"
 #include "wearwell/cli/report.h"
@@ -21,6 +22,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   app->set_version_flag("--version", WEARWELL_VERSION, "Print the version and exit");
   add_fit_command(*app, models, exit_code);
   add_update_command(*app, models, exit_code);
+  add_life_command(*app, models, exit_code);
   for (const Model& model : models) {
     if (model.add_commands) model.add_commands(*app, exit_code);
   }
