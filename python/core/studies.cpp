@@ -67,6 +67,21 @@ std::map<std::string, py::array_t<double>> sample_stats(const Run& run) {
   return stats;
 }
 
+// Texts, but of files that end in .bin bytes.
+py::list files_of(const Run& run) {
+  embed::Files files;
+  {
+    const py::gil_scoped_release release;
+    files = embed::files_of(run);
+  }
+  py::list all;
+  for (const auto& [name, content] : files) {
+    all.append(name.ends_with(".bin") ? py::make_tuple(name, py::bytes(content))
+                                      : py::make_tuple(name, content));
+  }
+  return all;
+}
+
 // NetCDF is written with the interpreter's lock held: other modules use the same library, and it is not made for two
 // threads.
 void write_netcdf(const Run& run, const std::string& target) {
@@ -97,7 +112,7 @@ void add_studies(py::module_& module) {
       .def("terminal", [](const Run& run) { return terminal_text(*run.result, {}); })
       .def("draws", &draws_of)
       .def("sample_stats", &sample_stats)
-      .def("files", &embed::files_of, unlocked())
+      .def("files", &files_of)
       .def("write_netcdf", &write_netcdf)
       .def("asked", [](const Run& run, const ReadStudy& other, double level) {
         const py::gil_scoped_release release;

@@ -117,11 +117,36 @@ SEXP sample_stats(SEXP run) {
   return stats;
 }
 
+// Texts of R hold no zeros: files that end in .bin are told in hexadecimal digits.
+bool is_bytes(const std::string& name) {
+  return name.ends_with(".bin");
+}
+
+std::string in_digits(const std::string& bytes) {
+  static constexpr char digits[] = "0123456789abcdef";
+  std::string text;
+  text.reserve(2 * bytes.size());
+  for (const char each : bytes) {
+    const auto value = static_cast<unsigned char>(each);
+    text += {digits[value >> 4], digits[value & 15]};
+  }
+  return text;
+}
+
+std::string of_digits(const std::string& text) {
+  const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+  std::string bytes;
+  bytes.reserve(text.size() / 2);
+  for (std::size_t i = 0; i + 1 < text.size(); i += 2)
+    bytes.push_back(static_cast<char>(digit(text[i]) * 16 + digit(text[i + 1])));
+  return bytes;
+}
+
 SEXP files_of(SEXP run) {
   std::vector<std::string> names, contents;
   for (auto& [name, content] : embed::files_of(held<Run>(run))) {
+    contents.push_back(is_bytes(name) ? in_digits(content) : std::move(content));
     names.push_back(name);
-    contents.push_back(std::move(content));
   }
   Rcpp::CharacterVector all(texts_of(contents));
   all.names() = Rcpp::CharacterVector(texts_of(names));
@@ -142,7 +167,11 @@ SEXP page_of(const std::string& summary, const std::string& report) {
 }
 
 SEXP write_folder(const std::string& target, const Rcpp::CharacterVector& files) {
-  embed::write_folder(target, pairs_of(files));
+  embed::Files pairs = pairs_of(files);
+  for (auto& [name, content] : pairs) {
+    if (is_bytes(name)) content = of_digits(content);
+  }
+  embed::write_folder(target, pairs);
   return R_NilValue;
 }
 

@@ -13,6 +13,7 @@
 #include "wearwell/base/staged_file.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/present/progress_line.h"
+#include "wearwell/prognosis/carry.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/posterior_study.h"
 #include "wearwell/study/result_writer.h"
@@ -44,9 +45,12 @@ int run_fit(const FitOptions& options, Models models) {
   const bool netcdf = !options.netcdf.empty();
   if (netcdf) static_cast<void>(require_posterior_study(*study));
   ResultFolder folder(output);
+  const auto* const of_posterior = dynamic_cast<const PosteriorStudy*>(study.get());
+  std::optional<Source> carried;
+  if (of_posterior) carried = prognosis::carried_source(source, *of_posterior);
   std::optional<StagedFile> draws;
   if (netcdf) draws.emplace(options.netcdf);
-  const Result result = [&] {
+  Result result = [&] {
     ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);
     const Monitor monitor{.progress = [&](const Step& step) { line.show(step); },
                           .threads = options.threads};
@@ -55,6 +59,10 @@ int run_fit(const FitOptions& options, Models models) {
   if (draws) {
     draws->write(
         netcdf::file_of(inference_data(require_posterior_study(*study), *result.posterior)));
+  }
+  if (carried) {
+    result.files.emplace_back("state.bin", prognosis::state_bytes(prognosis::state_of_result(
+                                               std::move(*carried), result)));
   }
   write_result(result, source.study.text, folder);
   if (draws) draws->commit();

@@ -1,10 +1,12 @@
 #include "wearwell/embed/run.h"
 
+#include "wearwell/base/error.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/netcdf/netcdf_file.h"
 #include "wearwell/present/result_folder.h"
 #include "wearwell/present/section_json.h"
+#include "wearwell/prognosis/carry.h"
 #include "wearwell/study/comparison.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/json.h"
@@ -27,7 +29,8 @@ ReadStudy read(Source source) {
   const ForkGuard guard;
   ReadStudy result;
   result.study = read_study(source, all_models());
-  result.text = std::move(source.study.text);
+  result.text = source.study.text;
+  result.source = std::make_shared<const Source>(std::move(source));
   return result;
 }
 
@@ -39,7 +42,21 @@ ReadStudy read_text(const std::string& text, const std::string& path,
 Run run(const ReadStudy& read, const RunOptions& options, Monitor monitor) {
   const ForkGuard guard;
   monitor.threads = guard.most(monitor.threads);
-  return {read, std::make_shared<const Result>(read.study->run(options, monitor))};
+  const auto* const of_posterior = dynamic_cast<const PosteriorStudy*>(read.study.get());
+  if (!of_posterior)
+    return {read, std::make_shared<const Result>(read.study->run(options, monitor))};
+  std::optional<Source> carried;
+  try {
+    carried = prognosis::carried_source(*read.source, *of_posterior);
+  } catch (const InputError&) {
+    // The files are not there any more, or others: the study was read before, and there is nothing to go on from.
+  }
+  Run run{read, std::make_shared<const Result>(read.study->run(options, monitor))};
+  if (carried) {
+    run.state =
+        prognosis::state_bytes(prognosis::state_of_result(std::move(*carried), *run.result));
+  }
+  return run;
 }
 
 std::vector<std::pair<std::string, std::vector<double>>> sample_stats(const Run& run) {
@@ -70,6 +87,7 @@ Files files_of(const Run& run) {
   const Result& result = *run.result;
   Files files = {{"summary.json", summary_text(result)}};
   files.insert(files.end(), result.files.begin(), result.files.end());
+  if (!run.state.empty()) files.emplace_back("state.bin", run.state);
   for (const present::Table* table : present::tables(result.sections))
     files.emplace_back("tables/" + table->id + ".csv", present::csv(*table));
   if (!result.sections.empty()) {

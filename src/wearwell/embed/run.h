@@ -17,12 +17,14 @@ namespace wearwell::embed {
 struct ReadStudy {
   std::shared_ptr<const Study> study;
   std::string text;
+  std::shared_ptr<const Source> source = {};
 };
 
 /// What a run of it found.
 struct Run {
   ReadStudy of;
   std::shared_ptr<const Result> result;
+  std::string state = {};  ///< state.bin; empty of a study without a posterior
 };
 
 /// Of any model that is known. Throws InputError.
@@ -40,7 +42,7 @@ std::vector<std::pair<std::string, std::vector<double>>> sample_stats(const Run&
 
 using Files = std::vector<std::pair<std::string, std::string>>;
 
-/// All files of its folder but the page, which is made of the others.
+/// Content is text but that of files that end in .bin. All files of its folder but the page, which is made of the others.
 Files files_of(const Run& run);
 /// report.html of summary.json and report.json.
 std::string page_of(const std::string& summary, const std::string& report);

@@ -7,8 +7,11 @@
 #include <unordered_map>
 
 #include "wearwell/base/error.h"
+#include "wearwell/input/as_read.h"
 #include "wearwell/input/column_stream.h"
+#include "wearwell/input/csv_reader.h"
 #include "wearwell/input/duckdb_session.h"
+#include "wearwell/input/memory_text.h"
 #include "wearwell/input/table.h"
 
 namespace wearwell {
@@ -30,32 +33,14 @@ void describe(const DuckdbSession& session, Column& column) {
   column.doubt = known->doubt;
 }
 
-}  // namespace
-
-Table read_table(const std::filesystem::path& path, const std::optional<std::string>& sql,
-                 const QueryLimits& limits, const TableSettings& settings) {
-  const TableFile file(path);
-  DuckdbSession session(file, settings);
-  Table table;
-  table.source = file.source();
-  table.layout = session.layout_in_words();
-  if (sql) {
-    table.source += " (through sql)";
-    for (const TextColumn& column : session.layout() ? session.layout()->columns : no_columns) {
-      if (column.is_number) refuse_doubt(file.source(), column.doubt);
-    }
-    run_query(session, *sql, limits);
-  } else {
-    DuckdbResult(session, "create temp table result as select * from data");
-  }
-
-  // All numbers as double, all else as text.
+/// Adds the columns of the table `result`: all numbers as double, all else as text.
+void add_result(const DuckdbSession& session, bool described, Table& table) {
   std::vector<std::string> selected;
   {
     DuckdbResult header(session, "select * from result limit 0");
     for (idx_t c = 0; c < header.columns(); ++c) {
       table.columns.push_back({header.name(c), is_number(header.type(c)), {}, {}});
-      if (!sql) describe(session, table.columns.back());
+      if (described) describe(session, table.columns.back());
       selected.push_back(fmt::format("cast({} as {})", quoted(header.name(c), '"'),
                                      table.columns.back().is_number ? "double" : "varchar"));
     }
@@ -76,8 +61,72 @@ Table read_table(const std::filesystem::path& path, const std::optional<std::str
     duckdb_destroy_data_chunk(&chunk);
   }
   if (table.rows == 0) throw InputError(fmt::format("{} has no rows", table.source));
+}
+
+}  // namespace
+
+Table read_table(const std::filesystem::path& path, const std::optional<std::string>& sql,
+                 const QueryLimits& limits, const TableSettings& settings) {
+  const TableFile file(path);
+  DuckdbSession session(file, settings);
+  Table table;
+  table.source = file.source();
+  table.layout = session.layout_in_words();
+  if (sql) {
+    table.source += " (through sql)";
+    for (const TextColumn& column : session.layout() ? session.layout()->columns : no_columns) {
+      if (column.is_number) refuse_doubt(file.source(), column.doubt);
+    }
+    run_query(session, *sql, limits);
+  } else {
+    DuckdbResult(session, "create temp table result as select * from data");
+  }
+
+  add_result(session, !sql, table);
   if (!sql) table.lines = std::move(session.lines());
   return table;
+}
+
+namespace {
+
+/// As a text has it, so that it is read back to the bit.
+std::string cell_text(const Table& table, const Column& column, bool numbers, std::size_t row) {
+  if (!numbers) return csv_cell(column.text[row]);
+  const double number = cell_number(table, column, row);
+  return std::isnan(number) ? std::string() : fmt::format("{}", number);
+}
+
+}  // namespace
+
+Table query_table(const Table& table, const std::string& sql, const QueryLimits& limits) {
+  MemoryText text;
+  std::vector<std::string> cells;
+  std::vector<bool> numbers;
+  for (const Column& column : table.columns) {
+    cells.push_back(csv_cell(column.name));
+    numbers.push_back(holds_numbers(column));
+  }
+  text.add_line(fmt::format("{}", fmt::join(cells, ",")));
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      cells[c] = cell_text(table, table.columns[c], numbers[c], i);
+    text.add_line(fmt::format("{}", fmt::join(cells, ",")));
+  }
+  const std::unique_ptr<TableFile> file = text.table(table.source);
+  TableSettings plain;
+  plain.decimal = '.';
+  plain.thousands = '\0';
+  plain.delimiter = ',';
+  plain.encoding = Encoding::utf8;
+  plain.header_row = 1;
+  plain.units_row = false;
+  DuckdbSession session(*file, plain);
+  Table result;
+  result.source = table.source + " (through sql)";
+  result.layout = table.layout;
+  run_query(session, sql, limits);
+  add_result(session, false, result);
+  return result;
 }
 
 /// Rows come as they are asked for instead of all at once.

@@ -9,6 +9,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/as_read.h"
 
 namespace wearwell {
 
@@ -100,6 +101,8 @@ TableSettings read_table_settings(const TomlReader& section) {
 }
 
 Table read_table(const TomlReader& section, const Source& source) {
+  const auto as_read = source.tables.find(as_read_name(section));
+  if (as_read != source.tables.end()) return as_read->second;
   const auto in_memory = source.tables.find(section.required_text("file"));
   const auto sql = section.text("sql");
   const TableSettings settings = read_table_settings(section);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wearwell/bayes/weighted_draws.h"
@@ -21,6 +22,9 @@ struct CarriedState {
 
 /// The bytes of state.bin: versioned, the same on every machine, with a checksum.
 std::string state_bytes(const CarriedState& state);
+
+/// Reads them; `name` is what messages call them. Throws InputError where they are of another version, or damaged.
+CarriedState state_of_bytes(std::string_view bytes, const std::string& name);
 
 /// Reads RESULT/state.bin or such a file. Throws InputError where there is none, it is of another version, or damaged.
 CarriedState read_state(const std::filesystem::path& result);

@@ -29,7 +29,9 @@ struct Reading {
 struct Taken {
   bool counted = false;      ///< the state has moved
   bool contradicts = false;  ///< counted, but hardly possible given what the unit showed before
-  double surprise = 0;       ///< its place in its predictive distribution: a two-sided probability
+  /// Its place in its predictive distribution: a two-sided probability; below 1e-4 it contradicts. 1 of a
+  /// reading that was late where rows depend on those before.
+  double surprise = 0;
   std::string problem = {};  ///< why it was not counted: "force is missing"
 };
 
@@ -42,13 +44,15 @@ struct Forecast {
   double effective = 0;                          ///< nodes that carry this: 1 / sum of squares
 };
 
-/// All readings of a unit so far, in the order in which they were taken: asked for where nodes are laid
-/// anew. Calls back once a reading.
+/// All readings of a unit that were counted so far, in the order in which they were taken: asked for where
+/// nodes are laid anew. Calls back once a reading.
 using History = std::function<void(const std::function<void(const Reading&)>& visit)>;
 
 /// One unit on line: weights over nodes that do not move, so that a reading multiplies them and the order of
 /// arrival does not matter. A sequence of readings gives the same bits whenever and wherever it is taken, and
 /// from a saved state on.
+///
+/// One thread at a time; different units on as many as there are.
 class TrackedUnit {
  public:
   virtual ~TrackedUnit() = default;

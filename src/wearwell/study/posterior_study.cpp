@@ -4,6 +4,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/as_read.h"
 #include "wearwell/input/fingerprint.h"
 #include "wearwell/study/describe.h"
 #include "wearwell/study/posterior_result.h"
@@ -85,7 +86,7 @@ std::unique_ptr<const Study> read_posterior_study(const TomlReader& root, const 
     study->stages = update->choice("stages", {"row"}).has_value();
   const ReadFile data_read(source.folder() / study->data_file);
   read_trade(root, source, *study);
-  if (!source.tables.contains(study->data_file)) study->data_sha1 = data_read.sha1();
+  if (!table_in_memory(data, source)) study->data_sha1 = data_read.sha1();
   read_sampler(root, *study);
   return study;
 }

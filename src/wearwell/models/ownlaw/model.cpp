@@ -2,6 +2,7 @@
 
 #include "wearwell/models/ownlaw/own_keys.h"
 #include "wearwell/models/ownlaw/own_study.h"
+#include "wearwell/models/ownlaw/own_tracker.h"
 
 namespace wearwell {
 namespace resource {
@@ -30,7 +31,8 @@ Model law_with(std::string_view trade, std::span<const ExampleFile> example) {
                 return read_posterior_study(root, source, read_law_study);
               },
           .add_commands = nullptr,
-          .keys = law_keys};
+          .keys = law_keys,
+          .track = track_units};
 }
 
 }  // namespace

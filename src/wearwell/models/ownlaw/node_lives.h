@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/models/ownlaw/node_rows.h"
+#include "wearwell/models/ownlaw/own_asked.h"
+#include "wearwell/models/ownlaw/own_lives.h"
+
+namespace wearwell::ownlaw {
+
+/// What a study limits, and under which conditions units go on: of predict.limit.
+class NodeLives {
+ public:
+  /// Throws InputError where the study asks for no limit along an axis.
+  NodeLives(const TomlReader& root, std::shared_ptr<const OwnLaw> law);
+
+  const std::string& name() const { return name_; }
+  const Quantity& limit() const { return limit_; }
+  bool rising() const { return path_.rising; }
+  const std::string& noun() const { return noun_; }
+  /// What is limited, as expressions; of a process its mean and its spread.
+  const std::vector<law::Wanted>& wanted() const { return wanted_; }
+
+  /// A unit without rows: where paths begin.
+  UnitReading before_rows() const;
+
+  /// Of nodes with weights that sum to 1, whose paths stand at `paths` (NodeRows) after their last row.
+  prognosis::Forecast forecast(const Nodes& nodes, const std::vector<double>& weight,
+                               const UnitReading& last, const std::vector<NodePath>& paths) const;
+
+ private:
+  struct Ahead;
+  NodeRow conditions(const NodeRow& last) const;
+
+  std::shared_ptr<const OwnLaw> law_;
+  Conditions given_;
+  std::string name_, noun_;
+  Quantity limit_;
+  std::size_t column_ = 0;                // of OwnLaw::measured, of a process
+  const ProcessForm* process_ = nullptr;  // which is limited itself
+  std::vector<law::Wanted> wanted_;
+  LimitedPath path_;  // limit, rising, begin, scale
+  std::unique_ptr<const NodeProgram> program_;
+  std::vector<std::size_t> steps_;  // RunningPath::steps
+  double row_length_ = 0;
+};
+
+}  // namespace wearwell::ownlaw

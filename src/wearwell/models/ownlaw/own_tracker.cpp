@@ -1,0 +1,87 @@
+#include "wearwell/models/ownlaw/own_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/sha1.h"
+#include "wearwell/models/ownlaw/own_reader.h"
+#include "wearwell/models/ownlaw/tracked_unit.h"
+
+namespace wearwell::ownlaw {
+
+class OwnTracker final : public prognosis::Tracker {
+ public:
+  explicit OwnTracker(std::shared_ptr<const Tracked> tracked)
+      : tracked_(std::move(tracked)), fresh_(tracked_, "", {}) {
+    const OwnLaw& law = *tracked_->law;
+    for (const prognosis::ReadingColumn& each : tracked_->reader.columns()) {
+      if (each.name == law.along) axis_ = &each;
+    }
+    if (law.units.size() > 1 || !law.units.front().empty()) seen_ = law.units;
+  }
+
+  std::span<const prognosis::ReadingColumn> columns() const override {
+    return tracked_->reader.columns();
+  }
+  std::span<const std::string> labels() const override { return tracked_->reader.labels(); }
+  const prognosis::ReadingColumn& axis() const override { return *axis_; }
+  const std::string& limited() const override { return tracked_->lives.name(); }
+  const Quantity& limit() const override { return tracked_->lives.limit(); }
+  bool rising() const override { return tracked_->lives.rising(); }
+  const std::string& noun() const override { return tracked_->lives.noun(); }
+  std::span<const std::string> seen() const override { return seen_; }
+
+  std::unique_ptr<prognosis::TrackedUnit> begin(const std::string& unit) const override {
+    std::vector<UnitReading> rows = rows_of(unit);
+    if (!rows.empty()) return std::make_unique<TrackedUnit>(tracked_, unit, std::move(rows));
+    auto fresh = std::make_unique<TrackedUnit>(fresh_);
+    fresh->unit_ = unit;
+    return fresh;
+  }
+
+  std::unique_ptr<prognosis::TrackedUnit> restore(const std::string& bytes) const override {
+    return TrackedUnit::restore(tracked_, bytes,
+                                [this](const std::string& unit) { return rows_of(unit); });
+  }
+
+ private:
+  // What a unit showed in the study, along the axis.
+  std::vector<UnitReading> rows_of(const std::string& unit) const {
+    const auto at = std::find(seen_.begin(), seen_.end(), unit);
+    if (at == seen_.end()) return {};
+    std::vector<UnitReading> rows =
+        tracked_->reader.of_study(static_cast<std::size_t>(at - seen_.begin()));
+    sort_along(rows);
+    return rows;
+  }
+
+  std::shared_ptr<const Tracked> tracked_;
+  const TrackedUnit fresh_;
+  const prognosis::ReadingColumn* axis_ = nullptr;
+  std::vector<std::string> seen_;
+};
+
+std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedState& state) {
+  const TomlReader root = TomlReader::parse(state.source.study);
+  const std::shared_ptr<const OwnLaw> law = read_own_law(root, state.source);
+  std::vector<std::string> names;
+  for (const Parameter& each : law->parameters) names.push_back(each.name);
+  if (names != state.parameters) {
+    throw InputError(fmt::format("{}: the posterior that was carried on has other parameters",
+                                 state.source.study.path.string()));
+  }
+  std::string print = state.source.study.text;
+  const WeightedDraws& posterior = state.posterior;
+  const auto add = [&](const double* values, Eigen::Index count) {
+    print.append(reinterpret_cast<const char*>(values),
+                 static_cast<std::size_t>(count) * sizeof(double));
+  };
+  add(posterior.values.data(), posterior.values.size());
+  add(posterior.weights.data(), posterior.weights.size());
+  return std::make_unique<const OwnTracker>(
+      std::make_shared<const Tracked>(root, law, posterior, sha1_of(print)));
+}
+
+}  // namespace wearwell::ownlaw

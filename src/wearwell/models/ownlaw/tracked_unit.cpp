@@ -1,0 +1,292 @@
+#include "wearwell/models/ownlaw/tracked_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/ownlaw/state_bytes.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least_effective =
+    0.5;  // of the number when nodes were laid: then they are laid anew
+constexpr double hardly_possible = 1e-4;  // a surprise below contradicts
+constexpr std::size_t most_sampled = 256;
+constexpr double doubtful = 0.02;  // a surprise below is summed over all nodes
+
+bool has_noiseless_process(const OwnLaw& law) {
+  return std::any_of(law.measured.begin(), law.measured.end(),
+                     [](const Measured& m) { return m.process && m.wanted.size() < 3; });
+}
+
+}  // namespace
+
+Tracked::Tracked(const TomlReader& root, std::shared_ptr<const OwnLaw> own_law,
+                 const WeightedDraws& posterior, std::string print)
+    : law(std::move(own_law)),
+      reader(law),
+      lives(root, law),
+      rows(law, lives.wanted()),
+      population(law, posterior),
+      fingerprint(std::move(print)) {}
+
+TrackedUnit::TrackedUnit(std::shared_ptr<const Tracked> tracked, std::string unit,
+                         std::vector<UnitReading> seen)
+    : tracked_(std::move(tracked)), unit_(std::move(unit)), seen_(std::move(seen)) {
+  lay({});
+}
+
+// All rows, those of the study first.
+void TrackedUnit::lay(std::vector<UnitReading> all) {
+  all.insert(all.begin(), seen_.begin(), seen_.end());
+  sort_along(all);
+  nodes_ = lay_nodes(tracked_->population, seen_, all);
+  log_weight_ = nodes_.log_before;
+  paths_ = tracked_->rows.paths();
+  std::vector<double> value(log_weight_.size());
+  std::vector<NodePath> after = paths_;
+  for (const UnitReading& each : all) {
+    tracked_->rows.look(nodes_.nodes, each, paths_, &after, value, nullptr, nullptr);
+    for (std::size_t i = 0; i < value.size(); ++i) log_weight_[i] += value[i];
+    std::swap(paths_, after);
+  }
+  if (!all.empty()) {
+    last_ = all.back();
+    any_row_ = true;
+  }
+  ++laid_;
+  weigh();
+  laid_effective_ = effective_;
+}
+
+// Sums of the weights as they are now: how many nodes carry them, and which stand for all.
+void TrackedUnit::weigh() {
+  double top = -infinity, sum = 0, square = 0;
+  for (const double each : log_weight_) top = std::max(top, each);
+  sample_.node.clear();
+  sample_.weight.clear();
+  effective_ = 0;
+  if (!(top > -infinity)) return;
+  static thread_local std::vector<double> weight;
+  weight.resize(log_weight_.size());
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    weight[i] = log_weight_[i] > top - 40 ? std::exp(log_weight_[i] - top) : 0;
+    sum += weight[i];
+    square += weight[i] * weight[i];
+  }
+  effective_ = sum * sum / square;
+  const double share = sum / most_sampled;
+  double before = 0;
+  std::size_t drawn = 0;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    before += weight[i];
+    double own = 0;
+    for (; drawn < most_sampled && before > (static_cast<double>(drawn) + 0.5) * share; ++drawn) {
+      own += 1.0 / most_sampled;
+    }
+    if (!(own > 0)) continue;
+    sample_.node.push_back(i);
+    sample_.weight.push_back(own);
+  }
+}
+
+std::vector<UnitReading> TrackedUnit::all_of(const prognosis::History& history) const {
+  std::vector<UnitReading> all;
+  history([&](const prognosis::Reading& each) {
+    UnitReading reading;
+    if (tracked_->reader.read(each, reading).empty()) all.push_back(std::move(reading));
+  });
+  return all;
+}
+
+// Nodes laid for all readings and this one; false, and all as it was, where none goes through them.
+bool TrackedUnit::lay_with(const UnitReading& reading, const prognosis::History& history) {
+  TrackedUnit before = *this;
+  std::vector<UnitReading> all = all_of(history);
+  all.push_back(reading);
+  lay(std::move(all));
+  if (effective_ > 0) return true;
+  *this = std::move(before);
+  return false;
+}
+
+double TrackedUnit::surprise_at(const UnitReading& reading, std::span<double> value,
+                                std::vector<NodePath>* after) const {
+  double surprise = 1;
+  tracked_->rows.look(nodes_.nodes, reading, paths_, after, value, &sample_, &surprise);
+  if (surprise > doubtful) return surprise;
+  NodeRows::Sample all;
+  std::vector<double> weight;
+  normalize(log_weight_, weight);
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    if (!(weight[i] > 0)) continue;
+    all.node.push_back(i);
+    all.weight.push_back(weight[i]);
+  }
+  std::vector<double> again(value.size());
+  tracked_->rows.look(nodes_.nodes, reading, paths_, nullptr, again, &all, &surprise);
+  return surprise;
+}
+
+prognosis::Taken TrackedUnit::take(const prognosis::Reading& reading,
+                                   const prognosis::History& history) {
+  static const std::string impossible =
+      "no unit that the population allows can show this after what it showed before";
+  prognosis::Taken taken;
+  UnitReading y;
+  taken.problem = tracked_->reader.read(reading, y);
+  if (!taken.problem.empty()) return taken;
+  const bool late = any_row_ && tracked_->rows.follows() && y.place <= last_.place;
+  taken.surprise = 1;
+  if (late) {
+    taken.problem = two_at_one_place(y, history);
+    if (!taken.problem.empty()) return taken;
+    if (!lay_with(y, history)) taken.problem = impossible;
+  } else {
+    static thread_local std::vector<double> value;
+    value.resize(log_weight_.size());
+    std::vector<NodePath> after = paths_;
+    taken.surprise = surprise_at(y, value, &after);
+    const bool any = std::any_of(value.begin(), value.end(), [&](const double& each) {
+      return each + log_weight_[static_cast<std::size_t>(&each - value.data())] > -infinity;
+    });
+    if (any) {
+      for (std::size_t i = 0; i < value.size(); ++i) log_weight_[i] += value[i];
+      paths_ = std::move(after);
+      weigh();
+      if (!any_row_ || y.place >= last_.place) last_ = y;
+      any_row_ = true;
+      if (effective_ < least_effective * laid_effective_) lay_with(y, history);
+    } else if (!lay_with(y, history)) {
+      taken.problem = impossible;
+    }
+  }
+  if (!taken.problem.empty()) return taken;
+  ++readings_;
+  taken.counted = true;
+  taken.contradicts = taken.surprise < hardly_possible;
+  return taken;
+}
+
+// A process without noise has one path.
+std::string TrackedUnit::two_at_one_place(const UnitReading& reading,
+                                          const prognosis::History& history) const {
+  if (!has_noiseless_process(*tracked_->law)) return {};
+  std::vector<UnitReading> all = all_of(history);
+  all.insert(all.end(), seen_.begin(), seen_.end());
+  const bool there = std::any_of(
+      all.begin(), all.end(), [&](const UnitReading& each) { return each.place == reading.place; });
+  return there ? fmt::format("there is another reading at the same {}, and paths have no error",
+                             *tracked_->law->along)
+               : "";
+}
+
+prognosis::Forecast TrackedUnit::forecast() const {
+  std::vector<double> weight;
+  normalize(log_weight_, weight);
+  return tracked_->lives.forecast(nodes_.nodes, weight,
+                                  any_row_ ? last_ : tracked_->lives.before_rows(), paths_);
+}
+
+std::string TrackedUnit::save() const {
+  StateWriter to;
+  to.text(tracked_->fingerprint);
+  to.text(unit_);
+  to.number(readings_);
+  to.number(laid_);
+  to.number(nodes_.own ? 1 : 0);
+  if (nodes_.own) {
+    to.number(static_cast<std::size_t>(nodes_.nodes.parameters->rows()));
+    to.numbers({nodes_.nodes.parameters->data(),
+                static_cast<std::size_t>(nodes_.nodes.parameters->size())});
+  }
+  to.numbers(nodes_.log_point);
+  to.numbers(nodes_.shape);
+  to.numbers(log_weight_);
+  to.numbers({&laid_effective_, 1});
+  for (const NodePath& each : paths_) {
+    to.number((each.begun ? 1 : 0) + (each.measured ? 2 : 0));
+    to.numbers(std::array{each.place, each.reading});
+    to.number(each.carried.size());
+    for (const auto& values : each.carried) to.numbers(values);
+    for (const auto* values : {&each.mean, &each.spread, &each.at, &each.variance}) {
+      to.numbers(*values);
+    }
+  }
+  to.number(any_row_ ? 1 : 0);
+  if (any_row_) {
+    to.numbers(last_.row.numbers);
+    to.numbers(std::array{last_.place});
+    for (const int each : last_.row.labels) to.number(static_cast<std::size_t>(each));
+  }
+  return to.done();
+}
+
+std::unique_ptr<TrackedUnit> TrackedUnit::restore(
+    std::shared_ptr<const Tracked> tracked, const std::string& bytes,
+    const std::function<std::vector<UnitReading>(const std::string& unit)>& seen) {
+  StateReader from(bytes);
+  if (from.text() != tracked->fingerprint) {
+    throw InputError(
+        "the state of a unit is of another population: the study was fitted anew since");
+  }
+  std::unique_ptr<TrackedUnit> unit(new TrackedUnit(tracked, Bare()));
+  unit->unit_ = from.text();
+  unit->seen_ = seen(unit->unit_);
+  unit->readings_ = from.number();
+  unit->laid_ = from.number();
+  UnitNodes& nodes = unit->nodes_;
+  nodes.own = from.number() == 1;
+  nodes.nodes.parameters = tracked->population.few.values;
+  if (nodes.own) {
+    const std::size_t rows = from.number();
+    const std::vector<double> values = from.numbers();
+    const auto columns = static_cast<Eigen::Index>(tracked->law->parameters.size());
+    from.demand(rows * static_cast<std::size_t>(columns) == values.size() && rows > 0);
+    nodes.nodes.parameters = std::make_shared<const Points>(
+        Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(rows), columns));
+  }
+  const std::size_t effects = tracked->population.effects();
+  nodes.log_point = from.numbers();
+  nodes.shape = from.numbers();
+  from.demand(nodes.log_point.size() == nodes.nodes.lines() &&
+              nodes.shape.size() == nodes.nodes.lines() * UnitNodes::shape_size(effects));
+  nodes.fill(*tracked->law);
+  unit->log_weight_ = from.numbers();
+  from.demand(unit->log_weight_.size() == nodes.nodes.count());
+  unit->laid_effective_ = from.numbers().at(0);
+  unit->paths_ = tracked->rows.paths();
+  for (NodePath& each : unit->paths_) {
+    const std::size_t state = from.number();
+    each.begun = (state & 1) != 0;
+    each.measured = (state & 2) != 0;
+    const std::vector<double> place = from.numbers();
+    from.demand(place.size() == 2);
+    each.place = place[0];
+    each.reading = place[1];
+    each.carried.resize(from.number());
+    for (auto& values : each.carried) values = from.numbers();
+    for (auto* values : {&each.mean, &each.spread, &each.at, &each.variance}) {
+      *values = from.numbers();
+    }
+  }
+  unit->any_row_ = from.number() == 1;
+  if (unit->any_row_) {
+    unit->last_.row.numbers = from.numbers();
+    unit->last_.place = from.numbers().at(0);
+    from.demand(unit->last_.row.numbers.size() == tracked->law->row_symbols.columns.size());
+    for (std::size_t l = 0; l < tracked->law->row_symbols.labels.size(); ++l) {
+      unit->last_.row.labels.push_back(static_cast<int>(from.number()));
+    }
+  }
+  from.demand(from.at_end());
+  unit->weigh();
+  return unit;
+}
+
+}  // namespace wearwell::ownlaw

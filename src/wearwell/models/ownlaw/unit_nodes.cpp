@@ -1,0 +1,268 @@
+#include "wearwell/models/ownlaw/unit_nodes.h"
+
+#include <boost/math/special_functions/erf.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wearwell/models/ownlaw/own_likelihood.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double log_two_pi = 1.8378770664093454836;
+constexpr std::size_t few_lines = 128, many_lines = 2000, per_line = 16;
+constexpr std::size_t few_alone = 2000, many_alone = 20'000;  // where nothing varies
+constexpr double tail = 1e-5;      // of a line: beyond its nodes lies as much on either side
+constexpr double least_few = 0.3;  // of the few points' effective number: then others are chosen
+constexpr double wider = 1.15;     // than the law of two effects is that which its nodes follow
+
+// What a unit's rows say at one point of the parameters.
+struct AtPoint {
+  double log_likelihood = 0;
+  double mean[2] = {}, square[3] = {1, 0, 1};  // of z: mean, covariance (11, 12, 22)
+  double low = -4.3, high = 4.3;               // where one effect has all but its tails
+};
+
+// From the nodes over which the unit's effect was integrated.
+void look_at_line(const latent::UnitIntegrals& integrals, AtPoint& at) {
+  static thread_local std::vector<std::pair<double, double>> nodes;
+  nodes.clear();
+  for (const latent::Sweep& sweep : integrals.sweeps) {
+    if (sweep.weight[0] > 0) nodes.emplace_back(sweep.z[0], sweep.weight[0]);
+  }
+  if (nodes.empty()) return;
+  std::sort(nodes.begin(), nodes.end());
+  double below = 0, above = 0;
+  for (const auto& [z, weight] : nodes) {
+    at.mean[0] += weight * z;
+    if (below < tail) at.low = z;
+    below += weight;
+  }
+  for (auto each = nodes.rbegin(); each != nodes.rend(); ++each) {
+    if (above < tail) at.high = each->first;
+    above += each->second;
+  }
+  at.square[0] = 0;
+  for (const auto& [z, weight] : nodes) {
+    at.square[0] += weight * (z - at.mean[0]) * (z - at.mean[0]);
+  }
+  // As wide as it needs to be where nodes are few, and no wider than a normal law's tails where they are not.
+  const double sd = std::max(std::sqrt(at.square[0]), 1e-12);
+  at.low = std::min(std::max(at.low, at.mean[0] - 7 * sd), at.mean[0] - 4.3 * sd);
+  at.high = std::max(std::min(at.high, at.mean[0] + 7 * sd), at.mean[0] + 4.3 * sd);
+}
+
+void look_at_plane(const latent::UnitIntegrals& integrals, AtPoint& at) {
+  if (!(integrals.log_likelihood[0] > -infinity)) return;
+  for (double& each : at.square) each = 0;
+  for (const latent::Sweep& sweep : integrals.sweeps) {
+    if (!(sweep.weight[0] > 0)) continue;
+    for (int e = 0; e < 2; ++e)
+      at.mean[e] += sweep.weight[0] * sweep.z[static_cast<std::size_t>(e)];
+  }
+  for (const latent::Sweep& sweep : integrals.sweeps) {
+    if (!(sweep.weight[0] > 0)) continue;
+    const double a = sweep.z[0] - at.mean[0], b = sweep.z[1] - at.mean[1];
+    at.square[0] += sweep.weight[0] * a * a;
+    at.square[1] += sweep.weight[0] * a * b;
+    at.square[2] += sweep.weight[0] * b * b;
+  }
+}
+
+// A unit's rows at many points of the parameters.
+class UnitAt {
+ public:
+  UnitAt(const OwnLaw& law, const std::vector<UnitReading>& readings)
+      : effects_(law.effects.size()) {
+    if (!readings.empty()) {
+      rows_ = std::make_unique<OwnRows>(law_of_unit(law, readings), readings.size());
+    }
+  }
+
+  AtPoint operator()(const double* x) const {
+    AtPoint at;
+    if (!rows_) return at;
+    if (effects_ == 0) {
+      UnitRows& rows = rows_->mine().rows;
+      rows.move_to(x);
+      const std::uint8_t wanted = 1;
+      rows.evaluate({}, {&wanted, 1}, {&at.log_likelihood, 1}, {});
+    } else {
+      const latent::UnitIntegrals& integrals = rows_->integrate(x);
+      at.log_likelihood = integrals.log_likelihood[0];
+      effects_ == 1 ? look_at_line(integrals, at) : look_at_plane(integrals, at);
+    }
+    if (!(at.log_likelihood < infinity)) at.log_likelihood = -infinity;
+    return at;
+  }
+
+ private:
+  std::size_t effects_;
+  std::unique_ptr<OwnRows> rows_;
+};
+
+struct Looked {
+  std::vector<AtPoint> all;
+  std::vector<double> log_seen, log_weight;  // of what the study saw; of the posterior given all
+};
+
+Looked look_at(const PopulationPoints& points, const UnitAt& seen, const UnitAt& all) {
+  Looked looked;
+  for (Eigen::Index j = 0; j < points.values->rows(); ++j) {
+    const double* x = points.values->row(j).data();
+    const double prior = points.log_weight[static_cast<std::size_t>(j)];
+    looked.all.push_back(all(x));
+    looked.log_seen.push_back(seen(x).log_likelihood);
+    const double weight = prior + looked.all.back().log_likelihood - looked.log_seen.back();
+    looked.log_weight.push_back(std::isnan(weight) ? -infinity : weight);
+  }
+  return looked;
+}
+
+// Low numbers of a shift that lie evenly: the fractions of multiples of the golden ratio.
+double fraction(std::size_t i, double of) {
+  const double x = (static_cast<double>(i) + 0.5) * of;
+  return x - std::floor(x);
+}
+
+double normal_quantile(double p) {
+  return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
+}
+
+void shape_of(const AtPoint& at, std::size_t effects, std::size_t line, double* shape) {
+  if (effects == 1) {
+    const double step = (at.high - at.low) / per_line;
+    shape[0] = at.low + step * fraction(line, 0.6180339887498949);
+    shape[1] = step;
+  }
+  if (effects == 2) {
+    const double a = std::sqrt(std::max(at.square[0], 1e-20));
+    const double b = at.square[1] / a;
+    const double c = std::sqrt(std::max(at.square[2] - b * b, 1e-20));
+    const double all[] = {at.mean[0], at.mean[1], wider * a, wider * b, wider * c};
+    std::copy(std::begin(all), std::end(all), shape);
+  }
+}
+
+// The points of few lines when the unit itself says where parameters are.
+PopulationPoints choose(const PopulationPoints& many, const Looked& looked, std::size_t most) {
+  WeightedDraws draws;
+  draws.values = *many.values;
+  std::vector<double> weight;
+  normalize(looked.log_weight, weight);
+  draws.weights =
+      Eigen::Map<const Eigen::VectorXd>(weight.data(), static_cast<Eigen::Index>(weight.size()));
+  return PopulationPoints(FewPoints(draws, most));
+}
+
+}  // namespace
+
+PopulationPoints::PopulationPoints(const FewPoints& few)
+    : values(std::make_shared<const Points>(few.values)) {
+  for (const double each : few.weights) log_weight.push_back(std::log(each));
+}
+
+NodePopulation::NodePopulation(std::shared_ptr<const OwnLaw> own_law,
+                               const WeightedDraws& posterior)
+    : law(std::move(own_law)) {
+  const bool alone = law->effects.empty();
+  few = PopulationPoints(FewPoints(posterior, alone ? few_alone : few_lines));
+  many = PopulationPoints(FewPoints(posterior, alone ? many_alone : many_lines));
+}
+
+void UnitNodes::fill(const OwnLaw& law) {
+  const std::size_t lines = nodes.lines(), d = law.effects.size(), size = shape_size(d);
+  nodes.per_line = d == 0 ? 1 : per_line;
+  log_before.resize(nodes.count());
+  for (std::size_t e = 0; e < d; ++e) nodes.effect[e].resize(nodes.count());
+  PopulationAt population_at(law);
+  for (std::size_t j = 0; j < lines; ++j) {
+    if (d == 0) {
+      log_before[j] = log_point[j];
+      continue;
+    }
+    const double* own_shape = &shape[j * size];
+    const Population population =
+        population_at(nodes.parameters->row(static_cast<Eigen::Index>(j)).data());
+    for (std::size_t k = 0; k < per_line; ++k) {
+      const std::size_t i = j * per_line + k;
+      double z[2] = {}, log_share = 0;
+      if (d == 1) {
+        z[0] = own_shape[0] + static_cast<double>(k) * own_shape[1];
+        log_share = std::log(own_shape[1]) - 0.5 * (log_two_pi + z[0] * z[0]);
+      } else {
+        // Roberts' lattice of two dimensions, shifted from line to line.
+        const double u = normal_quantile(fraction(i, 0.7548776662466927));
+        const double v = normal_quantile(fraction(i, 0.5698402909980532));
+        z[0] = own_shape[0] + own_shape[2] * u;
+        z[1] = own_shape[1] + own_shape[3] * u + own_shape[4] * v;
+        log_share = std::log(own_shape[2] * own_shape[4] / static_cast<double>(per_line)) +
+                    0.5 * (u * u + v * v - z[0] * z[0] - z[1] * z[1]);
+      }
+      log_before[i] = log_point[j] + log_share;
+      for (std::size_t e = 0; e < d; ++e) nodes.effect[e][i] = population.value(law, e, z);
+    }
+  }
+}
+
+UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
+                    const std::vector<UnitReading>& all) {
+  const OwnLaw& law = *population.law;
+  const UnitAt at_seen(law, seen), at_all(law, all);
+  PopulationPoints points = population.few;
+  Looked looked = look_at(points, at_seen, at_all);
+  UnitNodes laid;
+  const double few = effective_number(looked.log_weight);
+  const bool more = population.many.log_weight.size() > population.few.log_weight.size();
+  if (more && few < least_few * effective_number(points.log_weight)) {
+    const Looked of_many = look_at(population.many, at_seen, at_all);
+    if (effective_number(of_many.log_weight) > 0) {
+      laid.own = true;
+      points = choose(population.many, of_many, population.few.log_weight.size());
+      looked = look_at(points, at_seen, at_all);
+      // Weights of chosen points are those after the readings.
+      for (std::size_t j = 0; j < points.log_weight.size(); ++j) {
+        points.log_weight[j] -= looked.all[j].log_likelihood - looked.log_seen[j];
+      }
+    }
+  }
+  const std::size_t d = law.effects.size(), size = UnitNodes::shape_size(d);
+  laid.nodes.parameters = points.values;
+  laid.shape.resize(points.log_weight.size() * size);
+  for (std::size_t j = 0; j < points.log_weight.size(); ++j) {
+    laid.log_point.push_back(points.log_weight[j] - looked.log_seen[j]);
+    shape_of(looked.all[j], d, j, laid.shape.data() + j * size);
+  }
+  laid.fill(law);
+  return laid;
+}
+
+double effective_number(std::span<const double> log_weight) {
+  double top = -infinity;
+  for (const double each : log_weight) top = std::max(top, each);
+  if (!(top > -infinity)) return 0;
+  double sum = 0, square = 0;
+  for (const double each : log_weight) {
+    if (!(each > top - 40)) continue;
+    const double weight = std::exp(each - top);
+    sum += weight;
+    square += weight * weight;
+  }
+  return sum * sum / square;
+}
+
+void normalize(std::span<const double> log_weight, std::vector<double>& weight) {
+  double top = -infinity, sum = 0;
+  for (const double each : log_weight) top = std::max(top, each);
+  weight.resize(log_weight.size());
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    weight[i] = log_weight[i] > top - 40 ? std::exp(log_weight[i] - top) : 0;
+    sum += weight[i];
+  }
+  for (double& each : weight) each /= sum;
+}
+
+}  // namespace wearwell::ownlaw

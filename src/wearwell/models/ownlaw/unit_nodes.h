@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "wearwell/models/ownlaw/few_points.h"
+#include "wearwell/models/ownlaw/node_rows.h"
+
+namespace wearwell::ownlaw {
+
+/// Points of the population's posterior with their weights, as logarithms.
+struct PopulationPoints {
+  std::shared_ptr<const Points> values;
+  std::vector<double> log_weight;
+
+  PopulationPoints() = default;
+  explicit PopulationPoints(const FewPoints& few);
+};
+
+/// What units are laid from: few points for nearly all of them, and many for those that say themselves what the
+/// population left open.
+struct NodePopulation {
+  std::shared_ptr<const OwnLaw> law;
+  PopulationPoints few, many;
+
+  NodePopulation(std::shared_ptr<const OwnLaw> own_law, const WeightedDraws& posterior);
+  std::size_t effects() const { return law->effects.size(); }
+};
+
+/// The nodes of one unit. Each point of the population's posterior has a line of them over the unit's own effects,
+///
+///   one effect   even steps in z over all that the unit's readings leave, each line begun a little farther on,
+///                so that together they lie dense: the trapezoidal rule of each
+///   two          points of a lattice that follow a normal law of the mean and the covariance of z, weighted by
+///                what the law itself is over it
+///   none         the point itself
+///
+/// and their weights before readings, so that likelihoods of readings need only multiply them.
+struct UnitNodes {
+  Nodes nodes;
+  bool own = false;               ///< the points are this unit's, not the population's few
+  std::vector<double> log_point;  ///< of each line: weight of its point before readings
+  std::vector<double> shape;  ///< of each line: 0, 2 (first z, step) or 5 (mean, factor) numbers
+  std::vector<double> log_before;  ///< of each node: its weight before readings; from these
+
+  /// Computes effects and weights of nodes from points and shapes: the same bits whenever that is done.
+  void fill(const OwnLaw& law);
+  static std::size_t shape_size(std::size_t effects) { return effects == 2 ? 5 : 2 * effects; }
+};
+
+/// Lays the nodes of a unit that the study has seen with rows `seen` (maybe none) and that has shown `all` since the
+/// beginning, those among them. Both along the axis.
+UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
+                    const std::vector<UnitReading>& all);
+
+/// 1 / sum of squares of weights, which are given as logarithms and not normalized; 0 where all are none.
+double effective_number(std::span<const double> log_weight);
+/// The same weights, to sum to 1.
+void normalize(std::span<const double> log_weight, std::vector<double>& weight);
+
+}  // namespace wearwell::ownlaw

@@ -1,0 +1,106 @@
+#include "wearwell/prognosis/weighted_lives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace wearwell::prognosis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+WeightedLives::WeightedLives(std::span<const double> life, std::span<const double> weight) {
+  std::vector<std::size_t> order;
+  double sum = 0;
+  for (std::size_t i = 0; i < life.size(); ++i) {
+    if (!(weight[i] > 0) || std::isnan(life[i])) continue;
+    order.push_back(i);
+    sum += weight[i];
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return life[a] < life[b] || (life[a] == life[b] && a < b);
+  });
+  double before = 0;
+  for (const std::size_t i : order) {
+    const double share = weight[i] / sum;
+    if (!life_.empty() && life_.back() == life[i]) {
+      weight_.back() += share;
+      cumulated_.back() += 0.5 * share;
+    } else {
+      life_.push_back(life[i]);
+      weight_.push_back(share);
+      cumulated_.push_back(before + 0.5 * share);
+    }
+    before += share;
+  }
+}
+
+double WeightedLives::cdf(double x) const {
+  const auto above = std::upper_bound(life_.begin(), life_.end(), x);
+  if (above == life_.begin()) return 0;
+  const auto i = static_cast<std::size_t>(above - life_.begin());
+  const double done = cumulated_[i - 1] + 0.5 * weight_[i - 1];
+  if (i == life_.size() || life_[i - 1] == infinity || life_[i] == infinity) return done;
+  const double share = (x - life_[i - 1]) / (life_[i] - life_[i - 1]);
+  return cumulated_[i - 1] + share * (cumulated_[i] - cumulated_[i - 1]);
+}
+
+double WeightedLives::quantile(double p) const {
+  if (life_.empty()) return std::nan("");
+  const auto above = std::upper_bound(cumulated_.begin(), cumulated_.end(), p);
+  if (above == cumulated_.begin()) return life_.front();
+  const auto i = static_cast<std::size_t>(above - cumulated_.begin());
+  if (life_[i - 1] == infinity || i == life_.size()) return life_[i - 1];
+  if (life_[i] == infinity) {
+    return p < cumulated_[i - 1] + 0.5 * weight_[i - 1] ? life_[i - 1] : infinity;
+  }
+  const double share = (p - cumulated_[i - 1]) / (cumulated_[i] - cumulated_[i - 1]);
+  return life_[i - 1] + share * (life_[i] - life_[i - 1]);
+}
+
+double WeightedLives::mean_up_to(double x) const {
+  // The integral of the share that still lives: straight between points.
+  if (life_.empty()) return std::nan("");
+  if (x <= life_.front()) return x;
+  double lived = life_.front();
+  for (std::size_t i = 0; i < life_.size() && life_[i] < x; ++i) {
+    if (i + 1 == life_.size() || life_[i + 1] == infinity) {
+      const double left = i + 1 == life_.size() ? 0 : 1 - cumulated_[i] - 0.5 * weight_[i];
+      return left > 0 ? lived + left * (x - life_[i]) : lived;
+    }
+    const double whole = life_[i + 1] - life_[i], part = std::min(x - life_[i], whole);
+    const double rise = (cumulated_[i + 1] - cumulated_[i]) * part / whole;
+    lived += part * (1 - cumulated_[i] - 0.5 * rise);
+  }
+  return lived;
+}
+
+WeightedLives WeightedLives::beyond(double x) const {
+  const auto above = std::upper_bound(life_.begin(), life_.end(), x);
+  if (above == life_.begin()) {
+    std::vector<double> life(life_);
+    for (double& each : life) each -= x;
+    return WeightedLives(life, weight_);
+  }
+  const auto first = static_cast<std::size_t>(above - life_.begin());
+  std::vector<double> life, weight;
+  for (std::size_t i = first; i < life_.size(); ++i) {
+    life.push_back(life_[i] - x);
+    weight.push_back(weight_[i]);
+  }
+  if (life.empty()) return {};
+  // Between two points a part of both is there: a point at once makes up for the difference.
+  const double before = 1 - cdf(x) - std::accumulate(weight.begin(), weight.end(), 0.0);
+  if (before > 0) {
+    life.insert(life.begin(), 0);
+    weight.insert(weight.begin(), before);
+  } else {
+    weight.front() += before;
+  }
+  return WeightedLives(life, weight);
+}
+
+}  // namespace wearwell::prognosis

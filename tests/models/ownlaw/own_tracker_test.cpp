@@ -1,0 +1,309 @@
+// Units on line against sums over dense grids, against what a fit says of units that it has seen, and against
+// themselves: in another order, from saved states, laid anew again and again.
+#include "wearwell/models/ownlaw/own_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibration/own_design.h"
+#include "wearwell/base/error.h"
+#include "wearwell/base/rng.h"
+#include "wearwell/models/ownlaw/own_limit.h"
+#include "wearwell/models/ownlaw/own_lives.h"
+#include "wearwell/models/ownlaw/own_process_lives.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+using prognosis::Forecast;
+using prognosis::History;
+using prognosis::Reading;
+using prognosis::Taken;
+using prognosis::Tracker;
+
+constexpr double um = 1e-6, h = 3600;
+
+const std::string straight = R"(
+[data.columns]
+depth = { column = "depth", unit = "um" }
+time = { column = "time", unit = "h" }
+unit = "unit"
+[law]
+wear = "b * time"
+[likelihood.depth]
+family = "normal"
+mean = "wear"
+sd = "sigma"
+[prior]
+b = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
+scatter = { law = "half-normal", scale = 0.5 }
+sigma = { law = "half-normal", scale = "0.5 um" }
+[varies.unit]
+b = { law = "lognormal", log_sd = "scatter" }
+[predict]
+along = "time"
+limit = { wear = "12 um" }
+)";
+
+// A posterior of a few points, even in weight.
+WeightedDraws points(const std::vector<std::vector<double>>& x) {
+  WeightedDraws draws;
+  const auto n = static_cast<Eigen::Index>(x.size()), d = static_cast<Eigen::Index>(x[0].size());
+  draws.values.resize(n, d);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < d; ++j) {
+      draws.values(i, j) = x[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    }
+  }
+  draws.weights = Eigen::VectorXd::Constant(n, 1.0 / static_cast<double>(n));
+  return draws;
+}
+
+struct Watched {
+  OwnDesign design;
+  std::unique_ptr<const Tracker> tracker;
+
+  Watched(const std::string& study, const std::vector<Column>& columns,
+          const std::optional<WeightedDraws>& posterior = {})
+      : design(study, columns) {
+    prognosis::CarriedState state;
+    state.source = design.source;
+    for (const Parameter& each : design.law->parameters) state.parameters.push_back(each.name);
+    state.posterior = posterior ? *posterior : fitted();
+    tracker = track_units(state);
+  }
+
+  std::shared_ptr<const OwnRows> rows() const {
+    return std::make_shared<const OwnRows>(design.law, design.law->data.table.rows);
+  }
+  WeightedDraws fitted() const { return exact_posterior(rows(), 1e-4).nodes; }
+};
+
+// A unit with all that it was given.
+struct Followed {
+  const Tracker& tracker;
+  std::unique_ptr<prognosis::TrackedUnit> unit;
+  std::vector<Reading> taken;
+
+  Followed(const Tracker& of, const std::string& name) : tracker(of), unit(of.begin(name)) {}
+
+  Taken take(const Reading& reading) {
+    const Taken result = unit->take(reading, [&](const std::function<void(const Reading&)>& visit) {
+      for (const Reading& each : taken) visit(each);
+    });
+    if (result.counted) taken.push_back(reading);
+    return result;
+  }
+  Taken take(const std::vector<double>& numbers, const std::vector<std::string>& labels = {}) {
+    return take({numbers, labels});
+  }
+};
+
+// What a fit says of its unit u.
+LimitedLives lives_of_fit(const Watched& watched, const WeightedDraws& posterior) {
+  const TomlReader predict = watched.design.root.required_table("predict");
+  const auto rows = watched.rows();
+  const Asked asked(predict, watched.design.law, rows);
+  const TomlReader limits = predict.required_table("limit");
+  const std::string name = limits.keys().front();
+  std::vector<law::Wanted> wanted = {{"limit", name}};
+  ProcessLimit limit;
+  const bool process = watched.design.law->has_process();
+  if (process) {
+    const auto& slots = watched.design.law->measured[0].wanted;
+    wanted.assign(slots.begin(), slots.begin() + 2);
+  }
+  LimitedPath& path = limit.path;
+  path.next = make_path(asked.law, limits, name, wanted, true, asked.common);
+  set_reach(asked, path);
+  path.limit = watched.tracker->limit().si();
+  for (std::size_t u = 0; u < watched.design.law->units.size(); ++u) {
+    path.seen.push_back(seen_unit(asked, limits, name, wanted, u));
+    if (process) path.seen.back().behind.reset();
+  }
+  path.next.reset();
+  if (process) return process_lives(*rows, limit, posterior);
+  return limited_lives(*rows, path, posterior);
+}
+
+// Where the fit's quantiles lie in the forecast.
+void expect_alike(const Forecast& forecast, const CellMixture& fit, double passed,
+                  double tolerance) {
+  EXPECT_NEAR(forecast.passed, passed, tolerance);
+  if (passed > 0.95) return;
+  for (const double p : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99}) {
+    const double life = fit.quantile(p);
+    if (std::isfinite(life)) {
+      EXPECT_NEAR(forecast.remaining.cdf(life), p, tolerance) << p;
+    }
+  }
+}
+
+std::vector<Column> lines(const std::vector<double>& rate, int rows, double noise) {
+  std::vector<double> depth, time;
+  std::vector<std::string> unit;
+  Rng rng(7, 0);
+  for (std::size_t u = 0; u < rate.size(); ++u) {
+    for (int i = 1; i <= rows; ++i) {
+      time.push_back(i);
+      depth.push_back(rate[u] * i + noise * rng.normal());
+      unit.push_back("u" + std::to_string(u));
+    }
+  }
+  return {numbers("depth", depth), numbers("time", time), texts("unit", unit)};
+}
+
+const std::vector<double> rates = {0.8, 1.3, 1.0, 0.6, 1.1};
+
+TEST(OwnTracker, ASmallCaseByBruteForce) {
+  const std::vector<std::vector<double>> x = {
+      {1 * um / h, 0.3, 0.3 * um}, {1.2 * um / h, 0.5, 0.2 * um}, {0.9 * um / h, 0.2, 0.4 * um}};
+  const Watched watched(straight, lines(rates, 5, 0.3), points(x));
+  Followed unit(*watched.tracker, "new");
+  const std::vector<std::pair<double, double>> readings = {
+      {1.9 * um, 1 * h}, {3.4 * um, 2 * h}, {5.0 * um, 3 * h}};
+  for (std::size_t shown = 0; shown <= readings.size(); ++shown) {
+    if (shown > 0) {
+      EXPECT_TRUE(unit.take({readings[shown - 1].first, readings[shown - 1].second}).counted);
+    }
+    const Forecast forecast = unit.unit->forecast();
+    std::vector<std::pair<double, double>> lives;
+    double sum = 0, passed = 0;
+    const double now = shown == 0 ? 0 : readings[shown - 1].second;
+    for (const auto& each : x) {
+      for (double z = -8; z <= 8; z += 0.001) {
+        const double b = each[0] * std::exp(each[1] * z);
+        double log_f = -0.5 * z * z;
+        for (std::size_t i = 0; i < shown; ++i) {
+          const double off = (readings[i].first - b * readings[i].second) / each[2];
+          log_f -= 0.5 * off * off + std::log(each[2] / um);
+        }
+        sum += std::exp(log_f);
+        if (12 * um / b <= now) {
+          passed += std::exp(log_f);
+        } else {
+          lives.emplace_back(12 * um / b - now, std::exp(log_f));
+        }
+      }
+    }
+    std::sort(lives.begin(), lives.end());
+    EXPECT_NEAR(forecast.passed, passed / sum, 2e-3);
+    // Three points of the posterior alone: their lines have 16 nodes each, no more.
+    double below = 0;
+    for (const auto& [life, weight] : lives) {
+      const double before = below;
+      below += weight / (sum - passed);
+      for (const double p : {0.05, 0.5, 0.95}) {
+        if (before < p && below >= p) {
+          EXPECT_NEAR(forecast.remaining.cdf(life), p, 0.02) << shown;
+        }
+      }
+    }
+  }
+}
+
+TEST(OwnTracker, UnitsThatTheStudyHasSeenAreAsTheFitSaysOfThem) {
+  const Watched watched(straight, lines(rates, 5, 0.3));
+  const LimitedLives fit = lives_of_fit(watched, watched.fitted());
+  for (std::size_t u = 0; u < rates.size(); ++u) {
+    const auto unit = watched.tracker->begin("u" + std::to_string(u));
+    expect_alike(unit->forecast(), fit.remaining[u], fit.passed[u], 4e-3);
+  }
+}
+
+// The last rows of a unit held back, and given one by one: population and unit are then as if all had been fitted.
+TEST(OwnTracker, FollowingAUnitIsFittingItsRowsToo) {
+  const std::vector<Column> all = lines({0.8, 1.3, 1.0, 0.6, 1.1, 1.7}, 5, 0.3);
+  std::vector<Column> known = all;
+  for (Column& each : known) {
+    if (each.is_number)
+      each.numbers.resize(25);
+    else
+      each.text.resize(25);
+  }
+  const Watched whole(straight, all), part(straight, known);
+  Followed unit(*part.tracker, "u5");
+  for (std::size_t i = 25; i < 30; ++i) {
+    const Taken taken = unit.take({all[0].numbers[i] * um, all[1].numbers[i] * h});
+    EXPECT_TRUE(taken.counted);
+    EXPECT_FALSE(taken.contradicts);
+  }
+  const LimitedLives fit = lives_of_fit(whole, whole.fitted());
+  expect_alike(unit.unit->forecast(), fit.remaining[5], fit.passed[5], 6e-3);
+}
+
+TEST(OwnTracker, SavedStatesGoOnWithTheSameBits) {
+  const Watched watched(straight, lines(rates, 5, 0.3));
+  Followed unit(*watched.tracker, "new"), other(*watched.tracker, "new");
+  for (int i = 1; i <= 12; ++i) {
+    const std::vector<double> reading = {(0.9 * i + 0.2 * std::sin(i)) * um, i * h};
+    unit.take(reading);
+    other.take(reading);
+    const std::string bytes = unit.unit->save();
+    EXPECT_EQ(bytes, other.unit->save());
+    other.unit = watched.tracker->restore(bytes);
+    EXPECT_EQ(bytes, other.unit->save());
+    EXPECT_EQ(unit.unit->forecast().remaining.quantile(0.1),
+              other.unit->forecast().remaining.quantile(0.1));
+    std::string damaged = bytes;
+    damaged[bytes.size() / 2] ^= 1;
+    EXPECT_THROW(watched.tracker->restore(damaged), InputError);
+  }
+  std::printf("state of a unit: %zu bytes\n", unit.unit->save().size());
+  const Watched another(straight, lines({0.8, 1.3, 1.0, 0.6, 1.2}, 5, 0.3));
+  EXPECT_THROW(another.tracker->restore(unit.unit->save()), InputError);
+}
+
+TEST(OwnTracker, TheOrderOfReadingsDoesNotMatter) {
+  const Watched watched(straight, lines(rates, 5, 0.3));
+  std::vector<std::vector<double>> readings;
+  for (int i = 1; i <= 20; ++i)
+    readings.push_back({(0.9 * i + 0.3 * std::sin(7.0 * i)) * um, i * h});
+  Followed in_order(*watched.tracker, "new"), reversed(*watched.tracker, "new");
+  for (const auto& each : readings) in_order.take(each);
+  std::reverse(readings.begin(), readings.end());
+  for (const auto& each : readings) reversed.take(each);
+  const Forecast a = in_order.unit->forecast(), b = reversed.unit->forecast();
+  EXPECT_EQ(a.now, b.now);
+  for (const double p : {0.05, 0.5, 0.95}) {
+    EXPECT_NEAR(b.remaining.cdf(a.remaining.quantile(p)), p, 4e-3);
+  }
+}
+
+// Ever more readings: nodes are laid anew again and again, parameters that all share are learned from it.
+TEST(OwnTracker, ManyReadingsOfOneUnit) {
+  const Watched watched(straight, lines(rates, 5, 0.3));
+  Followed unit(*watched.tracker, "new");
+  Rng rng(3, 0);
+  for (int i = 1; i <= 400; ++i) {
+    const double t = 0.025 * i;
+    const Taken taken = unit.take({(1.05 * t + 0.25 * rng.normal()) * um, t * h});
+    ASSERT_TRUE(taken.counted) << taken.problem;
+    ASSERT_FALSE(taken.contradicts) << taken.surprise;
+  }
+  const Forecast forecast = unit.unit->forecast();
+  std::printf("effective after 400: %.1f, life %.4g .. %.4g h\n", forecast.effective,
+              forecast.remaining.quantile(0.05) / h, forecast.remaining.quantile(0.95) / h);
+  // The unit's own line by least squares, all else is known well by now.
+  EXPECT_NEAR(forecast.remaining.quantile(0.5), (12 / 1.05 - 10) * h, 0.1 * h);
+  EXPECT_GT(forecast.effective, 50);
+}
+
+TEST(OwnTracker, WhatCannotBeTaken) {
+  const Watched watched(straight, lines(rates, 5, 0.3));
+  Followed unit(*watched.tracker, "new");
+  EXPECT_EQ(unit.take({NAN, 1 * h}).problem, "depth is missing");
+  EXPECT_EQ(unit.take({1 * um, NAN}).problem, "time is missing");
+  EXPECT_EQ(unit.take({INFINITY, 1 * h}).problem, "depth is not finite");
+  EXPECT_THROW(unit.take({1 * um}), InputError);
+  EXPECT_TRUE(unit.take({1 * um, 1 * h}).counted);
+  const Taken far = unit.take({40 * um, 2 * h});
+  EXPECT_TRUE(far.counted);
+  EXPECT_TRUE(far.contradicts);
+  EXPECT_LT(far.surprise, 1e-4);
+}
+
+}  // namespace
+}  // namespace wearwell::ownlaw
