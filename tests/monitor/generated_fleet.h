@@ -32,7 +32,7 @@ class GeneratedFleet : public FleetReader, public Inbox {
       unit.name = i < std::size(odd) && units > 8 ? odd[i] : "M" + std::to_string(1000 + i);
       unit.rate = std::exp(mu + tau * normal(engine_));
       const int readings = unit.name == "never heard of" ? 0 : 3 + static_cast<int>(i % 23);
-      const double step = (40 + 25 * std::abs(normal(engine_))) * (1 + i % 5);
+      const double step = (20 + 20 * std::abs(normal(engine_))) * (1 + i % 4);
       for (int j = 0; j < readings; ++j) {
         take(&unit, step * (j + 1), now_ms() - (readings - j) * 3'600'000LL);
       }
@@ -186,7 +186,6 @@ class GeneratedFleet : public FleetReader, public Inbox {
   static double mean(const Unit& unit) {
     return variance(unit) * (mu / (tau * tau) + unit.sum / (s * s));
   }
-  static double phi(double z) { return boost::math::cdf(boost::math::normal(), z); }
   static double rate(const Unit& unit, double z) {
     return std::exp(mean(unit) + z * std::sqrt(variance(unit)));
   }
@@ -194,25 +193,23 @@ class GeneratedFleet : public FleetReader, public Inbox {
   static Interval level(const Unit& unit, double t) {
     return {t * rate(unit, -z95), t * rate(unit, 0), t * rate(unit, z95)};
   }
-  /// P(life <= t).
-  static double before(const Unit& unit, double t) {
-    return t <= 0 ? 0 : phi((std::log(t / limit) + mean(unit)) / std::sqrt(variance(unit)));
+  /// P(life > t).
+  static double after(const Unit& unit, double t) {
+    if (t <= 0) return 1;
+    const double z = (std::log(t / limit) + mean(unit)) / std::sqrt(variance(unit));
+    return boost::math::cdf(boost::math::complement(boost::math::normal(), z));
   }
+  static double passed(const Unit& unit) { return 1 - after(unit, unit.at); }
   /// P(life <= at + x | life > at).
   static double reached(const Unit& unit, double x) {
-    const double past = before(unit, unit.at);
-    return past >= 1 ? 1 : (before(unit, unit.at + x) - past) / (1 - past);
+    return 1 - after(unit, unit.at + x) / std::max(1e-300, after(unit, unit.at));
   }
   static double remaining(const Unit& unit, double p) {
-    const double past = before(unit, unit.at);
-    const double all = past + p * (1 - past);
-    if (all >= 1) return 0;
-    return std::max(0.0, life(unit, boost::math::quantile(boost::math::normal(), all)) - unit.at);
+    const double left = std::max(1e-300, after(unit, unit.at)) * (1 - p);
+    const boost::math::normal normal;
+    return life(unit, boost::math::quantile(boost::math::complement(normal, left))) - unit.at;
   }
-  static double risk_of(const Unit& unit) {
-    const double past = before(unit, unit.at);
-    return past + (1 - past) * reached(unit, horizon);
-  }
+  static double risk_of(const Unit& unit) { return 1 - after(unit, unit.at + horizon); }
   static Alarm alarm_of(const Unit& unit) {
     if (unit.silent || unit.n == 0) return Alarm::unknown;
     const double risk = risk_of(unit);
@@ -230,7 +227,7 @@ class GeneratedFleet : public FleetReader, public Inbox {
     if (unit.n == 0) view.remaining.q95 = std::numeric_limits<double>::infinity();
     view.b10 = remaining(unit, 0.1);
     view.risk = risk_of(unit);
-    view.passed = before(unit, unit.at);
+    view.passed = passed(unit);
     view.quality = unit.quality;
     return view;
   }

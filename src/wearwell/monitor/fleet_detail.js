@@ -1,7 +1,7 @@
 'use strict';
 // One unit: where it stands, where it goes, and how good earlier forecasts were.
 (() => {
-  const {element, number, quantity, range, probability, unit: words} = wearwell;
+  const {element, given, quantity, range, probability, unit: words} = wearwell;
   const detail = document.getElementById('detail');
   let fleet = null, opened = '', serial = 0, waiting = null;
 
@@ -30,13 +30,13 @@
     const stops = points.filter((each) => finite(each.x));
     return {
       id: 'path', title: `${wearwell.capital(fleet.limited)}, behind and ahead`,
-      description: `${wearwell.capital(fleet.limited)} along ${fleet.axis}: now ${range(view.level.q05, view.level.q95, fleet.level_unit)} (90 %), limit ${quantity(fleet.limit, fleet.level_unit)}. ${read.length} readings.`,
+      description: `${wearwell.capital(fleet.limited)} along ${fleet.axis}: now ${range(view.level.q05, view.level.q95, fleet.level_unit)} (90 %), limit ${given(fleet.limit, fleet.level_unit)}. ${read.length} readings.`,
       x: {name: name(fleet.axis, fleet.axis_unit), domain: x}, y: {name: name(fleet.limited, fleet.level_unit), domain: y},
       marks: [
         {kind: 'band', look: 'behind', points: behind}, {kind: 'band', look: 'ahead', points: ahead},
         {kind: 'line', look: 'behind', points: behind}, {kind: 'line', look: 'ahead', points: ahead},
-        {kind: 'rule', look: 'limit', y: fleet.limit, word: `limit ${quantity(fleet.limit, fleet.level_unit)}`},
-        {kind: 'rule', look: 'now', x: view.at, word: 'now'}, {kind: 'points', look: 'reading', points: read}],
+        {kind: 'rule', look: 'limit', y: fleet.limit, word: `limit ${given(fleet.limit, fleet.level_unit)}`},
+        {kind: 'rule', look: 'now', x: view.at, word: 'now', low: true}, {kind: 'points', look: 'reading', points: read}],
       at: stops.map((each) => each.x), start: Math.max(0, split - 1),
       read: (i) => `At ${quantity(stops[i].x, fleet.axis_unit)}: ${fleet.limited} ${quantity(stops[i].y, fleet.level_unit)}, 90 % within ${range(stops[i].low, stops[i].high, fleet.level_unit)}`,
       hint: 'Point at it, or use the arrow keys, to read values.',
@@ -48,7 +48,7 @@
     const points = view.survival.filter((each) => finite(each.remaining)).map((each) => ({x: each.remaining, low: 0, y: each.survival, high: each.survival}));
     const end = Math.max(...points.map((each) => each.x), 0) || 1;
     const marks = [{kind: 'band', look: 'behind', points}, {kind: 'line', look: 'behind', points}];
-    if (fleet.horizon < end) marks.push({kind: 'rule', look: 'horizon', x: fleet.horizon, word: `horizon ${quantity(fleet.horizon, fleet.axis_unit)}`});
+    if (fleet.horizon < end) marks.push({kind: 'rule', look: 'horizon', x: fleet.horizon, word: `horizon ${given(fleet.horizon, fleet.axis_unit)}`});
     return {
       id: 'survival', title: 'How long it lasts',
       description: `Probability that the limit is not reached, by remaining life: median ${quantity(view.remaining.q50, fleet.axis_unit)}, 90 % within ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}.`,
@@ -95,30 +95,30 @@
   function tally({judged, held}) {
     if (!judged) return element('p', {class: 'tally'}, 'No forecast has met its reading yet.');
     const low = binomial(held, judged) < 0.01;
-    const text = `Of ${number(judged, 9)} earlier forecasts of the next reading, ${number(held, 9)} held within their 90 % interval; ` +
-                 `about ${number(Math.round(0.9 * judged), 9)} were to be expected.`;
+    const text = `Of ${wearwell.count(judged)} earlier forecasts of the next reading, ${wearwell.count(held)} held within their 90 % interval; ` +
+                 `about ${wearwell.count(Math.round(0.9 * judged))} were to be expected.`;
     return element('p', {class: low ? 'tally callout warn' : 'tally'}, low ? element('strong', {}, 'Fewer than chance explains. ') : null, text);
   }
 
   const tile = (what, value, note) => element('div', {}, element('dt', {}, what), element('dd', {class: 'value'}, value), element('dd', {class: 'note'}, note));
 
   function lead(view) {
-    const sure = view.passed > 0.5 ? `With probability ${probability(view.passed)} this ${fleet.noun} has reached its limit of ${quantity(fleet.limit, fleet.level_unit)} already.`
-                                   : `This ${fleet.noun} reaches its limit of ${quantity(fleet.limit, fleet.level_unit)} within the next ${quantity(fleet.horizon, fleet.axis_unit)} with probability ${probability(view.risk)}.`;
+    const sure = view.passed > 0.5 ? `With probability ${probability(view.passed)} this ${fleet.noun} has reached its limit of ${given(fleet.limit, fleet.level_unit)} already.`
+                                   : `This ${fleet.noun} reaches its limit of ${given(fleet.limit, fleet.level_unit)} within the next ${given(fleet.horizon, fleet.axis_unit)} with probability ${probability(view.risk)}.`;
     return element('p', {class: 'lead'}, sure);
   }
 
   function tiles(view) {
     const last = view.last_reading_ms;
     return element('dl', {class: 'tiles'},
-        tile('Remaining life', quantity(view.remaining.q50, fleet.axis_unit), `90 %: ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}`),
+        tile('Remaining life', quantity(view.remaining.q50, fleet.axis_unit), `90 %: ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}${view.passed > 0.01 ? '; if the limit is not behind it' : ''}`),
         tile('B10', quantity(view.b10, fleet.axis_unit), '90 % of its like last longer'),
         tile(`${wearwell.capital(fleet.limited)} now`, quantity(view.level.q50, fleet.level_unit), `90 %: ${range(view.level.q05, view.level.q95, fleet.level_unit)}`),
         tile('Last reading', last ? `${wearwell.age(wearwell.now() - last)} ago` : 'none', last ? `at ${quantity(view.at, fleet.axis_unit)}, ${wearwell.clock(last)}` : 'what is shown is of the population'));
   }
 
   function quality({readings, repeated, late, contradicting, refused, last_problem: problem}) {
-    const fact = (what, count, poor) => element('div', {class: poor && count > 0 ? 'poor' : ''}, element('dt', {}, what), element('dd', {}, number(count, 9)));
+    const fact = (what, count, poor) => element('div', {class: poor && count > 0 ? 'poor' : ''}, element('dt', {}, what), element('dd', {}, wearwell.count(count)));
     return element('section', {class: 'quality'}, element('h3', {}, 'Data quality'),
         element('dl', {class: 'facts'}, fact('counted', readings), fact('repeated', repeated), fact('late', late),
                 fact('contradicting', contradicting, true), fact('refused', refused, true)),
@@ -192,7 +192,7 @@
       opened = '';
       ++serial;
       delete detail.dataset.unit;
-      detail.replaceChildren();
+      detail.replaceChildren(element('h2', {id: 'unit-name', class: 'none'}, `No ${fleet?.noun ?? 'unit'} is chosen.`));
     },
     refresh: (view) => {
       fleet = view;

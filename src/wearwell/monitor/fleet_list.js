@@ -31,31 +31,40 @@
     return bar;
   }
 
-  function row(i) {
-    const each = unit(i);
-    const made = element('div', {class: 'row', role: 'option', id: `row-${i}`, 'aria-setsize': total, 'aria-posinset': i + 1,
-                                 'aria-selected': String(Boolean(each && each.unit === opened))});
-    made.style.top = `${i * height()}px`;
-    made.style.height = `${height()}px`;
-    if (i === active) made.classList.add('active');
-    if (!each) {
-      made.classList.add('empty');
-      made.append(element('span', {}, '…'));
-      return made;
-    }
+  function cells(each) {
     const risk = element('span', {class: 'meter', 'aria-hidden': 'true'}, element('span', {}));
     risk.firstChild.style.width = `${100 * (each.risk ?? 0)}%`;
-    const life = wearwell.range(each.remaining.q05, each.remaining.q95, fleet.axis_unit);
-    made.dataset.unit = each.unit;
-    made.append(
-        wearwell.badge(each.alarm),
-        element('span', {class: 'name', title: each.unit}, each.unit),
-        element('span', {class: 'risk'}, element('span', {class: 'unseen'}, 'risk '), risk, wearwell.probability(each.risk)),
-        element('span', {class: 'life'}, interval(each.remaining), element('span', {class: 'unseen'}, 'remaining life '),
-                element('span', {class: 'range'}, life)),
-        element('span', {class: 'age'}, element('span', {class: 'unseen'}, 'last reading '),
-                each.last_reading_ms ? wearwell.age(wearwell.now() - each.last_reading_ms) : 'none'));
-    return made;
+    // What remains if the limit is not behind it says little where it most likely is.
+    const past = each.passed > 0.5;
+    const life = past ? `limit reached${each.passed > 0.99 ? '' : `, ${wearwell.probability(each.passed)}`}`
+                      : wearwell.range(each.remaining.q05, each.remaining.q95, fleet.axis_unit);
+    return [
+      wearwell.badge(each.alarm),
+      element('span', {class: 'name'}, each.unit),
+      element('span', {class: 'risk'}, element('span', {class: 'unseen'}, 'risk '), risk, wearwell.probability(each.risk)),
+      element('span', {class: past ? 'life past' : 'life'}, past ? null : interval(each.remaining),
+              element('span', {class: 'unseen'}, 'remaining life '), element('span', {class: 'range'}, life)),
+      element('span', {class: 'age'}, element('span', {class: 'unseen'}, 'last reading '),
+              each.last_reading_ms ? wearwell.age(wearwell.now() - each.last_reading_ms) : 'none')];
+  }
+
+  // A row stays the element that it is, whatever it shows: one that were made anew while the pointer is down
+  // would not be clicked.
+  const made = new Map();
+  function row(i) {
+    const each = unit(i);
+    if (!made.has(i)) made.set(i, element('div', {class: 'row', role: 'option', id: `row-${i}`}));
+    const shown = made.get(i);
+    shown.setAttribute('aria-setsize', total);
+    shown.setAttribute('aria-posinset', i + 1);
+    shown.setAttribute('aria-selected', String(Boolean(each && each.unit === opened)));
+    shown.style.top = `${i * height()}px`;
+    shown.style.height = `${height()}px`;
+    shown.classList.toggle('active', i === active);
+    shown.title = each?.unit ?? '';
+    shown.dataset.unit = each?.unit ?? '';
+    shown.replaceChildren(...(each ? cells(each) : ['…']));
+    return shown;
   }
 
   function visible() {
@@ -67,13 +76,19 @@
     if (!fleet) return;
     rows.style.height = `${total * height()}px`;
     const [first, last] = visible();
-    const drawn = [];
-    for (let i = first; i < last; ++i) drawn.push(row(i));
-    rows.replaceChildren(...drawn);
+    for (const [i, old] of made) {
+      if (i >= first && i < last) continue;
+      old.remove();
+      made.delete(i);
+    }
+    for (let i = first; i < last; ++i) {
+      const shown = row(i);
+      if (!shown.isConnected) rows.append(shown);
+    }
     if (active >= first && active < last) list.setAttribute('aria-activedescendant', `row-${active}`);
     else list.removeAttribute('aria-activedescendant');
     const noun = total === 1 ? fleet.noun : wearwell.plural(fleet.noun);
-    found.textContent = search.value ? `${wearwell.number(total, 7)} ${noun} found` : '';
+    found.textContent = search.value ? `${wearwell.count(total)} ${noun} found` : '';
     list.dataset.drawn = 'true';
   }
 
@@ -122,10 +137,11 @@
   // A row does not move away under the pointer that is about to press it.
   list.addEventListener('pointermove', () => { touched = Date.now(); }, {passive: true});
   list.addEventListener('click', (event) => {
-    const hit = event.target.closest('.row');
-    if (hit?.dataset.unit === undefined) return;
-    active = Number(hit.id.slice(4));
-    open(hit.dataset.unit);
+    // By its place: the element that was pressed may have been drawn anew by now.
+    const at = Math.floor((event.clientY - rows.getBoundingClientRect().top) / height());
+    if (!unit(at)) return;
+    active = at;
+    open(unit(at).unit);
   });
   list.addEventListener('keydown', (event) => {
     const many = Math.max(1, Math.floor(list.clientHeight / height()) - 1);
@@ -162,7 +178,7 @@
     begin: async (view) => {
       fleet = view;
       document.getElementById('column-unit').textContent = wearwell.capital(fleet.noun);
-      document.getElementById('column-risk').textContent = `Risk, ${wearwell.quantity(fleet.horizon, fleet.axis_unit)}`;
+      document.getElementById('column-risk').textContent = `Risk in ${wearwell.given(fleet.horizon, fleet.axis_unit)}`;
       await load(true);
       return unit(0)?.unit;
     },

@@ -26,7 +26,7 @@
         part.style.flexGrow = count;
         bar.append(part);
       }
-      words.append(element('li', {}, wearwell.badge(alarm), element('strong', {}, wearwell.number(count, 7))));
+      words.append(element('li', {}, wearwell.badge(alarm), element('strong', {}, wearwell.count(count))));
     }
     document.getElementById('counts').replaceChildren(bar, words);
   }
@@ -53,7 +53,7 @@
     document.getElementById('title').textContent = fleet.title || 'wearwell monitor';
     document.title = `${fleet.units.act ? `(${fleet.units.act}) ` : ''}${fleet.title || 'wearwell monitor'}`;
     const noun = fleet.units.all === 1 ? fleet.noun : wearwell.plural(fleet.noun);
-    document.getElementById('subtitle').textContent = `${wearwell.number(fleet.units.all, 7)} ${noun}, ` +
+    document.getElementById('subtitle').textContent = `${wearwell.count(fleet.units.all)} ${noun}, ` +
         (last ? `last message ${wearwell.age(wearwell.now() - last)} ago` : 'no message yet');
     complaints();
   }

@@ -81,7 +81,7 @@
         if (mark.word) {
           const flat = mark.x === undefined, right = !flat && x1 > box.left + 0.7 * box.width;
           group.append(element('text', {class: `word ${mark.look}`, x: flat ? box.left + 6 : x1 + (right ? -5 : 5),
-                                        y: flat ? y1 - 6 : box.top + 10, 'text-anchor': right ? 'end' : 'start'}, mark.word));
+                                        y: flat ? y1 - 6 : mark.low ? box.bottom - 8 : box.top + 10, 'text-anchor': right ? 'end' : 'start'}, mark.word));
         }
       }
     }

@@ -33,24 +33,35 @@ wearwell.element = (name, attributes = {}, ...children) => {
     return group(whole) + (part ? `.${part}` : '');
   };
 
+  // Numbers that are counts, or were given: all their digits.
+  wearwell.count = (x) => group(String(x));
+  wearwell.given = (x, unit) => {
+    if (x === null || x === undefined) return 'never';
+    const digits = String(Number(x.toPrecision(12)));
+    const [whole, part] = digits.split('.');
+    const text = digits.includes('e') ? wearwell.number(x) : group(whole.replace('-', '−')) + (part ? `.${part}` : '');
+    return `${text}${wearwell.unit(unit) ? thin + wearwell.unit(unit) : ''}`;
+  };
+
   wearwell.unit = (text) => {
     if (!text || text === '1') return '';
     return text.replace(/\^(-?\d+)/g, (_, digits) => [...digits].map((each) => raised[each]).join('')).replace(/^um\b/, 'µm');
   };
   wearwell.quantity = (x, unit, digits) => {
     if (x === null || x === undefined) return 'never';
-    return `${wearwell.number(x, digits)}${unit ? `${thin}${wearwell.unit(unit)}` : ''}`;
+    return `${wearwell.number(x, digits)}${wearwell.unit(unit) ? thin + wearwell.unit(unit) : ''}`;
   };
   // 800 – 1900 h. An end that is not finite is one without end.
   wearwell.range = (low, high, unit) => {
     if (low === null && high === null) return 'never';
     if (high === null) return `more than ${wearwell.quantity(low, unit)}`;
+    if (low === high) return wearwell.quantity(low, unit);
     return `${wearwell.number(low)} – ${wearwell.quantity(high, unit)}`;
   };
   wearwell.probability = (p) => {
     if (p === null || p === undefined) return '–';
-    if (p > 0 && p < 0.001) return `< 0.1${thin}%`;
-    if (p > 0.999 && p < 1) return `> 99.9${thin}%`;
+    if (p < 0.001) return `< 0.1${thin}%`;
+    if (p > 0.999) return `> 99.9${thin}%`;
     return `${(100 * p).toFixed(p < 0.1 ? 1 : 0)}${thin}%`;
   };
   wearwell.age = (milliseconds) => {

@@ -52,7 +52,7 @@ void set_common_fields(Message* message, bool secret) {
   message->set(http::field::cache_control, "no-store");
   message->set("X-Content-Type-Options", "nosniff");
   message->set("X-Frame-Options", "DENY");
-  message->set("Referrer-Policy", "no-referrer");
+  message->set("Referrer-Policy", "same-origin");  // without one a form sends no Origin
   message->set("Cross-Origin-Resource-Policy", "same-origin");
   message->set("Cross-Origin-Opener-Policy", "same-origin");
   if (secret) message->set("Strict-Transport-Security", "max-age=31536000");
@@ -235,6 +235,9 @@ class Connection final : public HttpConnection,
     set_common_fields(&head, is_secret);
     head.set(http::field::content_type, "text/event-stream; charset=utf-8");
     head.keep_alive(false);
+    // Who does not read holds little, of the kernel's memory too.
+    Error ignored;
+    tcp().socket().set_option(net::socket_base::send_buffer_size(64 * 1024), ignored);
     // Nothing is expected; that the client has gone is read, not waited for.
     tcp().expires_never();
     stream_.async_read_some(net::buffer(scrap_), [self = self()](Error, std::size_t) {

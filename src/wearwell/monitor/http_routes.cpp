@@ -203,15 +203,16 @@ HttpAnswer HttpRoutes::unit(const std::string& encoded) const {
 // Refused for good with 400, to be sent again with 503.
 HttpAnswer HttpRoutes::readings(const std::string& body) const {
   if (!inbox_) return refusal(404, "readings are not taken by HTTP here");
-  const Delivery delivery = inbox_->deliver("", body);
-  HttpAnswer answer{200, "application/json", text_of(json_of(delivery))};
-  const bool nothing = delivery.readings + delivery.repeated == 0;
-  if (!delivery.stored && delivery.refused == 0) {
+  Delivery delivery = inbox_->deliver("", body);
+  HttpAnswer answer;
+  if (!delivery.stored) {
     answer.status = 503;
     answer.fields.emplace_back("Retry-After", "5");
-  } else if (!delivery.stored || (nothing && delivery.refused > 0)) {
+  } else if (delivery.readings + delivery.repeated == 0) {
     answer.status = 400;
+    if (delivery.problem.empty()) delivery.problem = "there is no reading in it";
   }
+  answer.body = text_of(json_of(delivery));
   return answer;
 }
 
