@@ -123,7 +123,7 @@ TEST_F(Configs, Refused) {
               HasSubstr("no HOST:PORT"));
   EXPECT_THAT(refusal("[alarm]", "[store]\nurl = \"mysql://x\"\n[alarm]"),
               HasSubstr("neither a file nor postgresql"));
-  EXPECT_THAT(refusal("watch", "wacht"), HasSubstr("did you mean 'watch'"));
+  EXPECT_THAT(refusal("silence", "silent"), HasSubstr("did you mean 'silence'"));
 }
 
 }  // namespace
