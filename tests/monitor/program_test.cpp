@@ -114,8 +114,9 @@ TEST_F(PostgresPrograms, GoOnWhenTheServerIsBack) {
   for (std::size_t i = 0; i < parts; ++i) {
     append(file, {lines.begin() + static_cast<std::ptrdiff_t>(i * part),
                   lines.begin() + static_cast<std::ptrdiff_t>((i + 1) * part)});
-    if (i == 0)
+    if (i == 0) {
       ASSERT_TRUE(eventually([&] { return stored(config, server_->url()) > 0; })) << log(config);
+    }
     if (i % 2 == 0) continue;
     sleep_s(0.2);
     server_->kill();
