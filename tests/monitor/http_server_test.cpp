@@ -198,6 +198,13 @@ TEST_F(HttpServerTest, KeepsConnectionsAsTheyAskFor) {
   HttpClient old(server_.port());
   old.send("GET /health HTTP/1.0\r\nHost: localhost\r\n\r\n");
   EXPECT_THAT(old.rest(), HasSubstr("200 OK"));
+  HttpClient kept(server_.port());
+  for (int i = 0; i < 2; ++i) {
+    kept.send("GET /health HTTP/1.0\r\nHost: localhost\r\nConnection: keep-alive\r\n\r\n");
+    const HttpReply reply = kept.reply();
+    EXPECT_EQ(reply.status, 200);
+    EXPECT_EQ(reply.field("Connection"), "keep-alive");
+  }
 }
 
 TEST_F(HttpServerTest, AnswersManyAtOnce) {

@@ -182,7 +182,7 @@ class Connection final : public HttpConnection,
     ++hub_.answers[answer.status];
     const bool read = parser_->is_done();
     response_ = {};
-    response_.version(11);
+    response_.version(parser_->get().version() == 10 ? 10 : 11);  // the older is told what is kept
     response_.result(answer.status);
     set_common_fields(&response_, is_secret);
     response_.set(http::field::content_type, answer.type);
