@@ -248,7 +248,7 @@ TEST_F(Door, SlipsInACommandLine) {
       {"check joint/study.toml --json", "wearwell check has no option --json (options: --help; "},
       {"new jiont x",
        "TRADE: 'jiont' is not possible; it is one of joint, bearing, clutch, fatigue, spectrum, "
-       "strain-life, staircase, law, life, accelerated, degradation; did you mean 'joint'?"},
+       "strain-life, staircase, law, life, accelerated, degradation, fleet; did you mean 'joint'?"},
       {"new joint", "wearwell new: DIR is "},
       {"new joint joint", "joint is not empty"},
       {"compare joint", "DIR is given 1 times, and is needed 2 times at least"},

@@ -197,8 +197,8 @@ TEST_F(Fleets, DoNotKnowOfASilentUnit) {
 TEST(Moments, GrowSlowly) {
   int kept = 0;
   for (std::uint64_t n = 1; n <= 1'000'000; ++n) kept += is_kept_moment(n);
-  EXPECT_TRUE(is_kept_moment(1) && is_kept_moment(32));
-  EXPECT_LT(kept, 320);
+  EXPECT_TRUE(is_kept_moment(1) && is_kept_moment(16));
+  EXPECT_LT(kept, 220);
 }
 
 /// A store that fails when it is told to, before or after it has done what it was asked.

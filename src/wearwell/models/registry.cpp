@@ -12,7 +12,7 @@ Models all_models() {
   static const Model models[] = {
       joint::model(),      bearing::model(),       clutch::model(),       fatigue::model(),
       fatigue::spectrum(), fatigue::strain_life(), fatigue::staircase(),  ownlaw::model(),
-      ownlaw::life(),      ownlaw::accelerated(),  ownlaw::degradation(),
+      ownlaw::life(),      ownlaw::accelerated(),  ownlaw::degradation(), ownlaw::fleet(),
   };
   return models;
 }

@@ -205,7 +205,7 @@ class Joining {
         fresh.source, row + 1,
         there < table_.rows ? fmt::format("row {} of what is known", there + 1)
                             : fmt::format("row {} of the same file", there - table_.rows + 1),
-        roles_.noun));
+        roles_.unit ? "reading" : roles_.noun));
   }
 
   Table table_;

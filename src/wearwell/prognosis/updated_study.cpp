@@ -128,6 +128,13 @@ std::vector<Contradiction> hardly_possible(const PosteriorStudy& study, const We
 PosteriorStudy updated_study(const PosteriorStudy& study, const WeightedDraws& before,
                              JoinedData joined, const std::string& files) {
   for (Contradiction& each : hardly_possible(study, before, joined)) {
+    const auto known =
+        std::find_if(joined.contradictions.begin(), joined.contradictions.end(),
+                     [&](const Contradiction& other) { return other.row == each.row; });
+    if (known != joined.contradictions.end()) {
+      known->why += ", and " + each.why;
+      continue;
+    }
     each.place = place_in_words(data_table(joined.source), joined.roles, each.row);
     joined.contradictions.push_back(std::move(each));
   }

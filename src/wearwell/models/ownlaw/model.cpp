@@ -3,6 +3,7 @@
 #include "wearwell/models/ownlaw/own_keys.h"
 #include "wearwell/models/ownlaw/own_study.h"
 #include "wearwell/models/ownlaw/own_tracker.h"
+#include "wearwell/models/ownlaw/simulated_fleet.h"
 
 namespace wearwell {
 namespace resource {
@@ -15,6 +16,9 @@ std::string_view accelerated_study();
 std::string_view accelerated_data();
 std::string_view degradation_study();
 std::string_view degradation_data();
+std::string_view fleet_study();
+std::string_view fleet_data();
+std::string_view fleet_monitor();
 
 }  // namespace resource
 
@@ -33,6 +37,20 @@ Model law_with(std::string_view trade, std::span<const ExampleFile> example) {
           .add_commands = nullptr,
           .keys = law_keys,
           .track = track_units};
+}
+
+// Made when they are wanted: the same whenever that is.
+const SimulatedFleet& fleet_of_example() {
+  static const SimulatedFleet fleet = simulate_fleet(1, 200);
+  return fleet;
+}
+std::string_view fleet_readings() {
+  static const std::string text = readings_jsonl(fleet_of_example());
+  return text;
+}
+std::string_view fleet_truth() {
+  static const std::string text = truth_csv(fleet_of_example());
+  return text;
 }
 
 }  // namespace
@@ -59,6 +77,15 @@ Model degradation() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::degradation_study},
                                             {"laser.csv", resource::degradation_data}};
   return law_with("degradation", example);
+}
+
+Model fleet() {
+  static constexpr ExampleFile example[] = {{"study.toml", resource::fleet_study},
+                                            {"learned.csv", resource::fleet_data},
+                                            {"monitor.toml", resource::fleet_monitor},
+                                            {"readings.jsonl", fleet_readings},
+                                            {"truth.csv", fleet_truth}};
+  return law_with("fleet", example);
 }
 
 }  // namespace ownlaw

@@ -7,9 +7,11 @@ namespace wearwell::ownlaw {
 /// Laws in the user's own words, and what `wearwell new law` writes.
 Model model();
 
-/// The same model, with what `wearwell new life`, `new accelerated` and `new degradation` write.
+/// The same model, with what `wearwell new life`, `new accelerated`, `new degradation` and
+/// `new fleet` write.
 Model life();
 Model accelerated();
 Model degradation();
+Model fleet();
 
 }  // namespace wearwell::ownlaw

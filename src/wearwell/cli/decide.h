@@ -1,0 +1,12 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "wearwell/study/model.h"
+
+namespace wearwell {
+
+/// wearwell decide: what costs least, from distributions of life.
+void add_decide_command(CLI::App& app, Models models, int& exit_code);
+
+}  // namespace wearwell

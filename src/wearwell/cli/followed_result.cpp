@@ -1,0 +1,19 @@
+#include "wearwell/cli/followed_result.h"
+
+#include <fmt/format.h>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/prognosis/carried_state.h"
+
+namespace wearwell {
+
+FollowedResult followed_result(const std::filesystem::path& result, Models models) {
+  const prognosis::CarriedState state = prognosis::read_state(result);
+  for (const Model& model : models)
+    if (model.key == state.model && model.track) return {model.track(state), state.trusted};
+  throw InputError(fmt::format("{}: units of a study of model \"{}\" cannot be followed one by one",
+                               result.string(), printable(state.model)));
+}
+
+}  // namespace wearwell

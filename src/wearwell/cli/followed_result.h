@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "wearwell/prognosis/tracker.h"
+#include "wearwell/study/model.h"
+
+namespace wearwell {
+
+/// A result whose units can be followed one by one.
+struct FollowedResult {
+  std::unique_ptr<const prognosis::Tracker> tracker;
+  bool trusted = true;
+};
+
+/// Reads RESULT/state.bin. Throws InputError where it holds none, or is of a model whose units cannot be followed.
+FollowedResult followed_result(const std::filesystem::path& result, Models models);
+
+}  // namespace wearwell

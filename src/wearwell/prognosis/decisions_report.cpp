@@ -1,0 +1,283 @@
+#include "wearwell/prognosis/decisions_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/printable.h"
+#include "wearwell/present/plain.h"
+#include "wearwell/present/text_table.h"
+#include "wearwell/prognosis/decisions_tables.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+using present::Table;
+
+std::string percent(double share) {
+  if (share > 0 && share < 0.0001) return "< 0.01 %";
+  return fmt::format("{:.3g} %", 100 * share);
+}
+
+std::string costs_in_words(const DecisionsReport& report) {
+  const Shown shown{report};
+  const Question& question = report.question;
+  std::string text =
+      fmt::format("a failure costs {}, a replacement before it {}",
+                  shown.money(question.costs.failure), shown.money(question.costs.replacement));
+  if (question.inspected || question.hidden)
+    text += fmt::format(", an inspection {}", shown.money(question.costs.inspection));
+  if (question.hidden)
+    text += fmt::format(", and a failure not yet seen {:.6g} {}", shown.rate(*question.hidden),
+                        shown.rate_unit());
+  return text;
+}
+
+std::string advice(const UnitDecision& each) {
+  return each.best.after == 0 ? "now" : std::isfinite(each.best.after) ? "" : "at failure";
+}
+
+std::string answer(const DecisionsReport& report) {
+  const Shown shown{report};
+  const AgeReplacement& age = *report.decisions.age;
+  if (!std::isfinite(age.age))
+    return fmt::format(
+        "Replace a {} when it fails: earlier saves nothing, since its risk does not "
+        "grow enough with age.",
+        report.lives.noun);
+  if (age.beyond_known)
+    return fmt::format(
+        "Nothing is saved by replacing a {} before {} {}, which is as far as lives "
+        "are known.",
+        report.lives.noun, plain_number(shown.at(age.age)), shown.unit());
+  std::string text = fmt::format("Replace a {} at {} {}: {} {} in the long run", report.lives.noun,
+                                 plain_number(shown.at(age.age)), shown.unit(),
+                                 plain_number(shown.rate(age.rate)), shown.rate_unit());
+  if (age.at_failure > 0)
+    text += fmt::format(", {} less than at failure only", percent(1 - age.rate / age.at_failure));
+  return text + ".";
+}
+
+std::string worth_in_words(const DecisionsReport& report) {
+  const Shown shown{report};
+  const WorthReport& asked = *report.worth;
+  const InspectionWorth& worth = asked.worth;
+  const std::string money = report.question.currency.empty() ? "" : " " + report.question.currency;
+  return fmt::format(
+      "A reading of {} of {} {} {} {} from now is worth {}{}: {} after its cost. Its 90 % lie from "
+      "{} to {} {}; "
+      "with {} the {} is replaced upon it.",
+      asked.column, report.lives.noun, asked.unit, plain_number(shown.at(asked.after)),
+      shown.unit(), plain_number(worth.worth, 3), money, plain_number(worth.net, 3),
+      plain_number(from_si(asked.reading_unit, asked.outcomes[asked.outcomes.size() / 20].reading)),
+      plain_number(
+          from_si(asked.reading_unit,
+                  asked.outcomes[asked.outcomes.size() - 1 - asked.outcomes.size() / 20].reading)),
+      asked.reading_unit.text, percent(worth.replaced), report.lives.noun);
+}
+
+std::vector<std::string> cells(const Table& table, const std::vector<present::Cell>& row) {
+  std::vector<std::string> words;
+  for (std::size_t c = 0; c < row.size(); ++c) {
+    const double* number = std::get_if<double>(&row[c]);
+    const auto* range = std::get_if<present::Range>(&row[c]);
+    const std::string* text = std::get_if<std::string>(&row[c]);
+    const bool life = table.columns[c].format.kind == present::Format::Kind::life;
+    const auto said = [&](double x) {
+      return std::isinf(x) ? std::string("never") : plain_number(x, 4);
+    };
+    words.push_back(number  ? (life ? said(*number) : plain_number(*number, 4))
+                    : range ? fmt::format("{} to {}", said(range->low), said(range->high))
+                    : text  ? *text
+                            : "");
+  }
+  return words;
+}
+
+std::string table_text(const Table& table, std::size_t most = 40) {
+  std::vector<std::vector<std::string>> rows(1);
+  for (const present::Column& each : table.columns) rows[0].push_back(present::heading(each));
+  for (const auto& row : table.rows) {
+    if (rows.size() > most) break;
+    rows.push_back(cells(table, row));
+  }
+  std::string text = "\n" + table.caption + "\n" + text_table(rows);
+  if (table.rows.size() > most) text += fmt::format("... and {} more\n", table.rows.size() - most);
+  return text;
+}
+
+const char* const how_counted =
+    "Each unit counts once: parts that fail again within that time are not counted. Units are "
+    "independent given what each has shown; that all are of a population which is not known "
+    "exactly "
+    "would spread the number of young units further.";
+
+}  // namespace
+
+std::vector<Check> decision_checks(const DecisionsReport& report) {
+  std::vector<Check> checks;
+  const Costs& costs = report.question.costs;
+  if (!report.lives.trusted)
+    checks.push_back({"study", Verdict::fail, "the study itself is not trusted",
+                      "See its own checks first: wearwell report."});
+  if (report.decisions.age->beyond_known)
+    checks.push_back(
+        {"horizon", Verdict::warn,
+         "some lives have no end as far as they were computed: the cost in the long run is that of "
+         "replacement there",
+         "Compute lives farther, or read it as: not before."});
+  std::size_t early = 0;
+  for (const UnitDecision& each : report.decisions.units)
+    early += each.best.after > 0 && std::isfinite(each.best.after) && each.best.failing <= 0;
+  if (early > 0 || report.decisions.age->failing <= 0)
+    checks.push_back(
+        {"tail", Verdict::warn,
+         fmt::format("no life is as short as the moment that costs least ({})",
+                     early > 0 ? fmt::format("{} of {} units", early, report.decisions.units.size())
+                               : "of a new one"),
+         "How likely such early failures are is not known from these points: more of them, or "
+         "weighted ones in the tail, would tell."});
+  if (report.worth && std::abs(report.worth->worth.error) > 0.02)
+    checks.push_back(
+        {"inspection", Verdict::warn,
+         fmt::format(
+             "what the reading may show does not add up to what is known now, by {:.2g} of the "
+             "probability to fail",
+             report.worth->worth.error),
+         "Take its worth as a rough number."});
+  if (costs.failure <= costs.replacement)
+    checks.push_back({"costs", Verdict::warn,
+                      "a failure costs no more than a replacement before it",
+                      "Then nothing is gained by replacing before failure."});
+  return checks;
+}
+
+std::string decisions_text(const DecisionsReport& report) {
+  std::string text = wrapped(printable(report.lives.title), 0, 2) +
+                     wrapped(printable(costs_in_words(report)), 2, 4) + "\n" +
+                     wrapped(printable(answer(report)), 0, 2) + table_text(policies_table(report));
+  if (!report.decisions.units.empty()) {
+    Table units = units_table(report);
+    text += table_text(units);
+  }
+  if (!report.decisions.months.empty())
+    text += table_text(months_table(report)) + wrapped(how_counted, 2, 2);
+  if (report.worth) text += "\n" + wrapped(printable(worth_in_words(report)), 0, 2);
+  const std::vector<Check> checks = decision_checks(report);
+  if (!checks.empty()) text += "\nChecks\n";
+  static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
+  for (const Check& check : checks) {
+    text += wrapped(fmt::format("{}  {}: {}", words[static_cast<int>(check.verdict)], check.name,
+                                printable(check.detail)),
+                    2, 8);
+    if (!check.advice.empty()) text += wrapped("-> " + check.advice, 8, 11);
+  }
+  return text;
+}
+
+std::vector<present::Section> decisions_sections(const DecisionsReport& report) {
+  present::Section policy{"policy", "Policy"};
+  policy.add(present::Prose{answer(report), true});
+  policy.add(present::Prose{html::capital(costs_in_words(report)) + "."});
+  for (const Check& check : decision_checks(report))
+    policy.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
+                                check.detail + ". " + check.advice});
+  policy.add(policies_table(report));
+  policy.add(present::Figures{{cost_figure(report)}});
+  std::vector<present::Section> sections = {policy};
+  if (!report.decisions.units.empty()) {
+    present::Section units{"units", html::capital(report.lives.noun) + "s"};
+    units.add(present::Prose{
+        "Replace after: the moment that costs least, held against what use costs the fleet in the "
+        "long run. Waiting saves: against replacing now."});
+    if (report.worth) units.add(present::Prose{worth_in_words(report)});
+    units.add(units_table(report));
+    sections.push_back(units);
+  }
+  if (!report.decisions.months.empty()) {
+    present::Section fleet{"fleet", "Fleet"};
+    fleet.add(months_table(report));
+    fleet.add(present::Prose{how_counted});
+    fleet.add(present::Figures{{months_figure(report)}});
+    sections.push_back(fleet);
+  }
+  return sections;
+}
+
+nlohmann::ordered_json decisions_json(const DecisionsReport& report) {
+  using Json = nlohmann::ordered_json;
+  const Shown shown{report};
+  const Decisions& decisions = report.decisions;
+  const Question& question = report.question;
+  const AgeReplacement& age = *decisions.age;
+  const auto finite = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+  Json json = {
+      {"title", report.lives.title},
+      {"trusted", report.lives.trusted},
+      {"unit", shown.unit()},
+      {"currency", question.currency.empty() ? Json() : Json(question.currency)},
+      {"costs",
+       {{"failure", question.costs.failure}, {"replacement", question.costs.replacement}}}};
+  if (question.inspected || question.hidden)
+    json["costs"]["inspection"] = question.costs.inspection;
+  if (question.hidden) json["costs"]["hidden"] = shown.rate(*question.hidden);
+  json["age"] = {{"at", finite(shown.at(age.age))},
+                 {"cost", shown.rate(age.rate)},
+                 {"from", finite(shown.at(age.from))},
+                 {"to", finite(shown.at(age.to))},
+                 {"failing", age.failing},
+                 {"beyond_known", age.beyond_known}};
+  json["at_failure"] = {{"cost", shown.rate(age.at_failure)}};
+  if (decisions.inspection) {
+    const InspectionInterval& best = *decisions.inspection;
+    json["inspection"] = {{"hidden_failures", question.hidden.has_value()},
+                          {"interval", finite(shown.at(best.interval))},
+                          {"cost", shown.rate(best.rate)},
+                          {"from", finite(shown.at(best.from))},
+                          {"to", finite(shown.at(best.to))},
+                          {"inspections", best.inspections},
+                          {"failing", best.failing}};
+  }
+  Json units = Json::array();
+  for (const UnitDecision& each : decisions.units)
+    units.push_back({{"unit", each.unit->name},
+                     {"now", finite(shown.at(each.unit->now))},
+                     {"q05", finite(shown.at(each.q05))},
+                     {"q50", finite(shown.at(each.q50))},
+                     {"q95", finite(shown.at(each.q95))},
+                     {"passed", each.unit->passed},
+                     {"decision", advice(each).empty() ? "later" : advice(each)},
+                     {"replace_after", finite(shown.at(each.best.after))},
+                     {"failing", each.best.failing},
+                     {"waiting_saves", finite(each.best.now - each.best.cost)}});
+  json["units"] = std::move(units);
+  Json months = Json::array();
+  for (const FleetMonth& each : decisions.months)
+    months.push_back({{"month", each.month},
+                      {"until", shown.at(each.until)},
+                      {"expected", mean(each.reached)},
+                      {"q05", each.low},
+                      {"q95", each.high},
+                      {"parts", each.parts},
+                      {"parts_planned", each.parts_planned}});
+  if (report.worth) {
+    const WorthReport& asked = *report.worth;
+    json["inspection_ahead"] = {{"unit", asked.unit},        {"after", shown.at(asked.after)},
+                                {"reads", asked.column},     {"worth", asked.worth.worth},
+                                {"net", asked.worth.net},    {"replaced", asked.worth.replaced},
+                                {"error", asked.worth.error}};
+  }
+  json["service"] = question.service;
+  json["months"] = std::move(months);
+  Json checks = Json::array();
+  static constexpr const char* words[] = {"pass", "warn", "fail"};
+  for (const Check& each : decision_checks(report))
+    checks.push_back({{"name", each.name},
+                      {"verdict", words[static_cast<int>(each.verdict)]},
+                      {"detail", each.detail}});
+  json["checks"] = std::move(checks);
+  return json;
+}
+
+}  // namespace wearwell::prognosis

@@ -1,0 +1,158 @@
+#include "wearwell/prognosis/decisions_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wearwell/present/plot.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+using present::Table;
+namespace colour = plot::colour;
+
+const char* inspected_how(const DecisionsReport& report) {
+  return report.question.hidden ? "inspected, failures hidden" : "inspected, wear fully seen";
+}
+
+}  // namespace
+
+// Of the policies: the same for all units.
+Table policies_table(const DecisionsReport& report) {
+  const Shown shown{report};
+  const Decisions& decisions = report.decisions;
+  Table table{"policies",
+              fmt::format("All {}s alike, in the long run", report.lives.noun),
+              {{"policy"},
+               {"every", shown.unit(), present::life()},
+               {"cost", shown.rate_unit()},
+               {"fail in service", "%", present::digits(3)},
+               {"as good (1 %)", shown.unit(), {}, true}}};
+  const AgeReplacement& age = *decisions.age;
+  const auto ages = [&](double from, double to) -> present::Cell {
+    return present::Range{shown.at(from), shown.at(to)};
+  };
+  const auto add = [&](const char* name, double every, double rate, double failing,
+                       const present::Cell& as_good) {
+    std::vector<present::Cell> row(5);
+    row[0] = std::string(name);
+    if (std::isfinite(every)) row[1] = shown.at(every);
+    row[2] = shown.rate(rate);
+    row[3] = 100 * failing;
+    row[4] = as_good;
+    table.rows.push_back(std::move(row));
+  };
+  add("replaced at failure only", std::numeric_limits<double>::infinity(), age.at_failure, 1, {});
+  if (std::isfinite(age.age))
+    add("replaced by age", age.age, age.rate, age.failing, ages(age.from, age.to));
+  if (decisions.inspection && std::isfinite(decisions.inspection->interval)) {
+    const InspectionInterval& best = *decisions.inspection;
+    add(inspected_how(report), best.interval, best.rate, best.failing, ages(best.from, best.to));
+  }
+  return table;
+}
+
+Table units_table(const DecisionsReport& report) {
+  const Shown shown{report};
+  const std::string unit = shown.unit();
+  Table table{"units",
+              fmt::format("Each {} now, the most urgent first", report.lives.noun),
+              {{report.lives.noun},
+               {report.lives.axis, unit},
+               {"remaining, 5 %", unit, present::life()},
+               {"50 %", unit, present::life()},
+               {"95 %", unit, present::life()},
+               {"limit behind it", "%", present::digits(3)},
+               {"replace after", unit, present::life()},
+               {"fails before", "%", present::digits(3)},
+               {"waiting saves", report.question.currency.empty() ? "1" : report.question.currency,
+                present::digits(3)}}};
+  for (const UnitDecision& each : report.decisions.units) {
+    const double at = each.unit->now;
+    table.rows.push_back(
+        {each.unit->name, std::isnan(at) ? present::Cell{} : present::Cell{shown.at(at)},
+         shown.at(each.q05), shown.at(each.q50), shown.at(each.q95),
+         each.unit->passed < 1e-9 ? 0 : 100 * each.unit->passed, shown.at(each.best.after),
+         100 * each.best.failing, each.best.now - each.best.cost});
+  }
+  if (std::all_of(table.rows.begin(), table.rows.end(),
+                  [](const auto& row) { return std::holds_alternative<std::monostate>(row[1]); })) {
+    table.columns.erase(table.columns.begin() + 1);
+    for (auto& row : table.rows) row.erase(row.begin() + 1);
+  }
+  return table;
+}
+
+Table months_table(const DecisionsReport& report) {
+  const Shown shown{report};
+  const std::string level = fmt::format("{:.4g} %", 100 * report.question.service);
+  Table table{"fleet",
+              fmt::format("How many of {} {}s, from now until the end of each month",
+                          report.lives.units.size(), report.lives.noun),
+              {{"month"},
+               {"run by then", shown.unit()},
+               {"reach the limit", "1", present::digits(3)},
+               {"5 to 95 %", "1", present::digits(3), true},
+               {"spare parts, " + level},
+               {"parts if replaced in time, " + level}}};
+  for (const FleetMonth& each : report.decisions.months)
+    table.rows.push_back({static_cast<double>(each.month), shown.at(each.until), mean(each.reached),
+                          present::Range{present::count(each.low), present::count(each.high)},
+                          present::count(each.parts), present::count(each.parts_planned)});
+  return table;
+}
+
+html::Figure cost_figure(const DecisionsReport& report) {
+  const Shown shown{report};
+  const PopulationLives& fresh = report.lives.fresh;
+  const AgeReplacement& age = *report.decisions.age;
+  const std::vector<double> ages = ages_of(fresh.lives, 150);
+  std::vector<double> x, y;
+  const double reach = std::max(age.rate * 6, age.at_failure * 1.5);
+  for (const double each : ages) {
+    const double rate = cost_rate(fresh, report.question.costs, each);
+    if (rate > reach) continue;
+    x.push_back(shown.at(each));
+    y.push_back(shown.rate(rate));
+  }
+  std::vector<plot::Json> marks = {plot::line({{"x", x}, {"y", y}}, {colour::posterior})};
+  if (std::isfinite(age.age))
+    marks.push_back(plot::vertical_line(shown.at(age.age), {colour::limit, "least", 1, 1.5, true}));
+  if (age.at_failure > 0)
+    marks.push_back(plot::horizontal_line(
+        shown.rate(age.at_failure), {colour::prior, "replaced at failure only", 1, 1.5, true}));
+  return {"cost", "What replacement by age costs",
+          "Cost in the long run against the age of replacement, averaged over what is not known of "
+          "the population.",
+          plot::plot("Cost per unit of use against the age of replacement",
+                     {fmt::format("Replaced at [{}]", html::unit(shown.unit()))},
+                     {fmt::format("Cost [{}]", html::unit(shown.rate_unit())), false, 0.0},
+                     std::move(marks), 300, true)};
+}
+
+html::Figure months_figure(const DecisionsReport& report) {
+  std::vector<double> month, low, high, middle, parts;
+  for (const FleetMonth& each : report.decisions.months) {
+    month.push_back(each.month);
+    low.push_back(static_cast<double>(each.low));
+    high.push_back(static_cast<double>(each.high));
+    middle.push_back(mean(each.reached));
+    parts.push_back(static_cast<double>(each.parts_planned));
+  }
+  return {"months", "How many reach their limit",
+          "Expected number with the interval that holds it with 90 %, where none is replaced "
+          "before; and the spare parts that are enough where each is replaced in time.",
+          plot::plot("Units that reach their limit against months", {"Month"},
+                     {fmt::format("{}s", html::capital(report.lives.noun)), false, 0.0},
+                     {plot::area({{"x", month}, {"y", high}, {"y2", low}},
+                                 {colour::posterior, "90 % of cases", 0.25}),
+                      plot::line({{"x", month}, {"y", middle}}, {colour::posterior, "expected"}),
+                      plot::steps({{"x", month}, {"y", parts}},
+                                  {colour::measured, "spare parts, replaced in time"})},
+                     300)};
+}
+
+}  // namespace wearwell::prognosis

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "wearwell/present/html.h"
+#include "wearwell/present/table.h"
+#include "wearwell/prognosis/decisions_report.h"
+
+namespace wearwell::prognosis {
+
+/// Numbers of a report in its user's units.
+struct Shown {
+  const DecisionsReport& report;
+
+  double at(double si) const { return si / report.lives.unit.scale; }
+  double rate(double per_si) const { return per_si * report.lives.unit.scale; }
+  const std::string& unit() const { return report.lives.unit.text; }
+  std::string rate_unit() const {
+    const std::string& money = report.question.currency;
+    return fmt::format(
+        "{}/{}", money.empty() ? "1" : money,
+        unit().find_first_of(" /*") == std::string::npos ? unit() : "(" + unit() + ")");
+  }
+  std::string money(double amount) const {
+    return report.question.currency.empty()
+               ? fmt::format("{:.10g}", amount)
+               : fmt::format("{:.10g} {}", amount, report.question.currency);
+  }
+};
+
+present::Table policies_table(const DecisionsReport& report);
+present::Table units_table(const DecisionsReport& report);
+present::Table months_table(const DecisionsReport& report);
+
+html::Figure cost_figure(const DecisionsReport& report);
+html::Figure months_figure(const DecisionsReport& report);
+
+}  // namespace wearwell::prognosis

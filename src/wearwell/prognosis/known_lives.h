@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "wearwell/base/unit.h"
+#include "wearwell/input/table.h"
+#include "wearwell/prognosis/replacement.h"
+#include "wearwell/prognosis/tracker.h"
+
+namespace wearwell::prognosis {
+
+/// A unit that runs.
+struct KnownUnit {
+  std::string name;
+  double now = 0;           ///< where it stands along the axis, SI; NaN where that is not known
+  double passed = 0;        ///< the probability that its limit is behind it
+  WeightedLives remaining;  ///< from now on, given that it is not, SI
+};
+
+/// Lives that decisions are made upon: of a new unit, and of those that run.
+struct KnownLives {
+  std::string title;          ///< what they are from
+  std::string noun = "unit";  ///< what a unit is: "machine"
+  std::string axis = "life";  ///< along which life is counted: "distance"
+  Unit unit;                  ///< of the axis, as shown
+  bool trusted = true;        ///< the fit that they come from
+  PopulationLives fresh;      ///< of a new one; none where it is not known
+  std::vector<KnownUnit> units;
+};
+
+/// Lives as a table has them: a column `life`, with its unit in the heading ("life [h]"), and, where there are such,
+/// `weight` of each (1 without), `unit` (a name, whose rows are what remains to it; empty: of a new one) and `population` (rows of
+/// new units that share one). "inf" is a life that never ends. Throws InputError naming row, column and value.
+KnownLives lives_of_table(const Table& table);
+
+/// Lives of the units that a study has seen, and of a new one, averaged over what is not known of the population.
+KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bool trusted);
+
+/// A name that none of the study's units has.
+std::string new_name(const Tracker& tracker);
+
+}  // namespace wearwell::prognosis

@@ -1,0 +1,153 @@
+#include "wearwell/prognosis/replacement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wearwell/prognosis/least.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double as_good = 1.01;
+// What points instead of a density save by chance is less than this share.
+constexpr double no_saving = 1.001;
+
+double infinite_share(const WeightedLives& lives) {
+  double share = 0;
+  for (std::size_t i = lives.points().size(); i-- > 0 && !std::isfinite(lives.points()[i]);)
+    share += lives.weights()[i];
+  return share;
+}
+
+// Where the last finite life ends, and all lie before.
+double last_of(const WeightedLives& lives) {
+  return lives.quantile((1 - infinite_share(lives)) * (1 - 1e-12));
+}
+double behind_all(const WeightedLives& lives) {
+  return 4 * lives.points().back();
+}
+
+double rate_of(const WeightedLives& lives, const Costs& costs, double age) {
+  if (!std::isfinite(age)) {
+    if (infinite_share(lives) > 0) return 0;
+    age = behind_all(lives);
+  }
+  const double failed = lives.cdf(age);
+  const double lived = lives.mean_up_to(age);
+  return (costs.replacement * (1 - failed) + costs.failure * failed) / lived;
+}
+
+}  // namespace
+
+double PopulationLives::survival(double x) const {
+  double sum = 0, mass = 0;
+  for (std::size_t k = 0; k < lives.size(); ++k) {
+    sum += weight[k] * (1 - lives[k].cdf(x));
+    mass += weight[k];
+  }
+  return sum / mass;
+}
+
+double cost_rate(const PopulationLives& lives, const Costs& costs, double age) {
+  double sum = 0, mass = 0;
+  for (std::size_t k = 0; k < lives.lives.size(); ++k) {
+    sum += lives.weight[k] * rate_of(lives.lives[k], costs, age);
+    mass += lives.weight[k];
+  }
+  return sum / mass;
+}
+
+AgeReplacement cheapest_age(const PopulationLives& lives, const Costs& costs) {
+  const std::vector<double> ages = ages_of(lives.lives);
+  const auto rate = [&](double age) { return cost_rate(lives, costs, age); };
+  const Least least = least_of(rate, ages);
+  AgeReplacement best;
+  best.at_failure = rate(never);
+  const bool some_never = std::any_of(lives.lives.begin(), lives.lives.end(),
+                                      [](const auto& each) { return infinite_share(each) > 0; });
+  best.age = least.at;
+  best.rate = least.value;
+  // Where none is left the rate is that of replacement at failure.
+  if (!some_never && best.at_failure <= best.rate * no_saving) {
+    best.age = never;
+    best.rate = best.at_failure;
+  }
+  best.beyond_known = some_never && best.age >= ages.back() * (1 - 1e-9);
+  best.failing = 1 - lives.survival(best.age);
+  best.from = best.to = std::min(best.age, ages.back());
+  for (const double each : ages) {
+    if (rate(each) > as_good * best.rate) continue;
+    best.from = std::min(best.from, each);
+    best.to = std::max(best.to, each);
+  }
+  if (!some_never && best.at_failure <= as_good * best.rate) best.to = never;
+  return best;
+}
+
+double moment_cost(const WeightedLives& remaining, const Costs& costs, double rate, double after) {
+  if (!std::isfinite(after)) {
+    if (infinite_share(remaining) > 0)
+      return rate > 0 ? -never : costs.failure * (1 - infinite_share(remaining));
+    after = behind_all(remaining);
+  }
+  const double failed = remaining.cdf(after);
+  return costs.replacement * (1 - failed) + costs.failure * failed -
+         rate * remaining.mean_up_to(after);
+}
+
+UnitReplacement cheapest_moment(const WeightedLives& remaining, const Costs& costs, double rate) {
+  std::vector<double> moments = ages_of({&remaining, 1}, 120);
+  moments.insert(moments.begin(), 0);
+  const auto cost = [&](double after) { return moment_cost(remaining, costs, rate, after); };
+  const Least least = least_of(cost, moments);
+  UnitReplacement best;
+  best.now = costs.replacement;
+  best.waiting = cost(never);
+  best.after = least.at;
+  best.cost = least.value;
+  if (best.now <= best.cost + (no_saving - 1) * costs.replacement) {
+    best.after = 0;
+    best.cost = best.now;
+  }
+  if (best.waiting <= best.cost + 1e-12 * std::abs(best.cost) && infinite_share(remaining) == 0) {
+    best.after = never;
+    best.cost = best.waiting;
+  }
+  best.failing = remaining.cdf(best.after);
+  if (best.after == 0) best.failing = 0;
+  return best;
+}
+
+std::vector<double> ages_of(std::span<const WeightedLives> lives, std::size_t most) {
+  std::vector<double> all;
+  for (const WeightedLives& each : lives) {
+    const auto points = each.points();
+    const std::size_t finite = static_cast<std::size_t>(
+        std::lower_bound(points.begin(), points.end(), never) - points.begin());
+    if (finite == 0) continue;
+    // Few risks make the tails of each: evenly by probability, and more finely where it begins.
+    const double reach = 1 - infinite_share(each);
+    const std::size_t count = std::max<std::size_t>(8, most / lives.size());
+    for (std::size_t i = 1; i < count; ++i) {
+      const double p = static_cast<double>(i) / static_cast<double>(count);
+      all.push_back(each.quantile(reach * p));
+      all.push_back(each.quantile(reach * p * p * p));
+    }
+    all.push_back(last_of(each));
+    for (int i = 1; i <= 8; ++i) all.push_back(each.quantile(reach * std::pow(10.0, -i)));
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::erase_if(all, [](double x) { return !(x > 0) || !std::isfinite(x); });
+  if (all.empty()) return {1};
+  if (all.size() <= 2 * most) return all;
+  std::vector<double> few;
+  for (std::size_t i = 0; i < 2 * most; ++i)
+    few.push_back(all[i * (all.size() - 1) / (2 * most - 1)]);
+  few.erase(std::unique(few.begin(), few.end()), few.end());
+  return few;
+}
+
+}  // namespace wearwell::prognosis

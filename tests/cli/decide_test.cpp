@@ -1,0 +1,100 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/run_command.h"
+#include "support/scratch.h"
+
+namespace wearwell {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+const std::string lives = PROJECT_SOURCE_DIR "/examples/decide/lives.csv";
+const std::string costs = " --failure-cost '12 EUR' --replacement-cost '1 EUR'";
+
+class Decide : public ScratchTest {
+ protected:
+  static std::string refusal(const std::string& arguments) {
+    const CommandResult run = run_wearwell("decide " + arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.err;
+    EXPECT_EQ(run.out, "");
+    return run.err;
+  }
+};
+
+TEST_F(Decide, TellsTheSameAsJsonAndInAFolder) {
+  const std::string results = (folder() / "decisions").string();
+  const CommandResult run =
+      run_wearwell("decide " + lives + costs +
+                   " --inspection-cost '0.1 EUR' --month '600 h' --json -o " + results);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json told = json::parse(run.out);
+  std::ifstream file(results + "/decisions.json");
+  EXPECT_EQ(json::parse(file), told);
+  EXPECT_LT(told["age"]["cost"], told["at_failure"]["cost"]);
+  EXPECT_LT(told["inspection"]["cost"], told["age"]["cost"]);
+  EXPECT_LE(told["age"]["from"], told["age"]["at"]);
+  EXPECT_EQ(told["units"].size(), 8);
+  EXPECT_EQ(told["units"][0]["unit"], "P2");  // the one with the least left
+  EXPECT_EQ(told["months"].size(), 12);
+  double before = 0;
+  for (const auto& month : told["months"]) {
+    EXPECT_GE(month["expected"], before);
+    EXPECT_LE(month["q05"], month["q95"]);
+    before = month["expected"];
+  }
+  for (const char* name :
+       {"report.html", "tables/policies.csv", "tables/units.csv", "results.sha1"})
+    EXPECT_TRUE(std::filesystem::exists(results + "/" + name)) << name;
+}
+
+// Weibull of shape 2.5 and 1000 h as a table: the example of ReliaSoft, 493 h.
+TEST_F(Decide, FindsThePublishedAge) {
+  const std::string file = (folder() / "weibull.csv").string();
+  {
+    std::ofstream out(file);
+    out << "life [h]\n";
+    for (int i = 0; i < 20000; ++i)
+      out << 1000 * std::pow(-std::log(1 - (i + 0.5) / 20000), 1 / 2.5) << "\n";
+  }
+  const CommandResult run =
+      run_wearwell("decide " + file + " --failure-cost 5 --replacement-cost 1 --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NEAR(json::parse(run.out)["age"]["at"].get<double>(), 493.047, 3);
+}
+
+TEST_F(Decide, RefusesWhatItCannotTell) {
+  EXPECT_THAT(refusal(lives + " --failure-cost '12 EUR' --replacement-cost 1"),
+              HasSubstr("another currency"));
+  EXPECT_THAT(refusal(lives + " --failure-cost 12 --replacement-cost 0"),
+              HasSubstr("must be above 0"));
+  EXPECT_THAT(refusal(lives + costs + " --month '600 km'"), HasSubstr("a unit like h"));
+  EXPECT_THAT(refusal(lives + costs + " --month 600"), HasSubstr("a unit like h"));
+  EXPECT_THAT(refusal(lives + costs + " --downtime-cost '1 EUR/h'"),
+              HasSubstr("--inspection-cost"));
+  EXPECT_THAT(refusal(lives + costs + " --inspection-cost '1 EUR' --downtime-cost '1 EUR/km'"),
+              HasSubstr("'km' is no unit like h"));
+  EXPECT_THAT(refusal(lives + costs + " --inspection-cost '1 EUR' --unit P2 --inspect-after '9 h'"),
+              HasSubstr("what a reading would show"));
+  EXPECT_THAT(refusal("no-such.csv" + costs), HasSubstr("no-such.csv"));
+}
+
+TEST_F(Decide, NamesTheRowThatIsNoLife) {
+  const auto table = [&](const std::string& text) {
+    const std::string file = (folder() / "lives.csv").string();
+    std::ofstream(file) << text;
+    return refusal(file + costs);
+  };
+  EXPECT_THAT(table("life\n1\n"), HasSubstr("needs its unit"));
+  EXPECT_THAT(table("life [h]\n12\n-3\n"), HasSubstr("row 2"));
+  EXPECT_THAT(table("life [h],unit\n12,A\n"), HasSubstr("nothing is said of the life of a new"));
+  EXPECT_THAT(table("life [h],colour\n12,red\n"), HasSubstr("colour"));
+}
+
+}  // namespace
+}  // namespace wearwell

@@ -1,0 +1,121 @@
+#include "wearwell/prognosis/replacement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "prognosis/weibull_lives.h"
+#include "wearwell/base/rng.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+
+// ReliaSoft, System Analysis Reference, "Optimum Replacement Time Example": Weibull of shape 2.5 and scale 1000 h, 5 at
+// failure, 1 before: 493.0470 h.
+TEST(CheapestAge, IsThatOfReliaSoft) {
+  const AgeReplacement best = cheapest_age(weibull_lives(2.5, 1000, 40000), {5, 1, 0});
+  EXPECT_NEAR(best.age, 493.047, 2);
+  EXPECT_LT(best.from, best.age);
+  EXPECT_GT(best.to, best.age);
+  EXPECT_FALSE(best.beyond_known);
+}
+
+// Barlow and Proschan: at the best age the hazard times what is lived until then, less the share that has failed, is c_p / (c_f
+// - c_p), and the cost rate is (c_f - c_p) times the hazard.
+TEST(CheapestAge, MeetsTheConditionOfBarlowAndProschan) {
+  for (const double shape : {1.5, 2.0, 3.0, 5.0}) {
+    for (const double failure : {3.0, 10.0, 50.0}) {
+      const WeightedLives lives = weibull_lives(shape, 1, 40000);
+      const AgeReplacement best = cheapest_age(lives, {failure, 1, 0});
+      const double hazard = shape * std::pow(best.age, shape - 1);
+      if (!std::isfinite(best.age)) continue;
+      EXPECT_NEAR(best.rate / ((failure - 1) * hazard), 1, 0.02) << shape << " " << failure;
+      EXPECT_NEAR((hazard * lives.mean_up_to(best.age) - lives.cdf(best.age)) * (failure - 1), 1,
+                  0.03);
+      EXPECT_NEAR(best.failing, 1 - std::exp(-std::pow(best.age, shape)), 1e-3);
+    }
+  }
+}
+
+// An exponential life does not age: replacement before failure is money lost.
+TEST(CheapestAge, OfALifeWithoutAgeingIsNone) {
+  const AgeReplacement best = cheapest_age(weibull_lives(1, 100), {10, 1, 0});
+  EXPECT_EQ(best.age, never);
+  EXPECT_NEAR(best.rate, 10 / 100., 1e-3);
+  const AgeReplacement cheap_failure = cheapest_age(weibull_lives(4, 100), {1, 1, 0});
+  EXPECT_EQ(cheap_failure.age, never);
+}
+
+TEST(CheapestAge, SaysWhereLivesEnd) {
+  const WeightedLives lives(std::vector<double>{10, 20, 30, never},
+                            std::vector<double>{1, 1, 1, 7});
+  const AgeReplacement best = cheapest_age(lives, {2, 1, 0});
+  EXPECT_TRUE(best.beyond_known);
+  EXPECT_EQ(best.at_failure, 0);
+}
+
+// Thousands of units replaced by age, one after the other.
+TEST(CostRate, IsWhatASimulationPays) {
+  Rng rng(7, 0);
+  const Costs costs{12, 2, 0};
+  for (const double age : {0.3, 0.6, 1.2}) {
+    double paid = 0, time = 0;
+    for (int i = 0; i < 400000; ++i) {
+      const double life = std::pow(-std::log(rng.uniform()), 1 / 2.5);
+      paid += life < age ? costs.failure : costs.replacement;
+      time += std::min(life, age);
+    }
+    EXPECT_NEAR(cost_rate(weibull_lives(2.5, 1), costs, age) / (paid / time), 1, 0.01) << age;
+  }
+}
+
+// Where the population is not known its cost is a mean of costs, not the cost of a mean life.
+TEST(CostRate, IsAveragedOverPopulations) {
+  const WeightedLives shortened = weibull_lives(3, 1), lengthened = weibull_lives(3, 4);
+  const PopulationLives both({shortened, lengthened}, {1, 3});
+  const Costs costs{5, 1, 0};
+  EXPECT_NEAR(cost_rate(both, costs, 0.8),
+              0.25 * cost_rate(shortened, costs, 0.8) + 0.75 * cost_rate(lengthened, costs, 0.8),
+              1e-12);
+  const AgeReplacement best = cheapest_age(both, costs);
+  EXPECT_GT(best.age, cheapest_age(shortened, costs).age);
+  EXPECT_LT(best.age, cheapest_age(lengthened, costs).age);
+  for (double age = 0.05; age < 6; age += 0.05)
+    EXPECT_LE(best.rate, cost_rate(both, costs, age) * (1 + 1e-9)) << age;
+}
+
+// A unit of the fleet of which nothing is known but that it is new is replaced at the fleet's age.
+TEST(CheapestMoment, OfANewUnitIsTheFleetsAge) {
+  const WeightedLives lives = weibull_lives(2.5, 1000);
+  const Costs costs{5, 1, 0};
+  const AgeReplacement fleet = cheapest_age(lives, costs);
+  const UnitReplacement one = cheapest_moment(lives, costs, fleet.rate);
+  EXPECT_NEAR(one.after, fleet.age, 1e-3 * fleet.age);
+  EXPECT_NEAR(one.cost, 0, 1e-9);  // in the mean it earns what the fleet does
+  // ... and one that has come to some age, what is left of it; beyond that age, now.
+  EXPECT_NEAR(cheapest_moment(lives.beyond(200), costs, fleet.rate).after, fleet.age - 200, 5);
+  EXPECT_EQ(cheapest_moment(lives.beyond(700), costs, fleet.rate).after, 0);
+}
+
+TEST(CheapestMoment, IsTheLeastOfAll) {
+  Rng rng(3, 0);
+  for (int i = 0; i < 30; ++i) {
+    std::vector<double> life, weight;
+    for (int k = 0; k < 40; ++k) {
+      life.push_back(rng.uniform(1, 50) * (rng.uniform() < 0.5 ? 1 : 4));
+      weight.push_back(rng.uniform());
+    }
+    const WeightedLives lives(life, weight);
+    const Costs costs{rng.uniform(1, 20), 1, 0};
+    const double rate = rng.uniform(0.001, 0.3);
+    const UnitReplacement best = cheapest_moment(lives, costs, rate);
+    for (double after = 0; after < 210; after += 0.1)
+      ASSERT_LE(best.cost, moment_cost(lives, costs, rate, after) + 2e-3) << after;
+  }
+}
+
+}  // namespace
+}  // namespace wearwell::prognosis
