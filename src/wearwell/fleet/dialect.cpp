@@ -113,7 +113,7 @@ Types types(Dialect dialect) {
 
 std::string whole(Dialect dialect, const std::string& real) {
   if (dialect == Dialect::clickhouse) return fmt::format("toInt64(round({}))", real);
-  return fmt::format("cast(round({}) as bigint)", real);
+  return fmt::format("cast({} as bigint)", real);  // which rounds
 }
 
 std::string wide(Dialect dialect, const std::string& real) {

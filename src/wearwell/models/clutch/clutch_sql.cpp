@@ -160,6 +160,10 @@ std::string SqlWriter::ordered() const {
 std::string SqlWriter::powers() const {
   SqlColumns columns;
   columns.add(fmt::format("fixed_energy * {}", number(units_.energy)), "energy");
+  columns.add(fmt::format("fixed_energy * {}", number(0.5 * units_.energy / units_.volume)),
+              "half_energy");
+  columns.add(fmt::format("fixed_energy * {}", number(0.5 * units_.energy / units_.fine)),
+              "half_fine");
   columns.add(fmt::format("{} * {}", fleet::real(dialect_, "before"), number(units_.energy)),
               "running");
   for (std::size_t p = 0; p < parameters_.pairs.size(); ++p) {
@@ -177,12 +181,12 @@ std::string SqlWriter::powers() const {
 }
 
 std::string SqlWriter::run_in(std::size_t b, const std::string& energy) const {
-  const auto mode = [&](const char* share, const char* scale) {
+  const auto mode = [&](const char* share, const char* rate) {
     return fmt::format(
         "{} * {}", parameters_.column(b, share),
-        fleet::decay(dialect_, fmt::format("-{} / {}", energy, parameters_.column(b, scale))));
+        fleet::decay(dialect_, fmt::format("{} * {}", energy, parameters_.column(b, rate))));
   };
-  return fmt::format("(1e0 + {} + {})", mode("slow", "slow_energy"), mode("fast", "fast_energy"));
+  return fmt::format("(1e0 + {} + {})", mode("slow", "slow_rate"), mode("fast", "fast_rate"));
 }
 
 std::string SqlWriter::rates() const {
@@ -219,8 +223,10 @@ std::string SqlWriter::sigma() const {
 std::string SqlWriter::worn() const {
   SqlColumns columns;
   columns.add(sigma() + " * energy", "step");
+  // w + |w| is 2 w, or 0 where the rate is negative: exactly, and in less time than a choice.
   for (std::size_t b = 0; b <= replicates_; ++b)
-    columns.add(fmt::format("greatest(w{}, 0e0) * energy", b), fmt::format("settled{}", b));
+    columns.add(fmt::format("(w{0} + abs(w{0})) * {1}", b, b == 0 ? "half_fine" : "half_energy"),
+                fmt::format("settled{}", b));
   return fmt::format(
       "select *,\n  {}\nfrom (\n-- wear rates: of the model, then of the replicates\n{}\n) as "
       "rates{}",
@@ -251,22 +257,17 @@ std::string SqlWriter::query() const {
   const auto sum = [&](const std::string& fixed) {
     columns.keep(fmt::format("coalesce({}, 0)", fleet::sum_of(dialect_, fixed)));
   };
-  const auto fine = [&](const std::string& x, double unit) {
-    sum(fleet::wide(dialect_, fmt::format("{} * {}", x, number(1 / unit))));
-  };
   sum("fixed_energy");
-  fine("settled0 * " + run_in(0, "running"), units_.fine);
-  fine("step * step", units_.variance);
-  fine("settled0", units_.fine);
+  sum(fleet::wide(dialect_, "settled0 * " + run_in(0, "running")));
+  sum(fleet::wide(dialect_, fmt::format("step * step * {}", number(1 / units_.variance))));
+  sum(fleet::wide(dialect_, "settled0"));
   for (std::size_t i = 0; i < 4; ++i)
     sum(fleet::whole(dialect_,
                      fmt::format("{} * {}", input_columns[i], number(1 / units_.inputs[i]))));
-  for (const bool run : {true, false}) {
-    for (std::size_t b = 1; b <= replicates_; ++b)
-      sum(fleet::whole(dialect_,
-                       fmt::format("settled{}{} * {}", b, run ? " * " + run_in(b, "running") : "",
-                                   number(1 / units_.volume))));
-  }
+  for (std::size_t b = 1; b <= replicates_; ++b)
+    sum(fleet::whole(dialect_, fmt::format("settled{} * {}", b, run_in(b, "running"))));
+  for (std::size_t b = 1; b <= replicates_; ++b)
+    sum(fleet::whole(dialect_, fmt::format("settled{}", b)));
   return fmt::format(
       "-- 2. Query: adds the sums of all cycles behind the last that was counted of each unit. May "
       "be run again, and adds nothing then.\n"

@@ -50,7 +50,7 @@ std::string SqlWriter::unit_sums() const {
 }
 
 std::string SqlWriter::totals() const {
-  return unit_sums() + "\norder by unit";
+  return unit_sums();
 }
 
 /// Volume of replicate b after `n` more cycles of the unit's own mean duty; run-in as a geometric series.
