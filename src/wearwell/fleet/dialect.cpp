@@ -15,16 +15,17 @@ const char* name_of(Dialect dialect) {
 }
 
 const std::vector<std::string>& dialect_names() {
-  static const std::vector<std::string> names = {"duckdb", "postgresql", "clickhouse"};
+  // ClickHouse is quoted for, but its statements are not written yet.
+  static const std::vector<std::string> names = {"duckdb", "postgresql"};
   return names;
 }
 
 Dialect read_dialect(const std::string& name) {
-  for (const Dialect each : {Dialect::duckdb, Dialect::postgresql, Dialect::clickhouse}) {
+  for (const Dialect each : {Dialect::duckdb, Dialect::postgresql}) {
     if (name == name_of(each)) return each;
   }
-  throw InputError(fmt::format("'{}' is none of 'duckdb', 'postgresql', 'clickhouse'",
-                               printable(shortened(name))));
+  throw InputError(
+      fmt::format("'{}' is neither 'duckdb' nor 'postgresql'", printable(shortened(name))));
 }
 
 std::string identifier(Dialect dialect, std::string_view name) {
