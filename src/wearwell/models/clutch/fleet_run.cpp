@@ -19,6 +19,7 @@ namespace {
 /// What a look at all rows tells before they are summed.
 struct FleetCheck {
   double rows = 0;
+  std::string ranges;  ///< least and most of each input, in words
 };
 
 /// Throws InputError for rows that no sum can take.
@@ -28,18 +29,19 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
     check.rows = row.numbers[0];
     const double refused = row.numbers[1], nameless = row.numbers[2];
     if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
+    check.ranges = fmt::format(
+        "slip_speed {:.6g} .. {:.6g} rad/s, torque {:.6g} .. {:.6g} N m, temperature {:.6g} .. "
+        "{:.6g} degC, closing_time {:.6g} .. {:.6g} s, energy up to {:.6g} J",
+        row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6], row.numbers[7],
+        row.numbers[8], row.numbers[9], row.numbers[10], row.numbers[11]);
     if (nameless > 0)
       throw InputError(fmt::format("{}: {:.0f} rows name no unit", engine.source(), nameless));
     if (refused > 0)
       throw InputError(fmt::format(
           "{}: {:.0f} rows of {:.0f} have no value, or one that cannot be: cycles are whole "
-          "numbers of "
-          "at least 1, temperatures above absolute zero, all else positive (least and most: "
-          "slip_speed "
-          "{:.6g} .. {:.6g} rad/s, torque {:.6g} .. {:.6g} N m, temperature {:.6g} .. {:.6g} degC, "
-          "closing_time {:.6g} .. {:.6g} s)",
-          engine.source(), refused, check.rows, row.numbers[3], row.numbers[4], row.numbers[5],
-          row.numbers[6], row.numbers[7], row.numbers[8], row.numbers[9], row.numbers[10]));
+          "numbers of at least 1, temperatures above absolute zero, all else positive (these are: "
+          "{})",
+          engine.source(), refused, check.rows, check.ranges));
   });
   return check;
 }
@@ -89,10 +91,19 @@ void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   engine.begin();
   read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
   shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
-  shard.rows = check_rows(engine, shard.sql).rows;
+  const FleetCheck check = check_rows(engine, shard.sql);
+  shard.rows = check.rows;
   engine.run(shard.sql.setup, {}, "", 0);
   if (!request.first) refuse_late(engine, shard.sql);
-  engine.run(shard.sql.query, monitor, "cycles", static_cast<long long>(shard.rows));
+  try {
+    engine.run(shard.sql.query, monitor, "cycles", static_cast<long long>(shard.rows));
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).find("out of range") == std::string_view::npos) throw;
+    throw InputError(fmt::format(
+        "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
+        "They are: {} ({})",
+        engine.source(), check.ranges, error.what()));
+  }
 }
 
 /// Horizons as asked for, now among them; else from the mean number of cycles.

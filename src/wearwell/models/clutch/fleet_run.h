@@ -12,13 +12,13 @@ namespace wearwell::clutch {
 
 /// What is asked of a fleet.
 struct FleetRequest {
-  std::vector<std::string> columns;  ///< as read_fleet_columns has them
-  std::vector<std::string> files;    ///< for the report; empty: the engines' sources
-  std::string prefix = "wearwell";   ///< of the tables made
-  bool first = false;                ///< nothing was counted before
+  std::vector<std::string> columns = {};  ///< as read_fleet_columns has them
+  std::vector<std::string> files = {};    ///< for the report; empty: the engines' sources
+  std::string prefix = "wearwell";        ///< of the tables made
+  bool first = false;                     ///< nothing was counted before
   bool replicates = true;
-  std::vector<double> levels;    ///< % of the worn-out volume
-  std::vector<double> horizons;  ///< further cycles; empty: parts of the mean so far
+  std::vector<double> levels;         ///< % of the worn-out volume
+  std::vector<double> horizons = {};  ///< further cycles; empty: parts of the mean so far
 };
 
 /// Sums what is new in each engine, all at once, and makes the fleet's report of the sums of all. Units must not
