@@ -1,6 +1,7 @@
 // `wearwell fleet` and `wearwell sql` with servers of PostgreSQL, alone and three together.
 #include <gmock/gmock.h>
 
+#include "fleet/clickhouse_server.h"
 #include "fleet/postgres_server.h"
 #include "fleet/sample_fleet.h"
 #include "support/scratch.h"
@@ -125,6 +126,73 @@ TEST_F(Cluster, HostileNamesAreHarmlessInPostgres) {
   EXPECT_THAT(fleet["worst"][0]["unit"].get<std::string>(),
               HasSubstr("x'; drop table wearwell_sums; -- unit"));
   EXPECT_EQ(server.sql("select count(*) from wearwell_sums").out, "6\n");
+}
+
+// ClickHouse of 2018, without window functions; a refused row among the others is counted and left out.
+TEST(Clickhouse, PrintedStatementsHaveTheNumbersOfPredict) {
+  const std::string missing = ClickhouseServer::missing();
+  if (!missing.empty()) GTEST_SKIP() << "NOT TESTED with ClickHouse: " << missing;
+  std::string folder = (std::filesystem::temp_directory_path() / "wearwell-test-XXXXXX").string();
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const auto cycles = fleet_cycles(2500, 6, 12);
+  std::ofstream(folder + "/model.json") << to_json(fleet_model(ScatterKind::quadratic)).dump(1);
+  std::ofstream(folder + "/cycles.csv") << fleet_csv(cycles);
+  {
+    const ClickhouseServer server(folder);
+    // A name that wants to be more, and a word that is reserved.
+    const std::string made =
+        "create table `cycles\"; drop table x` (`select` String, cycle Int64, n Float64, `m'\"` "
+        "Float64, temp Float64, t Float64, e Float64) engine = MergeTree order by cycle;\n";
+    ASSERT_EQ(server.sql(made).exit_code, 0);
+    std::string rows = "insert into `cycles\"; drop table x` values";
+    for (const FleetCycle& c : shuffled(cycles, 6))
+      rows += fmt::format(" ('{}', {}, {}, {}, {}, {}, {})", c.unit, c.number, c.slip_speed,
+                          c.torque, c.temperature, c.closing_time, c.energy);
+    rows += " ('unit 1', 1000000, -1, 20, 100, 1, 1000)";
+    const CommandResult loaded = server.sql(rows + ";\n");
+    ASSERT_EQ(loaded.exit_code, 0) << loaded.err;
+    const auto part = [&](const std::string& name) {
+      const CommandResult printed = run_wearwell(
+          "sql '" + folder +
+          "/model.json' --dialect clickhouse --table '\"cycles\"\"; drop table x\"' "
+          "--part " +
+          name +
+          " --columns unit=select cycle=cycle slip_speed=n:rad/s \"torque=m'\\\":N m\" "
+          "temperature=temp:degC closing_time=t:s energy=e:J");
+      EXPECT_EQ(printed.exit_code, 0) << printed.err;
+      const CommandResult done = server.sql(printed.out);
+      EXPECT_EQ(done.exit_code, 0) << name << ": " << done.err;
+      return done.out;
+    };
+    for (int i = 0; i < 2; ++i) {
+      part("setup");
+      part("query");
+    }
+    EXPECT_EQ(server.sql("select count() from wearwell_sums").out, "6\n");
+    const json expected = json::parse(run_wearwell("clutch predict '" + folder + "/model.json' '" +
+                                                   folder + "/cycles.csv' --json")
+                                          .out);
+    std::istringstream lines(part("combine"));
+    std::size_t found = 0;
+    for (std::string line; std::getline(lines, line);) {
+      std::vector<std::string> cells;
+      std::istringstream text(line);
+      for (std::string cell; std::getline(text, cell, '\t');) cells.push_back(cell);
+      for (const auto& p : expected["plates"]) {
+        if (p["plate"] != cells.at(0)) continue;
+        ++found;
+        EXPECT_EQ(std::stod(cells.at(1)), p["cycles"].get<double>());
+        EXPECT_NEAR(std::stod(cells.at(4)) / p["volume"].get<double>(), 1, 1e-9);
+        EXPECT_NEAR(std::stod(cells.at(5)) / p["sd_scatter"].get<double>(), 1, 1e-9);
+        EXPECT_NEAR(std::stod(cells.at(8)) / p["sd_full"].get<double>(), 1, 1e-9);
+        EXPECT_EQ(cells.at(17), cells.at(0) == "unit 1" ? "1" : "0");  // refused
+        EXPECT_EQ(std::stod(cells.at(23)), p["outside_any"].get<double>());
+        EXPECT_EQ(std::stod(cells.at(24)), p["clamped"].get<double>());
+      }
+    }
+    EXPECT_EQ(found, 6u);
+  }
+  std::filesystem::remove_all(folder);
 }
 
 /// Three servers: one that knows the table as parts that lie on the two others.

@@ -15,17 +15,16 @@ const char* name_of(Dialect dialect) {
 }
 
 const std::vector<std::string>& dialect_names() {
-  // ClickHouse is quoted for, but its statements are not written yet.
-  static const std::vector<std::string> names = {"duckdb", "postgresql"};
+  static const std::vector<std::string> names = {"duckdb", "postgresql", "clickhouse"};
   return names;
 }
 
 Dialect read_dialect(const std::string& name) {
-  for (const Dialect each : {Dialect::duckdb, Dialect::postgresql}) {
+  for (const Dialect each : {Dialect::duckdb, Dialect::postgresql, Dialect::clickhouse}) {
     if (name == name_of(each)) return each;
   }
-  throw InputError(
-      fmt::format("'{}' is neither 'duckdb' nor 'postgresql'", printable(shortened(name))));
+  throw InputError(fmt::format("'{}' is none of 'duckdb', 'postgresql', 'clickhouse'",
+                               printable(shortened(name))));
 }
 
 std::string identifier(Dialect dialect, std::string_view name) {
@@ -113,12 +112,14 @@ Types types(Dialect dialect) {
 }
 
 std::string whole(Dialect dialect, const std::string& real) {
-  if (dialect == Dialect::clickhouse) return fmt::format("toInt64(round({}))", real);
+  if (dialect == Dialect::clickhouse)
+    return fmt::format("toInt64(round({0}) + throwIf(not (abs({0}) < 9.2e18)))", real);
   return fmt::format("cast({} as bigint)", real);  // which rounds
 }
 
 std::string wide(Dialect dialect, const std::string& real) {
-  if (dialect == Dialect::clickhouse) return fmt::format("toDecimal128(round({}), 0)", real);
+  if (dialect == Dialect::clickhouse)
+    return fmt::format("toDecimal128(round({0}) + throwIf(not (abs({0}) < 1e36)), 0)", real);
   return fmt::format("cast(round({}) as {})", real, types(dialect).sum);
 }
 
