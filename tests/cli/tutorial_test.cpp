@@ -61,9 +61,9 @@ TEST_P(Tutorial, PrintsWhatItShows) {
 INSTANTIATE_TEST_SUITE_P(
     , Tutorial,
     testing::Values("README.md", "docs/bearing.md", "docs/clutch.md", "docs/compare.md",
-                    "docs/decisions.md", "docs/degradation.md", "docs/fatigue.md", "docs/joint.md",
-                    "docs/life.md", "docs/select.md", "docs/spectrum.md", "docs/staircase.md",
-                    "docs/state.md", "docs/tables.md", "docs/units.md"),
+                    "docs/decisions.md", "docs/degradation.md", "docs/fatigue.md", "docs/fleet.md",
+                    "docs/joint.md", "docs/life.md", "docs/select.md", "docs/spectrum.md",
+                    "docs/staircase.md", "docs/state.md", "docs/tables.md", "docs/units.md"),
     [](const auto& each) { return std::filesystem::path(each.param).stem().string(); });
 
 }  // namespace
