@@ -7,9 +7,11 @@
 #include "wearwell/cli/fit.h"
 #include "wearwell/cli/generate.h"
 #include "wearwell/cli/help.h"
+#include "wearwell/cli/life.h"
 #include "wearwell/cli/new.h"
 #include "wearwell/cli/report.h"
 #include "wearwell/cli/select.h"
+#include "wearwell/cli/update.h"
 
 namespace wearwell {
 
@@ -20,6 +22,8 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   app->require_subcommand(1);
   app->set_version_flag("--version", WEARWELL_VERSION, "Print the version and exit");
   add_fit_command(*app, models, exit_code);
+  add_update_command(*app, models, exit_code);
+  add_life_command(*app, models, exit_code);
   for (const Model& model : models) {
     if (model.add_commands) model.add_commands(*app, exit_code);
   }

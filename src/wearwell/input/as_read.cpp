@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace wearwell {
 namespace {
 
@@ -46,6 +48,14 @@ const Table* table_in_memory(const TomlReader& section, const Source& source) {
   auto found = source.tables.find(as_read_name(section));
   if (found == source.tables.end()) found = source.tables.find(section.required_text("file"));
   return found == source.tables.end() ? nullptr : &found->second;
+}
+
+bool holds_numbers(const Column& column) {
+  if (column.is_number) return true;
+  return column.marks && column.doubt.empty() &&
+         std::all_of(column.text.begin(), column.text.end(), [&](const std::string& text) {
+           return text.empty() || plain_number(text, *column.marks);
+         });
 }
 
 }  // namespace wearwell

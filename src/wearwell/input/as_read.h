@@ -15,6 +15,9 @@ std::string before_sql_name(const TomlReader& section);
 /// The table in memory of a section: as it was read once, or as it was handed over; null where it is in a file.
 const Table* table_in_memory(const TomlReader& section, const Source& source);
 
+/// Whether every cell that is not empty is a number, with the marks of the column.
+bool holds_numbers(const Column& column);
+
 /// What a query gives of a table in memory, as of a file that holds it: types are found anew in its cells. Throws
 /// InputError and QueryError as read_table does.
 Table query_table(const Table& table, const std::string& sql, const QueryLimits& limits = {});

@@ -90,8 +90,8 @@ Table read_table(const std::filesystem::path& path, const std::optional<std::str
 namespace {
 
 /// As a text has it, so that it is read back to the bit.
-std::string cell_text(const Table& table, const Column& column, std::size_t row) {
-  if (!column.is_number && !column.marks) return csv_cell(column.text[row]);
+std::string cell_text(const Table& table, const Column& column, bool numbers, std::size_t row) {
+  if (!numbers) return csv_cell(column.text[row]);
   const double number = cell_number(table, column, row);
   return std::isnan(number) ? std::string() : fmt::format("{}", number);
 }
@@ -101,10 +101,15 @@ std::string cell_text(const Table& table, const Column& column, std::size_t row)
 Table query_table(const Table& table, const std::string& sql, const QueryLimits& limits) {
   MemoryText text;
   std::vector<std::string> cells;
-  for (const Column& column : table.columns) cells.push_back(csv_cell(column.name));
+  std::vector<bool> numbers;
+  for (const Column& column : table.columns) {
+    cells.push_back(csv_cell(column.name));
+    numbers.push_back(holds_numbers(column));
+  }
   text.add_line(fmt::format("{}", fmt::join(cells, ",")));
   for (std::size_t i = 0; i < table.rows; ++i) {
-    for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = cell_text(table, table.columns[c], i);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      cells[c] = cell_text(table, table.columns[c], numbers[c], i);
     text.add_line(fmt::format("{}", fmt::join(cells, ",")));
   }
   const std::unique_ptr<TableFile> file = text.table(table.source);

@@ -61,16 +61,19 @@ Points rows_of(const Points& all, const std::vector<Index>& chosen) {
 
 WeightedDraws without_negligible(const WeightedDraws& draws) {
   constexpr double negligible = 1e-9;
+  constexpr std::size_t most_cells = 20'000;
   const double least = negligible / static_cast<double>(draws.values.rows());
   std::vector<Index> chosen;
   for (Index i = 0; i < draws.values.rows(); ++i) {
     if (draws.weights[i] > least || draws.cell_weight(i) > least) chosen.push_back(i);
   }
-  if (static_cast<Index>(chosen.size()) == draws.values.rows()) return draws;
+  const bool all = static_cast<Index>(chosen.size()) == draws.values.rows();
+  if (draws.lower.empty() || (all && chosen.size() <= most_cells)) return draws;
   WeightedDraws kept;
   kept.values = rows_of(draws.values, chosen);
   kept.weights = rows_of(draws.weights, chosen).col(0);
   kept.weights /= kept.weights.sum();
+  if (chosen.size() > most_cells) return kept;
   for (const Points& each : draws.lower) kept.lower.push_back(rows_of(each, chosen));
   for (const Points& each : draws.upper) kept.upper.push_back(rows_of(each, chosen));
   if (!draws.has_cells()) return kept;

@@ -24,7 +24,7 @@ std::vector<TableSection> table_sections(const TextFile& study);
 Source carried_source(const Source& source, const PosteriorStudy& study);
 
 /// state.bin of a result that has a posterior; `source` is of `carried_source`. Nodes that together carry less than a
-/// billionth are left out.
+/// billionth are left out; where more than 20,000 remain they go without their cells, each at its own place.
 CarriedState state_of_result(Source source, const Result& result);
 
 }  // namespace wearwell::prognosis

@@ -9,6 +9,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/unit_system.h"
+#include "wearwell/input/as_read.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/heading.h"
 
@@ -85,7 +86,7 @@ class Matching {
   }
 
   bool words(const Column& like, const Column& column) const {
-    if (!like.is_number && !like.marks) return true;
+    if (!holds_numbers(like)) return true;
     return !column.is_number && holds(roles_.words, like.name);
   }
 
@@ -136,7 +137,7 @@ class Matching {
   }
 
   void add_numbers(const Column& from, Column& like) {
-    if (like.marks) as_numbers(like);
+    if (!like.is_number) as_numbers(like);
     const Way way = this->way(from, like);
     Column column{like.name, true, {}, {}};
     for (std::size_t i = 0; i < fresh_.rows; ++i) {

@@ -1,0 +1,55 @@
+#include "wearwell/cli/carried.h"
+
+#include <fmt/format.h>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/json_reader.h"
+#include "wearwell/study/posterior_study.h"
+
+namespace wearwell {
+namespace {
+
+// summary.json of a folder; nothing where it holds none.
+std::optional<nlohmann::ordered_json> summary_of(const std::filesystem::path& result) {
+  const std::filesystem::path file = result / "summary.json";
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return {};
+  return read_json(file);
+}
+
+}  // namespace
+
+prognosis::CarriedState read_carried(const std::filesystem::path& result) {
+  std::error_code error;
+  if (std::filesystem::is_directory(result, error) &&
+      !std::filesystem::exists(result / "state.bin", error)) {
+    const auto summary = summary_of(result);
+    if (summary && summary->value("model", "") == "clutch-wear")
+      throw InputError(
+          fmt::format("{}: a clutch campaign has no posterior that could be carried on, its map is "
+                      "searched anew in all of its "
+                      "data. Add the rows to its files and fit it again; what a plate has worn "
+                      "goes on with wearwell clutch "
+                      "predict --state",
+                      valid_utf8(result.string())));
+  }
+  return prognosis::read_state(result);
+}
+
+SamplerChoice sampler_of(const std::filesystem::path& result) {
+  SamplerChoice choice;
+  const auto json = summary_of(result);
+  if (!json) return choice;
+  const auto sampler = JsonReader(*json, result / "summary.json").find("sampler");
+  if (!sampler) return choice;
+  const std::string method = sampler->at("method").one_of({"exact", "nuts", "metropolis"});
+  choice.method = method == "exact"  ? Method::exact
+                  : method == "nuts" ? Method::nuts
+                                     : Method::metropolis;
+  choice.chains = static_cast<int>(sampler->at("chains").integer(1, max_chains));
+  choice.seed = sampler->at("seed").natural();
+  return choice;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include "wearwell/prognosis/carried_state.h"
+#include "wearwell/study/study.h"
+
+namespace wearwell {
+
+/// state.bin of a result. Throws InputError as read_state does; of a clutch campaign with what to do instead.
+prognosis::CarriedState read_carried(const std::filesystem::path& result);
+
+/// How the result was fitted, by its summary.json: method, chains and seed. Nothing where there is none.
+SamplerChoice sampler_of(const std::filesystem::path& result);
+
+}  // namespace wearwell

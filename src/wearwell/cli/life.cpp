@@ -1,0 +1,198 @@
+#include "wearwell/cli/life.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/base/staged_file.h"
+#include "wearwell/cli/carried.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/present/plain.h"
+#include "wearwell/present/table.h"
+#include "wearwell/prognosis/new_data.h"
+#include "wearwell/prognosis/reweighted.h"
+#include "wearwell/prognosis/unit_life.h"
+#include "wearwell/study/inference_data.h"
+#include "wearwell/study/run_study.h"
+
+namespace wearwell {
+namespace {
+
+using nlohmann::ordered_json;
+using prognosis::UnitLife;
+
+struct LifeOptions {
+  std::filesystem::path result, output, readings;
+  std::string unit, survived, horizon, risk;
+  bool json = false;
+};
+
+// What readings since then have made of the nodes.
+struct Moved {
+  std::string how;  // empty without readings
+  std::size_t counted = 0, repeated = 0;
+};
+
+double risk_of(const std::string& text) {
+  const double risk = option_value("--risk", text, "1", Allowed::positive);
+  if (!(risk < 1)) throw InputError(fmt::format("--risk: {} must lie between 0 and 1", text));
+  return risk;
+}
+
+// The nodes' weights are moved; where they resolve the new posterior no more, they are laid anew.
+Moved take_readings(const LifeOptions& options, Models models, prognosis::CarriedState& state) {
+  const Table table = prognosis::read_new_data(state.source, options.readings);
+  prognosis::JoinedData joined =
+      prognosis::joined_data(state.source, {table}, prognosis::Repeated::ask);
+  const auto before = read_study(state.source, models), after = read_study(joined.source, models);
+  const auto posterior_of = [](const Study& read) {
+    const PosteriorStudy& study = require_posterior_study(read);
+    return Posterior(study.parameters, study.likelihood(study.data_rows));
+  };
+  const Posterior of_all = posterior_of(*after);
+  const prognosis::Reweighted moved =
+      prognosis::reweighted(state.posterior, posterior_of(*before), of_all);
+  Moved told{"", joined.counted, joined.repeated};
+  state.source = std::move(joined.source);
+  if (prognosis::resolves(moved)) {
+    told.how = fmt::format("nodes reweighted, {:.0f} effective", moved.effective);
+    state.posterior = moved.draws;
+    return told;
+  }
+  const PosteriorStudy& study = require_posterior_study(*after);
+  SamplerChoice choice = sampler_of(options.result);
+  const Fit fitted = fit(of_all, fit_settings(study, choice));
+  if (!proper(fitted))
+    throw InputError("with these readings the posterior has no lives: wearwell update says why");
+  state.posterior = fitted.exact ? fitted.exact->nodes : fitted.pooled;
+  told.how = "nodes laid anew";
+  return told;
+}
+
+ordered_json number(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json();
+}
+
+ordered_json json_of(const UnitLife& life, const Moved& moved, bool trusted) {
+  ordered_json json = {{"of", life.of},
+                       {"name", life.name},
+                       {"at", life.at},
+                       {"unit", life.unit},
+                       {"trusted", trusted}};
+  if (life.from) json["from"] = *life.from;
+  if (life.passed) json["passed"] = *life.passed;
+  for (const auto& [key, p] : {std::pair{"q05", 0.05},
+                               {"q50", 0.5},
+                               {"q95", 0.95},
+                               {"b1", 0.01},
+                               {"b10", 0.1},
+                               {"b50", 0.5}})
+    json[key] = number(life.quantile(p));
+  json["risk"] = life.risk;
+  json["inspect_within"] = number(life.inspect_within);
+  if (life.horizon) json["horizon"] = {{"within", *life.horizon}, {"reached", *life.reached}};
+  json["survival"] = ordered_json::array();
+  for (std::size_t i = 0; i < life.share.size(); ++i)
+    json["survival"].push_back({{"life", number(life.life[i])}, {"survival", 1 - life.share[i]}});
+  if (!moved.how.empty())
+    json["readings"] = {
+        {"counted", moved.counted}, {"repeated", moved.repeated}, {"how", moved.how}};
+  return json;
+}
+
+present::Table table_of(const UnitLife& life) {
+  present::Table table{
+      "survival", "Survival", {{life.name, life.unit, present::life()}, {"survival", "1"}}};
+  for (std::size_t i = 0; i < life.share.size(); ++i)
+    table.rows.push_back({life.life[i], 1 - life.share[i]});
+  return table;
+}
+
+void print(const UnitLife& life, const Moved& moved, bool trusted) {
+  const auto shown = [&](double value) {
+    return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("never");
+  };
+  if (!trusted)
+    fmt::print(
+        "Not trusted: a check of the fit failed; wearwell report or its summary say which.\n");
+  fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining life", life.of, life.at);
+  if (life.from) fmt::print("  counted from {:.6g} {} on\n", *life.from, life.unit);
+  if (life.passed)
+    fmt::print("  the end lies before that with a probability of {}; given that it does not:\n",
+               probability_in_words(*life.passed));
+  if (!moved.how.empty())
+    fmt::print("  with {} new reading{} ({} there already); {}\n", moved.counted,
+               moved.counted == 1 ? "" : "s", moved.repeated, moved.how);
+  fmt::print("  median {} {}, 90 % interval {} .. {}\n", shown(life.quantile(0.5)), life.unit,
+             shown(life.quantile(0.05)), shown(life.quantile(0.95)));
+  fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
+             shown(life.quantile(0.5)));
+  if (life.horizon)
+    fmt::print("  within {:.6g} {} the end is reached with a probability of {}\n", *life.horizon,
+               life.unit, probability_in_words(*life.reached));
+  fmt::print("  inspect again within {} {}: {} risk of reaching the end before\n",
+             shown(life.inspect_within), life.unit, probability_in_words(life.risk));
+}
+
+int run_life(const LifeOptions& options, Models models) {
+  refuse_overwriting({{"the result", options.result}, {"the readings", options.readings}},
+                     {{"--output", options.output}});
+  prognosis::LifeQuestion question;
+  question.unit = options.unit;
+  if (!options.survived.empty()) question.survived = options.survived;
+  if (!options.horizon.empty()) question.horizon = options.horizon;
+  if (!options.risk.empty()) question.risk = risk_of(options.risk);
+  prognosis::CarriedState state = read_carried(options.result);
+  Moved moved;
+  if (!options.readings.empty()) moved = take_readings(options, models, state);
+  const UnitLife life = prognosis::unit_life(
+      state.source, [&](const Source& source) { return read_study(source, models); },
+      state.posterior, question);
+  if (!options.output.empty()) write_file(options.output, present::csv(table_of(life)));
+  if (options.json) {
+    fmt::print("{}\n", json_of(life, moved, state.trusted).dump(2));
+  } else {
+    print(life, moved, state.trusted);
+    if (!options.output.empty())
+      fmt::print("The survival curve is in {}\n", options.output.string());
+  }
+  return state.trusted ? 0 : 1;
+}
+
+}  // namespace
+
+void add_life_command(CLI::App& app, Models models, int& exit_code) {
+  auto options = std::make_shared<LifeOptions>();
+  CLI::App* life =
+      app.add_subcommand("life", "How long one unit of a result may go on, or a new one");
+  life->add_option("RESULT", options->result, "Folder that fit or update wrote, or its state.bin")
+      ->required();
+  life->add_option(
+      "--unit", options->unit,
+      "Whose life: a label of the data, or a stress of an S-N study (default: a new one)");
+  life->add_option("--survived", options->survived,
+                   "What it has come to, with its unit (default: its last reading)");
+  life->add_option("--readings", options->readings, "Table of readings since then")
+      ->type_name("FILE");
+  life->add_option("--horizon", options->horizon,
+                   "With which probability is the end reached within that, from then on?");
+  life->add_option("--risk", options->risk,
+                   "Tolerated until the next inspection (default: as the study says, or 1 %)");
+  life->add_option("-o,--output", options->output, "Write the survival curve as CSV")
+      ->type_name("FILE");
+  life->add_flag("--json", options->json, "Print one JSON object and nothing else");
+  life->footer(
+      "Examples:\n"
+      "  wearwell life study-results --unit J7 --survived \"1e4 cycles\" --horizon \"500 cycles\"\n"
+      "  wearwell life study-results --unit J7 --readings today.csv --risk \"1 %\" --json\n\n"
+      "Exit codes: 0 done; 1 done, but a check of the fit had failed; 2 the request is wrong; 3 "
+      "the machine failed.");
+  life->callback([options, models, &exit_code] { exit_code = run_life(*options, models); });
+}
+
+}  // namespace wearwell

@@ -1,0 +1,118 @@
+#include "wearwell/cli/update.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "wearwell/base/printable.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/cli/carried.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/present/progress_line.h"
+#include "wearwell/prognosis/carry.h"
+#include "wearwell/prognosis/updated_study.h"
+#include "wearwell/study/inference_data.h"
+#include "wearwell/study/result_writer.h"
+
+namespace wearwell {
+namespace {
+
+struct UpdateOptions {
+  std::filesystem::path result, output;
+  std::vector<std::filesystem::path> data;
+  std::string repeated;
+  int threads = 0;
+  bool json = false, quiet = false, no_report = false;
+};
+
+prognosis::Repeated repeated_named(const std::string& name) {
+  return name == "once"      ? prognosis::Repeated::once
+         : name == "another" ? prognosis::Repeated::another
+                             : prognosis::Repeated::ask;
+}
+
+prognosis::JoinedData joined_files(const Source& source, const UpdateOptions& options) {
+  std::vector<Table> tables;
+  for (const auto& file : options.data) tables.push_back(prognosis::read_new_data(source, file));
+  return prognosis::joined_data(source, tables, repeated_named(options.repeated));
+}
+
+std::string names_of(const std::vector<std::filesystem::path>& files) {
+  std::vector<std::string> names;
+  for (const auto& each : files) names.push_back(valid_utf8(each.filename().string()));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+int run_update(const UpdateOptions& options, Models models) {
+  std::vector<NamedFile> inputs;
+  for (const auto& file : options.data) inputs.push_back({"the new data", file});
+  refuse_overwriting(inputs, {{"--output", options.output}});
+  prognosis::CarriedState state = read_carried(options.result);
+  prognosis::JoinedData joined = joined_files(state.source, options);
+  Source source = joined.source;
+  const auto read = read_study(source, models);
+  const PosteriorStudy study = prognosis::updated_study(
+      require_posterior_study(*read), state.posterior, std::move(joined), names_of(options.data));
+  ResultFolder folder(options.output);
+  Result result = [&] {
+    ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);
+    const Monitor monitor{.progress = [&](const Step& step) { line.show(step); },
+                          .threads = options.threads};
+    return study.run({sampler_of(options.result), !options.no_report}, monitor);
+  }();
+  const std::string text = source.study.text;
+  result.files.emplace_back(
+      "state.bin", prognosis::state_bytes(prognosis::state_of_result(std::move(source), result)));
+  write_result(result, text, folder);
+  if (options.json) {
+    fmt::print("{}", summary_text(result));
+  } else if (!options.quiet) {
+    fmt::print("{}Results are in {}\n", terminal_text(result, terminal_style()),
+               folder.path().string());
+  }
+  return result.header.trusted ? 0 : 1;
+}
+
+}  // namespace
+
+void add_update_command(CLI::App& app, Models models, int& exit_code) {
+  auto options = std::make_shared<UpdateOptions>();
+  CLI::App* update =
+      app.add_subcommand("update", "Add new data to a result: the fit of all data at once");
+  update->add_option("RESULT", options->result, "Folder that fit or update wrote, or its state.bin")
+      ->required();
+  update
+      ->add_option("NEW-DATA", options->data,
+                   "Tables with the headings of the study's data; units may differ")
+      ->required();
+  update->add_option("-o,--output", options->output, "Folder for the results")->required();
+  update
+      ->add_option("--repeated", options->repeated,
+                   "What a test is that equals one that is there: the same once more, or another")
+      ->check(one_of({"once", "another"}))
+      ->type_name("WHAT");
+  update
+      ->add_option("--threads", options->threads,
+                   "Threads (default: all); results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* json =
+      update->add_flag("--json", options->json, "Print summary.json and nothing else");
+  update->add_flag("--quiet", options->quiet, "Print nothing but errors")->excludes(json);
+  update->add_flag("--no-report", options->no_report, "Write no report.html");
+  update->footer(
+      "Examples:\n"
+      "  wearwell update study-results june.csv -o june\n"
+      "  wearwell update june july.csv august.csv -o august --json | jq .update\n\n"
+      "A reading that is there already counts once; order does not matter; one that contradicts "
+      "what was known is\n"
+      "counted, and told by the check new-data. Method and seed are those of RESULT.\n\n"
+      "Exit codes: as fit has them.");
+  update->callback([options, models, &exit_code] { exit_code = run_update(*options, models); });
+}
+
+}  // namespace wearwell

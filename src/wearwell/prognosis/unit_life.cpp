@@ -1,0 +1,278 @@
+#include "wearwell/prognosis/unit_life.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/prognosis/asked_study.h"
+#include "wearwell/study/inference_data.h"
+#include "wearwell/study/life_levels.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double probit(double p) {
+  return boost::math::quantile(boost::math::normal(), p);
+}
+
+// Percentages at which a life is told, and the risk that is asked for.
+std::vector<double> levels_of(double risk) {
+  std::vector<double> levels = {0.01, 0.03, 0.1, 0.3, 0.5, 1,  2,    3,    5,
+                                7,    93,   95,  97,  98,  99, 99.5, 99.9, 99.99};
+  for (int percent = 10; percent <= 90; percent += 5) levels.push_back(percent);
+  const double at = 100 * risk;
+  if (std::none_of(levels.begin(), levels.end(),
+                   [&](double each) { return std::abs(each - at) < 1e-9 * at; }))
+    levels.push_back(at);
+  std::sort(levels.begin(), levels.end());
+  return levels;
+}
+
+// A length along the axis of lives in the unit in which they are told.
+double along(const char* option, const std::string& text, const std::string& unit) {
+  const bool counted = unit == "cycles" || unit == "revolutions" || unit.ends_with(" cycles");
+  const std::string si = unit == "revolutions" ? "rev" : counted ? "cycle" : unit;
+  const double one = unit.ends_with(" cycles") ? read_unit(unit, "cycle").scale : 1;
+  try {
+    const Quantity given = read_quantity(text, si);
+    const double value = counted ? given.si() / one : from_si(read_unit(unit, si), given.si());
+    if (value >= 0 && std::isfinite(value)) return value;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
+  throw InputError(fmt::format("{}: '{}' must not be negative", option, text));
+}
+
+void finish(const LifeQuestion& question, UnitLife& life) {
+  life.risk = question.risk.value_or(life.risk);
+  life.inspect_within = life.quantile(life.risk);
+  if (!question.horizon) return;
+  life.horizon = along("--horizon", *question.horizon, life.unit);
+  life.reached = life.cdf(*life.horizon);
+}
+
+// Of a study with one life: that of a joint, or of a new bearing.
+UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
+                    const LifeQuestion& question) {
+  const LifeLaw law = request.law(posterior);
+  UnitLife life{.of = request.of.empty() ? "joint" : request.of,
+                .at = fmt::format("to {:.6g} {}", request.limit.value, request.limit.unit.text),
+                .unit = request.unit_name};
+  life.risk = request.risk;
+  double from = request.now;
+  if (question.survived) {
+    const double survived = along("--survived", *question.survived, life.unit);
+    if (survived < from)
+      throw InputError(
+          fmt::format("--survived: {} lies before the last inspection, after {:.6g} {}: leave it "
+                      "out, what remains counts from there",
+                      *question.survived, from, life.unit));
+    from = survived;
+  }
+  life.name = from > 0 ? "remaining life" : "life";
+  if (from > 0) life.from = from;
+  const double before = from > 0 ? law.cdf(from) : 0;
+  if (from > 0) life.passed = before;
+  if (before > 1 - 1e-3)
+    throw InputError(fmt::format(
+        "the {} has reached its limit before {:.6g} {} with a probability of more than 99.9 %: "
+        "of what would remain nothing is known",
+        life.of, from, life.unit));
+  for (const double percent : levels_of(question.risk.value_or(life.risk))) {
+    const double p = percent / 100;
+    life.share.push_back(p);
+    life.life.push_back(std::max(0.0, law.quantile(before + p * (1 - before)) - from));
+  }
+  finish(question, life);
+  return life;
+}
+
+// The lives among what a study asks for, with the B-lives of each.
+struct Found {
+  QuantityRequest request;
+  std::map<double, double> by_percent;  // in its unit
+  std::optional<double> survival;
+};
+
+std::string without_new(const std::string& of) {
+  return of.starts_with("new ") ? of.substr(4) : of;
+}
+
+std::vector<Found> lives_of(const PosteriorStudy& study, const WeightedDraws& posterior,
+                            const std::vector<double>& levels) {
+  std::vector<Found> found;
+  for (const QuantityGroup& group : study.quantity_groups) {
+    const auto& requests = group.requests;
+    if (std::none_of(requests.begin(), requests.end(),
+                     [](const auto& each) { return each.is_life; }))
+      continue;
+    const std::vector<QuantityQuantiles> answers = group.from_draws(posterior);
+    for (const QuantityRequest& life : requests) {
+      if (!life.is_life) continue;
+      Found each{life, {}, {}};
+      for (std::size_t i = 0; i < requests.size(); ++i) {
+        const QuantityRequest& other = requests[i];
+        if (other.of != life.of && other.of != without_new(life.of)) continue;
+        if (other.name.starts_with("survival to ")) each.survival = answers[i].q50;
+        if (other.at != life.at || !answers[i].predictive) continue;
+        for (const double percent : levels) {
+          if (other.name == b_life_name(percent, life.name))
+            each.by_percent[percent] = from_si(other.unit, *answers[i].predictive);
+        }
+      }
+      found.push_back(std::move(each));
+    }
+  }
+  return found;
+}
+
+Source with_wishes(const Source& source,
+                   const std::vector<std::pair<std::string, std::string>>& keys) {
+  Source asked = source;
+  asked.study = with_predict(source.study, keys);
+  return asked;
+}
+
+std::string list_of(const std::vector<double>& percents) {
+  return fmt::format("[{}]", fmt::join(percents, ", "));
+}
+
+// The one that is meant.
+const Found& chosen(const std::vector<Found>& all, const LifeQuestion& question) {
+  std::vector<std::string> names;
+  std::vector<const Found*> fitting;
+  for (const Found& each : all) {
+    const std::string& of = each.request.of;
+    const std::string bare = without_new(of);
+    const bool is_new = of.starts_with("new ");
+    const std::string last = bare.substr(std::min(bare.find(' ') + 1, bare.size()));
+    const bool fits = question.unit.empty()
+                          ? is_new
+                          : bare == question.unit || (!is_new && last == question.unit);
+    names.push_back(is_new ? bare : last);
+    if (fits) fitting.push_back(&each);
+  }
+  // Of a new one both its life and what remains where it has survived so far.
+  if (fitting.size() == 2 && fitting[0]->request.of == fitting[1]->request.of) return *fitting[1];
+  if (fitting.size() == 1) return *fitting[0];
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  const std::string known = fmt::format("{}", fmt::join(names, ", "));
+  if (all.empty())
+    throw InputError(
+        "the study asks for no life: [predict] needs a limit (or, of S-N tests, a stress)");
+  if (question.unit.empty())
+    throw InputError(fmt::format("--unit is missing: whose life? (known: {})", known));
+  throw InputError(fmt::format("--unit: no '{}' is known{} (known: {})", question.unit,
+                               did_you_mean(question.unit, names), known));
+}
+
+UnitLife described(const Found& found) {
+  UnitLife life{.of = found.request.of, .at = found.request.at, .unit = found.request.unit.text};
+  life.name = found.request.name;
+  double before = 0;
+  for (const auto& [percent, value] : found.by_percent) {
+    if (std::isnan(value))
+      throw InputError(fmt::format("of the {} of {} nothing is known: hardly any comes so far",
+                                   life.name, life.of));
+    before = std::max(before, value);  // quantiles are solved for, to so many digits
+    life.share.push_back(percent / 100);
+    life.life.push_back(before);
+  }
+  if (found.survival) life.passed = 1 - *found.survival;
+  return life;
+}
+
+// Of tests to failure at one load: lives are asked for from the beginning, and again of those that are left.
+UnitLife of_tests(const Source& source, const ReadAsked& read, const WeightedDraws& posterior,
+                  const LifeQuestion& question, UnitLife life) {
+  if (!question.survived) return life;
+  const double from = along("--survived", *question.survived, life.unit);
+  const double before = life.cdf(from);
+  if (before > 1 - 1e-3)
+    throw InputError(
+        fmt::format("--survived: hardly any {} comes to {}", life.of, *question.survived));
+  std::vector<double> levels, shares;
+  for (const double percent : levels_of(question.risk.value_or(life.risk))) {
+    shares.push_back(percent / 100);
+    levels.push_back(100 * (before + percent / 100 * (1 - before)));
+  }
+  const auto asked = read(with_wishes(source, {{"b_lives", list_of(levels)}}));
+  const std::vector<Found> all = lives_of(require_posterior_study(*asked), posterior, levels);
+  const UnitLife again = described(chosen(all, question));
+  life.name = "remaining life";
+  life.from = from;
+  life.passed = before;
+  life.share = shares;
+  life.life.clear();
+  for (const double each : again.life) life.life.push_back(std::max(0.0, each - from));
+  return life;
+}
+
+}  // namespace
+
+double UnitLife::quantile(double p) const {
+  const auto above = std::lower_bound(share.begin(), share.end(), p * (1 - 1e-12));
+  if (above == share.end()) return infinity;
+  const auto i = static_cast<std::size_t>(above - share.begin());
+  if (i == 0 || std::abs(share[i] - p) < 1e-12) return life[i];
+  const double part =
+      (probit(p) - probit(share[i - 1])) / (probit(share[i]) - probit(share[i - 1]));
+  if (!std::isfinite(life[i])) return infinity;
+  if (!(life[i - 1] > 0)) return life[i - 1] + part * (life[i] - life[i - 1]);
+  return std::exp(std::lerp(std::log(life[i - 1]), std::log(life[i]), part));
+}
+
+double UnitLife::cdf(double until) const {
+  const auto above = std::upper_bound(life.begin(), life.end(), until);
+  if (above == life.begin()) return 0;  // less than the smallest share
+  if (above == life.end()) return share.back();
+  const auto i = static_cast<std::size_t>(above - life.begin());
+  if (!std::isfinite(life[i])) return share[i - 1];
+  const double low = life[i - 1], high = life[i];
+  const double part =
+      low > 0 ? std::log(until / low) / std::log(high / low) : (until - low) / (high - low);
+  return boost::math::cdf(boost::math::normal(),
+                          std::lerp(probit(share[i - 1]), probit(share[i]), part));
+}
+
+UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDraws& posterior,
+                   const LifeQuestion& question) {
+  const auto whole = read(source);
+  const PosteriorStudy& study = require_posterior_study(*whole);
+  if (study.life) {
+    if (!question.unit.empty())
+      throw InputError(fmt::format(
+          "--unit: {}: leave it out. Units that wear each at its own pace are a study of model "
+          "\"law\" with "
+          "[varies.UNIT]",
+          study.life->of.empty()
+              ? "this study is of one joint"
+              : "a bearing study tells the life of a new bearing, not of each one seen"));
+    return of_request(*study.life, posterior, question);
+  }
+  const bool law = study.model == "law";
+  const double risk = question.risk.value_or(UnitLife{}.risk);
+  const std::vector<double> levels = levels_of(risk);
+  std::vector<std::pair<std::string, std::string>> keys = {{"b_lives", list_of(levels)}};
+  if (law && question.survived)
+    keys.emplace_back("survived", fmt::format("\"{}\"", *question.survived));
+  const auto asked = read(with_wishes(source, keys));
+  const std::vector<Found> all = lives_of(require_posterior_study(*asked), posterior, levels);
+  UnitLife life = described(chosen(all, question));
+  if (!law) life = of_tests(source, read, posterior, question, std::move(life));
+  finish(question, life);
+  return life;
+}
+
+}  // namespace wearwell::prognosis

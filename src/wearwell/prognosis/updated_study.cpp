@@ -1,0 +1,156 @@
+#include "wearwell/prognosis/updated_study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "wearwell/bayes/normal_score.h"
+#include "wearwell/present/section.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+constexpr int judged_draws = 400, judged_dear = 100;
+constexpr std::size_t most_told = 5;  // in a sentence; the table has all
+
+// Points of the posterior, evenly by their weight.
+std::vector<Eigen::Index> evenly(const WeightedDraws& draws, int most) {
+  std::vector<Eigen::Index> points;
+  double sum = 0;
+  for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
+    sum += draws.weights[i];
+    while (static_cast<int>(points.size()) < most &&
+           sum > (static_cast<double>(points.size()) + 0.5) / most)
+      points.push_back(i);
+  }
+  return points;
+}
+
+std::string plural(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+Check check_of(const JoinedData& joined, const std::string& files) {
+  std::string detail =
+      fmt::format("{} of {} counted", plural(joined.counted, "row", "rows"), files);
+  if (joined.repeated > 0)
+    detail += fmt::format("; {} there already and {} once",
+                          joined.repeated == 1 ? "1 was" : fmt::format("{} were", joined.repeated),
+                          joined.repeated == 1 ? "counts" : "count");
+  if (joined.counted > 0 && joined.fresh.empty())
+    detail += "; data.sql leaves them out, so that nothing is new to the study";
+  if (joined.contradictions.empty()) return {"new-data", Verdict::pass, detail, ""};
+  std::vector<std::string> told;
+  for (const Contradiction& each : joined.contradictions) {
+    if (told.size() < most_told) told.push_back(fmt::format("{}: {}", each.place, each.why));
+  }
+  const std::size_t more = joined.contradictions.size() - told.size();
+  detail += fmt::format("; {} what was known: {}{}",
+                        joined.contradictions.size() == 1
+                            ? "1 contradicts"
+                            : fmt::format("{} contradict", joined.contradictions.size()),
+                        fmt::join(told, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+  return {"new-data", Verdict::warn, detail,
+          "They count all the same. Look at them: a slip of the pen, another unit's, another "
+          "gauge, or something has "
+          "happened to this one that the law does not know."};
+}
+
+TradeAddition addition_of(const JoinedData& joined, const std::string& files) {
+  TradeAddition added;
+  nlohmann::ordered_json update = {{"files", files},
+                                   {"rows_before", joined.before},
+                                   {"counted", joined.counted},
+                                   {"repeated", joined.repeated},
+                                   {"contradictions", nlohmann::ordered_json::array()},
+                                   {"notes", joined.notes}};
+  present::Table table{"new-data",
+                       "New readings that contradict what was known",
+                       {{"row", "1", present::given}, {"reading"}, {"contradicts"}},
+                       {},
+                       true};
+  for (const Contradiction& each : joined.contradictions) {
+    update["contradictions"].push_back(
+        {{"row", each.row + 1}, {"place", each.place}, {"why", each.why}});
+    table.rows.push_back({present::count(each.row + 1), each.place, each.why});
+  }
+  added.body["update"] = std::move(update);
+  if (!joined.contradictions.empty()) added.blocks["checks"] = {{table}};
+  return added;
+}
+
+void add(TradeAddition own, TradeAddition& all) {
+  for (auto& [key, value] : own.body.items()) all.body[key] = value;
+  for (auto& [section, blocks] : own.blocks) {
+    auto& to = all.blocks[section];
+    to.insert(to.end(), blocks.begin(), blocks.end());
+  }
+  all.text += own.text;
+}
+
+}  // namespace
+
+std::vector<Contradiction> hardly_possible(const PosteriorStudy& study, const WeightedDraws& before,
+                                           const JoinedData& joined) {
+  constexpr double least = 1e-3;
+  const std::size_t rows = data_table(joined.source).rows;
+  if (!study.fit_data || joined.fresh.empty() ||
+      before.values.cols() != static_cast<Eigen::Index>(study.parameters.size()))
+    return {};
+  std::size_t of_effects = 0;
+  for (const UnitEffect& effect : study.fit_data->effects) of_effects += effect.of.size();
+  const std::vector<Eigen::Index> points =
+      evenly(before, study.fit_data->cheap ? judged_draws : judged_dear);
+  std::vector<std::vector<NormalScore>> scores(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t p) {
+    scores[p] = study.fit_data->scores(before.values.row(points[p]).data());
+  });
+  if (scores.empty() || scores.front().size() != rows + of_effects) return {};
+  std::vector<Contradiction> found;
+  for (const std::size_t row : joined.fresh) {
+    double below = 0, above = 0;  // of an observation in an interval what is kindest to it
+    for (const std::vector<NormalScore>& each : scores) {
+      below += normal_cdf(each[row].high);
+      above += normal_cdf(-each[row].low);
+    }
+    const double p = 2 * std::min(below, above) / static_cast<double>(points.size());
+    if (!(p * static_cast<double>(joined.fresh.size()) < least)) continue;
+    found.push_back(
+        {row, "",
+         fmt::format("as far off as that has a probability of {}", probability_in_words(p))});
+  }
+  return found;
+}
+
+PosteriorStudy updated_study(const PosteriorStudy& study, const WeightedDraws& before,
+                             JoinedData joined, const std::string& files) {
+  for (Contradiction& each : hardly_possible(study, before, joined)) {
+    const auto known =
+        std::find_if(joined.contradictions.begin(), joined.contradictions.end(),
+                     [&](const Contradiction& other) { return other.row == each.row; });
+    if (known != joined.contradictions.end()) {
+      known->why += ", and " + each.why;
+      continue;
+    }
+    each.place = place_in_words(data_table(joined.source), joined.roles, each.row);
+    joined.contradictions.push_back(std::move(each));
+  }
+  PosteriorStudy updated = study;
+  const auto shared = std::make_shared<const JoinedData>(std::move(joined));
+  updated.checks = [shared, files, own = study.checks](const Fit& fit) {
+    std::vector<Check> checks = own ? own(fit) : std::vector<Check>();
+    checks.insert(checks.begin(), check_of(*shared, files));
+    return checks;
+  };
+  updated.addition = [shared, files, own = study.addition](const Fit& fit) {
+    TradeAddition all = own ? own(fit) : TradeAddition();
+    add(addition_of(*shared, files), all);
+    return all;
+  };
+  return updated;
+}
+
+}  // namespace wearwell::prognosis

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wearwell/prognosis/new_data.h"
+#include "wearwell/study/posterior_study.h"
+
+namespace wearwell::prognosis {
+
+/// Readings that the posterior before them hardly bears: each by its place in its predictive distribution over
+/// `before`, two-sided; given, where units differ, what all readings of its own unit say of that (which makes it
+/// milder). Told below one in a thousand over all that are new. Nothing where the study's scores are not one a row.
+std::vector<Contradiction> hardly_possible(const PosteriorStudy& study, const WeightedDraws& before,
+                                           const JoinedData& joined);
+
+/// The study with a check `new-data` more, which says what became of the rows; summary.json has it under `update`.
+PosteriorStudy updated_study(const PosteriorStudy& study, const WeightedDraws& before,
+                             JoinedData joined, const std::string& files);
+
+}  // namespace wearwell::prognosis

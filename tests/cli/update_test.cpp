@@ -1,0 +1,192 @@
+// `wearwell update` and `wearwell life`: what comes one by one is what all of it at once is.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "support/run_command.h"
+#include "support/scratch.h"
+
+namespace wearwell {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::string slurp(const fs::path& file) {
+  std::stringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+// The heading of a CSV, and its rows.
+struct Rows {
+  std::string heading;
+  std::vector<std::string> lines;
+
+  explicit Rows(const std::string& file) {
+    std::ifstream stream(file);
+    std::getline(stream, heading);
+    for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  }
+  std::string some(const std::function<bool(const std::string&)>& wanted) const {
+    std::string text = heading + "\n";
+    for (const std::string& line : lines) {
+      if (wanted(line)) text += line + "\n";
+    }
+    return text;
+  }
+};
+
+double cell(const std::string& line, int column) {
+  std::stringstream stream(line);
+  std::string text;
+  for (int c = 0; c <= column; ++c) std::getline(stream, text, ',');
+  return std::stod(text);
+}
+
+class UpdateCommand : public ScratchTest {
+ protected:
+  CommandResult run(const std::string& arguments) {
+    return run_command("cd '" + folder().string() + "' && '" WEARWELL_BINARY "' " + arguments);
+  }
+  json summary(const std::string& result) const {
+    return json::parse(slurp(folder() / result / "summary.json"));
+  }
+  // Without what update adds.
+  static json of_a_fit(json summary) {
+    summary.erase("update");
+    const auto drop = [](json& checks) {
+      for (std::size_t i = 0; i < checks.size(); ++i) {
+        if (checks[i]["name"] == "new-data") checks.erase(i--);
+      }
+    };
+    drop(summary["checks"]);
+    if (summary.contains("stages")) {
+      for (json& stage : summary["stages"]) drop(stage["checks"]);
+    }
+    return summary;
+  }
+  // Every file of the result of all data, but for what says how the rows came.
+  void expect_same(const std::string& result, const std::string& all) {
+    for (const auto& each : fs::recursive_directory_iterator(folder() / all)) {
+      const std::string name = fs::relative(each.path(), folder() / all);
+      if (!each.is_regular_file() || name == "results.sha1" || name == "summary.json") continue;
+      EXPECT_EQ(slurp(folder() / result / name), slurp(each.path())) << name;
+    }
+    EXPECT_EQ(of_a_fit(summary(result)), summary(all));
+  }
+};
+
+// The paper's joint: each inspection before the next one. To the last bit of every draw.
+TEST_F(UpdateCommand, FiveInspectionsOneByOneAreTheFitOfAll) {
+  const Rows rows(PROJECT_SOURCE_DIR "/examples/joint/joint_wear.csv");
+  const std::vector<double> cycles = {1000, 5000, 10000};
+  write("joint_wear.csv", rows.some([](const auto& line) { return cell(line, 1) <= 100; }));
+  write("study.toml", slurp(PROJECT_SOURCE_DIR "/examples/joint/study.toml"));
+  const std::string quiet = " --quiet --no-report -o ";
+  ASSERT_LE(run("fit study.toml --seed 5" + quiet + "r0").exit_code, 1);
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    const std::string file = fmt::format("inspection{}.csv", i + 1);
+    write(file, rows.some([&](const auto& line) { return cell(line, 1) == cycles[i]; }));
+    const CommandResult update = run(fmt::format("update r{} {}{}r{}", i, file, quiet, i + 1));
+    ASSERT_LE(update.exit_code, 1) << update.err;
+  }
+  write("joint_wear.csv", rows.some([](const auto&) { return true; }));
+  ASSERT_LE(run("fit study.toml --seed 5" + quiet + "all").exit_code, 1);
+  expect_same("r3", "all");
+  // In another order, one of them twice, out of what was known first.
+  ASSERT_LE(run("update r0 inspection3.csv inspection1.csv inspection3.csv inspection2.csv" +
+                quiet + "late")
+                .exit_code,
+            1);
+  expect_same("late", "all");
+  EXPECT_EQ(summary("late")["update"]["repeated"], 2);
+  EXPECT_EQ(slurp(folder() / "late/state.bin"), slurp(folder() / "r3/state.bin"));
+}
+
+// Bearings and S-N tests in canonical order, halved: by quadrature as the fit of all.
+TEST_F(UpdateCommand, OtherTradesAreTheirFitOfAll) {
+  for (const auto& [example, file, option] : std::vector<std::array<std::string, 3>>{
+           {"bearing", "inspections.csv", ""}, {"fatigue", "tests.csv", " --repeated another"}}) {
+    const Rows rows(PROJECT_SOURCE_DIR "/examples/" + example + "/" + file);
+    std::size_t i = 0;
+    write(file, rows.some([&](const auto&) { return i++ % 3 != 0; }));
+    i = 0;
+    write("more.csv", rows.some([&](const auto&) { return i++ % 3 == 0; }));
+    write("study.toml", slurp(PROJECT_SOURCE_DIR "/examples/" + example + "/study.toml"));
+    const std::string quiet = " --quiet --no-report -o " + example;
+    ASSERT_LE(run("fit study.toml" + quiet + "_first").exit_code, 1);
+    const CommandResult update =
+        run("update " + example + "_first more.csv" + option + quiet + "_both");
+    ASSERT_LE(update.exit_code, 1) << update.err;
+    write(file, slurp(PROJECT_SOURCE_DIR "/examples/" + example + "/" + file));
+    ASSERT_LE(run("fit study.toml" + quiet + "_all").exit_code, 1);
+    const json both = summary(example + "_both"), all = summary(example + "_all");
+    for (const auto& [name, parameter] : all["parameters"].items()) {
+      for (const char* number : {"mean", "sd", "q05", "q95"}) {
+        const double expected = parameter["exact"][number];
+        EXPECT_NEAR(both["parameters"][name]["exact"][number], expected, 1e-4 * std::abs(expected))
+            << example << " " << name << " " << number;
+      }
+    }
+  }
+}
+
+TEST_F(UpdateCommand, TellsWhatContradictsLoudly) {
+  write("study.toml", slurp(PROJECT_SOURCE_DIR "/examples/joint/pointwise.toml"));
+  const Rows rows(PROJECT_SOURCE_DIR "/examples/joint/joint_wear.csv");
+  write("joint_wear.csv", slurp(PROJECT_SOURCE_DIR "/examples/joint/joint_wear.csv"));
+  ASSERT_LE(run("fit study.toml --quiet --no-report -o r").exit_code, 1);
+  write("slip.csv", rows.heading + "\n0,30000,64,9999,1795,1\n");
+  const CommandResult update = run("update r slip.csv --no-report -o r2");
+  EXPECT_THAT(update.out, HasSubstr("new-data"));
+  EXPECT_THAT(update.out, HasSubstr("1 contradicts what was known"));
+  const json told = summary("r2")["update"];
+  ASSERT_EQ(told["contradictions"].size(), 1u);
+  EXPECT_THAT(told["contradictions"][0]["place"].get<std::string>(), HasSubstr("30000"));
+  EXPECT_EQ(told["counted"], 1);
+}
+
+TEST_F(UpdateCommand, RefusesWithNothingWritten) {
+  write("study.toml", slurp(PROJECT_SOURCE_DIR "/examples/joint/study.toml"));
+  write("joint_wear.csv", slurp(PROJECT_SOURCE_DIR "/examples/joint/joint_wear.csv"));
+  ASSERT_LE(run("fit study.toml --quiet --no-report -o r").exit_code, 1);
+  write("new.csv", "cycles,volume_mm3\nmany,3\n");
+  const CommandResult wrong = run("update r new.csv -o r2");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("new.csv, row 1, column 'cycles'"));
+  EXPECT_FALSE(fs::exists(folder() / "r2"));
+  std::string bytes = slurp(folder() / "r/state.bin");
+  bytes[bytes.size() / 2] ^= 1;
+  write("r/state.bin", bytes);
+  const CommandResult damaged = run("life r");
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_THAT(damaged.err, HasSubstr("cut off or damaged"));
+}
+
+// What life tells at the last inspection is what the fit told of it; and it goes on from there.
+TEST_F(UpdateCommand, LifeIsThatOfTheFit) {
+  write("study.toml", slurp(PROJECT_SOURCE_DIR "/examples/joint/study.toml"));
+  write("joint_wear.csv", slurp(PROJECT_SOURCE_DIR "/examples/joint/joint_wear.csv"));
+  ASSERT_EQ(run("fit study.toml --quiet --no-report -o r").exit_code, 0);
+  const json fitted = summary("r")["life"]["exact"];
+  const CommandResult now = run("life r --horizon '6000 cycles' --json -o curve.csv");
+  ASSERT_EQ(now.exit_code, 0) << now.err;
+  const json life = json::parse(now.out);
+  const double within = fitted["inspect_within"];
+  EXPECT_NEAR(life["inspect_within"], within, 1e-6 * within);
+  EXPECT_NEAR(life["b50"].get<double>() + 10000, fitted["b50"], 3);
+  EXPECT_GT(life["horizon"]["reached"], 0);
+  EXPECT_LT(life["horizon"]["reached"], 0.01);
+  EXPECT_THAT(slurp(folder() / "curve.csv"), HasSubstr("remaining life [cycles],survival\n"));
+  // Survival beyond s + t over that beyond s.
+  const json later = json::parse(run("life r --survived '16000 cycles' --json").out);
+  EXPECT_NEAR(later["passed"], life["horizon"]["reached"], 2e-4);
+}
+
+}  // namespace
+}  // namespace wearwell
