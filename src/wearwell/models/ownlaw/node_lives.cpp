@@ -37,6 +37,33 @@ double at_score(const double* values, double score) {
   return std::exp(sum);
 }
 
+constexpr int parts = 4;  // of a node's place on its line
+
+// What nodes of one line have, drawn out between them: a parabola through each and its neighbours, of the logarithm
+// of the weight and of the number. The sum of the weights is that of the trapezoidal rule with a step so much finer.
+template <class Put>
+void draw_out(std::span<const double> weight, std::span<const double> number, const Put& put) {
+  const std::size_t n = weight.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(weight[k] > 1e-10)) continue;
+    const bool inner = k > 0 && k + 1 < n && weight[k - 1] > 0 && weight[k + 1] > 0 &&
+                       std::isfinite(number[k - 1] + number[k] + number[k + 1]);
+    if (!inner) {
+      put(weight[k], number[k]);
+      continue;
+    }
+    const double before = std::log(weight[k - 1] / weight[k]);
+    const double behind = std::log(weight[k + 1] / weight[k]);
+    const double below = number[k - 1] - number[k], above = number[k + 1] - number[k];
+    for (int part = 0; part < parts; ++part) {
+      const double t = (part + 0.5) / parts - 0.5;
+      const double bend = 0.5 * t * t, slope = 0.5 * t;
+      put(weight[k] / parts * std::exp(slope * (behind - before) + bend * (behind + before)),
+          number[k] + slope * (above - below) + bend * (above + below));
+    }
+  }
+}
+
 double output(const NodeProgram& program, const NodeProgram::Scratch& scratch, std::size_t o,
               std::size_t i) {
   const std::span<const double> values = program.values(o, scratch);
@@ -155,6 +182,21 @@ struct NodeLives::Ahead {
     for (std::size_t i = 0; i < count; ++i) value[i] = at(o, i);
   }
 
+  // Makes of places what remains: negative where the limit is behind. A path that goes on knows no place before
+  // its last row: there as far as it has passed the limit, at the pace of the fastest of its neighbours.
+  void count_from(const double* start, double* place) const {
+    double pace = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      place[i] -= start[i];
+      if (!(passed_by[i] < 0 && std::isfinite(place[i]))) continue;
+      const double own_pace = place[i] / -passed_by[i];
+      pace = pace > 0 ? std::min(pace, own_pace) : own_pace;
+    }
+    for (std::size_t i = 0; runs && i < count; ++i) {
+      if (passed_by[i] >= 0) place[i] = -passed_by[i] * (pace > 0 ? pace : 1);
+    }
+  }
+
   void cross(const double* level, double* place) {
     const double from = runs && path->begun ? path->place : lives.path_.begin;
     search_crossings(
@@ -172,11 +214,13 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
   const double sign = path_.rising ? 1 : -1;
   std::vector<double> levels, level_weight, lives, life_weight;
   Ahead ahead(*this, nodes, last, paths.back());
-  double square = 0, left_over = 0;
+  double square = 0, left_over = 0, all = 0;
   for (const double each : weight) square += each * each;
-  for (std::size_t begin = 0; begin < nodes.count(); begin += most_crossings) {
+  const std::size_t line = law_->effects.size() == 1 ? nodes.per_line : 1;
+  const std::size_t pass = most_crossings / line * line;  // whole lines
+  for (std::size_t begin = 0; begin < nodes.count(); begin += pass) {
     ahead.begin = begin;
-    ahead.count = std::min(most_crossings, nodes.count() - begin);
+    ahead.count = std::min(pass, nodes.count() - begin);
     const std::span<const double> own = std::span(weight).subspan(begin, ahead.count);
     if (std::all_of(own.begin(), own.end(), [](double w) { return w < 1e-14; })) continue;
     double level[most_crossings], start[most_crossings], place[most_crossings];
@@ -187,13 +231,19 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
       double limit[most_crossings];
       std::fill_n(limit, ahead.count, path_.limit);
       ahead.cross(limit, place);
-      for (std::size_t i = 0; i < ahead.count; ++i) {
-        levels.push_back(level[i]);
-        level_weight.push_back(own[i]);
-        if (!(sign * (path_.limit - level[i]) > 0)) continue;
-        lives.push_back(std::max(place[i] - start[i], 0.0));
-        life_weight.push_back(own[i]);
-        left_over += own[i];
+      ahead.count_from(start, place);
+      for (std::size_t i = 0; i < ahead.count; i += line) {
+        draw_out(own.subspan(i, line), {level + i, line}, [&](double w, double value) {
+          levels.push_back(value);
+          level_weight.push_back(w);
+        });
+        draw_out(own.subspan(i, line), {place + i, line}, [&](double w, double life) {
+          all += w;
+          if (!(life > 0)) return;
+          lives.push_back(life);
+          life_weight.push_back(w);
+          left_over += w;
+        });
       }
       continue;
     }
@@ -213,6 +263,7 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
       for (std::size_t i = 0; i < ahead.count; ++i) {
         const std::size_t node = begin + i;
         const double one = own[i] / points_of_node;
+        all += one;
         const double p =
             (static_cast<double>(k) + fraction(node, 0.6180339887498949)) / points_of_node;
         const double stands = !path.measured ? 0 : noisy ? path.at[node] : path.reading;
@@ -246,7 +297,7 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
   forecast.level05 = level.quantile(0.05);
   forecast.level50 = level.quantile(0.5);
   forecast.level95 = level.quantile(0.95);
-  forecast.passed = std::clamp(1 - left_over, 0.0, 1.0);
+  forecast.passed = all > 0 ? std::clamp(1 - left_over / all, 0.0, 1.0) : std::nan("");
   forecast.remaining = prognosis::WeightedLives(lives, life_weight);
   forecast.effective = square > 0 ? 1 / square : 0;
   return forecast;

@@ -17,7 +17,17 @@ struct Place {
   double below, above;
 };
 
+// Exact, seen whatever it was, and normal: most readings are.
+bool is_plain_normal(const Measured& measured, const Response& y) {
+  return !measured.process && measured.form->family == ResponseFamily::normal &&
+         y.seen == Seen::exactly && !(y.entry > -infinity);
+}
+
 Place place_of(const ResponseForm& form, const Response& y, const double* slots) {
+  if (form.family == ResponseFamily::normal && y.seen == Seen::exactly && !(y.entry > -infinity)) {
+    const double tail = 0.5 * std::erfc(std::abs(y.at - slots[0]) / slots[1] * std::sqrt(0.5));
+    return y.at < slots[0] ? Place{tail, 1 - tail} : Place{1 - tail, tail};
+  }
   if (y.seen != Seen::exactly) {
     const double p = std::exp(log_response_value(form.family, y, slots));
     return {0.5 * p, 0.5 * p};
@@ -59,7 +69,7 @@ NodeRows::NodeRows(std::shared_ptr<const OwnLaw> law, const std::vector<law::Wan
 
 void NodeRows::plain_block(const Block& block, const Measured& measured, const Response& y,
                            int count, const ResponseColumn& column, double* to) const {
-  if (column.plain && measured.form->family == ResponseFamily::normal) {
+  if (is_plain_normal(measured, y)) {
     // Nodes of a line share what does not vary: its logarithm is taken once.
     double sd_before = 0, log_sd = 0;
     for (std::size_t i = 0; i < block.count; ++i) {

@@ -20,10 +20,12 @@ std::string check_of(std::string_view bytes) {
 
 StateWriter::StateWriter() : bytes_(mark) {}
 
+void StateWriter::put(std::uint64_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i) bytes_ += static_cast<char>(value >> (8 * i) & 0xff);
+}
+
 void StateWriter::number(std::size_t value) {
-  for (int i = 0; i < 8; ++i) {
-    bytes_ += static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xff);
-  }
+  put(value, 8);
 }
 
 void StateWriter::text(std::string_view text) {
@@ -33,7 +35,14 @@ void StateWriter::text(std::string_view text) {
 
 void StateWriter::numbers(std::span<const double> values) {
   number(values.size());
-  for (const double each : values) number(std::bit_cast<std::uint64_t>(each));
+  for (const double each : values) put(std::bit_cast<std::uint64_t>(each), 8);
+}
+
+void StateWriter::short_numbers(std::span<const double> values) {
+  number(values.size());
+  for (const double each : values) {
+    put(std::bit_cast<std::uint32_t>(static_cast<float>(each)), 4);
+  }
 }
 
 std::string StateWriter::done() {
@@ -62,13 +71,17 @@ std::string_view StateReader::take(std::size_t count) {
   return taken;
 }
 
-std::size_t StateReader::number() {
+std::uint64_t StateReader::get(int count) {
   std::uint64_t value = 0;
-  const std::string_view bytes = take(8);
-  for (int i = 7; i >= 0; --i) {
-    value = value << 8 | static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)]);
+  const std::string_view bytes = take(static_cast<std::size_t>(count));
+  for (auto each = bytes.rbegin(); each != bytes.rend(); ++each) {
+    value = value << 8 | static_cast<unsigned char>(*each);
   }
-  return static_cast<std::size_t>(value);
+  return value;
+}
+
+std::size_t StateReader::number() {
+  return static_cast<std::size_t>(get(8));
 }
 
 std::string StateReader::text() {
@@ -79,7 +92,17 @@ std::vector<double> StateReader::numbers() {
   const std::size_t count = number();
   demand(count <= rest_.size() / 8);
   std::vector<double> values(count);
-  for (double& each : values) each = std::bit_cast<double>(static_cast<std::uint64_t>(number()));
+  for (double& each : values) each = std::bit_cast<double>(get(8));
+  return values;
+}
+
+std::vector<double> StateReader::short_numbers() {
+  const std::size_t count = number();
+  demand(count <= rest_.size() / 4);
+  std::vector<double> values(count);
+  for (double& each : values) {
+    each = std::bit_cast<float>(static_cast<std::uint32_t>(get(4)));
+  }
   return values;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,9 +16,12 @@ class StateWriter {
   void number(std::size_t value);
   void text(std::string_view text);
   void numbers(std::span<const double> values);  ///< with their count
+  /// The same in four bytes each: of numbers that are single precision already.
+  void short_numbers(std::span<const double> values);
   std::string done();
 
  private:
+  void put(std::uint64_t value, int bytes);
   std::string bytes_;
 };
 
@@ -28,11 +32,13 @@ class StateReader {
   std::size_t number();
   std::string text();
   std::vector<double> numbers();
+  std::vector<double> short_numbers();
   void demand(bool good) const;
   bool at_end() const { return rest_.empty(); }
 
  private:
   std::string_view take(std::size_t count);
+  std::uint64_t get(int bytes);
   std::string_view rest_;
 };
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "wearwell/base/error.h"
+#include "wearwell/law/kernels.h"
 #include "wearwell/models/ownlaw/state_bytes.h"
 
 namespace wearwell::ownlaw {
@@ -16,8 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_effective =
     0.5;  // of the number when nodes were laid: then they are laid anew
 constexpr double hardly_possible = 1e-4;  // a surprise below contradicts
-constexpr std::size_t most_sampled = 256;
-constexpr double doubtful = 0.02;  // a surprise below is summed over all nodes
+constexpr std::size_t most_sampled = 128;
+constexpr double doubtful = 0.05;  // a surprise below is summed over all nodes
 
 bool has_noiseless_process(const OwnLaw& law) {
   return std::any_of(law.measured.begin(), law.measured.end(),
@@ -72,12 +73,18 @@ void TrackedUnit::weigh() {
   sample_.weight.clear();
   effective_ = 0;
   if (!(top > -infinity)) return;
-  static thread_local std::vector<double> weight;
+  static thread_local std::vector<double> weight, exponent;
   weight.resize(log_weight_.size());
+  exponent.resize(log_weight_.size());
+  // To single precision, as states are saved: weights to a relative 1e-6.
   for (std::size_t i = 0; i < weight.size(); ++i) {
-    weight[i] = log_weight_[i] > top - 40 ? std::exp(log_weight_[i] - top) : 0;
-    sum += weight[i];
-    square += weight[i] * weight[i];
+    exponent[i] = log_weight_[i] = static_cast<float>(log_weight_[i] - top);
+  }
+  static const law::Kernels exponential = law::kernels_of(law::Op::exp, 0);
+  exponential.forward(exponent.data(), nullptr, nullptr, weight.data(), weight.size(), 0);
+  for (const double each : weight) {
+    sum += each;
+    square += each * each;
   }
   effective_ = sum * sum / square;
   const double share = sum / most_sampled;
@@ -205,9 +212,9 @@ std::string TrackedUnit::save() const {
     to.numbers({nodes_.nodes.parameters->data(),
                 static_cast<std::size_t>(nodes_.nodes.parameters->size())});
   }
-  to.numbers(nodes_.log_point);
-  to.numbers(nodes_.shape);
-  to.numbers(log_weight_);
+  to.short_numbers(nodes_.log_point);
+  to.short_numbers(nodes_.shape);
+  to.short_numbers(log_weight_);
   to.numbers({&laid_effective_, 1});
   for (const NodePath& each : paths_) {
     to.number((each.begun ? 1 : 0) + (each.measured ? 2 : 0));
@@ -252,12 +259,12 @@ std::unique_ptr<TrackedUnit> TrackedUnit::restore(
         Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(rows), columns));
   }
   const std::size_t effects = tracked->population.effects();
-  nodes.log_point = from.numbers();
-  nodes.shape = from.numbers();
+  nodes.log_point = from.short_numbers();
+  nodes.shape = from.short_numbers();
   from.demand(nodes.log_point.size() == nodes.nodes.lines() &&
               nodes.shape.size() == nodes.nodes.lines() * UnitNodes::shape_size(effects));
   nodes.fill(*tracked->law);
-  unit->log_weight_ = from.numbers();
+  unit->log_weight_ = from.short_numbers();
   from.demand(unit->log_weight_.size() == nodes.nodes.count());
   unit->laid_effective_ = from.numbers().at(0);
   unit->paths_ = tracked->rows.paths();

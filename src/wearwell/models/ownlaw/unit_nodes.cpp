@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double log_two_pi = 1.8378770664093454836;
-constexpr std::size_t few_lines = 128, many_lines = 2000, per_line = 16;
+constexpr std::size_t few_lines = 256, most_lines = 600, many_lines = 2000, per_line = 10;
 constexpr std::size_t few_alone = 2000, many_alone = 20'000;  // where nothing varies
 constexpr double tail = 1e-5;      // of a line: beyond its nodes lies as much on either side
 constexpr double least_few = 0.3;  // of the few points' effective number: then others are chosen
@@ -169,7 +169,11 @@ NodePopulation::NodePopulation(std::shared_ptr<const OwnLaw> own_law,
                                const WeightedDraws& posterior)
     : law(std::move(own_law)) {
   const bool alone = law->effects.empty();
-  few = PopulationPoints(FewPoints(posterior, alone ? few_alone : few_lines));
+  // As many as keep means, variances and covariances of all parameters in several regions.
+  const auto d = static_cast<std::size_t>(posterior.values.cols());
+  const std::size_t moments = 1 + d + d * (d + 1) / 2;
+  const std::size_t lines = std::min(std::max(few_lines, 8 * moments), most_lines);
+  few = PopulationPoints(FewPoints(posterior, alone ? few_alone : lines));
   many = PopulationPoints(FewPoints(posterior, alone ? many_alone : many_lines));
 }
 
@@ -236,6 +240,9 @@ UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitRead
     laid.log_point.push_back(points.log_weight[j] - looked.log_seen[j]);
     shape_of(looked.all[j], d, j, laid.shape.data() + j * size);
   }
+  const double top = *std::max_element(laid.log_point.begin(), laid.log_point.end());
+  for (double& each : laid.log_point) each = static_cast<float>(each - top);
+  for (double& each : laid.shape) each = static_cast<float>(each);
   laid.fill(law);
   return laid;
 }

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "calibration/own_design.h"
+#include "wearwell/base/rng.h"
+#include "wearwell/models/ownlaw/own_tracker.h"
+
+namespace wearwell::ownlaw {
+
+/// How often 90 % intervals of the remaining life of units followed on line hold the truth, when a population was
+/// learned from 5 units of 5 readings: straight paths y = b t, read each half hour.
+struct TrackedCoverage {
+  static constexpr std::array<int, 3> shown = {3, 5, 10};  ///< readings of the unit
+  struct Count {
+    int units = 0, held = 0, shorter = 0, longer = 0;  ///< the truth below the interval, above
+    int bins[20] = {};                                 ///< of P(remaining life <= truth)
+    double share() const { return static_cast<double>(held) / units; }
+  };
+  std::array<Count, 3> of;
+  int failed = 0;  ///< populations without quadrature
+};
+
+inline const char* const tracked_study = R"(
+[data.columns]
+depth = { column = "depth", unit = "um" }
+time = { column = "time", unit = "h" }
+unit = "unit"
+[law]
+wear = "b * time"
+[likelihood.depth]
+family = "normal"
+mean = "wear"
+sd = "sigma"
+[prior]
+b = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
+scatter = { law = "half-normal", scale = 0.5 }
+sigma = { law = "half-normal", scale = "0.5 um" }
+[varies.unit]
+b = { law = "lognormal", log_sd = "scatter" }
+[predict]
+along = "time"
+limit = { wear = "12 um" }
+)";
+
+/// Where the truth lies in what is said after 3, 5 and 10 readings; NaN of a unit that was at its limit by then.
+using TrackedPlaces = std::array<double, 3>;
+
+/// One population: truth `fixed` (SI), or drawn from the priors where that is empty. Empty where its posterior
+/// could not be integrated.
+inline std::vector<TrackedPlaces> follow_units(const std::vector<double>& fixed, int units,
+                                               std::uint64_t stream) {
+  constexpr double um = 1e-6, h = 3600, limit = 12 * um;
+  Rng rng(20261122, stream);
+  std::vector<double> depth, time;
+  std::vector<std::string> unit;
+  for (int u = 0; u < 5; ++u) {
+    for (int i = 1; i <= 5; ++i) {
+      depth.push_back(i);
+      time.push_back(i);
+      unit.push_back("u" + std::to_string(u));
+    }
+  }
+  const std::vector<double> x =
+      fixed.empty() ? OwnDesign(tracked_study, {numbers("depth", depth), numbers("time", time),
+                                                texts("unit", unit)})
+                          .from_priors(rng)
+                    : fixed;
+  const auto rate = [&] { return x[0] * std::exp(x[1] * rng.normal()); };
+  for (std::size_t u = 0; u < 5; ++u) {
+    const double b = rate();
+    for (std::size_t i = 0; i < 5; ++i) {
+      depth[5 * u + i] = (b * time[5 * u + i] * h + x[2] * rng.normal()) / um;
+    }
+  }
+  const OwnDesign design(tracked_study,
+                         {numbers("depth", depth), numbers("time", time), texts("unit", unit)});
+  const ExactPosterior exact =
+      exact_posterior(std::make_shared<const OwnRows>(design.law, depth.size()), 3e-3);
+  if (!exact.failure.empty()) return {};
+  prognosis::CarriedState state;
+  state.source = design.source;
+  for (const Parameter& each : design.law->parameters) state.parameters.push_back(each.name);
+  state.posterior = exact.nodes;
+  const auto tracker = track_units(state);
+  std::vector<TrackedPlaces> all;
+  for (int u = 0; u < units; ++u) {
+    const double b = rate();
+    const auto followed = tracker->begin("new");
+    std::vector<prognosis::Reading> taken;
+    all.push_back({NAN, NAN, NAN});
+    for (int i = 1; i <= TrackedCoverage::shown.back(); ++i) {
+      const double t = 0.5 * i * h;
+      const prognosis::Reading reading{{b * t + x[2] * rng.normal(), t}, {}};
+      followed->take(reading, [&](const auto& visit) {
+        for (const auto& each : taken) visit(each);
+      });
+      taken.push_back(reading);
+      for (std::size_t s = 0; s < TrackedCoverage::shown.size(); ++s) {
+        if (TrackedCoverage::shown[s] != i || b * t >= limit) continue;
+        all.back()[s] = followed->forecast().remaining.cdf(limit / b - t);
+      }
+    }
+  }
+  return all;
+}
+
+inline TrackedCoverage tracked_coverage(const std::vector<double>& fixed, int populations,
+                                        int units, std::uint64_t first) {
+  std::vector<std::vector<TrackedPlaces>> places(static_cast<std::size_t>(populations));
+  tbb::parallel_for(0, populations, [&](int p) {
+    places[static_cast<std::size_t>(p)] =
+        follow_units(fixed, units, first + static_cast<std::uint64_t>(p));
+  });
+  TrackedCoverage coverage;
+  for (const auto& each : places) {
+    coverage.failed += each.empty();
+    for (const TrackedPlaces& place : each) {
+      for (std::size_t s = 0; s < place.size(); ++s) {
+        if (std::isnan(place[s])) continue;
+        TrackedCoverage::Count& count = coverage.of[s];
+        ++count.units;
+        (place[s] < 0.05 ? count.shorter : place[s] > 0.95 ? count.longer : count.held) += 1;
+        ++count.bins[std::min(19, static_cast<int>(20 * place[s]))];
+      }
+    }
+  }
+  return coverage;
+}
+
+}  // namespace wearwell::ownlaw

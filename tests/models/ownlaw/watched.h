@@ -1,0 +1,140 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/own_design.h"
+#include "wearwell/models/ownlaw/own_limit.h"
+#include "wearwell/models/ownlaw/own_lives.h"
+#include "wearwell/models/ownlaw/own_process_lives.h"
+#include "wearwell/models/ownlaw/own_tracker.h"
+
+namespace wearwell::ownlaw {
+
+inline constexpr double um = 1e-6, h = 3600;
+
+inline const std::string straight = R"(
+[data.columns]
+depth = { column = "depth", unit = "um" }
+time = { column = "time", unit = "h" }
+unit = "unit"
+[law]
+wear = "b * time"
+[likelihood.depth]
+family = "normal"
+mean = "wear"
+sd = "sigma"
+[prior]
+b = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
+scatter = { law = "half-normal", scale = 0.5 }
+sigma = { law = "half-normal", scale = "0.5 um" }
+[varies.unit]
+b = { law = "lognormal", log_sd = "scatter" }
+[predict]
+along = "time"
+limit = { wear = "12 um" }
+)";
+
+// A posterior of a few points, even in weight.
+inline WeightedDraws points(const std::vector<std::vector<double>>& x) {
+  WeightedDraws draws;
+  const auto n = static_cast<Eigen::Index>(x.size()), d = static_cast<Eigen::Index>(x[0].size());
+  draws.values.resize(n, d);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < d; ++j) {
+      draws.values(i, j) = x[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    }
+  }
+  draws.weights = Eigen::VectorXd::Constant(n, 1.0 / static_cast<double>(n));
+  return draws;
+}
+
+struct Watched {
+  OwnDesign design;
+  std::unique_ptr<const prognosis::Tracker> tracker;
+
+  Watched(const std::string& study, const std::vector<Column>& columns,
+          const std::optional<WeightedDraws>& posterior = {})
+      : design(study, columns) {
+    prognosis::CarriedState state;
+    state.source = design.source;
+    for (const Parameter& each : design.law->parameters) state.parameters.push_back(each.name);
+    state.posterior = posterior ? *posterior : fitted();
+    tracker = track_units(state);
+  }
+
+  std::shared_ptr<const OwnRows> rows() const {
+    return std::make_shared<const OwnRows>(design.law, design.law->data.table.rows);
+  }
+  WeightedDraws fitted() const { return exact_posterior(rows(), 1e-4).nodes; }
+};
+
+// A unit with all that it was given.
+struct Followed {
+  const prognosis::Tracker& tracker;
+  std::unique_ptr<prognosis::TrackedUnit> unit;
+  std::vector<prognosis::Reading> taken;
+
+  Followed(const prognosis::Tracker& of, const std::string& name)
+      : tracker(of), unit(of.begin(name)) {}
+
+  prognosis::Taken take(const prognosis::Reading& reading) {
+    const prognosis::Taken result =
+        unit->take(reading, [&](const std::function<void(const prognosis::Reading&)>& visit) {
+          for (const prognosis::Reading& each : taken) visit(each);
+        });
+    if (result.counted) taken.push_back(reading);
+    return result;
+  }
+  prognosis::Taken take(const std::vector<double>& numbers,
+                        const std::vector<std::string>& labels = {}) {
+    return take({numbers, labels});
+  }
+};
+
+// What a fit says of its unit u.
+inline LimitedLives lives_of_fit(const Watched& watched, const WeightedDraws& posterior) {
+  const TomlReader predict = watched.design.root.required_table("predict");
+  const auto rows = watched.rows();
+  const Asked asked(predict, watched.design.law, rows);
+  const TomlReader limits = predict.required_table("limit");
+  const std::string name = limits.keys().front();
+  std::vector<law::Wanted> wanted = {{"limit", name}};
+  ProcessLimit limit;
+  const bool process = watched.design.law->has_process();
+  if (process) {
+    const auto& slots = watched.design.law->measured[0].wanted;
+    wanted.assign(slots.begin(), slots.begin() + 2);
+  }
+  LimitedPath& path = limit.path;
+  path.next = make_path(asked.law, limits, name, wanted, true, asked.common);
+  set_reach(asked, path);
+  path.limit = watched.tracker->limit().si();
+  for (std::size_t u = 0; u < watched.design.law->units.size(); ++u) {
+    path.seen.push_back(seen_unit(asked, limits, name, wanted, u));
+    if (process) path.seen.back().behind.reset();
+  }
+  path.next.reset();
+  if (process) return process_lives(*rows, limit, posterior);
+  return limited_lives(*rows, path, posterior);
+}
+
+// Where the fit's quantiles lie in the forecast.
+inline void expect_alike(const prognosis::Forecast& forecast, const CellMixture& fit, double passed,
+                         double tolerance) {
+  EXPECT_NEAR(forecast.passed, passed, tolerance);
+  if (passed > 0.95) return;
+  for (const double p : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99}) {
+    const double life = fit.quantile(p);
+    if (std::isfinite(life)) {
+      EXPECT_NEAR(forecast.remaining.cdf(life), p, tolerance) << p;
+    }
+  }
+}
+
+}  // namespace wearwell::ownlaw
