@@ -41,5 +41,5 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/wearwellConfigVersion.cma
 install(FILES
   ${PROJECT_SOURCE_DIR}/cmake/wearwellConfig.cmake ${PROJECT_BINARY_DIR}/wearwellConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindDuckDB.cmake ${PROJECT_SOURCE_DIR}/cmake/FindLibZip.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindMosquitto.cmake ${PROJECT_SOURCE_DIR}/cmake/FindPqxx.cmake ${PROJECT_SOURCE_DIR}/cmake/FindUDUNITS2.cmake
   DESTINATION ${package})

@@ -31,6 +31,7 @@ const std::vector<std::set<std::string>> order = {
     {"input"},
     {"present"},
     {"study", "selection"},
+    {"prognosis", "fleet"},
     {"joint", "bearing", "clutch", "fatigue", "ownlaw"},
     {"models"},
     {"cli"},

@@ -8,6 +8,7 @@
 #include "wearwell/cli/generate.h"
 #include "wearwell/cli/help.h"
 #include "wearwell/cli/life.h"
+#include "wearwell/cli/monitor.h"
 #include "wearwell/cli/new.h"
 #include "wearwell/cli/report.h"
 #include "wearwell/cli/select.h"
@@ -22,16 +23,17 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   app->require_subcommand(1);
   app->set_version_flag("--version", WEARWELL_VERSION, "Print the version and exit");
   add_fit_command(*app, models, exit_code);
-  add_update_command(*app, models, exit_code);
-  add_life_command(*app, models, exit_code);
   for (const Model& model : models) {
     if (model.add_commands) model.add_commands(*app, exit_code);
   }
   add_select_command(*app, exit_code);
   add_check_command(*app, models, exit_code);
   add_compare_command(*app, exit_code);
+  add_update_command(*app, models, exit_code);
+  add_life_command(*app, models, exit_code);
   add_decide_command(*app, models, exit_code);
   add_backtest_command(*app, models, exit_code);
+  add_monitor_command(*app, models, exit_code);
   add_new_command(*app, models, exit_code);
   add_report_command(*app, exit_code);
   add_help_command(*app, exit_code);

@@ -73,10 +73,17 @@ class Database {
     return message;
   }
 
-  std::string fill(const std::vector<NumberColumn>& columns) {
+  std::string fill(const std::vector<WordColumn>& texts, const std::vector<NumberColumn>& columns) {
     duckdb_appender appender = nullptr;
     bool good = duckdb_appender_create(connection_, nullptr, "t", &appender) == DuckDBSuccess;
-    for (std::size_t i = 0; good && i < columns.front().values.size(); ++i) {
+    const std::size_t rows =
+        texts.empty() ? columns.front().values.size() : texts.front().values.size();
+    for (std::size_t i = 0; good && i < rows; ++i) {
+      for (const WordColumn& column : texts) {
+        const std::string& value = column.values[i];
+        good = good &&
+               duckdb_append_varchar_length(appender, value.data(), value.size()) == DuckDBSuccess;
+      }
       for (const NumberColumn& column : columns) {
         const double value = column.values[i];
         good = good && (std::isnan(value) ? duckdb_append_null(appender)
@@ -99,7 +106,14 @@ class Database {
 }  // namespace
 
 std::string parquet_of(const std::vector<NumberColumn>& columns) {
+  return parquet_of({}, columns);
+}
+
+std::string parquet_of(const std::vector<WordColumn>& texts,
+                       const std::vector<NumberColumn>& columns) {
   std::string names;
+  for (const WordColumn& column : texts)
+    names += fmt::format("{}{} varchar", names.empty() ? "" : ", ", quoted(column.name, '"'));
   for (const NumberColumn& column : columns)
     names += fmt::format("{}{} double", names.empty() ? "" : ", ", quoted(column.name, '"'));
   const MemoryFile file;
@@ -108,7 +122,7 @@ std::string parquet_of(const std::vector<NumberColumn>& columns) {
     Database database;
     message = database.run("set threads to 1");
     if (message.empty()) message = database.run(fmt::format("create table t ({})", names));
-    if (message.empty()) message = database.fill(columns);
+    if (message.empty()) message = database.fill(texts, columns);
     if (message.empty())
       message = database.run(
           fmt::format("copy t to '{}' (format parquet, use_tmp_file false)", file.path()));

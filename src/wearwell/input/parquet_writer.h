@@ -11,7 +11,16 @@ struct NumberColumn {
   std::vector<double> values;
 };
 
+/// A column of texts, UTF-8.
+struct WordColumn {
+  std::string name;
+  std::vector<std::string> values;
+};
+
 /// A Parquet file of columns of equal length, as its bytes. Throws MachineError.
 std::string parquet_of(const std::vector<NumberColumn>& columns);
+/// The texts first. There is one column at least.
+std::string parquet_of(const std::vector<WordColumn>& texts,
+                       const std::vector<NumberColumn>& columns);
 
 }  // namespace wearwell

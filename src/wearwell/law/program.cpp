@@ -76,7 +76,7 @@ void prepare_state(const Tape& tape, Workspace::Body& work, const Data::Body& da
   work.state_rows.starts = data.starts.data() + begin;
   work.state_rows.from = data.from.empty() ? nullptr : data.from.data() + begin;
   work.state_rows.count = work.rows;
-  work.state_rows.beginning = values(plan.beginning);
+  work.state_rows.beginning = work.state_rows.anchor = values(plan.beginning);
   for (std::size_t j = 0; j < plan.inputs.size(); ++j)
     work.state_rows.inputs[j] = values(plan.inputs[j]);
 }

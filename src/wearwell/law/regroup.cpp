@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "wearwell/law/linear_rate.h"
+#include "wearwell/law/rate_factor.h"
 
 namespace wearwell::law {
 namespace {
@@ -69,6 +70,7 @@ class Regrouping {
     }
     if (node.op == Op::state) {
       if (const auto linear = linear_rate(to_, copy.b)) return recurrence(*linear, copy.a);
+      copy.b = factored_rate(to_, copy.b);
     }
     return to_.add(copy);
   }

@@ -5,7 +5,10 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
+
+#include "wearwell/law/trajectory.h"
 
 namespace wearwell::law {
 namespace {
@@ -96,11 +99,95 @@ bool integrate(Stepper& stepper, const F& rate, Numbers& x, Numbers& kept, doubl
   return true;
 }
 
+// Trajectories of the shape, and where the rows of a call are on them.
+class SharedPaths {
+ public:
+  explicit SharedPaths(const StatePlan& plan) : plan_(plan), key_(plan.inputs.size()) {}
+
+  struct Row {
+    Trajectory* on = nullptr;    // null: by steps
+    double before = 0, now = 0;  // along it, at the row before and here
+  };
+  const Row& row(std::size_t i) const { return rows_[i]; }
+
+  void begin_call(std::size_t rows) {
+    constexpr std::size_t most_kept = 64;
+    if (used_ > most_kept) used_ = 0;
+    rows_.assign(rows, {});
+  }
+
+  // Row i, to which `way` leads along the axis from `state`. The state there; nothing where it is not known
+  // by a trajectory.
+  std::optional<double> advance(const StateRows& rows, std::size_t i, bool first, double state,
+                                double way) {
+    Row& row = rows_[i];
+    const bool stays = !first && rows_[i - 1].on != nullptr && same_inputs(rows, i);
+    if (stays) {
+      row = {rows_[i - 1].on, rows_[i - 1].now, 0};
+    } else {
+      if (first) anchor_ = rows.anchor[i];
+      if (!std::isfinite(state)) return {};
+      row.on = find(rows, i);
+      row.before = row.on->place(state);
+    }
+    row.now = row.before + factor(rows, i) * way;
+    if (!(row.now >= row.before)) {  // backwards, or no number
+      row.on = nullptr;
+      return {};
+    }
+    if (row.now == row.before) return state;
+    if (row.on->reach(row.now)) return row.on->state(row.now);
+    const bool blown = row.on->blows_up();
+    const double sign = row.on->sign();
+    row.on = nullptr;
+    if (!blown) return {};
+    return std::copysign(std::numeric_limits<double>::infinity(), sign);
+  }
+
+  double factor(const StateRows& rows, std::size_t i) const {
+    if (plan_.factor < 0) return 1;
+    const std::size_t j = factor_input();
+    return j < plan_.inputs.size() ? rows.inputs[j][i]
+                                   : plan_.numbers[static_cast<std::size_t>(plan_.factor)];
+  }
+  // Beyond the inputs where the factor is a constant.
+  std::size_t factor_input() const {
+    return static_cast<std::size_t>(plan_.factor - plan_.first_input);
+  }
+
+ private:
+  bool same_inputs(const StateRows& rows, std::size_t i) const {
+    for (std::size_t j = 0; j < rows.inputs.size(); ++j) {
+      if (!plan_.shape_inputs[j] || rows.inputs[j].uniform) continue;
+      if (rows.inputs[j][i] != rows.inputs[j][i - 1]) return false;
+    }
+    return true;
+  }
+
+  Trajectory* find(const StateRows& rows, std::size_t i) {
+    for (std::size_t j = 0; j < key_.size(); ++j) key_[j] = rows.inputs[j][i];
+    for (std::size_t k = used_; k-- > 0;) {
+      if (all_[k]->is(anchor_, key_)) return all_[k].get();
+    }
+    if (used_ == all_.size()) all_.push_back(std::make_unique<Trajectory>(plan_));
+    all_[used_]->begin(anchor_, key_);
+    return all_[used_++].get();
+  }
+
+  const StatePlan& plan_;
+  std::vector<std::unique_ptr<Trajectory>> all_;
+  std::size_t used_ = 0;
+  std::vector<Row> rows_;
+  Numbers key_;
+  double anchor_ = 0;
+};
+
 }  // namespace
 
 struct StateSolver::Body {
-  Body(const StatePlan& plan, const StateStart& begins)
-      : rate(plan),
+  Body(const StatePlan& plan_of, const StateStart& begins)
+      : plan(plan_of),
+        rate(plan_of),
         start(begins),
         one(make_stepper()),
         many(make_stepper()),
@@ -108,7 +195,9 @@ struct StateSolver::Body {
         kept(x),
         partial(x.size()),
         single(1),
-        single_kept(1) {}
+        single_kept(1) {
+    if (plan.shape >= 0) shared.emplace(plan);
+  }
 
   double first(const StateRows& rows, std::size_t i) const {
     if (rows.from != nullptr) return rows.from[i];
@@ -148,7 +237,38 @@ struct StateSolver::Body {
     partial = x;
   }
 
+  // What row i gives to the inputs, and what is left for the state before; false where that is not known by
+  // a trajectory.
+  bool give_along(const StateRows& rows, std::size_t i, double way, double give, StateAdjoints& to,
+                  double& carried) {
+    constexpr double least =
+        1e-9;  // of the rate: its ratio says nothing where the state is at rest
+    if (!shared) return false;
+    const SharedPaths::Row& row = shared->row(i);
+    if (row.on == nullptr) return false;
+    if (row.now == row.before) {
+      carried = give;
+      return true;
+    }
+    const double begins = row.before == 0 ? row.on->rate_at_anchor() : row.on->rate(row.before);
+    if (!(std::abs(begins) > least * std::abs(row.on->rate_at_anchor()))) return false;
+    const double ends = row.on->rate(row.now), ratio = ends / begins;
+    carried = give * ratio;
+    for (std::size_t j = 0; j < to.inputs.size(); ++j) {
+      if (to.inputs[j] == nullptr) continue;
+      double by = j == shared->factor_input() ? ends * way : 0;
+      if (plan.shape_inputs[j]) {
+        by += row.on->slope(row.now, j);
+        if (row.before > 0) by -= ratio * row.on->slope(row.before, j);
+      }
+      to.inputs[j][rows.inputs[j].uniform ? 0 : i] += give * by;
+    }
+    return true;
+  }
+
+  const StatePlan& plan;
   Rate rate;
+  std::optional<SharedPaths> shared;
   StateStart start;
   Stepper one;
   Stepper many;
@@ -172,15 +292,21 @@ StateSolver::~StateSolver() = default;
 
 void StateSolver::forward(const StateRows& rows, double* state) {
   double now = 0, s = 0;
+  if (body_->shared) body_->shared->begin_call(rows.count);
   for (std::size_t i = 0; i < rows.count; ++i) {
-    if (rows.starts[i] != 0 || i == 0) {
+    const bool first = rows.starts[i] != 0 || i == 0;
+    if (first) {
       now = rows.beginning[i];
       s = body_->first(rows, i);
     }
-    body_->rate.set_inputs(rows, i);
-    now = body_->advance(now, s, rows.axis[i]);
+    std::optional<double> known;
+    if (body_->shared) known = body_->shared->advance(rows, i, first, now, rows.axis[i] - s);
+    if (!known) {
+      body_->rate.set_inputs(rows, i);
+      known = body_->advance(now, s, rows.axis[i]);
+    }
     s = rows.axis[i];
-    state[i] = now;
+    state[i] = now = *known;
   }
 }
 
@@ -192,15 +318,16 @@ void StateSolver::reverse(const StateRows& rows, const double* state, const doub
     const double give = carried + adjoint[i];
     carried = 0;
     if (give != 0) {
-      body_->rate.set_inputs(rows, i);
-      const double before = first ? rows.beginning[i] : state[i - 1];
       const double from = first ? body_->first(rows, i) : rows.axis[i - 1];
-      body_->sensitivities(before, from, rows.axis[i]);
-      for (std::size_t j = 0; j < to.inputs.size(); ++j) {
-        if (to.inputs[j] == nullptr) continue;
-        to.inputs[j][rows.inputs[j].uniform ? 0 : i] += give * body_->partial[j + 2];
+      if (!body_->give_along(rows, i, rows.axis[i] - from, give, to, carried)) {
+        body_->rate.set_inputs(rows, i);
+        body_->sensitivities(first ? rows.beginning[i] : state[i - 1], from, rows.axis[i]);
+        for (std::size_t j = 0; j < to.inputs.size(); ++j) {
+          if (to.inputs[j] == nullptr) continue;
+          to.inputs[j][rows.inputs[j].uniform ? 0 : i] += give * body_->partial[j + 2];
+        }
+        carried = give * body_->partial[1];
       }
-      carried = give * body_->partial[1];
     }
     if (first && to.beginning != nullptr) to.beginning[rows.beginning.uniform ? 0 : i] += carried;
     if (first) carried = 0;

@@ -22,7 +22,8 @@ struct StateRows {
   const std::uint8_t* starts = nullptr;  ///< 1 where a path begins
   const double* from = nullptr;  ///< where on the axis, at its first row; null: as the law says
   std::size_t count = 0;
-  Values beginning;            ///< taken from the first row of a path
+  Values beginning;  ///< taken from the first row of a path
+  Values anchor;     ///< where paths begin by the law, also one that goes on from elsewhere
   std::vector<Values> inputs;  ///< as StatePlan::inputs; they hold up to their row
 };
 
@@ -34,7 +35,9 @@ struct StateAdjoints {
 };
 
 /// Integrates a state's rate from row to row (Fehlberg 7(8), to a relative 1e-11 a step), and its
-/// sensitivities backwards. One thread's own; allocates nothing after it was made.
+/// sensitivities backwards. Where the rate is a factor times a shape that depends on the state alone, rows
+/// run along trajectories that they share (trajectory.h); by steps only beyond these. One thread's own; it
+/// allocates only for more trajectories, or longer ones, than ever before.
 class StateSolver {
  public:
   StateSolver(const StatePlan& plan, const StateStart& start);

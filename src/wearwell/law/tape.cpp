@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "wearwell/law/rate_factor.h"
+
 namespace wearwell::law {
 namespace {
 
@@ -222,7 +224,31 @@ class Maker {
       plan.steps.push_back(step);
     }
     plan.result = number[static_cast<std::size_t>(node.b)];
+    note_shape(node.b, inputs, number, plan);
     tape_.states.push_back(std::move(plan));
+  }
+
+  void note_shape(int rate, const std::vector<int>& inputs, const std::vector<int>& number,
+                  StatePlan& plan) const {
+    const RateParts parts = rate_parts(graph_, rate);
+    const std::vector<bool> within = reachable(graph_, {parts.shape});
+    std::vector<bool> made(plan.numbers.size());
+    plan.shape_inputs.assign(inputs.size(), false);
+    for (int i = 0; i < graph_.size(); ++i) {
+      if (!within[static_cast<std::size_t>(i)] || !graph_[i].moving) continue;
+      if (graph_[i].op == Op::axis_now) return;
+      made[static_cast<std::size_t>(number[static_cast<std::size_t>(i)])] = true;
+      for (const int argument : {graph_[i].a, graph_[i].b, graph_[i].c}) {
+        const auto at = std::lower_bound(inputs.begin(), inputs.end(), argument);
+        if (at == inputs.end() || *at != argument) continue;
+        plan.shape_inputs[static_cast<std::size_t>(at - inputs.begin())] = true;
+      }
+    }
+    for (const Step& step : plan.steps) {
+      if (made[static_cast<std::size_t>(step.out)]) plan.shape_steps.push_back(step);
+    }
+    plan.shape = number[static_cast<std::size_t>(parts.shape)];
+    if (parts.factor >= 0) plan.factor = number[static_cast<std::size_t>(parts.factor)];
   }
 
   int axis_cell() {

@@ -59,6 +59,11 @@ struct StatePlan {
   std::vector<double> numbers;  ///< initial values of all numbers of the rate
   int state = -1, running = -1, result = -1;
   int first_input = 0;
+  // The rate as factor * shape, where the shape does not depend on the axis (rate_factor.h):
+  int factor = -1;                 ///< the number of the factor, -1 for 1
+  int shape = -1;                  ///< the number of the shape, -1 where paths share nothing
+  std::vector<Step> shape_steps;   ///< those of `steps` that make it
+  std::vector<bool> shape_inputs;  ///< the inputs that it depends on
 };
 
 struct OutputCell {

@@ -67,6 +67,7 @@ struct FleetView {
   std::uint64_t units = 0, ok = 0, watch = 0, act = 0, unknown = 0;
   std::uint64_t messages = 0, stored = 0, refused = 0, repeated = 0;
   std::int64_t now_ms = 0, started_ms = 0;
+  std::int64_t last_message_ms = 0;  ///< when one last came, whatever became of it; 0: none yet
 };
 
 /// What the page, the API and the metrics read: any thread may ask; answers are copies.

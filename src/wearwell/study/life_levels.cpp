@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
 #include "wearwell/predict/item_mixture.h"
+#include "wearwell/prob/standard_law.h"
 
 namespace wearwell {
 
@@ -77,7 +77,7 @@ QuantityGroup b_lives_of_items(const QuantityRequest& life, const std::string& o
     std::vector<QuantityQuantiles> found;
     for (const double percent : levels.percents) {
       const double p = life.increasing ? percent / 100 : 1 - percent / 100;
-      const double z = -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
+      const double z = quantile(StandardLaw::normal, p);
       const Distribution known(draws, [&](const double* x) {
         const double spread = life.scatter ? std::exp(z * life.scatter(x)) : 1;
         return life.value(life.driver(x) * spread);

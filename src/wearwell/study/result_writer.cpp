@@ -28,7 +28,7 @@ void write_result(const Result& result, std::string_view study_text, ResultFolde
     folder.write("report.json", dumped(to_json(result.sections), -1));
     folder.write("report.html", report_html(result.header, result.sections));
   }
-  folder.write("study.toml", study_text);
+  if (!study_text.empty()) folder.write("study.toml", study_text);
   folder.commit();
 }
 

@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/fingerprint.h"
 #include "wearwell/input/json_reader.h"
 
 namespace wearwell::clutch {
@@ -242,6 +243,16 @@ WearModel read_model(const std::filesystem::path& path) {
   for (const JsonReader& each : json.at("replicates").items())
     model.replicates.push_back({read_polynomial(each.at("w")), read_run_in(each.at("run_in"))});
   return model;
+}
+
+IdentifiedModel read_identified_model(const std::filesystem::path& path) {
+  const ReadFile read(model_in(path));
+  WearModel model = read_model(path);
+  std::string id = read.sha1();
+  if (id.empty())
+    throw InputError(
+        fmt::format("sums are kept for a model in a file, and {} is none", path.string()));
+  return {std::move(model), std::move(id)};
 }
 
 std::string state_text(const std::vector<PlateWear>& plates, const std::string& model) {

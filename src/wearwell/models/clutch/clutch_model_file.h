@@ -16,6 +16,13 @@ nlohmann::ordered_json to_json(const WearModel& model);
 /// Throws InputError that names the file and what is missing or wrong in it.
 WearModel read_model(const std::filesystem::path& file);
 
+/// With its SHA-1. Throws as read_model does, and where the model is in no file.
+struct IdentifiedModel {
+  WearModel model;
+  std::string id;
+};
+IdentifiedModel read_identified_model(const std::filesystem::path& path);
+
 /// Plates half way, to go on from; `model` is the SHA-1 of the model file.
 std::string state_text(const std::vector<PlateWear>& plates, const std::string& model);
 /// Throws InputError when the file is none, or belongs to another model, or was made with another

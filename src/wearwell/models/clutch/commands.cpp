@@ -16,6 +16,8 @@ void add_clutch_command(CLI::App& app, int& exit_code) {
   clutch::add_predict_command(*command);
   clutch::add_life_command(*command);
   clutch::add_compare_command(*command);
+  clutch::add_sql_command(app);
+  clutch::add_fleet_command(app, exit_code);
 }
 
 }  // namespace wearwell

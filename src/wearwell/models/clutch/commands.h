@@ -6,7 +6,8 @@ class App;
 
 namespace wearwell {
 
-/// `wearwell clutch design|simulate|features|predict|life|compare`.
+/// `wearwell clutch design|simulate|features|predict|life|compare`, `wearwell sql` and `wearwell
+/// fleet`.
 void add_clutch_command(CLI::App& app, int& exit_code);
 
 }  // namespace wearwell

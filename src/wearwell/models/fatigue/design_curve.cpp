@@ -40,13 +40,6 @@ struct At {
   double band = 0;  // lower end of E739's 95 % band of the median
 };
 
-double logarithm(const SnLaw& law, const Stress& stress) {
-  // Known constants only: standard_fit says so.
-  const double x[] = {0, 0, 0, 0, 0, 0, 0};
-  return law.correction == MeanStress::none ? std::log10(stress.alternating)
-                                            : law.log10_reversed(x, stress);
-}
-
 std::vector<At> curve_points(const SnLaw& law, const SnData& data, const WeightedDraws& draws,
                              const StandardFit& standard) {
   double low = INFINITY, high = 0;
@@ -75,14 +68,15 @@ std::vector<At> curve_points(const SnLaw& law, const SnData& data, const Weighte
     for (const DesignLevel& level : levels) {
       at.posterior.push_back(outlasted(level.reliability, 1 - level.confidence));
       if (!standard.line) continue;
-      const double x = logarithm(law, stress);
+      const double x = standard_log10_stress(law, stress);
       at.iso.push_back(std::pow(
           10, fatigue::iso_12107_limit(*standard.line, x, level.reliability, level.confidence)));
       at.owen.push_back(std::pow(
           10, fatigue::owen_limit(*standard.line, x, level.reliability, level.confidence)));
     }
     if (standard.line)
-      at.band = std::pow(10, fatigue::astm_e739_band(*standard.line, logarithm(law, stress), 0.95));
+      at.band = std::pow(
+          10, fatigue::astm_e739_band(*standard.line, standard_log10_stress(law, stress), 0.95));
   });
   return points;
 }
@@ -252,6 +246,13 @@ nlohmann::ordered_json json_of(const SnData& data, const std::vector<At>& points
 
 }  // namespace
 
+double standard_log10_stress(const SnLaw& law, const Stress& stress) {
+  // Known constants only: standard_fit says so.
+  const double x[] = {0, 0, 0, 0, 0, 0, 0};
+  return law.correction == MeanStress::none ? std::log10(stress.alternating)
+                                            : law.log10_reversed(x, stress);
+}
+
 const std::vector<DesignLevel>& design_levels() {
   static const std::vector<DesignLevel> levels = {{"90/90", 0.9, 0.9},
                                                   {"B-basis", 0.9, 0.95},
@@ -295,7 +296,7 @@ StandardFit standard_fit(const SnLaw& law, const SnData& data) {
       continue;
     }
     for (int i = 0; i < test.count; ++i) {
-      x.push_back(logarithm(law, test.stress));
+      x.push_back(standard_log10_stress(law, test.stress));
       y.push_back(std::log10(test.life));
     }
   }

@@ -32,6 +32,10 @@ struct StandardFit {
 };
 StandardFit standard_fit(const fatigue::SnLaw& law, const SnData& data);
 
+/// log10 of the fully reversed stress/Pa on which the standards' line is fitted, where they apply: constants of
+/// the mean stress are known then.
+double standard_log10_stress(const fatigue::SnLaw& law, const fatigue::Stress& stress);
+
 /// What an S-N study adds to its result: under "fatigue" what `wearwell fatigue life` goes on from, under
 /// "design_curves" the curves with the standards' own numbers beside them, scatter ranges T_N and T_S,
 /// and why they differ; the same as tables and text.

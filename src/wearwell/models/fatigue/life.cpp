@@ -148,8 +148,7 @@ namespace {
 
 // Of a limit that scatters: the share of items that fail under a stress, however late.
 double reached(const SnLaw& law, const double* x, double log10_reversed) {
-  const double* limit = x + law.limit_index();
-  return wearwell::cdf(*law.limit, (log10_reversed - limit[0]) / limit[1]);
+  return wearwell::cdf(*law.limit, law.limit_place(x, log10_reversed));
 }
 
 }  // namespace
@@ -185,12 +184,6 @@ void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x
 
 namespace {
 
-LimitedLife<double> limited(const SnLaw& law, const double* x, double log10_reversed) {
-  const int i = law.limit_index();
-  return {law.standard(), *law.limit,           log10_reversed, x[0],
-          x[1],           x[law.sigma_index()], x[i],           x[i + 1]};
-}
-
 // By Newton's method in the logarithm of the share that has failed, which is concave: from the life
 // of items without a limit, before which no such share fails, no step goes too far.
 double limited_quantile(const LimitedLife<double>& item, double p) {
@@ -224,7 +217,7 @@ double life_quantile(const SnLaw& law, const double* x, const Stress& stress, do
     if (std::isnan(log10_reversed)) return log10_reversed;
     const double ever = reached(law, x, log10_reversed);
     if (p >= ever) return infinity;
-    if (law.integrated()) return limited_quantile(limited(law, x, log10_reversed), p);
+    if (law.integrated()) return limited_quantile(limited_life(law, x, log10_reversed), p);
     p /= ever;
   }
   const double middle = life_center(law, x, log10_reversed);
@@ -238,8 +231,8 @@ double cycles(const SnLaw& law, double at) {
 double survival(const SnLaw& law, const double* x, const Stress& stress, double life) {
   const double log10_reversed = law.log10_reversed(x, stress);
   if (law.integrated() && std::isfinite(log10_reversed)) {
-    return std::exp(log_probability_and_slopes(limited(law, x, log10_reversed), Outcome::runout,
-                                               std::log10(life), 0)
+    return std::exp(log_probability_and_slopes(limited_life(law, x, log10_reversed),
+                                               Outcome::runout, std::log10(life), 0)
                         .value);
   }
   return 1 - life_of(law, x, log10_reversed).cdf(life);
@@ -270,7 +263,7 @@ double log10_reversed_allowed(const SnLaw& law, const double* x, double life, do
   const double at = std::log10(life);
   const auto excess = [&](double log10_reversed) {
     const auto y =
-        log_probability_and_slopes(limited(law, x, log10_reversed), Outcome::runout, at, 0);
+        log_probability_and_slopes(limited_life(law, x, log10_reversed), Outcome::runout, at, 0);
     return reliability - std::exp(y.value);
   };
   const int i = law.limit_index();

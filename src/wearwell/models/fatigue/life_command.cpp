@@ -37,8 +37,15 @@ struct LoadLifeOptions {
 Knee read_knee(const std::string& text, const std::string& si) {
   Knee knee;
   if (text.empty()) return knee;
-  const auto unit = parse_unit(text);
-  const bool stress = unit && unit->dimension == parse_unit(si)->dimension && si != "1";
+  const std::size_t at = text.find_first_not_of("0123456789.,eE+- ");
+  const auto unit = at == std::string::npos ? std::nullopt : parse_unit(text.substr(at));
+  if (at == std::string::npos)
+    throw InputError(fmt::format(
+        "--knee: '{}' may be a life or a stress: say '{} cycles' or '{} {}'", text, text, text,
+        si == "Pa"  ? "MPa"
+        : si == "1" ? "%"
+                    : si));
+  const bool stress = unit && unit->dimension == parse_unit(si)->dimension;
   const double value = option_value("--knee", text, stress ? si : "cycle", Allowed::positive);
   (stress ? knee.stress : knee.life) = value;
   return knee;
@@ -132,11 +139,10 @@ int run(const LoadLifeOptions& options) {
                              with_mean, report.result.stress_si});
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
+  const bool dear = law.limit || law.scatter_grows;
   report.cycles =
-      reduced(report.block.cycles,
-              law.limit || law.scatter_grows ? most_cycles_with_limit : most_cycles, with_mean);
-  report.result.draws = thinned(
-      report.result.draws, law.limit || law.scatter_grows ? most_draws_with_limit : most_draws);
+      reduced(report.block.cycles, dear ? most_cycles_with_limit : most_cycles, with_mean);
+  report.result.draws = thinned(report.result.draws, dear ? most_draws_with_limit : most_draws);
   report.life = load_life(report.result, report.cycles, question);
   report.reduction = reduction(report.result, question.rule, report.block.cycles, report.cycles);
   if (folder) write_folder(report, *folder);

@@ -23,18 +23,24 @@ double to_si_of_curve(const std::string& unit, const std::string& scale, const s
   const Dimension wanted = parse_unit(si)->dimension;
   const auto load = parse_unit(unit.empty() ? "1" : unit);
   if (!load) throw InputError(fmt::format("{}: '{}' is no unit", where, unit));
+  if (unit.empty())
+    throw InputError(
+        scale.empty()
+            ? fmt::format("{} has no unit: say it in the heading, \"{}\", or by --unit {}", where,
+                          si == "Pa" ? "stress [MPa]" : fmt::format("load [{}]", si),
+                          si == "Pa" ? "MPa" : si)
+            : fmt::format(
+                  "{} has no unit, and --scale {} stands for one of it: one of um/m or of a "
+                  "plain number? Say it in the heading or by --unit: um/m, N, or 1 for a "
+                  "plain number",
+                  where, scale));
   if (scale.empty()) {
-    if (unit.empty())
-      throw InputError(
-          fmt::format("{} has no unit: say it in the heading, \"stress [MPa]\", or by "
-                      "--unit MPa",
-                      where));
     if (load->dimension == wanted) return load->scale;
     if (si != "Pa")
       throw InputError(fmt::format(
-          "{} is in {}, and the study's tests are told in the dimension of {}; say how one "
-          "makes the other by --scale",
-          where, unit, si));
+          "{} is in {}, and the study's tests are told {}; say how one makes the other by --scale",
+          where, unit,
+          si == "1" ? "as a strain or a plain number" : fmt::format("in the dimension of {}", si)));
     const bool strain = load->dimension.empty();
     throw InputError(
         fmt::format("{} is in {}, which is {}, no stress; say how it makes stress: --scale '{}'",
@@ -56,8 +62,11 @@ double to_si_of_curve(const std::string& unit, const std::string& scale, const s
     if ((product[base] += power) == 0) product.erase(base);
   }
   if (product != wanted)
-    throw InputError(fmt::format("--scale: {} times a load in {} is no stress", scale,
-                                 unit.empty() ? "1" : unit));
+    throw InputError(fmt::format("--scale: {} times a load in {} is no {}", scale, unit,
+                                 si == "Pa" ? "stress"
+                                 : si == "1"
+                                     ? "strain or plain number, as the study's tests are"
+                                     : fmt::format("load in {}, as the study's tests are", si)));
   if (!(std::abs(factor) > 0 && std::isfinite(factor)) || load->offset != 0 || per->offset != 0)
     throw InputError(fmt::format("--scale: {} is no factor", scale));
   return factor * per->scale * load->scale;
@@ -66,19 +75,28 @@ double to_si_of_curve(const std::string& unit, const std::string& scale, const s
 const Column* named(const Table& table, std::initializer_list<const char*> names) {
   for (const char* name : names) {
     for (const Column& column : table.columns) {
-      if (column.name == name || read_heading(column.name, "Pa").name == name) return &column;
+      if (column.name == name || load_heading(column).name == name) return &column;
     }
   }
   return nullptr;
 }
 
-std::string unit_in(const Column& column, const std::string& given) {
-  if (!given.empty()) return given;
-  if (!column.unit.empty()) return column.unit;
-  const Heading stress = read_heading(column.name, "Pa");
-  if (!stress.unit.empty()) return stress.unit;
-  const Heading any = read_heading(column.name, "");
-  return any.certain ? any.unit : "";
+// Neither the table nor --unit wins where they contradict each other.
+std::string unit_in(const Column& column, const std::string& given, const std::string& where) {
+  const std::string said = load_heading(column).unit;
+  if (given.empty()) return said;
+  const auto one = parse_unit(said.empty() ? given : said), other = parse_unit(given);
+  if (!other) throw InputError(fmt::format("--unit: '{}' is no unit", given));
+  if (one && (one->dimension != other->dimension || one->scale != other->scale))
+    throw InputError(fmt::format("{}: the table says {} and --unit says {}; leave one of them out",
+                                 where, said, given));
+  return given;
+}
+
+// What the options make of a column.
+std::string options_in_words(const BlockChoice& choice) {
+  return (choice.signal.unit.empty() ? "" : fmt::format(" in {}", choice.signal.unit)) +
+         (choice.scale.empty() ? "" : fmt::format(", times {}", choice.scale));
 }
 
 double largest_amplitude(const LoadCycles& cycles) {
@@ -104,11 +122,16 @@ Block counted_signal(const BlockChoice& choice) {
     block.cycles.push_back({{0.5 * std::abs(pascal) * each.range, pascal * each.mean}, each.count});
     block.count += each.count;
   }
-  block.told =
-      fmt::format("{} samples of {}, column '{}'; {} rainflow counting, {}", counted.samples,
-                  file.source(), file.column(), counting_name(choice.rule.counting),
-                  choice.rule.residual == Residual::half ? "the residual in half cycles"
-                                                         : "the history repeated");
+  block.told = fmt::format("{} samples of {}, column '{}'{}; {} rainflow counting, {}",
+                           counted.samples, file.source(), file.column(), options_in_words(choice),
+                           counting_name(choice.rule.counting),
+                           choice.rule.residual == Residual::half ? "the residual in half cycles"
+                                                                  : "the history repeated");
+  if (!choice.with_mean) {
+    for (const LoadCycle& each : block.cycles)
+      block.largest_mean_left_out =
+          std::max(block.largest_mean_left_out, std::abs(each.stress.mean));
+  }
   return block;
 }
 
@@ -116,10 +139,11 @@ Block counted_signal(const BlockChoice& choice) {
 class CountedTable {
  public:
   CountedTable(const BlockChoice& choice, Table table) : choice_(choice), table_(std::move(table)) {
-    size_ = named(table_, {"range", "stress_range"});
-    amplitude_ = named(table_, {"amplitude", "alternating_stress", "stress_amplitude"});
+    size_ = named(table_, {"range", "stress_range", "load_range", "force_range", "strain_range"});
+    amplitude_ = named(table_, {"amplitude", "alternating_stress", "stress_amplitude",
+                                "load_amplitude", "force_amplitude", "strain_amplitude"});
     count_ = named(table_, {"cycles", "count", "n"});
-    mean_ = named(table_, {"mean", "mean_stress"});
+    mean_ = named(table_, {"mean", "mean_stress", "mean_load", "mean_force", "mean_strain"});
     ratio_ = named(table_, {"stress_ratio", "R"});
   }
 
@@ -168,15 +192,19 @@ class CountedTable {
       block.count += count;
     }
     if (!(block.count > 0)) throw InputError(fmt::format("{} counts no cycle", table_.source));
-    block.told = fmt::format("{} classes of counted cycles of {}, by {} '{}'", table_.rows,
-                             table_.source, size_ ? "the range" : "the amplitude", size.name);
+    block.told =
+        fmt::format("{} classes of counted cycles of {}, by {} '{}'{}", table_.rows, table_.source,
+                    size_ ? "the range" : "the amplitude", size.name, options_in_words(choice_));
+    if (const Column* mean = mean_ ? mean_ : ratio_; mean && !choice_.with_mean)
+      block.told +=
+          fmt::format("; '{}' is left out, since the study's law has no mean stress", mean->name);
     return block;
   }
 
  private:
   double pascal(const Column& column) const {
-    return to_si_of_curve(unit_in(column, choice_.signal.unit), choice_.scale,
-                          fmt::format("{}, column '{}'", table_.source, column.name),
+    const std::string where = fmt::format("{}, column '{}'", table_.source, column.name);
+    return to_si_of_curve(unit_in(column, choice_.signal.unit, where), choice_.scale, where,
                           choice_.stress_si);
   }
   double cell(const Column& column, std::size_t row) const {

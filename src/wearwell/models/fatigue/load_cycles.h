@@ -9,7 +9,8 @@
 namespace wearwell::fatigue {
 
 /// Where the cycles of one block stand: a signal, which is counted, or a table of counted cycles with
-/// columns `range` or `amplitude`, `mean` or `stress_ratio`, and `cycles` (or `count`).
+/// columns `range` or `amplitude`, `mean` or `stress_ratio`, and `cycles` (or `count`); of a load, a force
+/// or a strain by these names too (`force_range`, `mean_force`).
 struct BlockChoice {
   SignalChoice signal;  ///< with a column named it is a signal
   CountingRule rule;
@@ -22,9 +23,12 @@ struct Block {
   LoadCycles cycles;
   double count = 0;  ///< of all cycles
   std::string told;  ///< what was read, a sentence
+  /// Of a signal where the mean stress does not matter: the largest that there is, as it would be in `cycles`.
+  double largest_mean_left_out = 0;
 };
 
-/// Throws InputError: neither kind or both, no unit, a strain or a force without a scale, amplitude and
+/// Throws InputError: neither kind or both, no unit or two, a load of another dimension than the curve's
+/// stress without a scale, amplitude and
 /// range not told apart, no mean where it matters, a count or an amplitude that is none.
 Block read_block(const BlockChoice& choice);
 

@@ -53,6 +53,10 @@ std::string block_in_words(const LoadLifeReport& report) {
   std::string text =
       fmt::format("{}: {:.10g} cycles a block, amplitudes up to {:.6g} {}", report.block.told,
                   report.block.count, largest(report), report.result.stress_unit.text);
+  if (const double mean = report.block.largest_mean_left_out; mean > 0)
+    text += fmt::format(
+        "; means up to {:.6g} {} are left out, since the study's law has no mean stress",
+        from_si(report.result.stress_unit, mean), report.result.stress_unit.text);
   if (report.unit != "blocks")
     text += fmt::format("; a block is {:.6g} {}", report.per_block, report.unit);
   if (report.reduction > 1e-3)

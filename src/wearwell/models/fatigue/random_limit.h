@@ -2,6 +2,7 @@
 
 #include "wearwell/math/dual.h"
 #include "wearwell/models/fatigue/life_test.h"
+#include "wearwell/models/fatigue/sn_law.h"
 #include "wearwell/prob/standard_law.h"
 
 namespace wearwell::fatigue {
@@ -16,6 +17,14 @@ struct LimitedLife {
   T log10_reversed, log10_a, b, sigma;
   T location, scale;  ///< of the limit
 };
+
+/// Of a law that is integrated (SnLaw::integrated), at its parameters.
+template <class T>
+LimitedLife<T> limited_life(const SnLaw& law, const T* x, const T& log10_reversed) {
+  const T* limit = x + law.limit_index();
+  return {law.standard(), *law.limit,           log10_reversed, x[0],
+          x[1],           x[law.sigma_index()], limit[0],       limit[1]};
+}
 
 /// The log of a probability or density, and its derivatives by the numbers of LimitedLife.
 struct LimitedLifeSlopes {

@@ -18,22 +18,25 @@ constexpr double longest_step = 1.5;
 // Ranges of larger numbers have no square that a double holds.
 constexpr double largest = 1e150;
 
-std::string unit_in(const Column& column) {
-  if (!column.unit.empty()) return column.unit;
-  const Heading stress = read_heading(column.name, "Pa");
-  if (!stress.unit.empty()) return stress.unit;
-  const Heading any = read_heading(column.name, "");
-  return any.certain ? any.unit : "";
-}
-
 bool is_time(const Column& column) {
   const Heading heading = read_heading(column.name, "s");
   if (heading.name == "time" || heading.name == "t") return true;
-  const auto unit = parse_unit(unit_in(column));
+  const auto unit = parse_unit(load_heading(column).unit);
   return unit && unit->dimension == Dimension{{"second", 1}};
 }
 
 }  // namespace
+
+Heading load_heading(const Column& column) {
+  if (!column.unit.empty()) return {column.name, column.unit, true};
+  if (const Heading any = read_heading(column.name, ""); any.certain) return any;
+  for (const char* si : {"Pa", "N", "N m", "1"}) {
+    const Heading heading = read_heading(column.name, si);
+    // "load_N" may be the load of N.
+    if (!heading.unit.empty() && (!heading.suffix || si == std::string_view("Pa"))) return heading;
+  }
+  return {column.name, "", false};
+}
 
 SignalFile::SignalFile(const SignalChoice& choice) : stream_(choice.file) {
   choose(choice);
@@ -66,7 +69,7 @@ void SignalFile::choose(const SignalChoice& choice) {
                       source(), fmt::join(possible, ", ")));
   }
   column_ = chosen->name;
-  unit_ = unit_in(*chosen);
+  unit_ = load_heading(*chosen).unit;
   if (choice.unit.empty()) return;
   const auto wanted = parse_unit(choice.unit);
   if (!wanted) throw InputError(fmt::format("--unit: '{}' is no unit", choice.unit));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "wearwell/input/column_stream.h"
+#include "wearwell/input/heading.h"
 
 namespace wearwell::fatigue {
 
@@ -16,6 +17,11 @@ struct SignalChoice {
   std::string unit = {};    ///< where the heading has none
   std::string time = {};    ///< a column of times by which gaps are found; empty for none
 };
+
+/// The name of a load and its unit, of a heading that says it, or of a unit beside it: "stress [MPa]" in
+/// any unit, "force (kN)" and "strain in um/m" in one of a stress, a force, a moment or a plain number,
+/// "stress_MPa" in one of a stress. Without a unit where none stands there, or doubtfully.
+Heading load_heading(const Column& column);
 
 /// A load signal as it stands in a file, piece by piece. Throws InputError that names file, row and
 /// column: no such column or several, two units, no value (a gap), times that do not rise evenly.

@@ -82,31 +82,6 @@ fatigue::HelicalSpring read_spring(const TomlReader& conditions) {
   return spring;
 }
 
-// What the study or the table says first of the unit of the stress; nothing is asked for.
-std::string stated_si(const TomlReader& root, const Table& table) {
-  for (const std::string key : {"alternating_stress", "max_stress"}) {
-    std::string column, unit;
-    for (const TomlReader::Present& each : root.present()) {
-      const std::string at = "data.columns." + key;
-      if (each.path == at + ".unit") unit = each.text;
-      if (each.path == at || each.path == at + ".column") column = each.text;
-      if (each.path == "conditions." + key)
-        unit = each.text.substr(std::min(each.text.find(' '), each.text.size()));
-    }
-    if (unit.empty() && !column.empty()) {
-      for (const Column& each : table.columns) {
-        const Heading heading = read_heading(each.name, "");
-        if (each.name != column && heading.name != column) continue;
-        unit = !each.unit.empty() ? each.unit : heading.certain ? heading.unit : "";
-      }
-    }
-    if (unit.empty()) continue;
-    const std::string si = driver_si(unit);
-    return si.empty() ? "Pa" : si;
-  }
-  return "Pa";
-}
-
 std::vector<Stress> read_stresses(const TomlReader& columns,
                                   const std::optional<TomlReader>& conditions, const Table& table,
                                   MeanStress correction, SnData& data) {
@@ -230,6 +205,30 @@ std::string driver_si(const std::string& unit) {
   return "";
 }
 
+std::string stated_driver_si(const TomlReader& root, const Table& table) {
+  for (const std::string key : {"alternating_stress", "max_stress"}) {
+    std::string column, unit;
+    for (const TomlReader::Present& each : root.present()) {
+      const std::string at = "data.columns." + key;
+      if (each.path == at + ".unit") unit = each.text;
+      if (each.path == at || each.path == at + ".column") column = each.text;
+      if (each.path == "conditions." + key)
+        unit = each.text.substr(std::min(each.text.find(' '), each.text.size()));
+    }
+    if (unit.empty() && !column.empty()) {
+      for (const Column& each : table.columns) {
+        const Heading heading = read_heading(each.name, "");
+        if (each.name != column && heading.name != column) continue;
+        unit = !each.unit.empty() ? each.unit : heading.certain ? heading.unit : "";
+      }
+    }
+    if (unit.empty()) continue;
+    const std::string si = driver_si(unit);
+    return si.empty() ? "Pa" : si;
+  }
+  return "Pa";
+}
+
 Stress read_stress(const TomlReader& table, MeanStress correction,
                    const std::optional<fatigue::HelicalSpring>& spring,
                    const std::string& stress_si) {
@@ -278,7 +277,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   SnData data;
   data.source = table.source;
   data.layout = table.layout;
-  data.stress_si = stated_si(root, table);
+  data.stress_si = stated_driver_si(root, table);
   const std::vector<Stress> stresses = read_stresses(columns, conditions, table, correction, data);
 
   ColumnChoice life = required_column(columns, "life", "cycle", table);

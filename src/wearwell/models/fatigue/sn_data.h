@@ -32,6 +32,10 @@ struct SnData {
 /// other.
 std::string driver_si(const std::string& unit);
 
+/// The SI unit of what drives the lives, by the first unit that the study or its table states of
+/// alternating_stress or max_stress; "Pa" where neither does, or states one that drives none.
+std::string stated_driver_si(const TomlReader& root, const Table& table);
+
 /// Reads [data] and what [conditions] holds for all rows. Stress stands there in one of four ways:
 /// alternating_stress with mean_stress (0 where it does not matter), max_stress with min_stress,
 /// alternating_stress with stress_ratio, or displacement_mean with displacement_amplitude of a

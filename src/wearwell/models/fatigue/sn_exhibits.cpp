@@ -318,8 +318,7 @@ class Drawing {
     if (!standard_.line) return;
     Numbers y, iso, owen;
     for (const double each : stresses) {
-      const std::vector<double> known(static_cast<std::size_t>(law_.dimension()), 0.0);
-      const double x = law_.log10_reversed(known.data(), line_.at(each));
+      const double x = standard_log10_stress(law_, line_.at(each));
       y.push_back(in_unit(each));
       iso.push_back(shown(std::pow(10, fatigue::iso_12107_limit(*standard_.line, x, 0.9, 0.9))));
       owen.push_back(shown(std::pow(10, fatigue::owen_limit(*standard_.line, x, 0.9, 0.9))));

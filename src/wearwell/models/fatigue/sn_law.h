@@ -175,6 +175,12 @@ struct SnLaw {
     return x[sigma_index()] * exp(std::log(10.0) * x[growth_index()] * decades);
   }
 
+  /// Where a stress lies in the standard law of log10 of the limit, of limits that scatter.
+  template <class T>
+  T limit_place(const T* x, const T& log10_reversed) const {
+    return (log10_reversed - x[limit_index()]) / x[limit_index() + 1];
+  }
+
   /// The life on the curve of an item of the population of fatigue limits: `z` is its place in the standard
   /// law of log10 of the limit. Infinite below the limit.
   double log10_life_of_item(const double* x, double log10_reversed, double z) const {

@@ -153,7 +153,7 @@ class SnLikelihood final : public LogDensity {
       const LifeTest& test = tests_[row];
       const double s = log10_reversed(shared, row);
       if (!std::isfinite(s)) return -std::numeric_limits<double>::infinity();
-      const LimitedLife<double> life{law_.standard(), *law_.limit, s, x[0], x[1], x[2], x[3], x[4]};
+      const LimitedLife<double> life = limited_life(law_, x.data(), s);
       const LimitedLifeSlopes y =
           log_probability_and_slopes(life, test.outcome, rows_[row].at, rows_[row].until);
       sum += count * (y.value + (test.outcome == Outcome::failure ? rows_[row].log_measure : 0));
@@ -192,16 +192,11 @@ class SnLikelihood final : public LogDensity {
       return T(-std::numeric_limits<double>::infinity());
     }
     if (law_.integrated()) {
-      const T* x = shared.x;
-      const T* limit = x + law_.limit_index();
-      const LimitedLife<T> life{
-          law_.standard(), *law_.limit, reversed, x[0], x[1], shared.x[law_.sigma_index()],
-          limit[0],        limit[1]};
+      const LimitedLife<T> life = limited_life(law_, shared.x, reversed);
       const T value = log_probability(life, test.outcome, row.at, row.until);
       return test.outcome == Outcome::failure ? T(value + row.log_measure) : value;
     }
-    if (law_.bends() || law_.scatter_grows)
-      return bent(shared, i, reversed, law_.log10_life(shared.x, reversed));
+    if (!law_.straight()) return bent(shared, i, reversed, law_.log10_life(shared.x, reversed));
     const T location = location_at(shared, reversed);
     const StandardLaw standard = law_.standard();
     if (test.outcome == Outcome::failure && standard == StandardLaw::normal) {
@@ -240,8 +235,7 @@ class SnLikelihood final : public LogDensity {
     const T z = (row.at - location) / sigma;
     T reached(0);  // log of the share of items whose limit the stress reaches
     if (law_.limit) {
-      const T* limit = shared.x + law_.limit_index();
-      const T w = (reversed - limit[0]) / limit[1];
+      const T w = law_.limit_place(shared.x, reversed);
       reached = log_cdf(*law_.limit, w);
       if (outcome == Outcome::runout) {
         const T safe = log_survival(*law_.limit, w), later = reached + log_survival(standard, z);

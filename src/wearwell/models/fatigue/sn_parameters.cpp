@@ -89,20 +89,26 @@ class Defaults {
 
 }  // namespace
 
+Parameter read_driver_prior(const TomlReader& root, const std::optional<TomlReader>& priors,
+                            const ParameterSpec& spec, const std::string& stress_si,
+                            const Unit& stress_unit) {
+  try {
+    return read_prior(root, priors, spec);
+  } catch (const InputError& error) {
+    // Whatever drives lives sets the dimension: where a prior contradicts it, either may be the slip.
+    const std::string what = error.what();
+    if (stress_si == "Pa" || what.find("wrong dimension") == std::string::npos) throw;
+    throw InputError(
+        fmt::format("{}, since data.columns says that lives are driven by what is in '{}'", what,
+                    stress_unit.text));
+  }
+}
+
 std::vector<Parameter> sn_parameters(const TomlReader& root, const SnLaw& law, const SnData& data) {
   const auto priors = root.table("prior");
   const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
     spec.fallback = std::move(fallback);
-    try {
-      return read_prior(root, priors, spec);
-    } catch (const InputError& error) {
-      // Whatever drives lives sets the dimension: where a prior contradicts it, either may be the slip.
-      const std::string what = error.what();
-      if (data.stress_si == "Pa" || what.find("wrong dimension") == std::string::npos) throw;
-      throw InputError(
-          fmt::format("{}, since data.columns says that lives are driven by what is in '{}'", what,
-                      data.stress_unit.text));
-    }
+    return read_driver_prior(root, priors, spec, data.stress_si, data.stress_unit);
   };
   const Defaults defaults(data);
   const std::string log_stress =

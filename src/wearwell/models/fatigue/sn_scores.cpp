@@ -19,9 +19,7 @@ double cdf_above(StandardLaw law, double z) {
 double score(const SnLaw& law, const double* x, double log10_reversed, double life) {
   const double at = law.logarithmic() ? std::log10(life) : life;
   if (law.integrated()) {
-    const double* limit = x + law.limit_index();
-    const LimitedLife<double> item{law.standard(), *law.limit,           log10_reversed, x[0],
-                                   x[1],           x[law.sigma_index()], limit[0],       limit[1]};
+    const LimitedLife<double> item = limited_life(law, x, log10_reversed);
     return normal_score(log_probability(item, Outcome::left, at, at),
                         log_probability(item, Outcome::runout, at, at));
   }
@@ -31,8 +29,7 @@ double score(const SnLaw& law, const double* x, double log10_reversed, double li
   if (!law.logarithmic()) center = std::pow(10, center);
   const double z = (at - center) / law.sigma_at(x, center_of_all);
   if (law.limit) {
-    const double* limit = x + law.limit_index();
-    const double w = (log10_reversed - limit[0]) / limit[1];
+    const double w = law.limit_place(x, log10_reversed);
     const double failing = cdf(*law.limit, w), failed = cdf(law.standard(), z);
     return normal_score(
         std::log(failing * failed),

@@ -11,6 +11,8 @@
 #include "wearwell/input/prior.h"
 #include "wearwell/math/root.h"
 #include "wearwell/models/fatigue/read_outcome.h"
+#include "wearwell/models/fatigue/sn_data.h"
+#include "wearwell/models/fatigue/sn_parameters.h"
 #include "wearwell/models/fatigue/staircase.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
@@ -22,6 +24,7 @@ using fatigue::StairTest;
 
 struct StairData {
   std::vector<StairTest> tests;
+  std::string stress_si = "Pa";  // of a stress, or of what stands for it
   Unit unit;
   StandardLaw limit = StandardLaw::normal;
   std::vector<double> reliabilities = {0.5, 0.9};
@@ -33,7 +36,8 @@ void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& st
   const TomlReader section = root.required_table("data");
   const TomlReader columns = section.required_table("columns");
   const Table table = read_table(section, source);
-  const ColumnChoice stress = required_column(columns, "alternating_stress", "Pa", table);
+  data.stress_si = stated_driver_si(root, table);
+  const ColumnChoice stress = required_column(columns, "alternating_stress", data.stress_si, table);
   const auto status = read_word_column(columns, "status", table);
   if (!status) columns.fail("status", "is missing: which tests failed, and which did not?");
   const auto count = read_column(columns, "count", "1", table);
@@ -55,7 +59,7 @@ void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& st
         study.observed.end(),
         {stresses[i], static_cast<double>(outcome == fatigue::Outcome::failure), n});
   }
-  study.data_columns.push_back({"alternating_stress", "Pa", stress.unit, stresses, true});
+  study.data_columns.push_back({"alternating_stress", data.stress_si, stress.unit, stresses, true});
   study.data_layout = table.layout;
   study.data_rows = data.tests.size();
 }
@@ -232,11 +236,14 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
   const auto priors = root.table("prior");
   const auto read = [&](ParameterSpec spec, DefaultPrior fallback) {
     spec.fallback = std::move(fallback);
-    return read_prior(root, priors, spec);
+    return read_driver_prior(root, priors, spec, data.stress_si, data.unit);
   };
-  study.parameters.push_back(read({"log10_limit", "log10(Pa)", -INFINITY, INFINITY, mean},
-                                  {"normal", Normal{mean - std::log10(data.unit.scale), 0.3},
-                                   fmt::format("log10({})", data.unit.text)}));
+  // Of a plain number, a strain or a share of the strength, logarithms are plain numbers too.
+  const bool plain = data.stress_si == "1";
+  study.parameters.push_back(
+      read({"log10_limit", plain ? "1" : fmt::format("log10({})", data.stress_si), -INFINITY,
+            INFINITY, mean},
+           {"normal", Normal{mean, 0.3}, plain ? "1" : fmt::format("log10({})", data.unit.text)}));
   study.parameters.push_back(
       read({"sigma_limit", "1", 0, INFINITY, 0.03}, {"half-normal", Normal{0, 0.1}, "1", 0}));
   study.meanings = {"logarithm of the median fatigue limit",

@@ -54,6 +54,19 @@ bool has_cases(const OwnLaw& law) {
   });
 }
 
+std::vector<std::vector<double>> trial_points(const OwnLaw& law) {
+  std::vector<std::vector<double>> points;
+  for (const double factor : {1.0, 1.7, 0.3}) {
+    std::vector<double>& x = points.emplace_back();
+    for (const Parameter& each : law.parameters) {
+      const double moved = each.start * factor;
+      const bool inside = each.prior.lower < moved && moved < each.prior.upper;
+      x.push_back(inside ? moved : each.start);
+    }
+  }
+  return points;
+}
+
 bool is_linear(const OwnLaw& law, const std::vector<BoundColumn>& columns) {
   if (!law.varies() || has_cases(law)) return false;
   for (const BoundColumn& column : columns) {
@@ -62,13 +75,7 @@ bool is_linear(const OwnLaw& law, const std::vector<BoundColumn>& columns) {
   }
   UnitRows rows(law, columns);
   const std::size_t d = law.effects.size();
-  for (const double factor : {1.0, 1.7, 0.3}) {
-    std::vector<double> x;
-    for (const Parameter& each : law.parameters) {
-      const double moved = each.start * factor;
-      const bool inside = each.prior.lower < moved && moved < each.prior.upper;
-      x.push_back(inside ? moved : each.start);
-    }
+  for (const std::vector<double>& x : trial_points(law)) {
     rows.move_to(x.data());
     const Population& population = rows.population();
     for (const double away : {0.5, 3.0, 200.0}) {

@@ -17,6 +17,9 @@ struct BoundColumn;
 /// Whether an expression of the rows has cases (where, min, max, abs, <), or they depend on rows before.
 bool has_cases(const OwnLaw& law);
 
+/// Parameters at which the form of a law is tried.
+std::vector<std::vector<double>> trial_points(const OwnLaw& law);
+
 /// Whether every column is normal and exact, its mean a straight line in what differs from unit to
 /// unit, and its standard deviation without it: depth = k work, y = a + b t. Tried with numbers, at
 /// several parameters and effects; laws with cases (where, min, max, abs, <) never are.

@@ -50,13 +50,7 @@ bool is_proportional(const OwnLaw& law, const std::vector<BoundColumn>& columns)
     if (count != 0 && count != 1) return false;
   }
   UnitRows rows(law, columns);
-  for (const double factor : {1.0, 1.7, 0.3}) {
-    std::vector<double> x;
-    for (const Parameter& each : law.parameters) {
-      const double moved = each.start * factor;
-      const bool inside = each.prior.lower < moved && moved < each.prior.upper;
-      x.push_back(inside ? moved : each.start);
-    }
+  for (const std::vector<double>& x : trial_points(law)) {
     rows.move_to(x.data());
     const double middle = rows.population().middle[0];
     if (!in_proportion(rows, middle != 0 ? middle : 1)) return false;

@@ -1,0 +1,170 @@
+#include "wearwell/cli/monitor.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/base/same_file.h"
+#include "wearwell/base/sha1.h"
+#include "wearwell/base/staged_file.h"
+#include "wearwell/cli/carried.h"
+#include "wearwell/monitor/export_readings.h"
+#include "wearwell/monitor/fleet_json.h"
+#include "wearwell/monitor/fleet_text.h"
+#include "wearwell/monitor/monitor_run.h"
+
+namespace wearwell {
+namespace {
+
+struct MonitorCommand {
+  std::filesystem::path config, exported;
+  monitor::MonitorOptions run;
+  bool check = false, json = false, quiet = false;
+};
+
+/// What a configuration says, with what it follows its units with.
+struct ReadConfig {
+  std::unique_ptr<const prognosis::Tracker> tracker;
+  std::string fingerprint;
+  bool trusted = true;
+  monitor::MonitorConfig config;
+};
+
+ReadConfig read_config(const std::filesystem::path& file, Models models) {
+  const TomlReader root = TomlReader::parse_file(file);
+  const std::filesystem::path result = monitor::read_result_path(root);
+  const prognosis::CarriedState state = read_carried(result);
+  const auto model = std::find_if(models.begin(), models.end(),
+                                  [&](const Model& each) { return each.key == state.model; });
+  if (model == models.end())
+    root.fail("result", fmt::format("{} is of the model '{}', which is not known here",
+                                    result.string(), printable(state.model)));
+  if (!model->track)
+    root.fail(
+        "result",
+        fmt::format(
+            "{} is of the model '{}'; units of that are not followed on line, those of \"law\" are",
+            result.string(), state.model));
+  ReadConfig read;
+  read.tracker = model->track(state);
+  read.fingerprint = sha1_of(prognosis::state_bytes(state));
+  read.trusted = state.trusted;
+  read.config = monitor::read_monitor_config(root, *read.tracker);
+  return read;
+}
+
+void export_readings(const ReadConfig& read, const MonitorCommand& command) {
+  refuse_overwriting({{"the configuration", command.config}}, {{"--export", command.exported}});
+  const std::string ending = command.exported.extension().string();
+  if (ending != ".parquet" && ending != ".csv")
+    throw InputError(fmt::format("--export: {} ends neither in .parquet nor in .csv",
+                                 command.exported.string()));
+  const auto store = monitor::open_store(read.config.store, read.config.folder,
+                                         monitor::store_columns(read.config, *read.tracker),
+                                         monitor::Access::read);
+  std::uint64_t count = 0;
+  write_file(command.exported, ending == ".csv"
+                                   ? monitor::readings_as_csv(*store, *read.tracker, count)
+                                   : monitor::readings_as_parquet(*store, *read.tracker, count));
+  if (!command.quiet) fmt::print("{} readings are in {}\n", count, command.exported.string());
+}
+
+std::string in_json(const monitor::FleetReader& fleet) {
+  nlohmann::ordered_json json = monitor::json_of(fleet.fleet());
+  auto& units = json["list"] = nlohmann::ordered_json::array();
+  constexpr std::size_t all = SIZE_MAX;
+  for (const monitor::UnitView& each : fleet.units("", 0, all))
+    units.push_back(monitor::json_of(each));
+  return monitor::text_of(json);
+}
+
+void run_monitor(const ReadConfig& read, const MonitorCommand& command) {
+  const auto started = [&](const monitor::Fleet& fleet, const std::string& address) {
+    if (command.quiet || command.json || command.run.once) return;
+    fmt::print("monitoring {} units, {} readings stored{}\n", fleet.fleet().units,
+               fleet.fleet().stored,
+               address.empty() ? "" : fmt::format("; the page is {}", address));
+    std::fflush(stdout);
+  };
+  const auto ended = [&](const monitor::Fleet& fleet) {
+    if (command.json) {
+      fmt::print("{}\n", in_json(fleet));
+    } else if (!command.quiet) {
+      fmt::print("{}", monitor::fleet_text(fleet));
+    }
+  };
+  try {
+    monitor::run_monitor(read.config, {*read.tracker, read.fingerprint, read.trusted}, command.run,
+                         started, ended);
+  } catch (const monitor::StoreError& error) {
+    throw MachineError(error.what());
+  }
+}
+
+void run(const MonitorCommand& command, Models models) {
+  const ReadConfig read = read_config(command.config, models);
+  if (command.check) {
+    fmt::print("{} is whole: {} sources, store {}\n", command.config.string(),
+               read.config.sources.size(), monitor::shown_store(read.config.store));
+  } else if (!command.exported.empty()) {
+    try {
+      export_readings(read, command);
+    } catch (const monitor::StoreError& error) {
+      throw MachineError(error.what());
+    }
+  } else {
+    run_monitor(read, command);
+  }
+}
+
+}  // namespace
+
+void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
+  const auto command = std::make_shared<MonitorCommand>();
+  CLI::App* monitor = app.add_subcommand(
+      "monitor",
+      "Follow machines on line: wear, remaining life and risk of each, from their messages");
+  monitor->add_option("CONFIG", command->config, "Configuration (TOML, docs/monitor.md)")
+      ->required();
+  CLI::Option* once = monitor->add_flag(
+      "--once", command->run.once,
+      "Read what files and standard input hold, print the fleet and end; no page, no topics");
+  CLI::Option* check = monitor
+                           ->add_flag("--check", command->check,
+                                      "Read the configuration, and say whether it is whole")
+                           ->excludes(once);
+  monitor
+      ->add_option("--export", command->exported,
+                   "Write all stored readings to this file (.parquet, .csv) and end; a monitor may "
+                   "be at work")
+      ->type_name("FILE")
+      ->excludes(once)
+      ->excludes(check);
+  monitor
+      ->add_option("--threads", command->run.threads,
+                   "Threads (default: all); results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  CLI::Option* json = monitor->add_flag(
+      "--json", command->json, "At the end print the fleet as one JSON object, and nothing else");
+  monitor->add_flag("--quiet", command->quiet, "Print nothing but what goes wrong")->excludes(json);
+  monitor->footer(
+      "It ends when standard input does, unless another source goes on, and on SIGINT or SIGTERM; "
+      "what is acknowledged is\n"
+      "stored, and a kill loses nothing of that.\n\n"
+      "Examples:\n"
+      "  wearwell monitor fleet.toml\n"
+      "  wearwell monitor fleet.toml --once < readings.jsonl\n"
+      "  wearwell monitor fleet.toml --export readings.parquet\n\n"
+      "Exit codes: 0 ended as asked; 2 the configuration is wrong, nothing was begun; 3 the "
+      "machine failed.");
+  monitor->callback([command, models, &exit_code] {
+    run(*command, models);
+    exit_code = 0;
+  });
+}
+
+}  // namespace wearwell

@@ -1,0 +1,285 @@
+#include "wearwell/fleet/duckdb_engine.h"
+
+#include <duckdb.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <boost/algorithm/string/predicate.hpp>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <future>
+#include <limits>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/duckdb_message.h"
+#include "wearwell/input/duckdb_session.h"
+
+namespace wearwell::fleet {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own that goes with its object.
+class SpillFolder {
+ public:
+  explicit SpillFolder(const fs::path& parent) {
+    std::string name = (fs::absolute(parent) / ".wearwell-fleet-XXXXXX").string();
+    if (!mkdtemp(name.data()))
+      throw InputError(
+          fmt::format("cannot make a folder in {}: {}", parent.string(), std::strerror(errno)));
+    path_ = name;
+  }
+  ~SpillFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  SpillFolder(const SpillFolder&) = delete;
+  SpillFolder& operator=(const SpillFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+long half_of_memory() {
+  return sysconf(_SC_PHYS_PAGES) / 2 * (sysconf(_SC_PAGESIZE) / 1024) / 1024;
+}
+
+class Answer {
+ public:
+  Answer() = default;
+  ~Answer() { duckdb_destroy_result(&result); }
+  Answer(const Answer&) = delete;
+  Answer& operator=(const Answer&) = delete;
+  duckdb_result result{};
+};
+
+class DuckdbEngine : public Engine {
+ public:
+  explicit DuckdbEngine(const DuckdbSettings& settings);
+  ~DuckdbEngine() override { close(); }
+
+  Dialect dialect() const override { return Dialect::duckdb; }
+  std::string in_words() const override {
+    return fmt::format("DuckDB {}", duckdb_library_version());
+  }
+  std::string table() const override { return "cycles"; }
+  std::string source() const override { return source_; }
+  std::vector<EngineColumn> columns() override;
+  void run(const std::string& statements, const Monitor& monitor, const std::string& what,
+           long long total) override;
+  void rows(const std::string& query, std::size_t texts,
+            const std::function<void(const Row&)>& take) override;
+
+ private:
+  void close();
+  void execute(const std::string& statements, Answer& answer);
+  void execute(const std::string& statements) {
+    Answer answer;
+    execute(statements, answer);
+  }
+  std::vector<std::string> expand(const std::vector<std::string>& patterns);
+  std::string view_of(const std::vector<std::string>& files, const std::string& unit);
+  [[noreturn]] void fail(const std::string& message) const;
+
+  SpillFolder spill_;
+  long memory_;
+  std::string source_;
+  bool csv_ = false;
+  duckdb_database database_ = nullptr;
+  duckdb_connection connection_ = nullptr;
+};
+
+DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
+    : spill_(settings.spill.empty() ? fs::path(".") : settings.spill),
+      memory_(settings.memory > 0 ? settings.memory : half_of_memory()),
+      source_(fmt::format("{}", fmt::join(settings.files, ", "))) {
+  const fs::path database =
+      settings.state.empty() ? spill_.path() / "sums.duckdb" : fs::absolute(settings.state);
+  char* problem = nullptr;
+  if (duckdb_open_ext(database.c_str(), &database_, nullptr, &problem) != DuckDBSuccess) {
+    const std::string message = problem ? problem : "unknown";
+    duckdb_free(problem);
+    throw InputError(fmt::format("{} cannot be opened as a database of DuckDB: {}",
+                                 settings.state.string(), printable(duckdb_sentence(message))));
+  }
+  try {
+    if (duckdb_connect(database_, &connection_) != DuckDBSuccess)
+      throw MachineError("cannot start DuckDB");
+    execute("set autoinstall_known_extensions = false; set autoload_known_extensions = false");
+    const std::vector<std::string> files = expand(settings.files);
+    std::vector<std::string> allowed;
+    for (const std::string& file : files) allowed.push_back(quoted(file, '\''));
+    if (settings.threads > 0) execute(fmt::format("set threads = {}", settings.threads));
+    execute(
+        fmt::format("set memory_limit = '{}MiB'; set temp_directory = {}; set "
+                    "preserve_insertion_order = false; "
+                    "set enable_progress_bar = true; set enable_progress_bar_print = false; set "
+                    "allowed_paths = "
+                    "[{}]; set allowed_directories = [{}]; set enable_external_access = false; set "
+                    "lock_configuration = true",
+                    memory_, quoted((spill_.path() / "spill").string(), '\''),
+                    fmt::join(allowed, ", "), quoted(spill_.path().string() + "/", '\'')));
+    execute("create temp view cycles as select * from " + view_of(files, ""));
+    for (const EngineColumn& each : columns()) {
+      if (each.name == settings.unit && each.is_number && csv_)
+        execute("create or replace temp view cycles as select * from " +
+                view_of(files, settings.unit));
+    }
+  } catch (...) {
+    close();
+    throw;
+  }
+}
+
+void DuckdbEngine::close() {
+  if (connection_) duckdb_disconnect(&connection_);
+  if (database_) duckdb_close(&database_);
+}
+
+void DuckdbEngine::fail(const std::string& message) const {
+  const auto has = [&](const char* part) { return message.find(part) != std::string::npos; };
+  if (has("INTERRUPT")) throw Cancelled();
+  if (boost::algorithm::starts_with(message, "Out of Memory"))
+    throw MachineError(
+        fmt::format("DuckDB needs more than the {} MB that it may take (--memory): {}", memory_,
+                    printable(duckdb_sentence(message))));
+  if (has("No space left"))
+    throw MachineError(fmt::format("no space left in {} for what does not fit into memory",
+                                   spill_.path().parent_path().string()));
+  throw InputError(fmt::format("{}: {}", source_, printable(duckdb_sentence(message))));
+}
+
+void DuckdbEngine::execute(const std::string& statements, Answer& answer) {
+  if (duckdb_query(connection_, statements.c_str(), &answer.result) == DuckDBSuccess) return;
+  const char* error = duckdb_result_error(&answer.result);
+  fail(error ? error : "an unknown error");
+}
+
+std::vector<std::string> DuckdbEngine::expand(const std::vector<std::string>& patterns) {
+  std::vector<std::string> files;
+  for (const std::string& pattern : patterns) {
+    std::error_code ignored;
+    // A file is a file, whatever signs are in its name.
+    if (fs::is_regular_file(pattern, ignored)) {
+      files.push_back(fs::absolute(pattern).string());
+      continue;
+    }
+    const std::size_t before = files.size();
+    rows(fmt::format("select file from glob({}) order by file", quoted(pattern, '\'')), 1,
+         [&](const Row& row) { files.push_back(fs::absolute(row.texts.front()).string()); });
+    if (files.size() == before)
+      throw InputError(fmt::format("there is no file {}", printable(pattern)));
+  }
+  return files;
+}
+
+std::string DuckdbEngine::view_of(const std::vector<std::string>& files, const std::string& unit) {
+  const auto ends = [](const std::string& file, const char* end) {
+    return boost::algorithm::iends_with(file, end);
+  };
+  bool parquet = true, csv = true;
+  std::vector<std::string> names;
+  for (const std::string& file : files) {
+    if (file.find_first_of("*?[") != std::string::npos)
+      throw InputError(
+          fmt::format("DuckDB takes the name {} for a pattern: rename the file", printable(file)));
+    parquet = parquet && (ends(file, ".parquet") || ends(file, ".pq"));
+    csv = csv && (ends(file, ".csv") || ends(file, ".csv.gz"));
+    names.push_back(quoted(file, '\''));
+  }
+  if (!parquet && !csv)
+    throw InputError(fmt::format(
+        "{}: a fleet's cycles are Parquet files or CSV files, all of one kind", source_));
+  if (parquet)
+    return fmt::format("read_parquet([{}], hive_partitioning = false)", fmt::join(names, ", "));
+  // Without BIGINT: where the first thousands of cells are whole numbers, 2.5 would be read as 3.
+  return fmt::format(
+      "read_csv([{}], header = true, delim = ',', quote = '\"', escape = '\"', strict_mode = true, "
+      "null_padding = false, ignore_errors = false, hive_partitioning = false, "
+      "auto_type_candidates = ['DOUBLE', 'VARCHAR']{})",
+      fmt::join(names, ", "),
+      unit.empty() ? "" : fmt::format(", types = {{{}: 'VARCHAR'}}", quoted(unit, '\'')));
+}
+
+std::vector<EngineColumn> DuckdbEngine::columns() {
+  Answer answer;
+  execute("select * from cycles limit 0", answer);
+  std::vector<EngineColumn> found;
+  for (idx_t c = 0; c < duckdb_column_count(&answer.result); ++c) {
+    const duckdb_type type = duckdb_column_type(&answer.result, c);
+    found.push_back(
+        {duckdb_column_name(&answer.result, c), is_number(type),
+         type == DUCKDB_TYPE_DOUBLE || type == DUCKDB_TYPE_FLOAT || type == DUCKDB_TYPE_DECIMAL});
+  }
+  return found;
+}
+
+void DuckdbEngine::run(const std::string& statements, const Monitor& monitor,
+                       const std::string& what, long long total) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  auto work = std::async(std::launch::async, [&] { execute(statements); });
+  while (work.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
+    if (monitor.stop.stop_requested()) duckdb_interrupt(connection_);
+    const double done = duckdb_query_progress(connection_).percentage;
+    if (monitor.progress && done >= 0 && total > 0)
+      monitor.progress({what, static_cast<long long>(done / 100 * static_cast<double>(total)),
+                        total, std::chrono::duration<double>(Clock::now() - start).count()});
+  }
+  work.get();
+}
+
+void DuckdbEngine::rows(const std::string& query, std::size_t texts,
+                        const std::function<void(const Row&)>& take) {
+  duckdb_prepared_statement statement = nullptr;
+  Answer answer;
+  std::string problem;
+  if (duckdb_prepare(connection_, query.c_str(), &statement) != DuckDBSuccess) {
+    problem = duckdb_prepare_error(statement);
+  } else if (duckdb_execute_prepared_streaming(statement, &answer.result) != DuckDBSuccess) {
+    problem = duckdb_result_error(&answer.result);
+  }
+  duckdb_destroy_prepare(&statement);
+  if (!problem.empty()) fail(problem);
+  Row row;
+  row.texts.resize(texts);
+  const idx_t count = duckdb_column_count(&answer.result);
+  row.numbers.resize(count - texts);
+  std::vector<std::vector<std::string>> words(texts);
+  std::vector<std::vector<double>> numbers(count - texts);
+  while (duckdb_data_chunk chunk = duckdb_fetch_chunk(answer.result)) {
+    const idx_t size = duckdb_data_chunk_get_size(chunk);
+    for (idx_t c = 0; c < count; ++c) {
+      duckdb_vector vector = duckdb_data_chunk_get_vector(chunk, c);
+      if (c < texts) {
+        words[c].clear();
+        append_text(vector, size, words[c]);
+      } else {
+        numbers[c - texts].clear();
+        append_numbers(vector, size, numbers[c - texts]);
+      }
+    }
+    duckdb_destroy_data_chunk(&chunk);
+    for (idx_t i = 0; i < size; ++i) {
+      for (std::size_t c = 0; c < texts; ++c) row.texts[c] = words[c][i];
+      for (std::size_t c = 0; c < numbers.size(); ++c) row.numbers[c] = numbers[c][i];
+      take(row);
+    }
+  }
+  const char* error = duckdb_result_error(&answer.result);
+  if (error && *error) fail(error);
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> duckdb_engine(const DuckdbSettings& settings) {
+  return std::make_unique<DuckdbEngine>(settings);
+}
+
+}  // namespace wearwell::fleet

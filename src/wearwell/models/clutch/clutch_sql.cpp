@@ -1,0 +1,290 @@
+#include "wearwell/models/clutch/clutch_sql.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "wearwell/models/clutch/sql_writer.h"
+
+namespace wearwell::clutch {
+namespace {
+
+const std::vector<std::string> count_names = {"cycles",
+                                              "refused",
+                                              "repeated",
+                                              "outside_slip_speed",
+                                              "outside_torque",
+                                              "outside_temperature",
+                                              "outside_closing_time",
+                                              "outside_any",
+                                              "negative"};
+
+}  // namespace
+
+using fleet::number;
+
+std::string SqlColumns::text() const {
+  return fmt::format("{}", fmt::join(list_, ",\n  "));
+}
+
+SqlWriter::SqlWriter(const WearModel& model, const std::string& id, fleet::Dialect dialect,
+                     const SqlSource& source, bool replicates)
+    : model_(model),
+      dialect_(dialect),
+      source_(source),
+      id_(fleet::literal(dialect, id)),
+      parameters_(sql_parameters(model, replicates)),
+      units_(fixed_units(model)),
+      types_(fleet::types(dialect)),
+      replicates_(replicates ? model.replicates.size() : 0),
+      model_table_(fleet::table_identifier(dialect, source.prefix + "_model")),
+      sums_table_(fleet::table_identifier(dialect, source.prefix + "_sums")) {}
+
+/// What is summed for each unit, after the counts.
+std::vector<std::string> SqlWriter::sum_names() const {
+  std::vector<std::string> names = {"energy", "volume", "variance", "settled"};
+  for (const char* input : input_columns) names.push_back(std::string("sum_") + input);
+  for (std::size_t b = 1; b <= replicates_; ++b) names.push_back(fmt::format("v{}", b));
+  for (std::size_t b = 1; b <= replicates_; ++b) names.push_back(fmt::format("s{}", b));
+  return names;
+}
+
+std::string SqlWriter::count_if(const std::string& condition) const {
+  return fmt::format("sum(case when {} then 1 else 0 end)", condition);
+}
+
+std::string SqlWriter::setup() const {
+  std::string sums;
+  for (const std::string& each : count_names)
+    sums += fmt::format(",\n  {} {} not null", each, types_.whole);
+  for (const std::string& each : sum_names())
+    sums += fmt::format(",\n  {} {} not null", each, types_.sum);
+  std::vector<std::string> rows;
+  for (const SqlParameter& each : parameters_.all)
+    rows.push_back(fmt::format("  ({}, {}, {}, {})", id_, each.replicate,
+                               fleet::literal(dialect_, each.name), number(each.value)));
+  return fmt::format(
+      "-- 1. Set-up: the model's numbers as rows, and a table for sums. May be run again.\n"
+      "-- SI, temperatures in degrees Celsius. Replicate 0 is the model; the others are models "
+      "that "
+      "chance might have led to.\n"
+      "create table if not exists {0} (\n  model {1} not null, replicate integer not null, name "
+      "{1} "
+      "not null, value {2} not null,\n  primary key (model, replicate, name));\n"
+      "-- One row a unit and run of statement 2. The key refuses a run that counts what another "
+      "has "
+      "counted.\n"
+      "create table if not exists {3} (\n  model {1} not null, unit {1} not null, after_cycle {4} "
+      "not null, last_cycle {4} not null{5},\n  primary key (model, unit, after_cycle));\n"
+      "delete from {0} where model = {6};\ninsert into {0} (model, replicate, name, value) "
+      "values\n{7};\n",
+      model_table_, types_.text, types_.real, sums_table_, types_.whole, sums, id_,
+      fmt::join(rows, ",\n"));
+}
+
+/// The parameters as one row.
+std::string SqlWriter::parameters() const {
+  SqlColumns columns;
+  for (const SqlParameter& each : parameters_.all)
+    columns.add(fmt::format("max(case when replicate = {} and name = {} then value end)",
+                            each.replicate, fleet::literal(dialect_, each.name)),
+                each.column);
+  return fmt::format("(select\n  {}\nfrom {} where model = {}) as k", columns.text(), model_table_,
+                     id_);
+}
+
+std::string SqlWriter::in_si(const SqlColumn& column) const {
+  std::string text = fleet::real(dialect_, "t." + fleet::identifier(dialect_, column.name));
+  if (column.scale != 1) text += " * " + number(column.scale);
+  if (column.offset != 0) text += " + " + number(column.offset);
+  return text;
+}
+
+/// Nothing where a number that names a unit is not whole.
+std::string SqlWriter::unit() const {
+  const std::string name = "t." + fleet::identifier(dialect_, source_.unit.name);
+  if (!source_.unit.is_real) return name;
+  return fmt::format("case when {0} = floor({0}) then cast({0} as bigint) end", name);
+}
+
+/// What `wearwell clutch predict` demands of a row. NaN is above every number, or no comparison with it
+/// is true.
+std::string SqlWriter::valid() const {
+  std::string text = "cycle >= 1 and cycle <= 9e15 and cycle = floor(cycle)";
+  for (const char* each : {"slip_speed", "torque", "closing_time", "energy"})
+    text += fmt::format(" and {0} > 0 and {0} < 1e300", each);
+  return text + " and temperature >= -273.15e0 and temperature < 1e300";
+}
+
+std::string SqlWriter::si(bool fresh) const {
+  const std::string unit = this->unit();
+  const std::string cycle = "t." + fleet::identifier(dialect_, source_.cycle.name);
+  SqlColumns columns;
+  columns.add(unit, "unit");
+  columns.add(cycle, "cycle");
+  for (std::size_t i = 0; i < 4; ++i) columns.add(in_si(source_.inputs[i]), input_columns[i]);
+  columns.add(in_si(source_.energy), "energy");
+  if (fresh && source_.first) {
+    columns.add("0", "after_cycle");
+    columns.add("0", "energy_before");
+  }
+  if (!fresh || source_.first)
+    return fmt::format("select\n  {}\nfrom {} as t{}", columns.text(), source_.table, fence());
+  columns.add("coalesce(last.after_cycle, 0)", "after_cycle");
+  columns.add("coalesce(last.energy, 0)", "energy_before");
+  return fmt::format(
+      "select\n  {}\nfrom {} as t\nleft join (\n  select unit, max(last_cycle) as after_cycle, "
+      "sum(energy) as energy from {} where model = {} group by unit\n) as last on last.unit = "
+      "{}\nwhere last.after_cycle is null or {} is null or {} > last.after_cycle{}",
+      columns.text(), source_.table, sums_table_, id_, fleet::text(dialect_, unit), cycle, cycle,
+      fence());
+}
+
+std::string SqlWriter::ordered() const {
+  SqlColumns checked;
+  for (const char* each : {"unit", "cycle", "after_cycle", "energy_before"}) checked.keep(each);
+  checked.add(valid(), "valid");
+  for (const char* each : input_columns)
+    checked.add(fmt::format("case when {} then {} end", valid(), each), each);
+  checked.add(fmt::format("case when {} then {} end", valid(),
+                          fleet::whole(dialect_, "energy * " + number(1 / units_.energy))),
+              "fixed_energy");
+  return fmt::format(
+      "select *,\n"
+      "  energy_before + coalesce(sum(fixed_energy) over (partition by unit order by cycle\n"
+      "    rows between unbounded preceding and 1 preceding), 0) as before,\n"
+      "  lag(cycle) over (partition by unit order by cycle) as cycle_before\n"
+      "from (\nselect\n  {}\nfrom (\n-- the new cycles, in SI\n{}\n) as si{}\n) as checked{}",
+      checked.text(), si(true), fence(), fence());
+}
+
+std::string SqlWriter::powers() const {
+  SqlColumns columns;
+  columns.add(fmt::format("fixed_energy * {}", number(units_.energy)), "energy");
+  columns.add(fmt::format("{} * {}", fleet::real(dialect_, "before"), number(units_.energy)),
+              "running");
+  for (std::size_t p = 0; p < parameters_.pairs.size(); ++p) {
+    const std::size_t b = parameters_.pairs[p].first;
+    columns.add(
+        fmt::format("exp({} * ln(slip_speed) + {} * ln(closing_time))", k(b, "r"), k(b, "q")),
+        fmt::format("ds{}", p));
+  }
+  return fmt::format(
+      "select ordered.*, k.*,\n  {}\nfrom (\n-- energy of the cycles before each, in whole units; "
+      "a "
+      "row without values that can be counts as nothing but refused\n{}\n) as ordered cross "
+      "join\n{}{}",
+      columns.text(), ordered(), parameters(), fence());
+}
+
+std::string SqlWriter::run_in(std::size_t b, const std::string& energy) const {
+  const auto mode = [&](const char* share, const char* scale) {
+    return fmt::format(
+        "{} * {}", parameters_.column(b, share),
+        fleet::decay(dialect_, fmt::format("-{} / {}", energy, parameters_.column(b, scale))));
+  };
+  return fmt::format("(1e0 + {} + {})", mode("slow", "slow_energy"), mode("fast", "fast_energy"));
+}
+
+std::string SqlWriter::rates() const {
+  SqlColumns columns;
+  for (std::size_t b = 0; b <= replicates_; ++b)
+    columns.add(horner(parameters_, b, ""), fmt::format("w{}", b));
+  return fmt::format(
+      "select *,\n  {}\nfrom (\n-- slip distance of each pair of exponents\n{}\n) as powers{}",
+      columns.text(), powers(), fence());
+}
+
+/// sigma_w, never below its floor; as in CycleSum of the rate before it is cut off at 0.
+std::string SqlWriter::sigma() const {
+  const auto p = [&](int i) { return parameters_.column(0, fmt::format("sigma{}", i)); };
+  std::string text;
+  switch (model_.scatter.kind) {
+    case ScatterKind::exponential:
+      text = fmt::format("{} * exp({} * w0)", p(1), p(2));
+      break;
+    case ScatterKind::linear:
+      text = fmt::format("{} + {} * w0", p(1), p(2));
+      break;
+    case ScatterKind::quadratic:
+      text = fmt::format("{} + w0 * ({} + w0 * {})", p(1), p(2), p(3));
+      break;
+    case ScatterKind::conditions:
+      text =
+          fmt::format("{} + {} * temperature + {} * slip_speed + {} * torque + {} * closing_time",
+                      p(1), p(2), p(3), p(4), p(5));
+  }
+  return fmt::format("greatest({}, {})", text, parameters_.column(0, "sigma_floor"));
+}
+
+std::string SqlWriter::worn() const {
+  SqlColumns columns;
+  columns.add(sigma() + " * energy", "step");
+  for (std::size_t b = 0; b <= replicates_; ++b)
+    columns.add(fmt::format("greatest(w{}, 0e0) * energy", b), fmt::format("settled{}", b));
+  return fmt::format(
+      "select *,\n  {}\nfrom (\n-- wear rates: of the model, then of the replicates\n{}\n) as "
+      "rates{}",
+      columns.text(), rates(), fence());
+}
+
+std::string SqlWriter::query() const {
+  std::vector<std::string> names = {"model", "unit", "after_cycle", "last_cycle"};
+  names.insert(names.end(), count_names.begin(), count_names.end());
+  for (const std::string& each : sum_names()) names.push_back(each);
+  SqlColumns columns;
+  columns.keep(id_);
+  columns.keep(fleet::text(dialect_, "unit"));
+  columns.keep("max(after_cycle)");
+  columns.keep("coalesce(max(cycle), max(after_cycle))");
+  for (const char* condition : {"valid", "not coalesce(valid, false)", "cycle = cycle_before"})
+    columns.keep(count_if(condition));
+  std::string any;
+  for (const char* each : input_columns) {
+    const std::string out = fmt::format("{0} < {1} or {0} > {2}", each,
+                                        parameters_.column(0, std::string(each) + "_from"),
+                                        parameters_.column(0, std::string(each) + "_to"));
+    columns.keep(count_if(out));
+    any += (any.empty() ? "" : " or ") + out;
+  }
+  columns.keep(count_if(any));
+  columns.keep(count_if("w0 < 0"));
+  const auto sum = [&](const std::string& fixed) {
+    columns.keep(fmt::format("coalesce({}, 0)", fleet::sum_of(dialect_, fixed)));
+  };
+  const auto fine = [&](const std::string& x, double unit) {
+    sum(fleet::wide(dialect_, fmt::format("{} * {}", x, number(1 / unit))));
+  };
+  sum("fixed_energy");
+  fine("settled0 * " + run_in(0, "running"), units_.fine);
+  fine("step * step", units_.variance);
+  fine("settled0", units_.fine);
+  for (std::size_t i = 0; i < 4; ++i)
+    sum(fleet::whole(dialect_,
+                     fmt::format("{} * {}", input_columns[i], number(1 / units_.inputs[i]))));
+  for (const bool run : {true, false}) {
+    for (std::size_t b = 1; b <= replicates_; ++b)
+      sum(fleet::whole(dialect_,
+                       fmt::format("settled{}{} * {}", b, run ? " * " + run_in(b, "running") : "",
+                                   number(1 / units_.volume))));
+  }
+  return fmt::format(
+      "-- 2. Query: adds the sums of all cycles behind the last that was counted of each unit. May "
+      "be run again, and adds nothing then.\n"
+      "-- Whole numbers, so that no order of rows changes a bit. Units: energy 2^{} J, volume and "
+      "settled 2^{} m^3, variance 2^{} m^6,\n-- replicates v1 .. (with run-in) and s1 .. (without) "
+      "2^{} m^3.\n"
+      "insert into {} ({})\nselect\n  {}\nfrom (\n-- volumes of a plate that is run in, and "
+      "scatter\n{}\n) "
+      "as worn\ngroup by unit;\n",
+      std::ilogb(units_.energy), std::ilogb(units_.fine), std::ilogb(units_.variance),
+      std::ilogb(units_.volume), sums_table_, fmt::join(names, ", "), columns.text(), worn());
+}
+
+ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Dialect dialect,
+                     const SqlSource& source, bool replicates) {
+  const SqlWriter writer(model, id, dialect, source, replicates);
+  return {writer.setup(), writer.query(), writer.combine(), writer.totals(),
+          writer.size(),  writer.late(),  writer.check()};
+}
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "wearwell/fleet/dialect.h"
+#include "wearwell/models/clutch/wear_model.h"
+
+namespace wearwell::clutch {
+
+/// A column of a database's table in SI: offset + scale * value.
+struct SqlColumn {
+  std::string name;  ///< as the database has it
+  double scale = 1, offset = 0;
+  bool is_real = false;  ///< of a unit: a number that may have a fraction, which no unit has
+};
+
+/// Where the cycles lie.
+struct SqlSource {
+  std::string table;  ///< as a statement has it: quoted, or a view
+  SqlColumn unit, cycle;
+  std::array<SqlColumn, 4> inputs;  ///< as `inputs`; the temperature in degrees Celsius
+  SqlColumn energy;
+  std::string prefix = "wearwell";  ///< of the tables that the statements make
+  bool first = false;               ///< nothing was counted before: all rows are new
+};
+
+/// Units of the fixed point, powers of two: of the sums of 64 bits and of those of 128.
+struct FixedUnits {
+  double energy = 1;    ///< J
+  double volume = 1;    ///< m^3, of the replicates
+  double fine = 1;      ///< m^3, of the volume itself
+  double variance = 1;  ///< m^6
+  std::array<double, 4> inputs{};
+};
+/// A summand is at least 2^38 units where the model is at home, so that rounding it is nothing beside
+/// 1e-9 of it, and may be 2^24 times as large before 64 bits do not hold it.
+FixedUnits fixed_units(const WearModel& model);
+
+/// A fitted model as statements for the database that holds the cycles. Per unit and in the order of
+/// its cycles
+///
+///   V = sum g(Ec) max(0, w) E,   S = sum (sigma E)^2,   V_b = sum g_b(Ec) max(0, w_b) E,
+///
+/// Ec the energy of the cycles before, b the replicates: as CycleSum does, in fixed point. A wear rate below 0 is
+/// no wear, cycle by cycle and for each replicate by itself; so that V is not linear in the coefficients, and
+/// sums of monomials would not do. settled: the same sums with g = 1, from which wear goes on at the unit's
+/// own duty.
+struct ClutchSql {
+  std::string setup;    ///< the model's numbers as rows; tables, where they are missing
+  std::string query;    ///< adds the sums of cycles that are new
+  std::string combine;  ///< wear of each unit with both intervals, and what is left
+  std::string totals;   ///< SELECT: the sums of each unit in SI, columns as `UnitSums` reads them
+  std::string size;     ///< SELECT: units, and cycles of all
+  /// SELECT: units whose rows up to the last cycle that was counted are not as many as were
+  /// counted, and how many of both.
+  std::string late;
+  std::string check;  ///< SELECT: rows, rows without a value that can be, range of each input
+};
+/// `id`: of the model, the SHA-1 of model.json. Without `replicates` there is only the interval by
+/// scatter and plate. Throws InputError for names that the dialect cannot hold.
+ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Dialect dialect,
+                     const SqlSource& source, bool replicates);
+
+}  // namespace wearwell::clutch

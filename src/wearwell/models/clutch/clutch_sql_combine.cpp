@@ -1,0 +1,209 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/models/clutch/sql_writer.h"
+
+namespace wearwell::clutch {
+
+using fleet::number;
+
+namespace {
+
+constexpr int newton_steps = 8;
+
+constexpr const char* counts[] = {"cycles",
+                                  "refused",
+                                  "repeated",
+                                  "outside_slip_speed",
+                                  "outside_torque",
+                                  "outside_temperature",
+                                  "outside_closing_time",
+                                  "outside_any",
+                                  "negative"};
+
+}  // namespace
+
+/// The sums of each unit over all runs, in SI.
+std::string SqlWriter::unit_sums() const {
+  SqlColumns columns;
+  columns.keep("unit");
+  columns.add(fleet::real(dialect_, "max(last_cycle)"), "last_cycle");
+  for (const char* each : counts)
+    columns.add(fleet::real(dialect_, fmt::format("sum({})", each)), each);
+  const auto add = [&](const std::string& name, double unit) {
+    columns.add(
+        fmt::format("{} * {}", fleet::real(dialect_, fmt::format("sum({})", name)), number(unit)),
+        name);
+  };
+  add("energy", units_.energy);
+  add("volume", units_.fine);
+  add("variance", units_.variance);
+  add("settled", units_.fine);
+  for (std::size_t i = 0; i < 4; ++i) add(std::string("sum_") + input_columns[i], units_.inputs[i]);
+  for (const char letter : {'v', 's'}) {
+    for (std::size_t b = 1; b <= replicates_; ++b)
+      add(fmt::format("{}{}", letter, b), units_.volume);
+  }
+  return fmt::format("select\n  {}\nfrom {} where model = {} group by unit", columns.text(),
+                     sums_table_, id_);
+}
+
+std::string SqlWriter::totals() const {
+  return unit_sums() + "\norder by unit";
+}
+
+/// Volume of replicate b after `n` more cycles of the unit's own mean duty; run-in as a geometric series.
+std::string SqlWriter::future(std::size_t b, const std::string& volume, const std::string& settled,
+                              const std::string& n) const {
+  const auto mode = [&](const char* name, const char* scale) {
+    return fmt::format("{}{} * (1e0 - {})", name, b,
+                       fleet::decay(dialect_, fmt::format("-{} * duty_energy / {}", n,
+                                                          parameters_.column(b, scale))));
+  };
+  return fmt::format("({} + {} * {} / cycles + {} + {})", volume, n, settled,
+                     mode("slow_left", "slow_energy"), mode("fast_left", "fast_energy"));
+}
+
+/// Levels within each other: sums, what is left of run-in, Newton's steps to the worn-out volume.
+std::string SqlWriter::wear() const {
+  SqlColumns duty;
+  duty.add("energy / cycles", "duty_energy");
+  std::string squares = "0e0";
+  for (std::size_t b = 1; b <= replicates_; ++b)
+    squares += fmt::format(" + (v{0} - volume) * (v{0} - volume)", b);
+  duty.add(fmt::format("({}) / {}", squares,
+                       number(static_cast<double>(std::max<std::size_t>(replicates_, 1)))),
+           "model_variance");
+  std::string text = fmt::format(
+      "select sums.*, k.*,\n  {}\nfrom (\n{}\n) as sums cross join\n{}\nwhere cycles > 0{}",
+      duty.text(), unit_sums(), parameters(), fence());
+
+  SqlColumns left;
+  for (std::size_t b = 0; b <= replicates_; ++b) {
+    const std::string settled = b == 0 ? "settled" : fmt::format("s{}", b);
+    for (const char* mode : {"slow", "fast"}) {
+      const std::string scale = parameters_.column(b, fmt::format("{}_energy", mode));
+      left.add(
+          fmt::format("{} / cycles * {} * {} / (1e0 - {})", settled, parameters_.column(b, mode),
+                      fleet::decay(dialect_, "-energy / " + scale),
+                      fleet::decay(dialect_, "-duty_energy / " + scale)),
+          fmt::format("{}_left{}", mode, b));
+    }
+  }
+  text = fmt::format("select *,\n  {},\n  0e0 as n0\nfrom (\n{}\n) as duty{}", left.text(), text,
+                     fence());
+  const auto slope = [&](const std::string& n) {
+    std::string sum = "settled / cycles";
+    for (const char* mode : {"slow", "fast"}) {
+      const std::string scale = parameters_.column(0, fmt::format("{}_energy", mode));
+      sum += fmt::format(" + {}_left0 * duty_energy / {} * {}", mode, scale,
+                         fleet::decay(dialect_, fmt::format("-{} * duty_energy / {}", n, scale)));
+    }
+    return sum;
+  };
+  // The volume is a concave function of n: from the left, Newton's steps never go too far.
+  for (int i = 0; i < newton_steps; ++i) {
+    const std::string n = fmt::format("n{}", i);
+    text = fmt::format(
+        "select *, case when volume < {0} and settled > 0 then {1} + ({0} - {2}) / ({3}) end as "
+        "n{4}\nfrom (\n{5}\n) as step{4}{6}",
+        parameters_.column(0, "worn_out"), n, future(0, "volume", "settled", n), slope(n), i + 1,
+        text, fence());
+  }
+  const std::string n = fmt::format("n{}", newton_steps);
+  std::string off = "0e0";
+  for (std::size_t b = 1; b <= replicates_; ++b)
+    off += fmt::format(" + power({} - {}, 2)",
+                       future(b, fmt::format("v{}", b), fmt::format("s{}", b), n),
+                       parameters_.column(0, "worn_out"));
+  return fmt::format(
+      "select *,\n  {0} as life_left,\n  sqrt(variance * (1e0 + {0} / cycles)) / ({1}) as "
+      "life_sd_scatter,\n  sqrt(variance * (1e0 + {0} / cycles) + ({2}) / {3} + power({4} * {5}, "
+      "2)) / "
+      "({1}) as life_sd_full\nfrom (\n{6}\n) as life{7}",
+      n, slope(n), off, number(static_cast<double>(std::max<std::size_t>(replicates_, 1))),
+      parameters_.column(0, "plate_sd"), parameters_.column(0, "worn_out"), text, fence());
+}
+
+std::string SqlWriter::combine() const {
+  const std::string mm3_of = " * " + number(1 / mm3);
+  const std::string worn_out = parameters_.column(0, "worn_out");
+  const std::string full = fmt::format("sqrt(variance + model_variance + power({} * volume, 2))",
+                                       parameters_.column(0, "plate_sd"));
+  SqlColumns columns;
+  columns.keep("unit");
+  columns.keep("cycles");
+  columns.keep("last_cycle");
+  columns.keep("energy");
+  columns.add("volume" + mm3_of, "volume_mm3");
+  const auto interval = [&](const std::string& sd, const std::string& name) {
+    columns.add(sd + mm3_of, fmt::format("sd_{}_mm3", name));
+    columns.add(fmt::format("(volume - 2e0 * {}){}", sd, mm3_of), fmt::format("{}_low_mm3", name));
+    columns.add(fmt::format("(volume + 2e0 * {}){}", sd, mm3_of), fmt::format("{}_high_mm3", name));
+  };
+  interval("sqrt(variance)", "scatter");
+  interval(full, "full");
+  columns.add("volume / " + worn_out, "worn");
+  columns.add(fmt::format("case when volume >= {} then 0e0 else life_left end", worn_out),
+              "life_left");
+  for (const char* each : {"scatter", "full"}) {
+    columns.add(fmt::format("greatest(life_left - 2e0 * life_sd_{}, 0e0)", each),
+                fmt::format("life_left_{}_low", each));
+    columns.add(fmt::format("life_left + 2e0 * life_sd_{}", each),
+                fmt::format("life_left_{}_high", each));
+  }
+  for (const char* each : counts) {
+    if (std::string(each) != "cycles") columns.keep(each);
+  }
+  return fmt::format(
+      "-- 3. Combine: wear of each unit with its intervals of 95 % (volume +- 2 standard "
+      "deviations): by "
+      "the scatter of cycles, and by\n-- all that is uncertain. life_left: cycles until it is worn "
+      "out, at "
+      "its own mean duty; its interval is that of the volume then over the\n-- rate of wear then. "
+      "Cycles outside the range of the points modelled with are counted, not left out. Rows that "
+      "are\n"
+      "-- refused (no value, not positive) are left out, and repeated cycles are counted twice: "
+      "where "
+      "either is not 0, the answer is not to be used.{}\n"
+      "select\n  {}\nfrom (\n{}\n) as wear\norder by worn desc;\n",
+      replicates_ == 0 ? "\n-- No replicates: the full interval knows of scatter and plate only."
+                       : "",
+      columns.text(), wear());
+}
+
+std::string SqlWriter::size() const {
+  return fmt::format(
+      "select {}, {} from (select unit, sum(cycles) as cycles from {} where model = {} group by "
+      "unit) "
+      "as sums",
+      fleet::real(dialect_, "count(*)"), fleet::real(dialect_, "sum(cycles)"), sums_table_, id_);
+}
+
+std::string SqlWriter::late() const {
+  const std::string unit = fleet::text(dialect_, this->unit());
+  return fmt::format(
+      "select unit, found, counted from (\nselect last.unit as unit, {} as found, {} as counted\n"
+      "from {} as t inner join (\n  select unit, max(last_cycle) as after_cycle, sum(cycles) as "
+      "counted "
+      "from {} where model = {} group by unit\n) as last on last.unit = {}\nwhere t.{} <= "
+      "last.after_cycle group by last.unit\n) as late where found <> counted order by unit limit 3",
+      fleet::real(dialect_, "count(*)"), fleet::real(dialect_, "max(last.counted)"), source_.table,
+      sums_table_, id_, unit, fleet::identifier(dialect_, source_.cycle.name));
+}
+
+std::string SqlWriter::check() const {
+  SqlColumns columns;
+  columns.keep(fleet::real(dialect_, "count(*)"));
+  columns.keep(fleet::real(dialect_, count_if(fmt::format("not coalesce({}, false)", valid()))));
+  columns.keep(fleet::real(dialect_, count_if("unit is null")));
+  for (const char* each : input_columns) {
+    columns.keep(fmt::format("min({})", each));
+    columns.keep(fmt::format("max({})", each));
+  }
+  columns.keep("max(energy)");
+  return fmt::format("select\n  {}\nfrom (\n{}\n) as si", columns.text(), si(false));
+}
+
+}  // namespace wearwell::clutch

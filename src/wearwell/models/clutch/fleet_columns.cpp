@@ -1,0 +1,120 @@
+#include "wearwell/models/clutch/fleet_columns.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/heading.h"
+#include "wearwell/input/labelled.h"
+#include "wearwell/models/clutch/clutch_tables.h"
+
+namespace wearwell::clutch {
+namespace {
+
+const std::vector<std::string> names = {"unit",        "cycle",        "slip_speed", "torque",
+                                        "temperature", "closing_time", "energy"};
+
+/// By name, as they were given.
+std::map<std::string, std::string> split(const std::vector<std::string>& options) {
+  std::map<std::string, std::string> given;
+  for (const std::string& option : options) {
+    const std::size_t equals = option.find('=');
+    const std::string name = option.substr(0, equals);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw InputError(fmt::format("--columns: '{}' is none of {} (nearest: '{}')", printable(name),
+                                   fmt::join(names, ", "), nearest_name(name, names)));
+    if (equals == std::string::npos || equals + 1 == option.size())
+      throw InputError(fmt::format("--columns: '{0}' names no column: write '{0}=COLUMN'", name));
+    if (!given.emplace(name, option.substr(equals + 1)).second)
+      throw InputError(fmt::format("--columns: '{}' is named twice", name));
+  }
+  return given;
+}
+
+void require_known(const std::vector<fleet::EngineColumn>& known, const std::string& column,
+                   const std::string& table, bool is_number) {
+  if (known.empty()) return;
+  std::vector<std::string> all;
+  for (const auto& each : known) all.push_back(each.name);
+  const auto at = std::find(all.begin(), all.end(), column);
+  if (at == all.end())
+    throw InputError(fmt::format("{} has no column '{}' (nearest: '{}')", table, printable(column),
+                                 printable(nearest_name(column, all))));
+  if (is_number && !known[static_cast<std::size_t>(at - all.begin())].is_number)
+    throw InputError(
+        fmt::format("{}: column '{}' does not hold numbers", table, printable(column)));
+}
+
+/// "M:N m", "torque [N m]".
+SqlColumn with_unit(const std::string& name, const std::string& text, const char* si) {
+  const std::size_t colon = text.rfind(':');
+  const std::string column = text.substr(0, colon);
+  std::string unit = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if (column.empty()) throw InputError(fmt::format("--columns: '{}' names no column", name));
+  const Heading heading = read_heading(column, si);
+  if (unit.empty() && !heading.certain)
+    throw InputError(fmt::format("--columns: '{0}={1}' has no unit: write '{0}={2}:{3}'", name,
+                                 printable(text), printable(column), si));
+  const Unit read = read_unit(unit.empty() ? heading.unit : unit, si);
+  if (!unit.empty() && heading.certain) {
+    const Unit other = read_unit(heading.unit, si);
+    if (other.scale != read.scale || other.offset != read.offset)
+      throw InputError(
+          fmt::format("--columns: '{}' is in '{}' by its name and in '{}' by what stands "
+                      "behind the colon",
+                      printable(column), heading.unit, printable(unit)));
+  }
+  return {column, read.scale, read.offset};
+}
+
+}  // namespace
+
+std::string unit_column(const std::vector<std::string>& options) {
+  const auto given = split(options);
+  const auto at = given.find("unit");
+  return at == given.end() ? "plate" : at->second;
+}
+
+void read_fleet_columns(const std::vector<std::string>& options,
+                        const std::vector<fleet::EngineColumn>& known, const std::string& table,
+                        SqlSource& source) {
+  const std::map<std::string, std::string> given = split(options);
+  std::vector<std::string> headings;
+  for (const auto& each : known) headings.push_back(each.name);
+  const auto plain = [&](const char* name, const char* otherwise, bool is_number) {
+    const auto at = given.find(name);
+    SqlColumn column{at == given.end() ? otherwise : at->second};
+    require_known(known, column.name, table, is_number);
+    for (const auto& each : known) column.is_real |= each.name == column.name && each.is_real;
+    return column;
+  };
+  const auto quantity = [&](const char* name, const char* si) {
+    const auto at = given.find(name);
+    SqlColumn column;
+    if (at != given.end()) {
+      column = with_unit(name, at->second, si);
+    } else if (known.empty()) {
+      throw InputError(fmt::format(
+          "--columns must say which column is '{0}', and its unit: '{0}=COLUMN:{1}'", name, si));
+    } else {
+      const ColumnChoice found = find_labelled(headings, name, si, table);
+      column = {found.column, found.unit.scale, found.unit.offset};
+    }
+    require_known(known, column.name, table, true);
+    return column;
+  };
+  source.unit = plain("unit", "plate", false);
+  source.cycle = plain("cycle", "cycle", true);
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    source.inputs[i] = quantity(inputs[i].name, inputs[i].si);
+    if (inputs[i].value == &OperatingPoint::temperature) source.inputs[i].offset -= celsius_zero;
+  }
+  source.energy = quantity("energy", "J");
+}
+
+}  // namespace wearwell::clutch

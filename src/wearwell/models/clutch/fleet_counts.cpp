@@ -1,0 +1,92 @@
+#include "wearwell/models/clutch/fleet_counts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+
+namespace wearwell::clutch {
+
+FleetCounts::FleetCounts(const WearModel& model, bool replicates, std::vector<double> levels,
+                         std::vector<double> horizons)
+    : model_(model),
+      models_(1 + (replicates ? model.replicates.size() : 0)),
+      levels_(std::move(levels)),
+      horizons_(std::move(horizons)),
+      sums_(levels_.size() * horizons_.size() * models_) {}
+
+UnitRow FleetCounts::add(const UnitSums& sums) {
+  if (!std::isfinite(sums.volume) || !std::isfinite(sums.variance) ||
+      !sums.volumes.isFinite().all())
+    throw InputError(fmt::format("unit {} has no finite wear", printable(sums.unit)));
+  const UnitForecast forecast(model_, sums);
+  for (std::size_t l = 0; l < levels_.size(); ++l) {
+    for (std::size_t h = 0; h < horizons_.size(); ++h) {
+      for (std::size_t b = 0; b < models_; ++b) {
+        const double p = forecast.reached(b, levels_[l] * model_.worn_out, horizons_[h]);
+        Sum& sum = at(l, h, b);
+        sum.mean += p;
+        sum.variance += p * (1 - p);
+      }
+    }
+  }
+  ++units_;
+  for (std::size_t i = 0; i < 4; ++i) {
+    duty_[i].push_back(static_cast<float>(sums.inputs[i] / sums.cycles));
+    outside_[i] += sums.outside[i];
+  }
+  duty_[4].push_back(static_cast<float>(sums.energy / sums.cycles));
+  worn_.push_back(static_cast<float>(sums.volume / model_.worn_out));
+  cycles_ += sums.cycles;
+  energy_ += sums.energy;
+  outside_any_ += sums.outside_any;
+  negative_ += sums.negative;
+  units_outside_ += sums.outside_any > 0;
+
+  UnitRow row{sums.unit, sums.cycles, sums.energy, sums.volume};
+  row.sd = forecast.scatter_sd(0);
+  row.full_sd = forecast.full_sd(0);
+  row.left = forecast.until(model_.worn_out);
+  row.scatter = forecast.scatter_interval(model_.worn_out);
+  row.full = forecast.full_interval(model_.worn_out);
+  const double to_go = model_.worn_out - sums.volume;
+  row.reached = row.full_sd > 0 ? 0.5 * std::erfc(to_go / (row.full_sd * std::numbers::sqrt2))
+                                : (to_go <= 0 ? 1.0 : 0.0);
+  row.outside_any = sums.outside_any;
+  row.negative = sums.negative;
+  return row;
+}
+
+UnitCount FleetCounts::reached(std::size_t level, std::size_t horizon) const {
+  const Sum* const sums = &sums_[(level * horizons_.size() + horizon) * models_];
+  UnitCount count{sums[0].mean};
+  const std::size_t first = models_ > 1 ? 1 : 0;
+  // The share of the mixture that is at or below x.
+  const auto below = [&](double x) {
+    double share = 0;
+    for (std::size_t b = first; b < models_; ++b) {
+      const double sd = std::sqrt(sums[b].variance);
+      share += sd > 0 ? 0.5 * std::erfc((sums[b].mean - x) / (sd * std::numbers::sqrt2))
+                      : (x >= sums[b].mean ? 1.0 : 0.0);
+    }
+    return share / static_cast<double>(models_ - first);
+  };
+  const auto quantile = [&](double p) {
+    double low = 0, high = static_cast<double>(units_);
+    for (int i = 0; i < 100 && high - low > 1e-9 * high; ++i) {
+      const double half = 0.5 * (low + high);
+      (below(half) < p ? low : high) = half;
+    }
+    return 0.5 * (low + high);
+  };
+  constexpr double tail = 0.025;
+  count.low = quantile(tail);
+  count.high = quantile(1 - tail);
+  return count;
+}
+
+}  // namespace wearwell::clutch

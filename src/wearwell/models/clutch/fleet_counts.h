@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "wearwell/models/clutch/unit_forecast.h"
+
+namespace wearwell::clutch {
+
+/// A number of units with its 95 % interval.
+struct UnitCount {
+  double expected = 0, low = 0, high = 0;
+};
+
+/// A unit as the report has it. Volumes m^3, cycles from now on.
+struct UnitRow {
+  std::string unit;
+  double cycles = 0, energy = 0, volume = 0, sd = 0, full_sd = 0;
+  double left = 0;  ///< until it is worn out
+  LifeInterval scatter = {}, full = {};
+  double reached = 0;  ///< probability that it is worn out already
+  double outside_any = 0, negative = 0;
+};
+
+/// All units together, added one after the other. What is not known of the model is the same for all of
+/// them: if replicate b is true, so many units are expected beyond a level, and their number scatters about
+/// that only by what units have of their own. So an interval of the fleet is that of a mixture of normal laws, one a
+/// replicate; it does not shrink with the number of units.
+class FleetCounts {
+ public:
+  /// `levels`: shares of the worn-out volume; `horizons`: cycles from now on, 0 among them.
+  FleetCounts(const WearModel& model, bool replicates, std::vector<double> levels,
+              std::vector<double> horizons);
+
+  /// Throws InputError for sums that are not finite.
+  UnitRow add(const UnitSums& sums);
+
+  const std::vector<double>& levels() const { return levels_; }
+  const std::vector<double>& horizons() const { return horizons_; }
+  std::size_t units() const { return units_; }
+  /// Units that have reached the level after that horizon.
+  UnitCount reached(std::size_t level, std::size_t horizon) const;
+
+  /// Means over the cycles of each unit, for quantiles over units: slip speed, torque, temperature, closing
+  /// time, energy of a cycle.
+  static constexpr std::size_t duties = 5;
+  const std::array<std::vector<float>, duties>& duty() const { return duty_; }
+  const std::vector<float>& worn() const { return worn_; }  ///< share of the worn-out volume
+  double cycles() const { return cycles_; }
+  double energy() const { return energy_; }
+  const std::array<double, 4>& outside() const { return outside_; }
+  double outside_any() const { return outside_any_; }
+  double negative() const { return negative_; }
+  std::size_t units_outside() const { return units_outside_; }
+
+ private:
+  struct Sum {
+    double mean = 0, variance = 0;
+  };
+  Sum& at(std::size_t level, std::size_t horizon, std::size_t b) {
+    return sums_[(level * horizons_.size() + horizon) * models_ + b];
+  }
+
+  const WearModel& model_;
+  std::size_t models_;
+  std::vector<double> levels_, horizons_;
+  std::vector<Sum> sums_;
+  std::size_t units_ = 0, units_outside_ = 0;
+  std::array<std::vector<float>, duties> duty_;
+  std::vector<float> worn_;
+  double cycles_ = 0, energy_ = 0, outside_any_ = 0, negative_ = 0;
+  std::array<double, 4> outside_{};
+};
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,289 @@
+#include "wearwell/models/clutch/fleet_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "wearwell/input/parquet_writer.h"
+#include "wearwell/math/quantile.h"
+#include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/present/plot.h"
+
+namespace wearwell::clutch {
+namespace {
+
+using present::digits;
+using present::fixed;
+using present::given;
+using present::Prose;
+using present::Range;
+using present::Section;
+using present::Table;
+
+constexpr double quantiles[] = {0.05, 0.25, 0.5, 0.75, 0.95};
+constexpr std::size_t worst_shown = 100;
+
+struct Duty {
+  const char* name;
+  const char* unit;
+  double scale;  ///< one unit in SI
+};
+constexpr Duty duties[FleetCounts::duties] = {{"slip speed", "rpm", rpm},
+                                              {"torque", "N m", 1},
+                                              {"temperature", "degC", 1},
+                                              {"closing time", "s", 1},
+                                              {"energy of a cycle", "kJ", 1e3}};
+
+std::vector<double> sorted(const std::vector<float>& values, double scale) {
+  std::vector<double> out;
+  for (const float x : values) out.push_back(static_cast<double>(x) / scale);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+Table level_table(const FleetCounts& counts) {
+  Table table{"levels",
+              "Units that have reached a level, now and after more cycles of their own duty",
+              {{"Further cycles", "1", given},
+               {"Worn", "%", given},
+               {"Units", "1", fixed(1)},
+               {"95 %", "1", fixed(1), true},
+               {"Of the fleet", "%", digits(3)}}};
+  for (std::size_t h = 0; h < counts.horizons().size(); ++h) {
+    for (std::size_t l = 0; l < counts.levels().size(); ++l) {
+      const UnitCount n = counts.reached(l, h);
+      table.rows.push_back({counts.horizons()[h], 100 * counts.levels()[l], n.expected,
+                            Range{n.low, n.high},
+                            100 * n.expected / static_cast<double>(counts.units())});
+    }
+  }
+  return table;
+}
+
+Table worst_table(const FleetFindings& found) {
+  Table table{"worst",
+              fmt::format("The {} units that may be worn out first",
+                          std::min(worst_shown, found.units.size())),
+              {{"Unit"},
+               {"Cycles", "1", fixed(0)},
+               {"Volume", "mm^3", digits(5)},
+               {"by scatter, ±", "mm^3", digits(3)},
+               {"by all, ±", "mm^3", digits(3)},
+               {"Worn out already", "%", digits(3)},
+               {"Cycles left", "1", present::life(5)},
+               {"95 % by scatter", "1", present::life(5), true},
+               {"95 % by all", "1", present::life(5), true},
+               {"Cycles outside the range", "1", fixed(0)}}};
+  for (std::size_t i = 0; i < std::min(worst_shown, found.units.size()); ++i) {
+    const UnitRow& u = found.units[i];
+    table.rows.push_back({u.unit, u.cycles, u.volume / mm3, 2 * u.sd / mm3, 2 * u.full_sd / mm3,
+                          100 * u.reached, u.left, Range{u.scatter.low, u.scatter.high},
+                          Range{u.full.low, u.full.high}, u.outside_any});
+  }
+  return table;
+}
+
+Table spread_table(const FleetCounts& counts) {
+  Table table{"spread", "How units differ: quantiles over the fleet", {{"Of each unit"}}};
+  for (const double p : quantiles)
+    table.columns.push_back({fmt::format("{:g} %", 100 * p), "1", digits(4)});
+  const auto add = [&](const std::string& name, const std::vector<float>& values, double scale) {
+    const std::vector<double> ordered = sorted(values, scale);
+    table.rows.push_back({name});
+    for (const double p : quantiles) table.rows.back().push_back(quantile(ordered, p));
+  };
+  add("worn [%]", counts.worn(), 0.01);
+  for (std::size_t i = 0; i < FleetCounts::duties; ++i)
+    add(fmt::format("mean {} [{}]", duties[i].name, duties[i].unit), counts.duty()[i],
+        duties[i].scale);
+  return table;
+}
+
+Table outside_table(const WearModel& model, const FleetCounts& counts) {
+  Table table{"outside",
+              "Cycles outside the range of the points that the model was made of",
+              {{"Input"},
+               {"From", "1", digits(4)},
+               {"To", "1", digits(4)},
+               {"Cycles outside", "1", fixed(0)},
+               {"Of all", "%", digits(3)}}};
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const double scale = duties[i].scale;
+    table.rows.push_back({fmt::format("{} [{}]", duties[i].name, duties[i].unit),
+                          model.lowest.*inputs[i].value / scale,
+                          model.highest.*inputs[i].value / scale, counts.outside()[i],
+                          100 * counts.outside()[i] / counts.cycles()});
+  }
+  table.rows.push_back({"any of them", std::monostate{}, std::monostate{}, counts.outside_any(),
+                        100 * counts.outside_any() / counts.cycles()});
+  return table;
+}
+
+/// Shares of the fleet beyond each level, with their interval, one curve a horizon.
+html::Figure level_figure(const FleetCounts& counts) {
+  std::vector<plot::Json> marks;
+  for (std::size_t h = 0; h < counts.horizons().size(); ++h) {
+    std::vector<double> x, y, low, high;
+    for (std::size_t l = 0; l < counts.levels().size(); ++l) {
+      const UnitCount n = counts.reached(l, h);
+      const double all = static_cast<double>(counts.units()) / 100;
+      x.push_back(100 * counts.levels()[l]);
+      y.push_back(n.expected / all);
+      low.push_back(n.low / all);
+      high.push_back(n.high / all);
+    }
+    const plot::Look look{
+        plot::colour::chains[h % std::size(plot::colour::chains)],
+        counts.horizons()[h] > 0 ? fmt::format("{:g} cycles on", counts.horizons()[h]) : "now"};
+    plot::Look band = look;
+    band.label = "";
+    band.opacity = 0.2;
+    marks.push_back(plot::area({{"x", x}, {"y", high}, {"y2", low}}, band));
+    marks.push_back(plot::line({{"x", x}, {"y", y}}, look));
+  }
+  return {"levels", "Share of the fleet that has reached a level",
+          "Bands hold 95 %: what is not known of the model is the same for all units, so that no "
+          "number of units makes them narrow.",
+          plot::plot("Share of the fleet beyond each wear level", {.title = "worn (%)"},
+                     {.title = "units (%)", .low = 0}, std::move(marks))};
+}
+
+nlohmann::ordered_json body_of(const WearModel& model, const FleetCounts& counts,
+                               const FleetFindings& found) {
+  nlohmann::ordered_json levels = nlohmann::ordered_json::array(),
+                         worst = nlohmann::ordered_json::array();
+  for (std::size_t h = 0; h < counts.horizons().size(); ++h) {
+    for (std::size_t l = 0; l < counts.levels().size(); ++l) {
+      const UnitCount n = counts.reached(l, h);
+      levels.push_back({{"cycles_on", counts.horizons()[h]},
+                        {"level", counts.levels()[l]},
+                        {"units", n.expected},
+                        {"low", n.low},
+                        {"high", n.high}});
+    }
+  }
+  for (std::size_t i = 0; i < std::min(worst_shown, found.units.size()); ++i) {
+    const UnitRow& u = found.units[i];
+    worst.push_back({{"unit", u.unit},
+                     {"cycles", u.cycles},
+                     {"volume", u.volume / mm3},
+                     {"sd_scatter", u.sd / mm3},
+                     {"sd_full", u.full_sd / mm3},
+                     {"worn", u.volume / model.worn_out},
+                     {"worn_out_already", u.reached},
+                     {"cycles_left", u.left},
+                     {"interval_scatter", {u.scatter.low, u.scatter.high}},
+                     {"interval_full", {u.full.low, u.full.high}},
+                     {"outside_any", u.outside_any},
+                     {"negative", u.negative}});
+  }
+  return {{"fleet",
+           {{"units", counts.units()},
+            {"cycles", counts.cycles()},
+            {"energy", counts.energy()},
+            {"outside_any", counts.outside_any()},
+            {"negative", counts.negative()},
+            {"engine", found.engine},
+            {"rows", found.rows},
+            {"model", found.model_id},
+            {"worn_out", model.worn_out / mm3},
+            {"replicates", found.replicates ? model.replicates.size() : 0}}},
+          {"levels", std::move(levels)},
+          {"worst", std::move(worst)}};
+}
+
+std::string units_file(const WearModel& model, const FleetFindings& found) {
+  WordColumn names{"unit", {}};
+  std::vector<NumberColumn> columns = {{"cycles", {}},           {"energy [J]", {}},
+                                       {"volume [mm^3]", {}},    {"sd_scatter [mm^3]", {}},
+                                       {"sd_full [mm^3]", {}},   {"worn", {}},
+                                       {"worn_out_already", {}}, {"cycles_left", {}},
+                                       {"left_scatter_low", {}}, {"left_scatter_high", {}},
+                                       {"left_full_low", {}},    {"left_full_high", {}},
+                                       {"outside_any", {}},      {"negative", {}}};
+  for (const UnitRow& u : found.units) {
+    names.values.push_back(u.unit);
+    const double row[] = {u.cycles,       u.energy,        u.volume / mm3,
+                          u.sd / mm3,     u.full_sd / mm3, u.volume / model.worn_out,
+                          u.reached,      u.left,          u.scatter.low,
+                          u.scatter.high, u.full.low,      u.full.high,
+                          u.outside_any,  u.negative};
+    for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(row[c]);
+  }
+  return parquet_of({names}, columns);
+}
+
+std::vector<Check> checks_of(const FleetCounts& counts, const FleetFindings& found) {
+  std::vector<Check> checks;
+  const double share = counts.outside_any() / counts.cycles();
+  constexpr double much = 0.05;
+  checks.push_back(
+      {"extrapolation", share > much ? Verdict::warn : Verdict::pass,
+       fmt::format("{:.3g} % of the cycles, in {} of {} units, lie outside the range of "
+                   "the points that the model was made of",
+                   100 * share, counts.units_outside(), counts.units()),
+       ""});
+  checks.push_back(
+      {"negative", counts.negative() > much * counts.cycles() ? Verdict::warn : Verdict::pass,
+       fmt::format("the model's wear rate is below 0 in {:.0f} cycles, which count as no wear",
+                   counts.negative()),
+       ""});
+  checks.push_back({"interval", found.replicates ? Verdict::pass : Verdict::warn,
+                    found.replicates
+                        ? "the full interval knows of the map, run-in, plates and scatter"
+                        : "without replicates the full interval knows of plates and "
+                          "scatter only",
+                    ""});
+  return checks;
+}
+
+}  // namespace
+
+void worst_first(std::vector<UnitRow>& units) {
+  std::sort(units.begin(), units.end(), [](const UnitRow& a, const UnitRow& b) {
+    if (a.full.low != b.full.low) return a.full.low < b.full.low;
+    if (a.reached != b.reached) return a.reached > b.reached;
+    if (a.left != b.left) return a.left < b.left;
+    return a.unit < b.unit;
+  });
+}
+
+Result fleet_result(const WearModel& model, const FleetCounts& counts, const FleetFindings& found) {
+  Result result;
+  Header& header = result.header;
+  header.version = found.version;
+  header.title = fmt::format("A fleet of {} units: {}", counts.units(), model.title);
+  header.model = "clutch-fleet";
+  header.equation = "volume = sum of g(Ec) w E over the cycles of each unit, in fixed point";
+  header.data = {found.files, static_cast<std::size_t>(found.rows), found.model_id};
+  header.checks = checks_of(counts, found);
+  result.body = body_of(model, counts, found);
+  result.files.emplace_back("units.parquet", units_file(model, found));
+
+  Section levels{"levels", "Levels"};
+  const std::size_t last = counts.levels().size() - 1;
+  const UnitCount now = counts.reached(last, 0);
+  levels.add(Prose{
+      fmt::format("Of {} units {:.1f} ({:.1f} to {:.1f}) have reached {:g} % of the worn-out "
+                  "volume.",
+                  counts.units(), now.expected, now.low, now.high, 100 * counts.levels()[last]),
+      true});
+  levels.add(level_table(counts));
+  levels.add(present::Figures{{level_figure(counts)}});
+  Section worst{"worst", "Worst units"};
+  worst.add(worst_table(found));
+  Section fleet{"fleet", "Fleet"};
+  fleet.add(spread_table(counts));
+  fleet.add(outside_table(model, counts));
+  Section how{"how", "How"};
+  how.add(present::Facts{{{"engine", found.engine},
+                          {"cycles read", fmt::format("{:.0f}", found.rows)},
+                          {"model", found.model_id}}});
+  how.add(present::Details{"The statements", {{present::Verbatim{found.statements}}}});
+  result.sections = {std::move(levels), std::move(worst), std::move(fleet), std::move(how)};
+  return result;
+}
+
+}  // namespace wearwell::clutch

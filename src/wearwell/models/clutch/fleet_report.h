@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "wearwell/models/clutch/fleet_counts.h"
+#include "wearwell/study/result.h"
+
+namespace wearwell::clutch {
+
+/// What a fleet's report is made of.
+struct FleetFindings {
+  std::string version, model_id, engine, source;
+  std::vector<std::string> files;
+  double rows = 0;     ///< looked at in this run
+  double seconds = 0;  ///< that the engine took for them
+  bool replicates = true;
+  std::vector<UnitRow> units;  ///< worst first
+  std::string statements;      ///< that were run
+};
+
+/// The units whose full interval comes to its end first stand first; ties by what is left, then by name.
+void worst_first(std::vector<UnitRow>& units);
+
+Result fleet_result(const WearModel& model, const FleetCounts& counts, const FleetFindings& found);
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "wearwell/base/error.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/models/clutch/clutch_model_file.h"
+#include "wearwell/models/clutch/clutch_sql.h"
+#include "wearwell/models/clutch/command_parts.h"
+#include "wearwell/models/clutch/fleet_columns.h"
+
+namespace wearwell::clutch {
+namespace {
+
+struct SqlOptions {
+  std::filesystem::path result;
+  std::string dialect, table, prefix = "wearwell", part = "all";
+  std::vector<std::string> columns;
+  bool scatter_only = false;
+};
+
+void run_sql(const SqlOptions& options) {
+  const IdentifiedModel read = read_identified_model(options.result);
+  const fleet::Dialect dialect = fleet::read_dialect(options.dialect);
+  SqlSource source;
+  source.table = fleet::table_identifier(dialect, options.table);
+  source.prefix = options.prefix;
+  read_fleet_columns(options.columns, {}, options.table, source);
+  const ClutchSql sql = clutch_sql(read.model, read.id, dialect, source, !options.scatter_only);
+  const auto wanted = [&](const char* part) {
+    return options.part == "all" || options.part == part;
+  };
+  const std::string head =
+      fleet::comment(fmt::format("wearwell {}: clutch wear of the units in {}, for {}; model {}",
+                                 WEARWELL_VERSION, options.table, options.dialect, read.id));
+  fmt::print("{}", head);
+  if (wanted("setup")) fmt::print("{}", sql.setup);
+  if (wanted("query")) fmt::print("{}", sql.query);
+  if (wanted("combine")) fmt::print("{}", sql.combine);
+}
+
+}  // namespace
+
+void add_sql_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "sql", "A fitted model as SQL, for the database that holds the cycles of a fleet (clutches)");
+  const auto options = std::make_shared<SqlOptions>();
+  command
+      ->add_option("RESULT", options->result, "folder that wearwell fit wrote, or its model.json")
+      ->required();
+  command->add_option("--dialect", options->dialect, "of the database")
+      ->required()
+      ->check(one_of(fleet::dialect_names()));
+  command
+      ->add_option("--table", options->table,
+                   "that holds the cycles; SCHEMA.TABLE, a part in double quotes may hold dots")
+      ->required();
+  command
+      ->add_option("--columns", options->columns,
+                   "unit, cycle, slip_speed, torque, temperature, closing_time, energy: each "
+                   "NAME=COLUMN:UNIT")
+      ->type_name("NAME=COLUMN:UNIT");
+  command
+      ->add_option("--prefix", options->prefix,
+                   "of the two tables that the statements make; SCHEMA.PREFIX")
+      ->capture_default_str();
+  command->add_option("--part", options->part, "one of the three statements alone")
+      ->check(one_of({"all", "setup", "query", "combine"}))
+      ->capture_default_str();
+  command->add_flag("--scatter-only", options->scatter_only,
+                    "only the paper's interval, by the scatter of cycles; much faster");
+  command->footer(
+      "Example:\n  wearwell sql study-results --dialect postgresql --table fleet.cycles --columns "
+      "unit=vin cycle=cycle \\\n    'slip_speed=n:rpm' 'torque=m:N m' 'temperature=temp:degC' "
+      "'closing_time=t:ms' 'energy=e:kJ' > wear.sql");
+  command->callback([options] { run_sql(*options); });
+}
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "wearwell/models/clutch/clutch_sql.h"
+#include "wearwell/models/clutch/sql_parameters.h"
+
+namespace wearwell::clutch {
+
+/// Expressions of a SELECT with their names, a line each.
+class SqlColumns {
+ public:
+  void add(const std::string& expression, const std::string& name) {
+    list_.push_back(expression + " as " + name);
+  }
+  void keep(const std::string& name) { list_.push_back(name); }
+  std::string text() const;
+
+ private:
+  std::vector<std::string> list_;
+};
+
+inline constexpr const char* input_columns[] = {"slip_speed", "torque", "temperature",
+                                                "closing_time"};
+
+/// Writes the statements of one model. A query is SELECTs in each other, from the rows outwards: every level
+/// adds columns to those of the level within.
+class SqlWriter {
+ public:
+  SqlWriter(const WearModel& model, const std::string& id, fleet::Dialect dialect,
+            const SqlSource& source, bool replicates);
+
+  std::string setup() const;
+  std::string query() const;
+  std::string combine() const;
+  std::string totals() const;
+  std::string size() const;
+  std::string late() const;
+  std::string check() const;
+
+ private:
+  std::string k(std::size_t replicate, const std::string& name) const {
+    return "k." + parameters_.column(replicate, name);
+  }
+  std::string count_if(const std::string& condition) const;
+  /// PostgreSQL would put expressions into each other, and compute them as often as they are used.
+  const char* fence() const { return dialect_ == fleet::Dialect::postgresql ? "\noffset 0" : ""; }
+  std::vector<std::string> sum_names() const;
+  std::string parameters() const;
+  std::string in_si(const SqlColumn& column) const;
+  std::string unit() const;
+  std::string valid() const;
+  std::string sigma() const;
+  std::string si(bool fresh) const;
+  std::string ordered() const;
+  std::string powers() const;
+  std::string rates() const;
+  std::string worn() const;
+  std::string run_in(std::size_t replicate, const std::string& energy) const;
+  std::string unit_sums() const;
+  std::string wear() const;
+  std::string future(std::size_t replicate, const std::string& volume, const std::string& settled,
+                     const std::string& cycles) const;
+
+  const WearModel& model_;
+  fleet::Dialect dialect_;
+  const SqlSource& source_;
+  std::string id_;
+  SqlParameters parameters_;
+  FixedUnits units_;
+  fleet::Types types_;
+  std::size_t replicates_;
+  std::string model_table_, sums_table_;
+};
+
+}  // namespace wearwell::clutch

@@ -1,0 +1,83 @@
+#include "wearwell/monitor/export_readings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+#include "wearwell/input/csv_reader.h"
+#include "wearwell/input/parquet_writer.h"
+#include "wearwell/monitor/time_text.h"
+
+namespace wearwell::monitor {
+namespace {
+
+void for_each_reading(Store& store, const std::function<void(const StoredReading&)>& visit) {
+  constexpr std::size_t at_once = 10'000;
+  std::int64_t place = 0;
+  for (;;) {
+    const std::vector<StoredReading> readings = store.after(place, at_once);
+    if (readings.empty()) return;
+    for (const StoredReading& each : readings) visit(each);
+    place = readings.back().place;
+  }
+}
+
+std::string heading(const prognosis::ReadingColumn& column) {
+  return column.unit.text == "1" ? column.name
+                                 : fmt::format("{} [{}]", column.name, column.unit.text);
+}
+
+}  // namespace
+
+std::string readings_as_parquet(Store& store, const prognosis::Tracker& tracker,
+                                std::uint64_t& count) {
+  WordColumn unit{tracker.noun().empty() ? "unit" : tracker.noun(), {}};
+  std::vector<WordColumn> labels;
+  for (const std::string& each : tracker.labels()) labels.push_back({each, {}});
+  const auto columns = tracker.columns();
+  std::vector<NumberColumn> numbers = {{"key", {}}, {"time_ms", {}}, {"received_ms", {}}};
+  const std::size_t first = numbers.size();
+  for (const auto& each : columns) numbers.push_back({heading(each), {}});
+  count = 0;
+  for_each_reading(store, [&](const StoredReading& reading) {
+    ++count;
+    unit.values.push_back(reading.unit);
+    for (std::size_t i = 0; i < labels.size(); ++i) labels[i].values.push_back(reading.labels[i]);
+    numbers[0].values.push_back(static_cast<double>(reading.key));
+    numbers[1].values.push_back(reading.time_ms ? static_cast<double>(reading.time_ms)
+                                                : std::nan(""));
+    numbers[2].values.push_back(static_cast<double>(reading.received_ms));
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      numbers[first + i].values.push_back(from_si(columns[i].unit, reading.numbers[i]));
+  });
+  std::vector<WordColumn> texts = {std::move(unit)};
+  texts.insert(texts.end(), labels.begin(), labels.end());
+  return parquet_of(texts, numbers);
+}
+
+std::string readings_as_csv(Store& store, const prognosis::Tracker& tracker, std::uint64_t& count) {
+  const auto columns = tracker.columns();
+  std::string text = csv_cell(tracker.noun().empty() ? "unit" : tracker.noun());
+  for (const std::string& each : tracker.labels()) text += "," + csv_cell(each);
+  text += ",key,time,received";
+  for (const auto& each : columns) text += "," + csv_cell(heading(each));
+  text += "\n";
+  count = 0;
+  for_each_reading(store, [&](const StoredReading& reading) {
+    ++count;
+    text += csv_cell(reading.unit);
+    for (const std::string& each : reading.labels) text += "," + csv_cell(each);
+    text += fmt::format(",{},{},{}", reading.key,
+                        reading.time_ms ? iso_of_unix_ms(reading.time_ms) : "",
+                        iso_of_unix_ms(reading.received_ms));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const double value = from_si(columns[i].unit, reading.numbers[i]);
+      text += std::isnan(value) ? std::string(",") : fmt::format(",{}", value);
+    }
+    text += "\n";
+  });
+  return text;
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,265 @@
+#include "wearwell/monitor/fleet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/workers.h"
+#include "wearwell/monitor/fleet_seen.h"
+#include "wearwell/monitor/time_text.h"
+
+namespace wearwell::monitor {
+
+struct Fleet::Unit {
+  UnitRecord record;
+  bool lost = false;  ///< the record must be made anew
+  bool unsaved = false, stale = false;
+  Alarm alarm = Alarm::ok;  ///< of its risk alone
+  Alarm shown = Alarm::ok, logged = Alarm::ok;
+  Clock::time_point heard = {}, forecast_at = {};
+  std::shared_ptr<const Seen> seen;
+};
+
+Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Notices& notices,
+             FleetSettings settings)
+    : tracker_(tracker),
+      store_(store),
+      tally_(tally),
+      notices_(notices),
+      settings_(std::move(settings)),
+      told_(tracker),
+      started_ms_(unix_ms_now()) {
+  place_ = store_.all_up_to(settings_.population);
+  for (const Checkpoint& each : store_.states(settings_.population)) {
+    Unit& unit = unit_named(each.unit);
+    try {
+      unit.record = restored_record(each, tracker_);
+      unit.lost = false;
+      unit.stale = true;
+    } catch (const InputError& error) {
+      unit.lost = true;
+      notices_.tell("store", fmt::format("{}; it is made anew from the readings", error.what()));
+    }
+    hear(unit, unit.record.last_received_ms);
+  }
+  for (const AlarmChange& each : store_.alarms()) {
+    Unit& unit = unit_named(each.unit);
+    unit.alarm = unit.shown = unit.logged = each.alarm;
+  }
+  stored_ = store_.count();
+}
+
+Fleet::~Fleet() = default;
+
+Fleet::Unit& Fleet::unit_named(const std::string& name) {
+  auto& unit = units_[name];
+  if (!unit) {
+    unit = std::make_unique<Unit>();
+    unit->record.unit = name;
+    unit->lost = true;  // until it is begun, by the thread that takes its readings
+    static_cast<void>(tally_.admit(name));
+  }
+  return *unit;
+}
+
+// What arrived before this program began is as old as the machine's clock says, and from then on ages by a clock that does not jump.
+void Fleet::hear(Unit& unit, std::int64_t received_ms) {
+  const std::int64_t age = live_ ? 0 : std::max<std::int64_t>(0, unix_ms_now() - received_ms);
+  unit.heard = Clock::now() - std::chrono::milliseconds(age);
+}
+
+std::size_t Fleet::apply() {
+  constexpr std::size_t most = 10'000;
+  const std::vector<StoredReading> readings = store_.after(place_, most);
+  std::map<std::string, std::vector<const StoredReading*>> of_unit;
+  for (const StoredReading& each : readings) of_unit[each.unit].push_back(&each);
+  for (const auto& [name, unit] : units_) {
+    if (unit->lost) of_unit[name];
+  }
+  std::vector<std::pair<Unit*, const std::vector<const StoredReading*>*>> work;
+  for (const auto& [name, list] : of_unit) work.emplace_back(&unit_named(name), &list);
+  run_tasks(static_cast<int>(work.size()), settings_.threads, [&](int i) {
+    const auto& [unit, list] = work[static_cast<std::size_t>(i)];
+    apply_to(*unit, *list);
+  });
+  if (readings.empty()) {
+    live_ = true;
+    return 0;
+  }
+  for (const auto& [unit, list] : work) {
+    if (!list->empty()) hear(*unit, list->back()->received_ms);
+  }
+  place_ = readings.back().place;
+  const std::lock_guard lock(lock_);
+  if (live_) stored_ += readings.size();
+  return readings.size();
+}
+
+void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readings) {
+  const auto take_one = [&](const StoredReading& each) {
+    if (each.place <= unit.record.place) return;
+    try {
+      take(unit.record, each, told_, store_);
+    } catch (const StoreError&) {
+      throw;
+    } catch (const std::exception& error) {
+      ++unit.record.not_counted;
+      unit.record.last_problem = error.what();
+      notices_.tell("forecasts", fmt::format("unit '{}': {}", unit.record.unit, error.what()));
+    }
+    unit.stale = unit.unsaved = true;
+  };
+  try {
+    if (unit.lost) {
+      const std::int64_t before = readings.empty() ? place_ : readings.front()->place - 1;
+      unit.record = begun_record(unit.record.unit, tracker_);
+      if (before > 0) store_.of_unit(unit.record.unit, 0, before, take_one);
+      unit.lost = false;
+    }
+    for (const StoredReading* each : readings) take_one(*each);
+  } catch (const StoreError&) {
+    unit.lost = true;  // in the middle of a reading, perhaps
+    throw;
+  }
+}
+
+void Fleet::forecast(Unit& unit) {
+  const prognosis::Forecast forecast = unit.record.state->forecast();
+  const double risk = risk_within(forecast, settings_.alarm.horizon);
+  unit.alarm = alarm_at(risk, unit.alarm, settings_.alarm);
+  auto seen = std::make_shared<Seen>();
+  UnitView& view = seen->view;
+  const UnitRecord& record = unit.record;
+  view.unit = record.unit;
+  view.at = told_.at(forecast.now);
+  view.last_reading_ms = record.last_time_ms ? record.last_time_ms : record.last_received_ms;
+  view.level = told_.level(forecast);
+  view.remaining = told_.remaining(forecast);
+  constexpr double tenth = 0.1;
+  view.b10 =
+      forecast.remaining.points().empty() ? 0 : told_.along(forecast.remaining.quantile(tenth));
+  view.risk = risk;
+  view.passed = forecast.passed;
+  view.quality.readings = record.readings;
+  view.quality.late = record.late;
+  view.quality.contradicting = record.contradicting;
+  view.quality.refused = record.not_counted;
+  view.quality.last_problem = record.last_problem;
+  seen->forecast = forecast;
+  seen->held = record.held;
+  seen->judged = record.judged;
+  seen->moments = unit.seen && unit.seen->moments->size() == record.moments.size()
+                      ? unit.seen->moments
+                      : std::make_shared<const std::vector<UnitMoment>>(record.moments);
+  unit.seen = std::move(seen);
+  unit.stale = false;
+  unit.forecast_at = Clock::now();
+}
+
+Alarm Fleet::shown_alarm(const Unit& unit, Alarm alarm, Clock::time_point now) const {
+  const auto& silence = settings_.alarm.silence;
+  if (silence && std::chrono::duration<double>(now - unit.heard).count() > *silence)
+    return Alarm::unknown;
+  return alarm;
+}
+
+bool Fleet::refresh(bool all) {
+  constexpr auto between = std::chrono::seconds(1);
+  constexpr auto slice = std::chrono::milliseconds(100);
+  const Clock::time_point begin = Clock::now();
+  std::vector<Unit*> due;
+  for (const auto& [name, unit] : units_) {
+    if (unit->stale && !unit->lost && (all || begin - unit->forecast_at >= between))
+      due.push_back(unit.get());
+  }
+  // Who has waited longest comes first.
+  std::sort(due.begin(), due.end(), [](const Unit* a, const Unit* b) {
+    return std::pair(a->forecast_at, std::string_view(a->record.unit)) <
+           std::pair(b->forecast_at, std::string_view(b->record.unit));
+  });
+  constexpr std::size_t at_once = 64;
+  bool none_left = true;
+  for (std::size_t from = 0; from < due.size(); from += at_once) {
+    std::vector<Unit*> some(
+        due.begin() + static_cast<std::ptrdiff_t>(from),
+        due.begin() + static_cast<std::ptrdiff_t>(std::min(from + at_once, due.size())));
+    run_tasks(static_cast<int>(some.size()), settings_.threads,
+              [&](int i) { forecast(*some[static_cast<std::size_t>(i)]); });
+    publish(some);
+    if (!all && Clock::now() - begin > slice && from + at_once < due.size()) {
+      none_left = false;
+      break;
+    }
+  }
+  fall_silent();
+  if (!unlogged_.empty()) {
+    store_.log(unlogged_);
+    unlogged_.clear();
+  }
+  return none_left;
+}
+
+void Fleet::publish(std::vector<Unit*>& units) {
+  const Clock::time_point now = Clock::now();
+  for (Unit* unit : units) {
+    const Alarm before = unit->shown, alarm = shown_alarm(*unit, unit->alarm, now);
+    auto seen = std::make_shared<Seen>(*unit->seen);
+    seen->view.alarm = alarm;
+    unit->seen = seen;
+    unit->shown = alarm;
+    const std::string& name = unit->record.unit;
+    {
+      const std::lock_guard lock(lock_);
+      seen_[name] = seen;
+      std::uint64_t& version = changed_[name];
+      changes_.erase(version);
+      version = ++version_;
+      changes_.emplace(version, name);
+    }
+    if (alarm == before) continue;
+    const AlarmChange change{name, unix_ms_now(), alarm, seen->view.risk};
+    if (alarm != Alarm::unknown && alarm != unit->logged) {
+      unlogged_.push_back(change);
+      unit->logged = alarm;
+    }
+    if (settings_.on_alarm) settings_.on_alarm(change, before);
+  }
+}
+
+void Fleet::fall_silent() {
+  const Clock::time_point now = Clock::now();
+  if (!settings_.alarm.silence || now - silence_checked_ < std::chrono::milliseconds(200)) return;
+  silence_checked_ = now;
+  std::vector<Unit*> changed;
+  for (const auto& [name, unit] : units_) {
+    if (unit->seen && shown_alarm(*unit, unit->alarm, now) != unit->shown)
+      changed.push_back(unit.get());
+  }
+  publish(changed);
+}
+
+void Fleet::save() {
+  // Only what has changed; the others' states are there.
+  constexpr std::size_t at_once = 500;
+  const std::int64_t all_up_to = place_;
+  std::vector<Unit*> unsaved;
+  for (const auto& [name, unit] : units_) {
+    if (unit->lost) return;  // what is made anew is saved the next time, and all with it
+    if (unit->unsaved) unsaved.push_back(unit.get());
+  }
+  const std::int64_t before = store_.all_up_to(settings_.population);
+  if (unsaved.empty() && before == all_up_to) return;
+  for (std::size_t from = 0;; from += at_once) {
+    const std::size_t end = std::min(from + at_once, unsaved.size());
+    std::vector<Checkpoint> states;
+    for (std::size_t i = from; i < end; ++i)
+      states.push_back(
+          {unsaved[i]->record.unit, unsaved[i]->record.place, bytes_of(unsaved[i]->record)});
+    store_.save(settings_.population, states, end == unsaved.size() ? all_up_to : before);
+    for (std::size_t i = from; i < end; ++i) unsaved[i]->unsaved = false;
+    if (end == unsaved.size()) return;
+  }
+}
+
+}  // namespace wearwell::monitor

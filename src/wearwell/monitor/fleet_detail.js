@@ -1,0 +1,203 @@
+'use strict';
+// One unit: where it stands, where it goes, and how good earlier forecasts were.
+(() => {
+  const {element, given, quantity, range, probability, unit: words} = wearwell;
+  const detail = document.getElementById('detail');
+  let fleet = null, opened = '', serial = 0, waiting = null;
+
+  const finite = (x) => typeof x === 'number' && Number.isFinite(x);
+  const name = (what, unit) => (words(unit) ? `${wearwell.capital(what)} (${words(unit)})` : wearwell.capital(what));
+
+  // From 0 where that is near; what is far beyond the rest is cut off.
+  function domain(values) {
+    const seen = values.filter(finite);
+    if (seen.length === 0) return [0, 1];
+    let low = Math.min(...seen), high = Math.max(...seen);
+    if (low > 0 && low < 0.6 * high) low = 0;
+    if (low === high) { low -= Math.abs(low) / 2 || 1; high += Math.abs(high) / 2 || 1; }
+    return [low, high + 0.04 * (high - low)];
+  }
+
+  function pathFigure(view) {
+    const points = view.path.map(({at, level}) => ({x: at, low: level.q05, y: level.q50, high: level.q95}));
+    const read = view.moments.filter((each) => finite(each.measured)).map((each) => ({x: each.at, y: each.measured}));
+    const split = points.findIndex((each) => each.x > view.at);
+    const behind = split < 0 ? points : points.slice(0, split + 1), ahead = split < 0 ? [] : points.slice(Math.max(0, split - 1));
+    const x = domain([...points.map((each) => each.x), ...read.map((each) => each.x), view.at]);
+    x[1] = Math.max(view.at, ...points.map((each) => each.x).filter(finite), ...read.map((each) => each.x));
+    const y = domain([1.15 * fleet.limit, ...behind.flatMap((each) => [each.low, each.high]), ...ahead.map((each) => each.low),
+                      ...ahead.filter((each) => each.y < 1.3 * fleet.limit).map((each) => each.y), ...read.map((each) => each.y)]);
+    const stops = points.filter((each) => finite(each.x));
+    return {
+      id: 'path', title: `${wearwell.capital(fleet.limited)}, behind and ahead`,
+      description: `${wearwell.capital(fleet.limited)} along ${fleet.axis}: now ${range(view.level.q05, view.level.q95, fleet.level_unit)} (90 %), limit ${given(fleet.limit, fleet.level_unit)}. ${read.length} readings.`,
+      x: {name: name(fleet.axis, fleet.axis_unit), domain: x}, y: {name: name(fleet.limited, fleet.level_unit), domain: y},
+      marks: [
+        {kind: 'band', look: 'behind', points: behind}, {kind: 'band', look: 'ahead', points: ahead},
+        {kind: 'line', look: 'behind', points: behind}, {kind: 'line', look: 'ahead', points: ahead},
+        {kind: 'rule', look: 'limit', y: fleet.limit, word: `limit ${given(fleet.limit, fleet.level_unit)}`},
+        {kind: 'rule', look: 'now', x: view.at, word: 'now', low: true}, {kind: 'points', look: 'reading', points: read}],
+      at: stops.map((each) => each.x), start: Math.max(0, split - 1),
+      read: (i) => `At ${quantity(stops[i].x, fleet.axis_unit)}: ${fleet.limited} ${quantity(stops[i].y, fleet.level_unit)}, 90 % within ${range(stops[i].low, stops[i].high, fleet.level_unit)}`,
+      hint: 'Point at it, or use the arrow keys, to read values.',
+      legend: [['reading', 'readings'], ['behind', 'median and 90 %, behind'], ['ahead', 'ahead']],
+    };
+  }
+
+  function survivalFigure(view) {
+    const points = view.survival.filter((each) => finite(each.remaining)).map((each) => ({x: each.remaining, low: 0, y: each.survival, high: each.survival}));
+    const end = Math.max(...points.map((each) => each.x), 0) || 1;
+    const marks = [{kind: 'band', look: 'behind', points}, {kind: 'line', look: 'behind', points}];
+    if (fleet.horizon < end) marks.push({kind: 'rule', look: 'horizon', x: fleet.horizon, word: `horizon ${given(fleet.horizon, fleet.axis_unit)}`});
+    return {
+      id: 'survival', title: 'How long it lasts',
+      description: `Probability that the limit is not reached, by remaining life: median ${quantity(view.remaining.q50, fleet.axis_unit)}, 90 % within ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}.`,
+      x: {name: `Remaining life (${words(fleet.axis_unit) || fleet.axis})`, domain: [0, end]},
+      y: {name: 'Probability of lasting longer', domain: [0, 1], percent: true}, marks,
+      at: points.map((each) => each.x), start: 0,
+      read: (i) => `${probability(points[i].y)} last longer than ${quantity(points[i].x, fleet.axis_unit)}`,
+      hint: 'Point at it, or use the arrow keys, to read values.',
+      legend: [['behind', 'probability'], ['horizon', 'horizon of the risk']],
+    };
+  }
+
+  function historyFigure(view) {
+    const moments = view.moments.filter((each) => finite(each.at)).sort((a, b) => a.at - b.at);
+    const points = moments.map(({at, life}) => ({x: at, low: life.q05, y: life.q50, high: life.q95}));
+    const last = points.at(-1), x = [0, Math.max(last?.x ?? 1, 1e-300)];
+    const later = points.slice(Math.floor(points.length / 4));
+    const top = Math.max(...later.map((each) => each.high).filter(finite), finite(last?.y) ? 1.2 * last.y : 0, x[1]);
+    const y = [0, finite(last?.y) ? Math.min(top, 4 * Math.max(last.y, x[1])) : top];
+    return {
+      id: 'history', title: 'What was forecast, and when',
+      description: `Expected life at each of ${points.length} moments, with 90 % intervals. Last: ${range(view.moments.at(-1)?.life.q05 ?? null, view.moments.at(-1)?.life.q95 ?? null, fleet.axis_unit)}.`,
+      x: {name: `Forecast at ${name(fleet.axis, fleet.axis_unit).toLowerCase().replace(/\((.*)\)/, () => `(${words(fleet.axis_unit)})`)}`, domain: x},
+      y: {name: `Limit expected at (${words(fleet.axis_unit) || fleet.axis})`, domain: y},
+      marks: [{kind: 'band', look: 'forecast', points}, {kind: 'line', look: 'forecast', points},
+              {kind: 'line', look: 'age', points: [{x: 0, y: 0}, {x: x[1], y: x[1]}]}],
+      at: points.map((each) => each.x), start: points.length - 1,
+      read: (i) => `At ${quantity(points[i].x, fleet.axis_unit)} the limit was expected at ${quantity(points[i].y, fleet.axis_unit)}, 90 % within ${range(points[i].low, points[i].high, fleet.axis_unit)} (${wearwell.clock(moments[i].time_ms)})`,
+      hint: 'Bands that narrow about one line are forecasts that held.',
+      legend: [['forecast', 'median and 90 % of the life'], ['age', 'age at that moment']],
+    };
+  }
+
+  // P(X <= k) of n forecasts that hold with probability 0.9 each.
+  function binomial(k, n) {
+    let sum = 0, logarithm = n * Math.log(0.1);
+    for (let i = 0; i <= k; ++i) {
+      sum += Math.exp(logarithm);
+      logarithm += Math.log((n - i) / (i + 1)) + Math.log(9);
+    }
+    return sum;
+  }
+
+  function tally({judged, held}) {
+    if (!judged) return element('p', {class: 'tally'}, 'No forecast has met its reading yet.');
+    const low = binomial(held, judged) < 0.01;
+    const text = `Of ${wearwell.count(judged)} earlier forecasts of the next reading, ${wearwell.count(held)} held within their 90 % interval; ` +
+                 `about ${wearwell.count(Math.round(0.9 * judged))} were to be expected.`;
+    return element('p', {class: low ? 'tally callout warn' : 'tally'}, low ? element('strong', {}, 'Fewer than chance explains. ') : null, text);
+  }
+
+  const tile = (what, value, note) => element('div', {}, element('dt', {}, what), element('dd', {class: 'value'}, value), element('dd', {class: 'note'}, note));
+
+  function lead(view) {
+    const sure = view.passed > 0.5 ? `With probability ${probability(view.passed)} this ${fleet.noun} has reached its limit of ${given(fleet.limit, fleet.level_unit)} already.`
+                                   : `This ${fleet.noun} reaches its limit of ${given(fleet.limit, fleet.level_unit)} within the next ${given(fleet.horizon, fleet.axis_unit)} with probability ${probability(view.risk)}.`;
+    return element('p', {class: 'lead'}, sure);
+  }
+
+  function tiles(view) {
+    const last = view.last_reading_ms;
+    return element('dl', {class: 'tiles'},
+        tile('Remaining life', quantity(view.remaining.q50, fleet.axis_unit), `90 %: ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}${view.passed > 0.01 ? '; if the limit is not behind it' : ''}`),
+        tile('B10', quantity(view.b10, fleet.axis_unit), '90 % of its like last longer'),
+        tile(`${wearwell.capital(fleet.limited)} now`, quantity(view.level.q50, fleet.level_unit), `90 %: ${range(view.level.q05, view.level.q95, fleet.level_unit)}`),
+        tile('Last reading', last ? `${wearwell.age(wearwell.now() - last)} ago` : 'none', last ? `at ${quantity(view.at, fleet.axis_unit)}, ${wearwell.clock(last)}` : 'what is shown is of the population'));
+  }
+
+  function quality({readings, repeated, late, contradicting, refused, last_problem: problem}) {
+    const fact = (what, count, poor) => element('div', {class: poor && count > 0 ? 'poor' : ''}, element('dt', {}, what), element('dd', {}, wearwell.count(count)));
+    return element('section', {class: 'quality'}, element('h3', {}, 'Data quality'),
+        element('dl', {class: 'facts'}, fact('counted', readings), fact('repeated', repeated), fact('late', late),
+                fact('contradicting', contradicting, true), fact('refused', refused, true)),
+        problem ? element('p', {class: 'problem'}, `Last problem: ${problem}`) : null);
+  }
+
+  function head(view) {
+    return element('div', {class: 'head'},
+        element('a', {class: 'back', href: '#'}, '← Fleet'),
+        element('div', {class: 'named'}, element('h2', {id: 'unit-name'}, view.unit), wearwell.badge(view.alarm)),
+        lead(view), tiles(view));
+  }
+
+  // While somebody reads a plot it stays; the figures above it go on.
+  const busy = () => detail.querySelector('svg.plot:hover, svg.plot:focus') !== null;
+
+  function figures(view) {
+    const room = detail.clientWidth - 2 * parseFloat(getComputedStyle(detail).paddingLeft);
+    const half = room > 860 ? (room - 28) / 2 : room;
+    const made = element('div', {class: 'figures'}, wearwell.plot(pathFigure(view), room));
+    if (view.survival.length > 1) made.append(wearwell.plot(survivalFigure(view), half));
+    if (view.moments.length > 1) made.append(wearwell.plot(historyFigure(view), half));
+    return made;
+  }
+
+  function draw(view) {
+    const same = detail.dataset.unit === view.unit;
+    const old = detail.querySelector('.figures');
+    const keep = same && old && busy();
+    if (keep) {
+      waiting = view;
+      detail.querySelector('.head').replaceWith(head(view));
+      return;
+    }
+    waiting = null;
+    const focused = document.activeElement?.closest?.('figure')?.id;
+    detail.dataset.unit = view.unit;
+    detail.replaceChildren(head(view), figures(view), tally(view.forecasts), quality(view.quality));
+    if (same && focused) document.querySelector(`#${focused} svg`)?.focus({preventScroll: true});
+    if (!same) detail.scrollTop = 0;
+  }
+
+  async function load() {
+    const mine = ++serial, unit = opened;
+    try {
+      const view = await wearwell.ask(`/api/units/${encodeURIComponent(unit)}`);
+      if (mine === serial) draw(view);
+    } catch (error) {
+      if (mine !== serial) return;
+      delete detail.dataset.unit;
+      detail.replaceChildren(element('a', {class: 'back', href: '#'}, '← Fleet'), element('h2', {id: 'unit-name'}, unit), element('p', {class: 'callout warn', role: 'alert'}, error.message));
+    }
+  }
+
+  setInterval(() => { if (waiting && !busy()) draw(waiting); }, 500);
+  let width = 0;
+  new ResizeObserver(() => {
+    if (detail.clientWidth === width) return;
+    width = detail.clientWidth;
+    if (opened && detail.dataset.unit === opened && width > 0) load();
+  }).observe(detail);
+
+  wearwell.detail = {
+    open: (view, unit) => {
+      fleet = view;
+      opened = unit;
+      waiting = null;
+      return load();
+    },
+    close: () => {
+      opened = '';
+      ++serial;
+      delete detail.dataset.unit;
+      detail.replaceChildren(element('h2', {id: 'unit-name', class: 'none'}, `No ${fleet?.noun ?? 'unit'} is chosen.`));
+    },
+    refresh: (view) => {
+      fleet = view;
+      if (opened) load();
+    },
+    opened: () => opened,
+  };
+})();

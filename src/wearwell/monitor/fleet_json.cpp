@@ -1,0 +1,103 @@
+#include "wearwell/monitor/fleet_json.h"
+
+#include <cmath>
+
+namespace wearwell::monitor {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double x) {
+  return std::isfinite(x) ? Json(x) : Json(nullptr);
+}
+
+Json json_of_interval(const Interval& interval) {
+  return {
+      {"q05", number(interval.q05)}, {"q50", number(interval.q50)}, {"q95", number(interval.q95)}};
+}
+
+Json json_of_moment(const UnitMoment& moment) {
+  return {{"time_ms", moment.time_ms},
+          {"at", number(moment.at)},
+          {"measured", moment.measured ? number(*moment.measured) : Json(nullptr)},
+          {"level", json_of_interval(moment.level)},
+          {"life", json_of_interval(moment.life)}};
+}
+
+}  // namespace
+
+Json json_of(const FleetView& fleet) {
+  return {{"title", fleet.title},
+          {"noun", fleet.noun},
+          {"axis", fleet.axis},
+          {"axis_unit", fleet.axis_unit},
+          {"limited", fleet.limited},
+          {"level_unit", fleet.level_unit},
+          {"limit", number(fleet.limit)},
+          {"horizon", number(fleet.horizon)},
+          {"trusted", fleet.trusted},
+          {"units",
+           {{"all", fleet.units},
+            {"act", fleet.act},
+            {"watch", fleet.watch},
+            {"ok", fleet.ok},
+            {"unknown", fleet.unknown}}},
+          {"messages",
+           {{"received", fleet.messages},
+            {"stored", fleet.stored},
+            {"refused", fleet.refused},
+            {"repeated", fleet.repeated},
+            {"last_ms", fleet.last_message_ms}}},
+          {"now_ms", fleet.now_ms},
+          {"started_ms", fleet.started_ms}};
+}
+
+Json json_of(const UnitView& unit) {
+  return {{"unit", unit.unit},
+          {"alarm", name(unit.alarm)},
+          {"at", number(unit.at)},
+          {"last_reading_ms", unit.last_reading_ms},
+          {"level", json_of_interval(unit.level)},
+          {"remaining", json_of_interval(unit.remaining)},
+          {"b10", number(unit.b10)},
+          {"risk", number(unit.risk)},
+          {"passed", number(unit.passed)},
+          {"quality",
+           {{"readings", unit.quality.readings},
+            {"repeated", unit.quality.repeated},
+            {"late", unit.quality.late},
+            {"contradicting", unit.quality.contradicting},
+            {"refused", unit.quality.refused},
+            {"last_problem", unit.quality.last_problem}}}};
+}
+
+Json json_of(const UnitDetail& detail) {
+  Json moments = Json::array(), path = Json::array(), survival = Json::array();
+  for (const UnitMoment& each : detail.moments) moments.push_back(json_of_moment(each));
+  for (const auto& [at, level] : detail.path) {
+    path.push_back({{"at", number(at)}, {"level", json_of_interval(level)}});
+  }
+  for (const auto& [remaining, probability] : detail.survival) {
+    survival.push_back({{"remaining", number(remaining)}, {"survival", number(probability)}});
+  }
+  Json json = json_of(detail.view);
+  json["moments"] = std::move(moments);
+  json["path"] = std::move(path);
+  json["survival"] = std::move(survival);
+  json["forecasts"] = {{"judged", detail.judged}, {"held", detail.held}};
+  return json;
+}
+
+Json json_of(const Delivery& delivery) {
+  return {{"stored", delivery.stored},
+          {"readings", delivery.readings},
+          {"repeated", delivery.repeated},
+          {"refused", delivery.refused},
+          {"problem", delivery.problem}};
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace wearwell::monitor

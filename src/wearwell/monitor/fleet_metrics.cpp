@@ -1,0 +1,167 @@
+#include "wearwell/monitor/fleet_metrics.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+namespace wearwell::monitor {
+namespace {
+
+std::string number(double x) {
+  if (std::isnan(x)) return "NaN";
+  if (std::isinf(x)) return x > 0 ? "+Inf" : "-Inf";
+  return fmt::format("{}", x);
+}
+
+/// A value of a label, in quotes.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char each : text) {
+    if (each == '\n') {
+      out += "\\n";
+    } else {
+      if (each == '"' || each == '\\') out += '\\';
+      out += each;
+    }
+  }
+  return out + '"';
+}
+
+class Text {
+ public:
+  void family(const char* name, const char* type, const char* help) {
+    name_ = name;
+    out_ += fmt::format("# HELP {} {}\n# TYPE {} {}\n", name, help, name, type);
+  }
+  void sample(const std::string& labels, double value) {
+    out_ += labels.empty() ? fmt::format("{} {}\n", name_, number(value))
+                           : fmt::format("{}{{{}}} {}\n", name_, labels, number(value));
+  }
+  std::string take() { return std::move(out_); }
+
+ private:
+  std::string name_, out_;
+};
+
+double seconds(std::int64_t milliseconds) {
+  return static_cast<double>(milliseconds) / 1000;
+}
+
+void add_fleet(const FleetView& fleet, Text* text) {
+  text->family("wearwell_fleet_info", "gauge", "What is monitored, and in which units; always 1.");
+  text->sample(fmt::format("axis={},axis_unit={},level={},level_unit={},title={}",
+                           quoted(fleet.axis), quoted(fleet.axis_unit), quoted(fleet.limited),
+                           quoted(fleet.level_unit), quoted(fleet.title)),
+               1);
+  text->family("wearwell_fleet_trusted", "gauge",
+               "Whether the result that the population was learned from passed its checks.");
+  text->sample("", fleet.trusted ? 1 : 0);
+  text->family("wearwell_fleet_units", "gauge", "Units by alarm.");
+  for (const auto& [alarm, count] :
+       {std::pair(Alarm::ok, fleet.ok), std::pair(Alarm::watch, fleet.watch),
+        std::pair(Alarm::act, fleet.act), std::pair(Alarm::unknown, fleet.unknown)}) {
+    text->sample(fmt::format("alarm=\"{}\"", name(alarm)), static_cast<double>(count));
+  }
+  text->family("wearwell_fleet_limit", "gauge", "The limit, in level_unit.");
+  text->sample("", fleet.limit);
+  text->family("wearwell_fleet_horizon", "gauge", "The horizon of the risk, in axis_unit.");
+  text->sample("", fleet.horizon);
+  const auto count = [&](const char* name, const char* help, std::uint64_t value) {
+    text->family(name, "counter", help);
+    text->sample("", static_cast<double>(value));
+  };
+  count("wearwell_messages_received_total", "Messages that came in.", fleet.messages);
+  count("wearwell_messages_stored_total", "Messages that are stored.", fleet.stored);
+  count("wearwell_messages_refused_total", "Messages that were refused.", fleet.refused);
+  count("wearwell_messages_repeated_total", "Messages that had come before.", fleet.repeated);
+  text->family("wearwell_last_message_timestamp_seconds", "gauge",
+               "When a message last came, Unix time; 0: none yet.");
+  text->sample("", seconds(fleet.last_message_ms));
+  text->family("wearwell_start_timestamp_seconds", "gauge", "When the monitor began, Unix time.");
+  text->sample("", seconds(fleet.started_ms));
+}
+
+double code(Alarm alarm) {
+  switch (alarm) {
+    case Alarm::ok:
+      return 0;
+    case Alarm::watch:
+      return 1;
+    case Alarm::act:
+      return 2;
+    case Alarm::unknown:
+      break;
+  }
+  return -1;
+}
+
+void add_units(const std::vector<UnitView>& units, Text* text) {
+  std::vector<std::string> labels;
+  for (const UnitView& each : units) labels.push_back("unit=" + quoted(each.unit));
+  const auto gauge = [&](const char* name, const char* help,
+                         const std::function<double(const UnitView&)>& value) {
+    text->family(name, "gauge", help);
+    for (std::size_t i = 0; i < units.size(); ++i) text->sample(labels[i], value(units[i]));
+  };
+  const auto interval = [&](const char* name, const char* help, Interval UnitView::*of) {
+    text->family(name, "gauge", help);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const Interval& value = units[i].*of;
+      text->sample(labels[i] + ",percentile=\"5\"", value.q05);
+      text->sample(labels[i] + ",percentile=\"50\"", value.q50);
+      text->sample(labels[i] + ",percentile=\"95\"", value.q95);
+    }
+  };
+  gauge("wearwell_unit_alarm", "0: ok, 1: watch, 2: act, -1: unknown.",
+        [](const UnitView& unit) { return code(unit.alarm); });
+  gauge("wearwell_unit_risk_ratio", "Probability that the limit is reached within the horizon.",
+        [](const UnitView& unit) { return unit.risk; });
+  gauge("wearwell_unit_passed_ratio", "Probability that the limit is reached already.",
+        [](const UnitView& unit) { return unit.passed; });
+  gauge("wearwell_unit_position", "How far the unit has come, in axis_unit.",
+        [](const UnitView& unit) { return unit.at; });
+  interval("wearwell_unit_level", "What the limit is of, now, in level_unit.", &UnitView::level);
+  interval("wearwell_unit_remaining", "Remaining life, in axis_unit.", &UnitView::remaining);
+  gauge("wearwell_unit_remaining_b10", "Remaining life that 90 % exceed, in axis_unit.",
+        [](const UnitView& unit) { return unit.b10; });
+  gauge("wearwell_unit_last_reading_timestamp_seconds",
+        "When a reading last came, Unix time; 0: none yet.",
+        [](const UnitView& unit) { return seconds(unit.last_reading_ms); });
+  text->family("wearwell_unit_readings_total", "counter", "Readings by what became of them.");
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const Quality& of = units[i].quality;
+    for (const auto& [outcome, count] :
+         {std::pair("counted", of.readings), std::pair("contradicting", of.contradicting),
+          std::pair("late", of.late), std::pair("refused", of.refused),
+          std::pair("repeated", of.repeated)}) {
+      text->sample(fmt::format("{},outcome=\"{}\"", labels[i], outcome),
+                   static_cast<double>(count));
+    }
+  }
+}
+
+void add_http(const HttpCounts& http, Text* text) {
+  text->family("wearwell_http_connections", "gauge", "Connections that are open.");
+  text->sample("", static_cast<double>(http.connections));
+  text->family("wearwell_http_event_streams", "gauge", "Of these, how many listen to events.");
+  text->sample("", static_cast<double>(http.streams));
+  text->family("wearwell_http_responses_total", "counter", "Answers by status.");
+  for (const auto& [status, count] : http.answers) {
+    text->sample(fmt::format("code=\"{}\"", status), static_cast<double>(count));
+  }
+}
+
+}  // namespace
+
+std::string metrics_text(const FleetView& fleet, const std::vector<UnitView>& units,
+                         const HttpCounts& http) {
+  Text text;
+  add_fleet(fleet, &text);
+  add_units(units, &text);
+  add_http(http, &text);
+  return text.take();
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "wearwell/monitor/fleet_view.h"
+
+namespace wearwell::monitor {
+
+/// What the server counts of itself.
+struct HttpCounts {
+  std::uint64_t connections = 0, streams = 0;      ///< open now
+  std::map<unsigned, std::uint64_t> answers = {};  ///< so far, by status
+};
+
+/// The text that Prometheus reads (text format 0.0.4; names and units: docs/monitor-api.md).
+std::string metrics_text(const FleetView& fleet, const std::vector<UnitView>& units,
+                         const HttpCounts& http);
+
+}  // namespace wearwell::monitor

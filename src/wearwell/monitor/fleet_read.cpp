@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "wearwell/monitor/fleet.h"
+#include "wearwell/monitor/fleet_seen.h"
+#include "wearwell/monitor/time_text.h"
+
+// What a fleet tells: everything here reads what is whole already.
+namespace wearwell::monitor {
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// The view with what its messages came to, which is counted elsewhere.
+UnitView counted(UnitView view, const Tally& tally) {
+  const Tally::Counts counts = tally.counts(view.unit);
+  view.quality.repeated = counts.repeated;
+  view.quality.refused += counts.refused;
+  if (!counts.last_problem.empty()) view.quality.last_problem = counts.last_problem;
+  return view;
+}
+
+}  // namespace
+
+FleetView Fleet::fleet() const {
+  FleetView view;
+  view.title = settings_.title;
+  view.noun = tracker_.noun();
+  view.axis = tracker_.axis().name;
+  view.axis_unit = tracker_.axis().unit.text;
+  view.limited = tracker_.limited();
+  view.level_unit = tracker_.limit().unit.text;
+  view.limit = tracker_.limit().value;
+  view.horizon = told_.along(settings_.alarm.horizon);
+  view.trusted = settings_.trusted;
+  const Tally::Total total = tally_.total();
+  view.messages = total.messages;
+  view.refused = total.refused;
+  view.repeated = total.repeated;
+  view.last_message_ms = total.last_message_ms;
+  view.now_ms = unix_ms_now();
+  view.started_ms = started_ms_;
+  const std::lock_guard lock(lock_);
+  view.stored = stored_;
+  view.units = seen_.size();
+  for (const auto& [name, seen] : seen_) {
+    const Alarm alarm = seen->view.alarm;
+    ++(alarm == Alarm::ok      ? view.ok
+       : alarm == Alarm::watch ? view.watch
+       : alarm == Alarm::act   ? view.act
+                               : view.unknown);
+  }
+  return view;
+}
+
+std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset, std::size_t count,
+                                   std::uint64_t* matching) const {
+  const std::string wanted = lower(search);
+  std::vector<std::shared_ptr<const Seen>> found;
+  {
+    const std::lock_guard lock(lock_);
+    for (const auto& [name, seen] : seen_) {
+      if (wanted.empty() || lower(name).find(wanted) != std::string::npos) found.push_back(seen);
+    }
+  }
+  // By name where risks are equal, as they stand.
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a->view.risk > b->view.risk; });
+  if (matching) *matching = found.size();
+  std::vector<UnitView> views;
+  for (std::size_t i = std::min(offset, found.size()); i < found.size() && views.size() < count;
+       ++i)
+    views.push_back(counted(found[i]->view, tally_));
+  return views;
+}
+
+std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
+  std::shared_ptr<const Seen> seen;
+  {
+    const std::lock_guard lock(lock_);
+    const auto found = seen_.find(name);
+    if (found == seen_.end()) return {};
+    seen = found->second;
+  }
+  UnitDetail detail;
+  detail.view = counted(seen->view, tally_);
+  detail.held = seen->held;
+  detail.judged = seen->judged;
+  detail.moments = *seen->moments;
+  // The last reading need not be among those that are kept; what is known now stands for it.
+  const UnitView& view = seen->view;
+  if (detail.moments.empty() || detail.moments.back().at < view.at) {
+    UnitMoment now;
+    now.time_ms = view.last_reading_ms;
+    now.at = view.at;
+    now.level = view.level;
+    now.life = {view.at + view.remaining.q05, view.at + view.remaining.q50,
+                view.at + view.remaining.q95};
+    detail.moments.push_back(now);
+  }
+  for (const UnitMoment& each : detail.moments) detail.path.push_back({each.at, each.level});
+  std::stable_sort(detail.path.begin(), detail.path.end(),
+                   [](const auto& a, const auto& b) { return a.at < b.at; });
+  const prognosis::WeightedLives& lives = seen->forecast.remaining;
+  if (lives.points().empty()) return detail;
+  constexpr double last = 0.995;
+  double end = lives.quantile(last);
+  for (double p = last; !std::isfinite(end) && p > 0.01; p -= 0.05) end = lives.quantile(p);
+  if (!std::isfinite(end) || !(end > 0)) return detail;
+  constexpr int points = 120;
+  for (int i = 0; i <= points; ++i) {
+    const double x = end * i / points;
+    detail.survival.push_back({told_.along(x), 1 - lives.cdf(x)});
+  }
+  return detail;
+}
+
+std::uint64_t Fleet::version() const {
+  const std::lock_guard lock(lock_);
+  return version_;
+}
+
+std::vector<std::string> Fleet::changed_since(std::uint64_t version) const {
+  const std::lock_guard lock(lock_);
+  std::vector<std::string> names;
+  for (auto at = changes_.upper_bound(version); at != changes_.end(); ++at)
+    names.push_back(at->second);
+  return names;
+}
+
+}  // namespace wearwell::monitor

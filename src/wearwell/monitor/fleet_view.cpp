@@ -1,0 +1,19 @@
+#include "wearwell/monitor/fleet_view.h"
+
+namespace wearwell::monitor {
+
+const char* name(Alarm alarm) {
+  switch (alarm) {
+    case Alarm::ok:
+      return "ok";
+    case Alarm::watch:
+      return "watch";
+    case Alarm::act:
+      return "act";
+    case Alarm::unknown:
+      break;
+  }
+  return "unknown";
+}
+
+}  // namespace wearwell::monitor

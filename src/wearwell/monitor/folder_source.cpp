@@ -1,0 +1,176 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "wearwell/base/disk.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/monitor/line_feed.h"
+#include "wearwell/monitor/source.h"
+
+namespace wearwell::monitor {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One file and how far it has been read.
+struct GrowingFile {
+  LineFeed feed;
+  std::int64_t offset = 0;  ///< of what is stored
+  std::int64_t noted = 0;   ///< of that, what the store was told
+  bool resumed = false;     ///< the heading must be looked up
+};
+
+class FolderReader {
+ public:
+  FolderReader(SourceContext& context, std::stop_token stop)
+      : context_(context), stop_(std::move(stop)), noted_(context.store.files()) {}
+
+  void look();
+  void note();
+
+ private:
+  void read_file(const fs::path& path);
+  bool read_on(const fs::path& path, const Descriptor& file, GrowingFile& state, std::int64_t size);
+  void resume(const Descriptor& file, GrowingFile& state);
+
+  SourceContext& context_;
+  std::stop_token stop_;
+  std::map<std::string, std::int64_t> noted_;
+  std::map<std::string, GrowingFile> files_;
+  std::set<std::string> seen_;
+};
+
+bool is_lines(const fs::path& path) {
+  static const std::set<std::string> endings = {".csv", ".jsonl", ".ndjson", ".json"};
+  return endings.contains(path.extension().string()) && !path.filename().string().starts_with('.');
+}
+
+void FolderReader::look() {
+  std::error_code error;
+  std::vector<fs::path> paths;
+  for (fs::directory_iterator at(context_.settings.folder, error), end; !error && at != end;
+       at.increment(error)) {
+    if (is_lines(at->path())) paths.push_back(at->path());
+  }
+  if (error)
+    context_.notices.tell(
+        "source." + context_.settings.name,
+        fmt::format("{}: {}", context_.settings.folder.string(), error.message()));
+  std::sort(paths.begin(), paths.end());
+  seen_.clear();
+  for (const fs::path& path : paths) {
+    if (stop_.stop_requested()) return;
+    read_file(path);
+  }
+  // What has gone comes back as another file.
+  std::erase_if(files_, [&](const auto& each) { return !seen_.contains(each.first); });
+}
+
+void FolderReader::read_file(const fs::path& path) {
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat about {};
+  if (!file || fstat(file.get(), &about) != 0) {
+    context_.notices.tell("source." + context_.settings.name,
+                          fmt::format("{}: {}", path.string(), std::strerror(errno)));
+    return;
+  }
+  if (!S_ISREG(about.st_mode)) return;
+  // A file that takes the place of another of its name is another.
+  const std::string key = fmt::format("{}/{}#{}", context_.settings.name,
+                                      valid_utf8(path.filename().string()), about.st_ino);
+  seen_.insert(key);
+  auto [at, fresh] = files_.try_emplace(key);
+  GrowingFile& state = at->second;
+  if (fresh) {
+    if (const auto noted = noted_.find(key); noted != noted_.end()) {
+      state.offset = state.noted = noted->second;
+      state.resumed = state.offset > 0;
+    }
+  }
+  if (about.st_size < state.offset) {
+    context_.notices.tell(
+        "source." + context_.settings.name,
+        fmt::format("{} has become shorter; it is read from its beginning", path.string()));
+    state = GrowingFile();
+  }
+  while (state.offset < about.st_size && read_on(path, file, state, about.st_size)) {
+  }
+}
+
+// Of CSV the heading stands where it always stood.
+void FolderReader::resume(const Descriptor& file, GrowingFile& state) {
+  std::string begin(longest_row, '\0');
+  const ssize_t count = pread(file.get(), begin.data(), begin.size(), 0);
+  begin.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  if (LineFeed::is_json(begin)) return;
+  const std::size_t first = std::min(begin.find_first_not_of("\r\n"), begin.size());
+  state.feed.set_heading(std::string_view(begin).substr(
+      first, std::min(begin.find('\n', first), begin.size()) - first));
+}
+
+// One piece; whether there may be more.
+bool FolderReader::read_on(const fs::path& path, const Descriptor& file, GrowingFile& state,
+                           std::int64_t size) {
+  if (state.resumed) resume(file, state);
+  state.resumed = false;
+  std::string bytes(LineFeed::piece_size, '\0');
+  const ssize_t count = pread(file.get(), bytes.data(), bytes.size(), state.offset);
+  if (count <= 0) return false;
+  bytes.resize(static_cast<std::size_t>(count));
+  LineFeed feed = state.feed;  // as it was, should this not be stored
+  feed.push(bytes);
+  const bool last = context_.once && state.offset + count >= size;
+  const auto piece = feed.next(last);
+  if (!piece) return false;
+  if (piece->too_long) {
+    context_.intake.refuse(context_.settings, fmt::format("{}: a line of more than {} bytes",
+                                                          path.string(), longest_row));
+  } else if (!piece->payload.empty()) {
+    const Message message{"", piece->payload};
+    if (!deliver_until_stored(context_, std::span(&message, 1), stop_)) return false;
+  }
+  feed.taken(*piece);
+  state.offset += static_cast<std::int64_t>(piece->bytes);
+  feed.forget();
+  state.feed = std::move(feed);
+  return !stop_.stop_requested();
+}
+
+void FolderReader::note() {
+  for (auto& [key, state] : files_) {
+    if (state.noted == state.offset) continue;
+    context_.store.note_file(key, state.offset);
+    state.noted = state.offset;
+  }
+}
+
+}  // namespace
+
+void read_folder(SourceContext& context, std::stop_token stop) {
+  FolderReader folder(context, stop);
+  constexpr auto between = std::chrono::milliseconds(300);
+  constexpr int looks_a_note = 10;
+  for (int looks = 1;; ++looks) {
+    folder.look();
+    const bool end = context.once || stop.stop_requested();
+    if (end || looks % looks_a_note == 0) {
+      try {
+        folder.note();
+      } catch (const StoreError& error) {
+        // Only costs time: what is read again is found to be there.
+        context.notices.tell("store", error.what());
+      }
+    }
+    if (end || !pause(between, stop)) break;
+  }
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,173 @@
+#include "wearwell/monitor/http_access.h"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+#include <openssl/hmac.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+
+namespace wearwell::monitor {
+namespace {
+
+constexpr std::int64_t cookie_seconds = 30 * 24 * 3600;
+constexpr std::string_view cookie_name = "wearwell";
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return c < 128 ? std::tolower(c) : c; });
+  return text;
+}
+
+/// "machine:8080" -> "machine", "[::1]:8080" -> "::1".
+std::string name_of(const std::string& host) {
+  if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
+  return lower(host.substr(0, host.find(':')));
+}
+
+bool is_address(const std::string& name) {
+  std::array<unsigned char, sizeof(in6_addr)> bytes;
+  return inet_pton(AF_INET, name.c_str(), bytes.data()) == 1 ||
+         inet_pton(AF_INET6, name.c_str(), bytes.data()) == 1;
+}
+
+std::array<unsigned char, 32> hmac(std::string_view key, std::string_view text) {
+  std::array<unsigned char, 32> digest;
+  unsigned length = digest.size();
+  HMAC(EVP_sha256(), key.data(), static_cast<int>(key.size()),
+       reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data(), &length);
+  return digest;
+}
+
+/// The value of a cookie of `Cookie: a=1; b=2`.
+std::string_view cookie_value(std::string_view field, std::string_view name) {
+  while (!field.empty()) {
+    const std::size_t end = std::min(field.find(';'), field.size());
+    std::string_view each = field.substr(0, end);
+    field.remove_prefix(std::min(end + 1, field.size()));
+    while (each.starts_with(' ')) each.remove_prefix(1);
+    if (each.size() > name.size() && each.starts_with(name) && each[name.size()] == '=') {
+      return each.substr(name.size() + 1);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+HttpAnswer refusal(unsigned status, const std::string& problem) {
+  // Quoted as JSON by hand: `printable` leaves nothing but quotes and backslashes to escape.
+  std::string text;
+  for (const char each : printable(problem)) {
+    if (each == '"' || each == '\\') text += '\\';
+    text += each;
+  }
+  return {status, "application/json", fmt::format("{{\"error\":\"{}\"}}\n", text)};
+}
+
+// Hashes are of one length and tell nothing of the text, so that neither its length shows.
+bool equal_in_constant_time(std::string_view a, std::string_view b) {
+  const auto of_a = hmac("wearwell", a), of_b = hmac("wearwell", b);
+  return CRYPTO_memcmp(of_a.data(), of_b.data(), of_a.size()) == 0;
+}
+
+void check_token(const std::string& token) {
+  constexpr std::size_t least = 16;
+  const bool visible =
+      std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c < '\x7f'; });
+  if (!visible) {
+    throw InputError(
+        "the token holds others than visible ASCII characters: no header can carry it");
+  }
+  if (token.size() < least) {
+    throw InputError(
+        fmt::format("the token has {} characters: at least {}, made by chance, as "
+                    "\"openssl rand -hex 16\" does",
+                    token.size(), least));
+  }
+}
+
+HttpAccess::HttpAccess(const HttpSettings& settings,
+                       std::function<bool(const std::string&)> covered)
+    : token_(settings.token), covered_(std::move(covered)), secure_(!settings.certificate.empty()) {
+  if (!token_.empty()) check_token(token_);
+  names_ = {"localhost", lower(settings.host)};
+  for (const std::string& each : settings.names) names_.push_back(lower(each));
+}
+
+// An address is always ours: only a name can be made to point elsewhere.
+bool HttpAccess::is_ours(const std::string& name) const {
+  return is_address(name) || std::find(names_.begin(), names_.end(), name) != names_.end() ||
+         (covered_ && covered_(name));
+}
+
+std::optional<HttpAnswer> HttpAccess::refuse(const HttpQuestion& question) const {
+  if (question.host.empty()) return refusal(400, "the request has no Host, or more than one");
+  const std::string name = name_of(question.host);
+  if (!is_ours(name)) {
+    return refusal(421, fmt::format("\"{}\" is no name of this server; names it goes by are set as "
+                                    "names in its configuration",
+                                    shortened(name)));
+  }
+  const std::string& origin = question.origin;
+  if (!origin.empty()) {
+    const std::size_t at = origin.find("://");
+    const std::string from = at == origin.npos ? "" : lower(origin.substr(at + 3));
+    const bool listed = std::find(names_.begin() + 1, names_.end(), name_of(from)) != names_.end();
+    if (from != lower(question.host) && !listed) {
+      return refusal(403, "a page from elsewhere sends this: only this server's own page may");
+    }
+  }
+  // A link from elsewhere may lead to the page; nothing else may come from there.
+  const bool elsewhere = question.fetch_site == "cross-site" || question.fetch_site == "same-site";
+  const bool page =
+      question.method == "GET" && question.target.substr(0, question.target.find('?')) == "/";
+  if (elsewhere && !page) {
+    return refusal(403, "a page from elsewhere asks this: only this server's own page may");
+  }
+  return {};
+}
+
+bool HttpAccess::is_token(std::string_view text) const {
+  return equal_in_constant_time(text, token_);
+}
+
+bool HttpAccess::authorized(const HttpQuestion& question, std::int64_t now) const {
+  if (token_.empty()) return true;
+  constexpr std::string_view scheme = "bearer ";
+  const std::string& field = question.authorization;
+  if (lower(field.substr(0, scheme.size())) == scheme) {
+    return is_token(std::string_view(field).substr(scheme.size()));
+  }
+  const std::string_view value = cookie_value(question.cookie, cookie_name);
+  std::int64_t until = 0;
+  const auto [last, error] = std::from_chars(value.data(), value.data() + value.size(), until);
+  if (error != std::errc{} || until < now) return false;
+  return equal_in_constant_time(value, seal(until));
+}
+
+std::string HttpAccess::seal(std::int64_t until) const {
+  std::string out = fmt::format("{}.", until);
+  for (const unsigned byte : hmac(token_, fmt::format("wearwell session until {}", until))) {
+    out += fmt::format("{:02x}", byte);
+  }
+  return out;
+}
+
+std::string HttpAccess::cookie(std::int64_t now) const {
+  return fmt::format("{}={}; Path=/; Max-Age={}; HttpOnly; SameSite=Lax{}", cookie_name,
+                     seal(now + cookie_seconds), cookie_seconds, secure_ ? "; Secure" : "");
+}
+
+std::string HttpAccess::no_cookie() const {
+  return fmt::format("{}=; Path=/; Max-Age=0; HttpOnly; SameSite=Lax{}", cookie_name,
+                     secure_ ? "; Secure" : "");
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "wearwell/monitor/http_routes.h"
+#include "wearwell/monitor/http_settings.h"
+
+namespace wearwell::monitor {
+
+/// One client. All of it runs on the thread of the server's `io`.
+class HttpConnection {
+ public:
+  virtual ~HttpConnection() = default;
+  virtual void start() = 0;
+  virtual void close() = 0;
+  /// Of a stream of events: whether it has taken what it was sent last, the version it has reached, and the
+  /// next event for it.
+  virtual bool waits() const = 0;
+  virtual std::optional<std::uint64_t> version() const = 0;
+  virtual void send(std::shared_ptr<const std::string> event,
+                    std::optional<std::uint64_t> reached) = 0;
+};
+
+/// What connections share.
+struct HttpHub {
+  HttpHub(const HttpRoutes& all_routes, const HttpLimits& all_limits)
+      : routes(all_routes), limits(all_limits) {}
+
+  const HttpRoutes& routes;
+  const HttpLimits limits;
+  std::unique_ptr<boost::asio::ssl::context> tls;  ///< null: plain HTTP
+  // Of the thread of `io` alone; connections that end with it take themselves off.
+  std::set<HttpConnection*> connections, streams;
+  std::map<unsigned, std::uint64_t> answers;
+  boost::asio::io_context io{1};
+  boost::asio::thread_pool readers{2}, deliveries{2};
+};
+
+std::shared_ptr<HttpConnection> make_connection(boost::asio::ip::tcp::socket socket, HttpHub* hub);
+
+}  // namespace wearwell::monitor

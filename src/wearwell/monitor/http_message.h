@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wearwell::monitor {
+
+/// What of a request the answers depend on. Fields that it does not have are "".
+struct HttpQuestion {
+  std::string method, target;  ///< "GET", "/api/units?count=20"
+  std::string host, origin, fetch_site, authorization, cookie, content_type, content_encoding;
+  std::string last_event_id, if_none_match;
+  std::string body;
+};
+
+struct HttpAnswer {
+  unsigned status = 200;
+  std::string type = "application/json";
+  std::string body = {};
+  std::vector<std::pair<std::string, std::string>> fields = {};  ///< further ones
+};
+
+/// {"error": "..."}: what is wrong, in one sentence.
+HttpAnswer refusal(unsigned status, const std::string& problem);
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,255 @@
+#include "wearwell/monitor/http_routes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/monitor/fleet_json.h"
+
+namespace wearwell::monitor {
+namespace {
+
+constexpr std::size_t units_at_once = 500;
+/// Beyond so many an event says that many changed, not which.
+constexpr std::size_t names_at_once = 200;
+constexpr std::string_view unit_prefix = "/api/units/";
+
+std::string_view path_of(const HttpQuestion& question) {
+  return std::string_view(question.target).substr(0, question.target.find('?'));
+}
+
+/// Which methods a path takes; "" where there is no such path.
+std::string methods_of(std::string_view path) {
+  if (path == "/api/events") return "GET";
+  if (path == "/api/readings" || path == "/logout") return "POST";
+  if (path == "/login") return "GET, HEAD, POST";
+  static constexpr std::string_view shown[] = {"/", "/api/fleet", "/api/units", "/metrics",
+                                               "/health"};
+  const bool known = std::find(std::begin(shown), std::end(shown), path) != std::end(shown);
+  return known || path.starts_with(unit_prefix) ? "GET, HEAD" : "";
+}
+
+bool is_taken(const std::string& methods, const std::string& method) {
+  return (", " + methods + ",").find(" " + method + ",") != std::string::npos;
+}
+
+std::int64_t now_seconds() {
+  using namespace std::chrono;
+  return duration_cast<seconds>(system_clock::now().time_since_epoch()).count();
+}
+
+HttpAnswer moved(const char* where) {
+  return {303, "text/plain; charset=utf-8", "", {{"Location", where}}};
+}
+
+HttpAnswer as_page(const ServedPage& page, unsigned status = 200) {
+  return {status,
+          "text/html; charset=utf-8",
+          page.html,
+          {{"Content-Security-Policy", page.policy},
+           {"ETag", page.tag},
+           {"Cache-Control", "no-cache"}}};
+}
+
+/// "application/json; charset=utf-8" -> "application/json".
+std::string media_type(const std::string& field) {
+  std::string type = field.substr(0, field.find_first_of("; "));
+  std::transform(type.begin(), type.end(), type.begin(),
+                 [](unsigned char c) { return c < 128 ? std::tolower(c) : c; });
+  return type;
+}
+
+std::optional<HttpAnswer> refuse_kind(const HttpQuestion& question) {
+  if (!question.content_encoding.empty() && question.content_encoding != "identity") {
+    return refusal(415, "the body is compressed: it is taken as it is only");
+  }
+  static constexpr std::string_view kinds[] = {
+      "",
+      "application/json",
+      "application/x-ndjson",
+      "application/jsonl",
+      "text/csv",
+      "application/csv",
+      "text/plain",
+      "application/octet-stream",
+      "application/x-www-form-urlencoded"};  // curl calls everything by the last one
+  const std::string type = media_type(question.content_type);
+  if (std::find(std::begin(kinds), std::end(kinds), type) != std::end(kinds)) return {};
+  return refusal(415, fmt::format("Content-Type \"{}\": JSON, lines of JSON or CSV is taken",
+                                  shortened(type)));
+}
+
+}  // namespace
+
+HttpRoutes::HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbox* inbox)
+    : access_(access),
+      reader_(reader),
+      inbox_(inbox),
+      page_(fleet_page(access.needs_token())),
+      login_(login_page(false)),
+      wrong_(login_page(true)),
+      started_ms_(reader.fleet().started_ms) {}
+
+bool HttpRoutes::is_events(const HttpQuestion& question) {
+  return question.method == "GET" && path_of(question) == "/api/events";
+}
+
+bool HttpRoutes::is_delivery(const HttpQuestion& question) {
+  return path_of(question) == "/api/readings";
+}
+
+std::optional<HttpAnswer> HttpRoutes::refuse(const HttpQuestion& question) const {
+  if (auto refused = access_.refuse(question)) return refused;
+  const std::string_view path = path_of(question);
+  const std::string methods = methods_of(path);
+  const bool open = path == "/health" || path == "/login";
+  if (!open && !access_.authorized(question, now_seconds())) {
+    if (path == "/") return moved("/login");
+    HttpAnswer answer = refusal(401, "the token is missing or wrong: Authorization: Bearer TOKEN");
+    answer.fields.emplace_back("WWW-Authenticate", "Bearer realm=\"wearwell\"");
+    return answer;
+  }
+  if (methods.empty()) {
+    return refusal(404, fmt::format("nothing is at {}", shortened(std::string(path))));
+  }
+  if (!is_taken(methods, question.method)) {
+    HttpAnswer answer = refusal(405, fmt::format("{} takes {}", path, methods));
+    answer.fields.emplace_back("Allow", methods);
+    return answer;
+  }
+  if (question.method == "POST") return refuse_kind(question);
+  return {};
+}
+
+HttpAnswer HttpRoutes::answer(const HttpQuestion& question, const HttpCounts& http) const {
+  try {
+    const HttpTarget target = http_target(question.target);
+    const std::string& path = target.path;
+    if (path == "/") return page(question);
+    if (path == "/login") return login(question);
+    if (path == "/logout") {
+      HttpAnswer answer = moved("/login");
+      answer.fields.emplace_back("Set-Cookie", access_.no_cookie());
+      return answer;
+    }
+    if (path == "/health") return {200, "application/json", "{\"status\":\"ok\"}\n"};
+    if (path == "/metrics") return metrics(http);
+    if (path == "/api/fleet") {
+      nlohmann::ordered_json json = {{"version", reader_.version()}};
+      json.update(json_of(reader_.fleet()));
+      return {200, "application/json", text_of(json)};
+    }
+    if (path == "/api/units") return units(target);
+    if (path == "/api/readings") return readings(question.body);
+    return unit(path.substr(unit_prefix.size()));
+  } catch (const InputError& error) {
+    return refusal(400, error.what());
+  } catch (const std::exception& error) {
+    return refusal(500, error.what());
+  }
+}
+
+HttpAnswer HttpRoutes::page(const HttpQuestion& question) const {
+  if (question.if_none_match == page_.tag) {
+    return {304, "text/html; charset=utf-8", "", {{"ETag", page_.tag}}};
+  }
+  return as_page(page_);
+}
+
+HttpAnswer HttpRoutes::login(const HttpQuestion& question) const {
+  if (!access_.needs_token()) return moved("/");
+  if (question.method != "POST") return as_page(login_);
+  const auto fields = form_fields(question.body);
+  const auto token = fields.find("token");
+  if (token == fields.end() || !access_.is_token(token->second)) return as_page(wrong_, 403);
+  HttpAnswer answer = moved("/");
+  answer.fields.emplace_back("Set-Cookie", access_.cookie(now_seconds()));
+  return answer;
+}
+
+HttpAnswer HttpRoutes::units(const HttpTarget& target) const {
+  for (const auto& [key, value] : target.query) {
+    if (key != "search" && key != "offset" && key != "count") {
+      throw InputError(fmt::format("{}: search, offset and count are known", shortened(key)));
+    }
+  }
+  const auto search = target.query.find("search");
+  const std::size_t offset = target.number("offset", 0, 1'000'000'000);
+  const std::size_t count = target.number("count", 50, units_at_once);
+  const std::uint64_t version = reader_.version();
+  std::uint64_t matching = 0;
+  const std::vector<UnitView> found =
+      reader_.units(search == target.query.end() ? "" : search->second, offset, count, &matching);
+  nlohmann::ordered_json json = {{"version", version}, {"matching", matching}, {"offset", offset}};
+  json["units"] = nlohmann::ordered_json::array();
+  for (const UnitView& each : found) json["units"].push_back(json_of(each));
+  return {200, "application/json", text_of(json)};
+}
+
+HttpAnswer HttpRoutes::unit(const std::string& encoded) const {
+  const std::string name = percent_decoded(encoded);
+  const std::uint64_t version = reader_.version();
+  const std::optional<UnitDetail> detail = reader_.unit(name);
+  if (!detail) return refusal(404, fmt::format("\"{}\" is no unit", shortened(name)));
+  nlohmann::ordered_json json = {{"version", version}};
+  json.update(json_of(*detail));
+  return {200, "application/json", text_of(json)};
+}
+
+// Refused for good with 400, to be sent again with 503.
+HttpAnswer HttpRoutes::readings(const std::string& body) const {
+  if (!inbox_) return refusal(404, "readings are not taken by HTTP here");
+  Delivery delivery = inbox_->deliver("", body);
+  HttpAnswer answer;
+  if (!delivery.stored) {
+    answer.status = 503;
+    answer.fields.emplace_back("Retry-After", "5");
+  } else if (delivery.readings + delivery.repeated == 0) {
+    answer.status = 400;
+    if (delivery.problem.empty()) delivery.problem = "there is no reading in it";
+  }
+  answer.body = text_of(json_of(delivery));
+  return answer;
+}
+
+HttpAnswer HttpRoutes::metrics(const HttpCounts& http) const {
+  constexpr std::size_t all = 1'000'000'000;
+  return {200, "text/plain; version=0.0.4; charset=utf-8",
+          metrics_text(reader_.fleet(), reader_.units("", 0, all), http)};
+}
+
+std::string HttpRoutes::event(std::optional<std::uint64_t> version, std::uint64_t* reached) const {
+  // The version first: what changes meanwhile is told once more by the next event.
+  *reached = reader_.version();
+  std::vector<std::string> changed;
+  if (version) changed = reader_.changed_since(*version);
+  const bool all = !version || changed.size() > names_at_once;
+  if (all) changed.clear();
+  const nlohmann::ordered_json json = {{"version", *reached},
+                                       {"fleet", json_of(reader_.fleet())},
+                                       {"all", all},
+                                       {"changed", changed}};
+  return fmt::format("id: {}.{}\nevent: fleet\ndata: {}\n", started_ms_, *reached, text_of(json));
+}
+
+std::string HttpRoutes::beat() const {
+  using namespace std::chrono;
+  const auto now = duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count();
+  return fmt::format("event: beat\ndata: {{\"now_ms\":{}}}\n\n", now);
+}
+
+std::optional<std::uint64_t> HttpRoutes::version_of(const std::string& event_id) const {
+  const std::string run = fmt::format("{}.", started_ms_);
+  if (!event_id.starts_with(run)) return {};
+  std::uint64_t version = 0;
+  const char *begin = event_id.data() + run.size(), *end = event_id.data() + event_id.size();
+  const auto [last, error] = std::from_chars(begin, end, version);
+  if (error != std::errc{} || last != end || version > reader_.version()) return {};
+  return version;
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,242 @@
+#include "wearwell/monitor/http_server.h"
+
+#include <fmt/format.h>
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <chrono>
+#include <map>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/monitor/http_connection.h"
+#include "wearwell/monitor/http_tls.h"
+
+namespace wearwell::monitor {
+namespace {
+
+namespace net = boost::asio;
+using Error = boost::system::error_code;
+using Tcp = net::ip::tcp;
+using Clock = std::chrono::steady_clock;
+
+Tcp::endpoint endpoint_of(const HttpSettings& settings, net::io_context* io) {
+  if (settings.port < 0 || settings.port > 65535) {
+    throw InputError(fmt::format("port = {}: from 0 (any that is free) to 65535", settings.port));
+  }
+  const auto port = static_cast<unsigned short>(settings.port);
+  Error error;
+  const net::ip::address address = net::ip::make_address(settings.host, error);
+  if (!error) return {address, port};
+  const auto found = Tcp::resolver(*io).resolve(settings.host, "", error);
+  if (error || found.empty()) {
+    throw InputError(fmt::format("host = \"{}\" is neither an address nor a name that is known: {}",
+                                 printable(settings.host), error.message()));
+  }
+  return {found.begin()->endpoint().address(), port};
+}
+
+std::optional<HttpTls> tls_of(const HttpSettings& settings) {
+  if (settings.certificate.empty() != settings.key.empty()) {
+    throw InputError("certificate and key: TLS needs both, and one is missing");
+  }
+  if (settings.certificate.empty()) return {};
+  return HttpTls(settings.certificate, settings.key);
+}
+
+void check_reach(const HttpSettings& settings, const Tcp::endpoint& endpoint) {
+  if (endpoint.address().is_loopback()) return;
+  std::string missing;
+  if (settings.token.empty()) missing = "a token";
+  if (settings.certificate.empty()) {
+    missing += missing.empty() ? "" : " and ";
+    missing += "TLS (certificate and key)";
+  }
+  if (missing.empty()) return;
+  throw InputError(
+      fmt::format("host = \"{}\" is reached from other machines: there {} must be set; "
+                  "127.0.0.1 is reached from this one alone",
+                  printable(settings.host), missing));
+}
+
+Tcp::acceptor listening(const HttpSettings& settings, const Tcp::endpoint& endpoint,
+                        net::io_context* io) {
+  Tcp::acceptor acceptor(*io);
+  Error error;
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(Tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(net::socket_base::max_listen_connections, error);
+  if (error) {
+    throw MachineError(fmt::format("nothing can listen at {}, port {}: {}",
+                                   printable(settings.host), settings.port, error.message()));
+  }
+  return acceptor;
+}
+
+}  // namespace
+
+struct HttpServer::State {
+  State(const HttpSettings& settings, const FleetReader& reader, Inbox* inbox)
+      : tls(tls_of(settings)),
+        access(settings, tls ? [this](const std::string& name) { return tls->covers(name); }
+                             : std::function<bool(const std::string&)>()),
+        routes(access, reader, inbox),
+        hub(routes, settings.limits),
+        fleet(reader),
+        acceptor(hub.io),
+        pause(hub.io),
+        tick(hub.io) {
+    const Tcp::endpoint endpoint = endpoint_of(settings, &hub.io);
+    check_reach(settings, endpoint);
+    if (tls) {
+      SSL_CTX_up_ref(tls->context());
+      hub.tls = std::make_unique<net::ssl::context>(tls->context());
+    }
+    acceptor = listening(settings, endpoint, &hub.io);
+    const bool v6 = endpoint.address().is_v6();
+    const std::string host = settings.host.find(':') == std::string::npos || !v6
+                                 ? settings.host
+                                 : "[" + settings.host + "]";
+    port = acceptor.local_endpoint().port();
+    address = fmt::format("{}://{}:{}/", tls ? "https" : "http", host, port);
+  }
+
+  void accept() {
+    acceptor.async_accept([this](Error error, Tcp::socket socket) {
+      if (error == net::error::operation_aborted) return;
+      if (error) {  // no descriptors are left, perhaps: they come back
+        pause.expires_after(std::chrono::milliseconds(100));
+        return pause.async_wait([this](Error stopped) {
+          if (!stopped) accept();
+        });
+      }
+      if (hub.connections.size() < hub.limits.connections) {
+        make_connection(std::move(socket), &hub)->start();
+      } else {
+        turn_away(std::move(socket));
+      }
+      accept();
+    });
+  }
+
+  // As far as it can be said without waiting.
+  void turn_away(Tcp::socket socket) {
+    ++hub.answers[503];
+    if (tls) return;
+    static constexpr std::string_view full =
+        "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nRetry-After: 10\r\nConnection: "
+        "close\r\n\r\n";
+    Error ignored;
+    socket.non_blocking(true, ignored);
+    socket.write_some(net::buffer(full), ignored);
+    socket.shutdown(Tcp::socket::shutdown_both, ignored);
+  }
+
+  void run_ticks() {
+    tick.expires_after(hub.limits.between);
+    tick.async_wait([this](Error error) {
+      if (error) return;
+      if (!hub.streams.empty()) {
+        make_events();
+      } else {
+        run_ticks();
+      }
+    });
+  }
+
+  /// An event for streams that have reached the same version is made once.
+  struct Event {
+    std::shared_ptr<const std::string> text;
+    std::uint64_t reached = 0;
+  };
+  using Events = std::map<std::optional<std::uint64_t>, Event>;
+
+  void make_events() {
+    Events wanted;
+    for (const HttpConnection* each : hub.streams) {
+      if (each->waits()) wanted[each->version()];
+    }
+    net::post(hub.readers, [this, wanted = std::move(wanted)]() mutable {
+      try {
+        const std::uint64_t now = fleet.version();
+        for (auto& [from, event] : wanted) {
+          if (from == now) continue;
+          event.text = std::make_shared<std::string>(routes.event(from, &event.reached));
+        }
+      } catch (const std::exception&) {
+        wanted.clear();  // asked again at the next tick
+      }
+      net::post(hub.io, [this, events = std::move(wanted)] { send_events(events); });
+    });
+  }
+
+  void send_events(const Events& events) {
+    const bool beats = Clock::now() - last_beat >= hub.limits.beat;
+    if (beats) last_beat = Clock::now();
+    const auto beat = beats ? std::make_shared<const std::string>(routes.beat()) : nullptr;
+    const auto streams = hub.streams;  // sending may end some
+    for (HttpConnection* each : streams) {
+      if (!each->waits()) continue;
+      const auto at = events.find(each->version());
+      if (at != events.end() && at->second.text) {
+        each->send(at->second.text, at->second.reached);
+      } else if (beat) {
+        each->send(beat, each->version());
+      }
+    }
+    run_ticks();
+  }
+
+  std::optional<HttpTls> tls;
+  HttpAccess access;
+  HttpRoutes routes;
+  HttpHub hub;
+  const FleetReader& fleet;
+  Tcp::acceptor acceptor;
+  net::steady_timer pause, tick;
+  Clock::time_point last_beat = Clock::now();
+  unsigned short port = 0;
+  std::string address;
+  std::thread thread;
+};
+
+HttpServer::HttpServer(const HttpSettings& settings, const FleetReader& reader, Inbox* inbox)
+    : state_(std::make_unique<State>(settings, reader, inbox)) {
+  state_->accept();
+  state_->run_ticks();
+  state_->thread = std::thread([state = state_.get()] { state->hub.io.run(); });
+}
+
+HttpServer::~HttpServer() {
+  stop();
+}
+
+unsigned short HttpServer::port() const {
+  return state_->port;
+}
+
+std::string HttpServer::address() const {
+  return state_->address;
+}
+
+void HttpServer::stop() {
+  if (!state_->thread.joinable()) return;
+  HttpHub& hub = state_->hub;
+  hub.readers.stop();
+  hub.deliveries.stop();
+  hub.readers.join();
+  hub.deliveries.join();
+  hub.io.stop();
+  state_->thread.join();
+  Error ignored;
+  state_->acceptor.close(ignored);
+  const auto connections = hub.connections;
+  for (HttpConnection* each : connections) each->close();
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,50 @@
+#include "wearwell/monitor/http_tls.h"
+
+#include <fmt/format.h>
+#include <openssl/err.h>
+#include <openssl/x509v3.h>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+
+namespace wearwell::monitor {
+namespace {
+
+// The last of OpenSSL's queue is nearest to what was asked for.
+[[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
+  const unsigned long code = ERR_peek_last_error();
+  const char* reason = ERR_reason_error_string(code);
+  ERR_clear_error();
+  throw InputError(fmt::format("{}: {}{}{}", printable(file.string()), what, reason ? ": " : "",
+                               reason ? reason : ""));
+}
+
+}  // namespace
+
+HttpTls::HttpTls(const std::filesystem::path& certificate, const std::filesystem::path& key)
+    : context_(SSL_CTX_new(TLS_server_method()), SSL_CTX_free) {
+  if (!context_) throw MachineError("TLS cannot be set up");
+  SSL_CTX* const context = context_.get();
+  SSL_CTX_set_min_proto_version(context, TLS1_2_VERSION);
+  SSL_CTX_set_options(context, SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION);
+  SSL_CTX_set_mode(context, SSL_MODE_RELEASE_BUFFERS | SSL_MODE_ENABLE_PARTIAL_WRITE |
+                                SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
+  ERR_clear_error();
+  if (SSL_CTX_use_certificate_chain_file(context, certificate.c_str()) != 1) {
+    fail(certificate, "no certificate in PEM can be read from it");
+  }
+  // A key that asks for a password would ask the terminal.
+  SSL_CTX_set_default_passwd_cb(context, [](char*, int, int, void*) { return -1; });
+  if (SSL_CTX_use_PrivateKey_file(context, key.c_str(), SSL_FILETYPE_PEM) != 1) {
+    fail(key,
+         "no key in PEM, without a password, that belongs to the certificate can be read from it");
+  }
+  if (SSL_CTX_check_private_key(context) != 1) fail(key, "the key is not that of the certificate");
+}
+
+bool HttpTls::covers(const std::string& name) const {
+  X509* const certificate = SSL_CTX_get0_certificate(context_.get());
+  return X509_check_host(certificate, name.data(), name.size(), 0, nullptr) == 1;
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <openssl/ssl.h>
+
+#include <memory>
+#include <string>
+
+#include "wearwell/monitor/http_settings.h"
+
+namespace wearwell::monitor {
+
+/// TLS 1.2 and 1.3 with the certificate and key of the settings.
+class HttpTls {
+ public:
+  /// Throws InputError, naming the file, where either cannot be read, is no PEM, or they do not belong
+  /// together.
+  HttpTls(const std::filesystem::path& certificate, const std::filesystem::path& key);
+
+  SSL_CTX* context() const { return context_.get(); }
+  /// Whether a name is one of the certificate's, "*.example.org" among them.
+  bool covers(const std::string& name) const;
+
+ private:
+  std::shared_ptr<SSL_CTX> context_;
+};
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,145 @@
+#include "wearwell/monitor/intake.h"
+
+#include <fmt/format.h>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/monitor/time_text.h"
+
+namespace wearwell::monitor {
+
+Delivery Intake::deliver(const SourceSettings& source, std::span<const Message> messages) {
+  Delivery delivery;
+  Batch batch;
+  for (const Message& message : messages) read(source, message, batch);
+  if (!batch.readings.empty()) commit(batch);
+  if (!batch.trouble.empty()) {
+    delivery.problem = batch.trouble;
+    return delivery;
+  }
+  delivery.stored = true;
+  tally_.messages(batch.rows, unix_ms_now());
+  for (const Refusal& each : batch.refusals) refuse(source, each, delivery);
+  for (std::size_t i = 0; i < batch.kept.size(); ++i) {
+    const StoredReading& each = batch.readings[i];
+    if (batch.kept[i] == Kept::stored) {
+      ++delivery.readings;
+    } else if (batch.kept[i] == Kept::repeated) {
+      ++delivery.repeated;
+      tally_.repeated(each.unit);
+    } else {
+      const bool sequence = !source.mapping.sequence.empty();
+      const std::string which =
+          sequence ? fmt::format("with number {}", each.key) : "of " + iso_of_unix_ms(each.key);
+      refuse(source,
+             {each.unit,
+              fmt::format("unit '{}': another reading {} is stored already, with other values",
+                          each.unit, which)},
+             delivery);
+    }
+  }
+  return delivery;
+}
+
+void Intake::refuse(const SourceSettings& source, const std::string& problem) {
+  Delivery ignored;
+  tally_.messages(1, unix_ms_now());
+  refuse(source, {"", problem}, ignored);
+}
+
+void Intake::refuse(const SourceSettings& source, const Refusal& refusal, Delivery& delivery) {
+  ++delivery.refused;
+  if (delivery.problem.empty()) delivery.problem = refusal.problem;
+  tally_.refused(refusal.unit, refusal.problem);
+  notices_.tell(fmt::format("source.{}", source.name), "refused: " + refusal.problem);
+}
+
+void Intake::read(const SourceSettings& source, const Message& message, Batch& batch) {
+  const std::int64_t now = unix_ms_now();
+  const auto refuse_row = [&](const std::string& unit, const std::string& problem) {
+    ++batch.rows;
+    batch.refusals.push_back({unit, problem});
+  };
+  std::string unit;
+  const auto refuse_message = [&](const std::string& problem) {
+    const std::string topic =
+        message.topic.empty() ? std::string()
+                              : fmt::format(" of topic '{}'", printable(shortened(message.topic)));
+    refuse_row(unit, fmt::format("the message{} {}", topic, problem));
+  };
+  if (source.mapping.unit.empty()) {
+    const auto named = source.topic.unit(message.topic);
+    if (!named) return refuse_message("names no unit");
+    unit = *named;
+  }
+  const auto row = [&](const Fields& fields) {
+    try {
+      StoredReading reading = reading_of(fields, unit, source.mapping, now);
+      if (!tally_.admit(reading.unit))
+        throw InputError(fmt::format(
+            "'{}' is a new unit, and there are as many as limits.units lets in", reading.unit));
+      batch.readings.push_back(std::move(reading));
+      ++batch.rows;
+    } catch (const InputError& error) {
+      const Field* named = unit.empty() ? find_field(fields, source.mapping.unit) : nullptr;
+      refuse_row(named ? named->text : unit, error.what());
+    }
+  };
+  for_each_row(message.payload, row, refuse_message);
+}
+
+void Intake::commit(Batch& batch) {
+  std::unique_lock lock(lock_);
+  waiting_.push_back(&batch);
+  // The first who finds nobody at it stores what all wait for.
+  while (!batch.done) {
+    if (storing_) {
+      changed_.wait(lock);
+    } else {
+      store_waiting(lock);
+    }
+  }
+}
+
+void Intake::store_waiting(std::unique_lock<std::mutex>& lock) {
+  storing_ = true;
+  const std::vector<Batch*> batches = std::move(waiting_);
+  waiting_.clear();
+  lock.unlock();
+  std::string trouble;
+  std::vector<Kept> kept;
+  try {
+    if (batches.size() == 1) {
+      kept = store_.add(batches.front()->readings);
+    } else {
+      std::vector<StoredReading> all;
+      for (const Batch* each : batches)
+        all.insert(all.end(), each->readings.begin(), each->readings.end());
+      kept = store_.add(all);
+    }
+  } catch (const std::exception& error) {
+    trouble = error.what();
+    if (trouble.empty()) trouble = "the store failed";
+    notices_.tell("store", fmt::format("cannot take readings, which wait: {}", trouble));
+  }
+  lock.lock();
+  std::size_t at = 0;
+  for (Batch* each : batches) {
+    each->trouble = trouble;
+    if (trouble.empty()) {
+      each->kept.assign(kept.begin() + static_cast<std::ptrdiff_t>(at),
+                        kept.begin() + static_cast<std::ptrdiff_t>(at + each->readings.size()));
+      at += each->readings.size();
+    }
+    each->done = true;
+  }
+  storing_ = false;
+  changed_.notify_all();
+  if (trouble.empty()) {
+    lock.unlock();
+    stored_();
+    lock.lock();
+  }
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,237 @@
+#include "wearwell/monitor/message.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+
+namespace wearwell::monitor {
+namespace {
+
+using Json = nlohmann::json;
+
+std::string in_quotes(std::string_view text) {
+  return fmt::format("'{}'", printable(shortened(text)));
+}
+
+/// Gathers the fields of one object as its text is read; no tree is made of it.
+class FieldReader : public nlohmann::json_sax<Json> {
+ public:
+  Fields fields;
+
+  bool null() override { return put(Field::Kind::null); }
+  bool boolean(bool) override { return put(Field::Kind::flag); }
+  bool number_integer(Json::number_integer_t value) override {
+    return put_number(static_cast<double>(value), value, true);
+  }
+  bool number_unsigned(Json::number_unsigned_t value) override {
+    const bool fits = value <= static_cast<std::uint64_t>(INT64_MAX);
+    return put_number(static_cast<double>(value), fits ? static_cast<std::int64_t>(value) : 0,
+                      fits);
+  }
+  bool number_float(Json::number_float_t value, const Json::string_t&) override {
+    constexpr double exact = 9007199254740992.0;  // 2^53
+    const bool whole = value == std::floor(value) && std::abs(value) <= exact;
+    return put_number(value, whole ? static_cast<std::int64_t>(value) : 0, whole);
+  }
+  bool string(Json::string_t& value) override {
+    if (!put(Field::Kind::text)) return false;
+    if (lists_ == 0) fields.back().text = std::move(value);
+    return true;
+  }
+  bool binary(Json::binary_t&) override { return false; }
+
+  bool start_object(std::size_t) override {
+    deeper();
+    if (lists_ == 0 && depth_ > 1) path_.push_back(path_.back() + "/" + key_);
+    if (lists_ == 0 && depth_ == 1) path_.push_back("");
+    return true;
+  }
+  bool end_object() override {
+    if (lists_ == 0) path_.pop_back();
+    --depth_;
+    return true;
+  }
+  bool key(Json::string_t& name) override {
+    if (lists_ == 0) key_ = std::move(name);
+    return true;
+  }
+  bool start_array(std::size_t) override {
+    if (depth_ == 0) throw InputError("is a list, not an object");
+    deeper();
+    if (lists_++ == 0) return put_named(Field::Kind::list);
+    return true;
+  }
+  bool end_array() override {
+    --lists_;
+    --depth_;
+    return true;
+  }
+  bool parse_error(std::size_t position, const std::string&,
+                   const Json::exception& error) override {
+    // What is a number, and too large for one, comes as an error of another kind.
+    throw InputError(error.id == 406 ? std::string("holds a number that is too large")
+                                     : fmt::format("is no JSON, from its byte {} on", position));
+  }
+
+ private:
+  void deeper() {
+    if (++depth_ > deepest_message)
+      throw InputError(fmt::format("is nested more than {} deep", deepest_message));
+  }
+  bool put(Field::Kind kind) {
+    if (depth_ == 0) throw InputError("is not an object");
+    return lists_ > 0 || put_named(kind);
+  }
+  bool put_named(Field::Kind kind) {
+    const std::string name = path_.size() == 1 ? key_ : path_.back() + "/" + key_;
+    if (find_field(fields, name)) throw InputError(fmt::format("holds {} twice", in_quotes(name)));
+    if (fields.size() == most_fields)
+      throw InputError(fmt::format("holds more than {} fields", most_fields));
+    fields.push_back({name, kind});
+    return true;
+  }
+  bool put_number(double value, std::int64_t integer, bool whole) {
+    put(Field::Kind::number);
+    if (lists_ > 0) return true;
+    fields.back().number = value;
+    fields.back().integer = integer;
+    fields.back().whole = whole;
+    return true;
+  }
+
+  std::vector<std::string> path_;
+  std::string key_;
+  std::size_t depth_ = 0, lists_ = 0;
+};
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  const std::size_t from = text.find_first_not_of(blanks);
+  if (from == text.npos) return {};
+  return text.substr(from, text.find_last_not_of(blanks) - from + 1);
+}
+
+/// What a cell is: a number where all of it is one, nothing where it is empty.
+Field field_of_cell(const std::string& name, std::string_view cell) {
+  Field field{name};
+  const std::string_view value = trimmed(cell);
+  if (value.empty()) return field;
+  const char* end = value.data() + value.size();
+  const auto [rest, error] = std::from_chars(value.data(), end, field.number);
+  if (error == std::errc() && rest == end && std::isfinite(field.number)) {
+    field.kind = Field::Kind::number;
+    const auto [last, fault] = std::from_chars(value.data(), end, field.integer);
+    field.whole = fault == std::errc() && last == end;
+  } else {
+    field.kind = Field::Kind::text;
+  }
+  field.text = value;
+  return field;
+}
+
+void for_each_line(std::string_view text, const std::function<void(std::string_view)>& visit) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = trimmed(text.substr(0, end));
+    if (!line.empty()) visit(line);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
+void read_csv(std::string_view payload, const std::function<void(const Fields&)>& row,
+              const std::function<void(const std::string&)>& bad) {
+  std::vector<std::string> heading;
+  Fields fields;
+  for_each_line(payload, [&](std::string_view line) {
+    if (line.size() > longest_row) return bad(fmt::format("a line of {} bytes", line.size()));
+    const std::vector<std::string> cells = cells_of(line);
+    if (heading.empty()) {
+      for (const std::string& cell : cells) heading.emplace_back(trimmed(cell));
+      if (heading.size() > most_fields)
+        throw InputError(fmt::format("holds more than {} columns", most_fields));
+      for (std::size_t i = 0; i < heading.size(); ++i) {
+        if (std::find(heading.begin(), heading.begin() + i, heading[i]) != heading.begin() + i)
+          throw InputError(fmt::format("has two columns {}", in_quotes(heading[i])));
+      }
+      return;
+    }
+    if (cells.size() != heading.size())
+      return bad(fmt::format("the line {} holds {} cells, and the heading {}", in_quotes(line),
+                             cells.size(), heading.size()));
+    fields.clear();
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      fields.push_back(field_of_cell(heading[i], cells[i]));
+    row(fields);
+  });
+}
+
+}  // namespace
+
+const Field* find_field(const Fields& fields, std::string_view name) {
+  for (const Field& field : fields) {
+    if (field.name == name) return &field;
+  }
+  return nullptr;
+}
+
+Fields fields_of_json(std::string_view text) {
+  FieldReader reader;
+  if (!Json::sax_parse(text.begin(), text.end(), &reader)) throw InputError("is no JSON");
+  return std::move(reader.fields);
+}
+
+std::vector<std::string> cells_of(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool quote = false, closed = false;
+  for (const char c : line) {
+    if (c == '"') {
+      if (closed) cells.back() += '"';
+      closed = quote;
+      quote = !quote;
+    } else if (c == ',' && !quote) {
+      cells.emplace_back();
+      closed = false;
+    } else {
+      cells.back() += c;
+      closed = false;
+    }
+  }
+  if (quote) throw InputError(fmt::format("the line {} opens a quote", in_quotes(line)));
+  return cells;
+}
+
+void for_each_row(std::string_view payload, const std::function<void(const Fields&)>& row,
+                  const std::function<void(const std::string&)>& bad) {
+  const auto guarded = [&](const std::function<void()>& read) {
+    try {
+      read();
+    } catch (const InputError& error) {
+      bad(error.what());
+    }
+  };
+  if (payload.size() > longest_message)
+    return bad(fmt::format("is of {} bytes; {} is the most", payload.size(), longest_message));
+  const std::string_view text = trimmed(payload);
+  if (text.empty()) return bad("is empty");
+  if (text.front() != '{' && text.front() != '[') return guarded([&] { read_csv(text, row, bad); });
+  const auto read_object = [&](std::string_view object) {
+    guarded([&] {
+      if (object.size() > longest_row)
+        throw InputError(fmt::format("is of {} bytes; {} is the most", object.size(), longest_row));
+      row(fields_of_json(object));
+    });
+  };
+  // One object over many lines, or one a line: the first line tells.
+  const std::string_view first = trimmed(text.substr(0, text.find('\n')));
+  const bool lines = first.size() == text.size() || first.back() == '}';
+  if (!lines) return read_object(text);
+  for_each_line(text, read_object);
+}
+
+}  // namespace wearwell::monitor

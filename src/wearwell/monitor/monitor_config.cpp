@@ -1,0 +1,229 @@
+#include "wearwell/monitor/monitor_config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "wearwell/base/error.h"
+#include "wearwell/input/text_file.h"
+#include "wearwell/monitor/store.h"
+
+namespace wearwell::monitor {
+namespace {
+
+std::filesystem::path folder_of(const TomlReader& reader) {
+  return std::filesystem::path(reader.file()).parent_path();
+}
+
+std::filesystem::path existing(const TomlReader& table, const char* key) {
+  const std::filesystem::path path = folder_of(table) / table.required_text(key);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    table.fail(key, fmt::format("no such file or folder: {}", path.string()));
+  return path;
+}
+
+struct HostAndPort {
+  std::string host;
+  int port = 0;
+};
+
+/// "host:port", "[::1]:port"; the port alone may be left out where there is a usual one.
+HostAndPort read_address(const TomlReader& table, const char* key, std::string_view text,
+                         int usual_port) {
+  HostAndPort address{"", usual_port};
+  std::string_view port;
+  bool has_port = false;
+  if (text.starts_with('[')) {
+    const std::size_t end = text.find(']');
+    if (end == text.npos) table.fail(key, "has a bracket that is not closed");
+    address.host = text.substr(1, end - 1);
+    has_port = text.substr(end + 1).starts_with(':');
+    if (has_port) port = text.substr(end + 2);
+  } else {
+    const std::size_t colon = text.find(':');
+    address.host = text.substr(0, colon);
+    has_port = colon != text.npos;
+    if (has_port) port = text.substr(colon + 1);
+  }
+  if (has_port) {
+    const auto [rest, error] =
+        std::from_chars(port.data(), port.data() + port.size(), address.port);
+    if (error != std::errc() || rest != port.data() + port.size()) address.port = -1;
+  }
+  if (address.host.empty() || address.host.find_first_of("/@ ") != std::string::npos ||
+      address.port < 1 || address.port > 65535)
+    table.fail(key, fmt::format("'{}' is no HOST:PORT", text));
+  return address;
+}
+
+BrokerSettings read_broker(const TomlReader& table, const std::string& usual_client) {
+  BrokerSettings broker;
+  const std::string url = table.required_text("broker");
+  broker.tls = url.starts_with("mqtts://");
+  if (!broker.tls && !url.starts_with("mqtt://"))
+    table.fail("broker",
+               fmt::format("'{}' is no URL like mqtt://HOST:PORT or mqtts://HOST:PORT", url));
+  const std::string_view rest = std::string_view(url).substr(broker.tls ? 8 : 7);
+  const HostAndPort address = read_address(table, "broker", rest, broker.tls ? 8883 : 1883);
+  broker.host = address.host;
+  broker.port = address.port;
+  broker.client = table.text("client").value_or(usual_client);
+  if (broker.client.empty() || broker.client.size() > 100)
+    table.fail("client", "must be of 1 to 100 bytes");
+  broker.user = table.text("user").value_or("");
+  if (table.has("password_file")) {
+    if (broker.user.empty()) table.fail("password_file", "is a password of no user");
+    broker.password = read_text_file(existing(table, "password_file")).text;
+    while (!broker.password.empty() && broker.password.back() == '\n') broker.password.pop_back();
+  }
+  if (table.has("authority")) {
+    broker.authority = existing(table, "authority");
+    if (!broker.tls) table.fail("authority", "is for a broker at mqtts://");
+  }
+  broker.version5 = table.choice("protocol", {"5", "3.1.1"}).value_or("5") == "5";
+  return broker;
+}
+
+SourceSettings read_source(const TomlReader& root, const TomlReader& table, const std::string& name,
+                           const prognosis::Tracker& tracker) {
+  SourceSettings source;
+  source.name = name;
+  const auto kind = table.choice("kind", {"stdin", "folder", "mqtt", "http"});
+  if (!kind) table.fail("kind", "is missing: \"stdin\", \"folder\", \"mqtt\" or \"http\"");
+  if (*kind == "folder") {
+    source.kind = SourceKind::folder;
+    source.folder = existing(table, "folder");
+    if (!std::filesystem::is_directory(source.folder))
+      table.fail("folder", fmt::format("{} is no folder", source.folder.string()));
+  } else if (*kind == "mqtt") {
+    source.kind = SourceKind::mqtt;
+    source.broker = read_broker(table, "wearwell-" + name);
+    const std::string topic = table.required_text("topic");
+    try {
+      source.topic = TopicPattern(topic);
+    } catch (const InputError& error) {
+      table.fail("topic", error.what());
+    }
+  } else if (*kind == "http") {
+    source.kind = SourceKind::http;
+  }
+  const auto own = table.table("reading");
+  source.mapping =
+      read_mapping(own ? *own : root.required_table("reading"), tracker, source.topic.names_unit());
+  return source;
+}
+
+void read_sources(const TomlReader& root, const prognosis::Tracker& tracker,
+                  MonitorConfig& config) {
+  const TomlReader sources = root.required_table("source");
+  for (const std::string& name : sources.keys()) {
+    const SourceSettings source = read_source(root, sources.required_table(name), name, tracker);
+    const auto same = [&](const SourceSettings& each) { return each.kind == source.kind; };
+    const bool one_only = source.kind == SourceKind::stdin || source.kind == SourceKind::http;
+    if (one_only && std::any_of(config.sources.begin(), config.sources.end(), same))
+      sources.fail(name, "there is one source of this kind already, and can be no other");
+    const bool sequence = !source.mapping.sequence.empty();
+    if (!config.sources.empty() && sequence != config.sequence)
+      sources.fail(name,
+                   "tells readings apart by sequence numbers, and another source by times, or the "
+                   "other way round");
+    config.sequence = sequence;
+    config.sources.push_back(source);
+  }
+  if (config.sources.empty()) root.fail("source", "has no source: write [source.NAME] with a kind");
+}
+
+AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker& tracker) {
+  const TomlReader table = root.required_table("alarm");
+  AlarmSettings alarm;
+  const prognosis::ReadingColumn& axis = tracker.axis();
+  alarm.horizon = table.required_quantity("horizon", axis.unit.text).si() - axis.unit.offset;
+  if (!(alarm.horizon > 0)) table.fail("horizon", "must be above 0");
+  const auto share = [&](const char* key, double usual) {
+    const auto value = table.quantity(key, "1");
+    if (!value) return usual;
+    if (!(value->si() > 0 && value->si() < 1))
+      table.fail(key, fmt::format("{} must lie between 0 and 1", value->si()));
+    return value->si();
+  };
+  alarm.watch = share("watch", alarm.watch);
+  alarm.act = share("act", alarm.act);
+  if (!(alarm.watch < alarm.act))
+    table.fail("watch", fmt::format("{} must be below act, {}", alarm.watch, alarm.act));
+  alarm.hysteresis = share("hysteresis", alarm.hysteresis);
+  if (const auto silence = table.quantity("silence", "s")) {
+    if (!(silence->si() > 0)) table.fail("silence", "must be above 0");
+    alarm.silence = silence->si();
+  }
+  return alarm;
+}
+
+bool is_loopback(const std::string& host) {
+  return host == "localhost" || host == "::1" || host.starts_with("127.");
+}
+
+HttpSettings read_http(const TomlReader& table) {
+  HttpSettings http;
+  const std::string listen = table.text("listen").value_or("127.0.0.1:8080");
+  const HostAndPort address = read_address(table, "listen", listen, 8080);
+  http.host = address.host;
+  http.port = address.port;
+  http.names = table.texts("names");
+  http.token = table.text("token").value_or("");
+  constexpr std::size_t shortest_token = 16;
+  if (table.has("token") && http.token.size() < shortest_token)
+    table.fail("token", fmt::format("must be of {} bytes or more", shortest_token));
+  if (table.has("certificate")) http.certificate = existing(table, "certificate");
+  if (table.has("key")) http.key = existing(table, "key");
+  if (http.certificate.empty() != http.key.empty())
+    table.fail(http.key.empty() ? "certificate" : "key", "certificate and key go together");
+  if (!is_loopback(http.host) && (http.token.empty() || http.key.empty()))
+    table.fail(
+        "listen",
+        fmt::format(
+            "{} can be reached from other machines: that needs a token, a certificate and its key",
+            http.host));
+  return http;
+}
+
+}  // namespace
+
+std::filesystem::path read_result_path(const TomlReader& root) {
+  root.required_text("result");
+  return existing(root, "result");
+}
+
+MonitorConfig read_monitor_config(const TomlReader& root, const prognosis::Tracker& tracker) {
+  MonitorConfig config;
+  config.folder = folder_of(root);
+  root.has("result");
+  config.title = root.text("title").value_or("");
+  if (const auto store = root.table("store")) config.store = store->text("url").value_or("");
+  if (config.store.empty()) config.store = "fleet.sqlite";
+  if (config.store.find("://") != std::string::npos && !is_postgres(config.store))
+    root.required_table("store").fail("url", "is neither a file nor postgresql://...");
+  read_sources(root, tracker, config);
+  config.alarm = read_alarm(root, tracker);
+  if (const auto http = root.table("http")) config.http = read_http(*http);
+  const auto posts = [](const SourceSettings& each) { return each.kind == SourceKind::http; };
+  if (!config.http && std::any_of(config.sources.begin(), config.sources.end(), posts))
+    root.fail("http", "is missing: a source of kind \"http\" needs a server, [http]");
+  if (const auto publish = root.table("publish")) {
+    config.publish = PublishSettings{read_broker(*publish, "wearwell-publish"),
+                                     publish->text("prefix").value_or("wearwell")};
+    if (config.publish->prefix.find_first_of("+#") != std::string::npos ||
+        config.publish->prefix.empty())
+      publish->fail("prefix", "is no topic");
+  }
+  constexpr long long most = 10'000'000;
+  if (const auto limits = root.table("limits")) {
+    if (const auto units = limits->integer("units", 1, most))
+      config.most_units = static_cast<std::size_t>(*units);
+  }
+  root.finish();
+  return config;
+}
+
+}  // namespace wearwell::monitor

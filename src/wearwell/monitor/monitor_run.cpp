@@ -1,0 +1,262 @@
+#include "wearwell/monitor/monitor_run.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <csignal>
+#include <deque>
+#include <thread>
+
+#include "wearwell/base/error.h"
+#include "wearwell/monitor/http_server.h"
+#include "wearwell/monitor/intake.h"
+#include "wearwell/monitor/publisher.h"
+#include "wearwell/monitor/source.h"
+
+namespace wearwell::monitor {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// While it lives, the signals that end a program wait to be asked for.
+class EndingSignals {
+ public:
+  EndingSignals() {
+    sigemptyset(&signals_);
+    for (const int each : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, each);
+    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  }
+  ~EndingSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  EndingSignals(const EndingSignals&) = delete;
+  EndingSignals& operator=(const EndingSignals&) = delete;
+
+  bool arrived() const {
+    constexpr timespec at_once = {0, 0};
+    return sigtimedwait(&signals_, nullptr, &at_once) > 0;
+  }
+
+ private:
+  sigset_t signals_, before_;
+};
+
+/// Whoever waits for readings is woken by whoever stores them.
+class Bell {
+ public:
+  void ring() {
+    const std::lock_guard lock(lock_);
+    rung_ = true;
+    changed_.notify_all();
+  }
+  void wait(std::chrono::milliseconds time) {
+    std::unique_lock lock(lock_);
+    changed_.wait_for(lock, time, [&] { return rung_; });
+    rung_ = false;
+  }
+
+ private:
+  std::mutex lock_;
+  std::condition_variable changed_;
+  bool rung_ = false;
+};
+
+/// The threads of the sources.
+class Sources {
+ public:
+  Sources(const MonitorConfig& config, bool once, Intake& intake, Store& store, Notices& notices,
+          Bell& bell);
+  /// Whether all have ended and none may ever bring more.
+  bool ended() const { return open_ == 0; }
+  void stop();
+
+ private:
+  void run(SourceContext& context, std::stop_token stop);
+
+  std::deque<SourceContext> contexts_;
+  Bell& bell_;
+  std::atomic<int> open_ = 0;
+  std::vector<std::jthread> threads_;
+};
+
+Sources::Sources(const MonitorConfig& config, bool once, Intake& intake, Store& store,
+                 Notices& notices, Bell& bell)
+    : bell_(bell) {
+  for (const SourceSettings& source : config.sources) {
+    ++open_;
+    if (source.kind == SourceKind::http) continue;  // the server's, which is open for ever
+    contexts_.push_back({source, intake, store, notices, once});
+  }
+  for (SourceContext& context : contexts_)
+    threads_.emplace_back([this, &context](std::stop_token stop) { run(context, stop); });
+}
+
+void Sources::run(SourceContext& context, std::stop_token stop) {
+  try {
+    switch (context.settings.kind) {
+      case SourceKind::stdin:
+        read_stream(context, STDIN_FILENO, stop);
+        break;
+      case SourceKind::folder:
+        read_folder(context, stop);
+        break;
+      case SourceKind::mqtt:
+        read_mqtt(context, stop);
+        break;
+      case SourceKind::http:
+        break;
+    }
+  } catch (const std::exception& error) {
+    context.notices.tell("source." + context.settings.name,
+                         fmt::format("has ended: {}", error.what()));
+  }
+  --open_;
+  bell_.ring();
+}
+
+void Sources::stop() {
+  for (std::jthread& thread : threads_) thread.request_stop();
+  for (std::jthread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+/// Keeps a fleet up with its store.
+class Follower {
+ public:
+  Follower(Fleet& fleet, Notices& notices) : fleet_(fleet), notices_(notices) {}
+
+  /// One round; false where there is nothing to do now.
+  bool round() {
+    constexpr auto between_saves = std::chrono::seconds(30);
+    bool busy = false;
+    const bool good = guarded([&] {
+      busy = fleet_.apply() > 0;
+      busy = !fleet_.refresh() || busy;
+      if (Clock::now() - saved_ < between_saves) return;
+      saved_ = Clock::now();
+      fleet_.save();
+    });
+    return busy && good;
+  }
+
+  /// All there is, and then the states: for a while, should the store not answer.
+  void finish() {
+    constexpr int attempts = 20;
+    for (int i = 0; i < attempts; ++i) {
+      const bool good = guarded([&] {
+        while (fleet_.apply() > 0) {
+        }
+        fleet_.refresh(true);
+        fleet_.save();
+      });
+      if (good) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    notices_.tell("store",
+                  "the states could not be kept; they will be made anew from the readings");
+  }
+
+ private:
+  bool guarded(const std::function<void()>& work) {
+    try {
+      work();
+      return true;
+    } catch (const StoreError& error) {
+      notices_.tell("store", error.what());
+      return false;
+    }
+  }
+
+  Fleet& fleet_;
+  Notices& notices_;
+  Clock::time_point saved_ = Clock::now();
+};
+
+/// The server and the publisher, while they live.
+class Outlets {
+ public:
+  Outlets(const MonitorConfig& config, const MonitorOptions& options, const Fleet& fleet,
+          Intake& intake, Notices& notices) {
+    if (options.once) return;
+    for (const SourceSettings& source : config.sources) {
+      if (source.kind == SourceKind::http) inbox_ = std::make_unique<SourceInbox>(intake, source);
+    }
+    if (config.http) server_ = std::make_unique<HttpServer>(*config.http, fleet, inbox_.get());
+    if (config.publish)
+      publisher_ = std::jthread([&](std::stop_token stop) {
+        publish_states(fleet, *config.publish, notices, std::move(stop));
+      });
+  }
+  std::string address() const { return server_ ? server_->address() : std::string(); }
+
+ private:
+  std::unique_ptr<SourceInbox> inbox_;
+  std::unique_ptr<HttpServer> server_;
+  std::jthread publisher_;
+};
+
+void refuse_endless_sources(const MonitorConfig& config) {
+  for (const SourceSettings& source : config.sources) {
+    if (source.kind == SourceKind::mqtt || source.kind == SourceKind::http)
+      throw InputError(fmt::format(
+          "--once: source.{} has no end; only files and standard input have", source.name));
+  }
+}
+
+}  // namespace
+
+StoreColumns store_columns(const MonitorConfig& config, const prognosis::Tracker& tracker) {
+  StoreColumns columns;
+  for (const prognosis::ReadingColumn& each : tracker.columns())
+    columns.numbers.push_back(each.name);
+  columns.labels.assign(tracker.labels().begin(), tracker.labels().end());
+  columns.sequence = config.sequence;
+  return columns;
+}
+
+void run_monitor(const MonitorConfig& config, const Population& population,
+                 const MonitorOptions& options, const Begun& started,
+                 const std::function<void(const Fleet&)>& ended) {
+  if (options.once) refuse_endless_sources(config);
+  const EndingSignals signals;  // before there are threads
+  Notices notices(stderr);
+  Tally tally(config.most_units);
+  const auto store =
+      open_store(config.store, config.folder, store_columns(config, population.tracker));
+  FleetSettings settings{config.title, population.trusted, population.fingerprint, config.alarm,
+                         options.threads
+                             ? options.threads
+                             : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))};
+  const bool tells = !options.once;
+  settings.on_alarm = [&](const AlarmChange& change, Alarm before) {
+    if (tells)
+      notices.tell(
+          fmt::format("unit '{}'", change.unit),
+          fmt::format("{} -> {}, risk {:.3g}", name(before), name(change.alarm), change.risk));
+  };
+  Fleet fleet(population.tracker, *store, tally, notices, std::move(settings));
+  while (fleet.apply() > 0 && !signals.arrived()) {
+  }
+  fleet.refresh(true);
+
+  Bell bell;
+  Intake intake(*store, tally, notices, [&] { bell.ring(); });
+  const Outlets outlets(config, options, fleet, intake, notices);
+  started(fleet, outlets.address());
+  Sources sources(config, options.once, intake, *store, notices, bell);
+  Follower follower(fleet, notices);
+  while (!signals.arrived()) {
+    constexpr auto patience = std::chrono::milliseconds(50);
+    const bool over = sources.ended();
+    if (!follower.round()) {
+      if (over) break;
+      bell.wait(patience);
+    }
+  }
+  sources.stop();
+  follower.finish();
+  ended(fleet);
+}
+
+}  // namespace wearwell::monitor

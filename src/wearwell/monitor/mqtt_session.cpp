@@ -1,0 +1,148 @@
+#include "wearwell/monitor/mqtt_session.h"
+
+#include <fmt/format.h>
+#include <mosquitto.h>
+#include <mqtt_protocol.h>
+#include <poll.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "wearwell/base/error.h"
+#include "wearwell/monitor/message.h"
+
+namespace wearwell::monitor {
+namespace {
+
+constexpr int keepalive_s = 30;
+constexpr int most_unacknowledged = 2000;
+
+std::string in_words(int code) {
+  if (code == MOSQ_ERR_SUCCESS) return {};
+  return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(code);
+}
+
+struct Library {
+  Library() { mosquitto_lib_init(); }
+  ~Library() { mosquitto_lib_cleanup(); }
+};
+
+}  // namespace
+
+MqttSession::MqttSession(const BrokerSettings& broker, bool keeps_session)
+    : broker_(broker), keeps_session_(keeps_session) {
+  static const Library library;
+  client_ = mosquitto_new(broker.client.c_str(), !keeps_session, this);
+  if (!client_) throw MachineError("no memory for a client of MQTT");
+  mosquitto_int_option(client_, MOSQ_OPT_PROTOCOL_VERSION,
+                       broker.version5 ? MQTT_PROTOCOL_V5 : MQTT_PROTOCOL_V311);
+  mosquitto_int_option(client_, MOSQ_OPT_RECEIVE_MAXIMUM, most_unacknowledged);
+  mosquitto_int_option(client_, MOSQ_OPT_TCP_NODELAY, 1);
+  mosquitto_threaded_set(client_, true);
+  mosquitto_connect_callback_set(client_, on_connect);
+  mosquitto_message_callback_set(client_, on_message);
+  if (!broker.user.empty())
+    mosquitto_username_pw_set(client_, broker.user.c_str(),
+                              broker.password.empty() ? nullptr : broker.password.c_str());
+  if (!broker.tls) return;
+  const char* file = broker.authority.empty() ? nullptr : broker.authority.c_str();
+  const int code = mosquitto_tls_set(client_, file, file ? nullptr : "/etc/ssl/certs", nullptr,
+                                     nullptr, nullptr);
+  if (code != MOSQ_ERR_SUCCESS) {
+    const std::string why = in_words(code);
+    mosquitto_destroy(std::exchange(client_, nullptr));
+    throw InputError(fmt::format("TLS to the broker {}: {}", broker.host, why));
+  }
+}
+
+MqttSession::~MqttSession() {
+  if (client_) mosquitto_destroy(client_);
+}
+
+void MqttSession::on_connect(mosquitto* client, void* self, int code) {
+  auto& session = *static_cast<MqttSession*>(self);
+  if (code != 0) {
+    session.refusal_ =
+        session.broker_.version5 ? mosquitto_reason_string(code) : mosquitto_connack_string(code);
+    return;
+  }
+  session.accepted_ = true;
+  if (!session.filter_.empty()) mosquitto_subscribe(client, nullptr, session.filter_.c_str(), 1);
+}
+
+void MqttSession::on_message(mosquitto*, void* self, const mosquitto_message* message) {
+  auto& session = *static_cast<MqttSession*>(self);
+  const auto size = static_cast<std::size_t>(message->payloadlen);
+  session.arrived_.push_back(
+      {message->topic,
+       size ? std::string(static_cast<const char*>(message->payload), size) : std::string()});
+  session.arrived_bytes_ += size;
+}
+
+std::string MqttSession::connect() {
+  arrived_.clear();
+  arrived_bytes_ = 0;
+  accepted_ = false;
+  refusal_.clear();
+  int code = MOSQ_ERR_SUCCESS;
+  if (broker_.version5) {
+    mosquitto_property* properties = nullptr;
+    constexpr std::uint32_t forever = 0xffffffff;
+    mosquitto_property_add_int32(&properties, MQTT_PROP_SESSION_EXPIRY_INTERVAL,
+                                 keeps_session_ ? forever : 0);
+    mosquitto_property_add_int32(&properties, MQTT_PROP_MAXIMUM_PACKET_SIZE,
+                                 static_cast<std::uint32_t>(longest_message + longest_row));
+    code = mosquitto_connect_bind_v5(client_, broker_.host.c_str(), broker_.port, keepalive_s,
+                                     nullptr, properties);
+    mosquitto_property_free_all(&properties);
+  } else {
+    code = mosquitto_connect(client_, broker_.host.c_str(), broker_.port, keepalive_s);
+  }
+  return in_words(code);
+}
+
+void MqttSession::subscribe(const std::string& filter) {
+  filter_ = filter;
+}
+
+bool MqttSession::wait(int milliseconds) const {
+  const int socket = mosquitto_socket(client_);
+  if (socket < 0) return false;
+  pollfd ready{socket, POLLIN, 0};
+  return poll(&ready, 1, milliseconds) > 0;
+}
+
+std::string MqttSession::read(std::size_t messages, std::size_t bytes) {
+  do {
+    errno = 0;
+    const int code = mosquitto_loop_read(client_, 1);
+    if (code != MOSQ_ERR_SUCCESS) return in_words(code);
+  } while (arrived_.size() < messages && arrived_bytes_ < bytes && wait(0));
+  arrived_bytes_ = 0;
+  return refusal_;
+}
+
+std::string MqttSession::write() {
+  while (mosquitto_want_write(client_)) {
+    errno = 0;
+    const int code = mosquitto_loop_write(client_, 1);
+    if (code != MOSQ_ERR_SUCCESS) return in_words(code);
+    if (errno == EAGAIN) break;
+  }
+  return in_words(mosquitto_loop_misc(client_));
+}
+
+bool MqttSession::publish(const std::string& topic, const std::string& payload, bool retain) {
+  constexpr int at_least_once = 1;
+  return accepted_ &&
+         mosquitto_publish(client_, nullptr, topic.c_str(), static_cast<int>(payload.size()),
+                           payload.data(), at_least_once, retain) == MOSQ_ERR_SUCCESS;
+}
+
+void MqttSession::disconnect() {
+  mosquitto_disconnect(client_);
+  static_cast<void>(write());
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,291 @@
+#include "wearwell/monitor/postgres_store.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+
+#include "wearwell/base/error.h"
+#include "wearwell/monitor/alarm.h"
+#include "wearwell/monitor/postgres_session.h"
+
+namespace wearwell::monitor {
+namespace {
+
+constexpr const char* tables = R"(
+  CREATE TABLE wearwell (name text PRIMARY KEY, value text NOT NULL);
+  CREATE TABLE wearwell_reading (
+    place bigint PRIMARY KEY, unit text NOT NULL, key bigint NOT NULL, time_ms bigint NOT NULL,
+    received_ms bigint NOT NULL, numbers text NOT NULL, labels text NOT NULL, UNIQUE (unit, key));
+  CREATE INDEX wearwell_reading_of_unit ON wearwell_reading (unit, place);
+  CREATE TABLE wearwell_state (
+    unit text PRIMARY KEY, population text NOT NULL, place bigint NOT NULL, bytes bytea NOT NULL);
+  CREATE TABLE wearwell_alarm (
+    number bigserial PRIMARY KEY, unit text NOT NULL, time_ms bigint NOT NULL, alarm text NOT NULL, risk double precision NOT NULL);
+  CREATE INDEX wearwell_alarm_of_unit ON wearwell_alarm (unit, number);
+  CREATE TABLE wearwell_file (name text PRIMARY KEY, bytes bigint NOT NULL))";
+
+constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
+
+// Any number that nobody else takes: who holds it writes.
+constexpr std::int64_t writer_lock = 0x7765617277656c6c;
+
+StoredReading reading_in(const pqxx::row& row) {
+  return {row[0].as<std::int64_t>(), row[1].c_str(),
+          row[2].as<std::int64_t>(), row[3].as<std::int64_t>(),
+          row[4].as<std::int64_t>(), numbers_of(row[5].c_str()),
+          texts_of(row[6].c_str())};
+}
+
+std::string value_of(pqxx::work& work, const char* name) {
+  const pqxx::result rows = work.exec_params("SELECT value FROM wearwell WHERE name = $1", name);
+  return rows.empty() ? std::string() : rows[0][0].c_str();
+}
+
+void put(pqxx::work& work, const char* name, const std::string& value) {
+  work.exec_params(
+      "INSERT INTO wearwell VALUES ($1, $2) ON CONFLICT (name) DO UPDATE SET value = "
+      "excluded.value",
+      name, value);
+}
+
+class PostgresStore : public Store {
+ public:
+  PostgresStore(const std::string& url, const StoreColumns& columns, Access access);
+
+  std::vector<Kept> add(const std::vector<StoredReading>& readings) override;
+  std::vector<StoredReading> after(std::int64_t place, std::size_t count) override;
+  void of_unit(const std::string& unit, std::int64_t after, std::int64_t last,
+               const std::function<void(const StoredReading&)>& visit) override;
+  std::uint64_t count() override;
+  void save(const std::string& population, const std::vector<Checkpoint>& states,
+            std::int64_t all_up_to) override;
+  std::vector<Checkpoint> states(const std::string& population) override;
+  std::int64_t all_up_to(const std::string& population) override;
+  void log(const std::vector<AlarmChange>& changes) override;
+  std::vector<AlarmChange> alarms() override;
+  void note_file(const std::string& file, std::int64_t bytes) override;
+  std::map<std::string, std::int64_t> files() override;
+
+ private:
+  void begin_writing(pqxx::connection& connection);
+  void add_piece(pqxx::work& work, std::span<const StoredReading> readings,
+                 std::vector<Kept>& kept);
+  void compare(pqxx::work& work, std::span<const StoredReading> readings, std::span<Kept> kept);
+
+  const std::string name_;
+  bool in_use_ = false;    ///< by another, when the writer last connected
+  std::int64_t next_ = 0;  ///< place; of the writer's connection
+  PostgresSession write_, read_;
+};
+
+PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns, Access access)
+    : name_(shown_url(url)),
+      write_(url, [this](pqxx::connection& connection) { begin_writing(connection); }),
+      read_(url, [](pqxx::connection&) {}) {
+  std::string version;
+  StoreColumns there;
+  const auto look = [&](pqxx::work& work) {
+    const bool fresh = work.exec1("SELECT to_regclass('wearwell') IS NULL")[0].as<bool>();
+    if (fresh && access == Access::read) return;
+    if (fresh) {
+      work.exec(tables);
+      put(work, "version", fmt::format("{}", store_version));
+      put(work, "numbers", json_of(columns.numbers));
+      put(work, "labels", json_of(columns.labels));
+      put(work, "keys", columns.sequence ? "sequence" : "time");
+    }
+    version = value_of(work, "version");
+    there = {texts_of(value_of(work, "numbers")), texts_of(value_of(work, "labels")),
+             value_of(work, "keys") == "sequence"};
+  };
+  try {
+    (access == Access::write ? write_ : read_).run(look);
+  } catch (const StoreError& error) {
+    if (in_use_) throw InputError(error.what());
+    throw;
+  }
+  if (version.empty())
+    throw InputError(fmt::format("{} holds no store yet: no monitor has run", name_));
+  check_store(name_, version, there, columns);
+}
+
+void PostgresStore::begin_writing(pqxx::connection& connection) {
+  pqxx::nontransaction work(connection);
+  in_use_ = !work.exec1(fmt::format("SELECT pg_try_advisory_lock({})", writer_lock))[0].as<bool>();
+  if (in_use_) throw StoreError(fmt::format("{} is in use by another wearwell monitor", name_));
+  next_ = 0;  // to be looked up
+}
+
+std::vector<Kept> PostgresStore::add(const std::vector<StoredReading>& readings) {
+  constexpr std::size_t at_once = 1000;
+  std::vector<Kept> kept;
+  write_.run([&](pqxx::work& work) {
+    kept.clear();
+    if (next_ == 0)
+      next_ = work.exec1("SELECT coalesce(max(place), 0) + 1 FROM wearwell_reading")[0]
+                  .as<std::int64_t>();
+    for (std::size_t from = 0; from < readings.size(); from += at_once)
+      add_piece(work, std::span(readings).subspan(from, std::min(at_once, readings.size() - from)),
+                kept);
+  });
+  return kept;
+}
+
+void PostgresStore::add_piece(pqxx::work& work, std::span<const StoredReading> readings,
+                              std::vector<Kept>& kept) {
+  std::string values;
+  for (const StoredReading& each : readings) {
+    values += fmt::format("{}({},{},{},{},{},{},{})", values.empty() ? "" : ",",
+                          next_ + static_cast<std::int64_t>(&each - readings.data()),
+                          work.quote(each.unit), each.key, each.time_ms, each.received_ms,
+                          work.quote(json_of(each.numbers)), work.quote(json_of(each.labels)));
+  }
+  const pqxx::result stored = work.exec(
+      fmt::format("INSERT INTO wearwell_reading VALUES {} ON CONFLICT (unit, key) DO NOTHING "
+                  "RETURNING place",
+                  values));
+  const std::size_t first = kept.size();
+  kept.resize(first + readings.size(), Kept::repeated);
+  for (const auto& row : stored)
+    kept[first + static_cast<std::size_t>(row[0].as<std::int64_t>() - next_)] = Kept::stored;
+  next_ += static_cast<std::int64_t>(readings.size());
+  if (stored.size() < readings.size()) compare(work, readings, std::span(kept).subspan(first));
+}
+
+// Those that are there already: with the same values, or with others.
+void PostgresStore::compare(pqxx::work& work, std::span<const StoredReading> readings,
+                            std::span<Kept> kept) {
+  std::string keys;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    if (kept[i] != Kept::stored)
+      keys += fmt::format("{}({},{})", keys.empty() ? "" : ",", work.quote(readings[i].unit),
+                          readings[i].key);
+  }
+  std::map<std::pair<std::string, std::int64_t>, std::string> there;
+  for (const auto& row : work.exec(fmt::format(
+           "SELECT unit, key, numbers || labels FROM wearwell_reading WHERE (unit, key) IN ({})",
+           keys)))
+    there[{row[0].c_str(), row[1].as<std::int64_t>()}] = row[2].c_str();
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const StoredReading& each = readings[i];
+    if (kept[i] != Kept::stored &&
+        there[{each.unit, each.key}] != json_of(each.numbers) + json_of(each.labels))
+      kept[i] = Kept::contradicts;
+  }
+}
+
+std::vector<StoredReading> PostgresStore::after(std::int64_t place, std::size_t count) {
+  std::vector<StoredReading> readings;
+  read_.run([&](pqxx::work& work) {
+    readings.clear();
+    for (const auto& row : work.exec(
+             fmt::format("SELECT {} FROM wearwell_reading WHERE place > {} ORDER BY place LIMIT {}",
+                         reading_columns, place, count)))
+      readings.push_back(reading_in(row));
+  });
+  return readings;
+}
+
+void PostgresStore::of_unit(const std::string& unit, std::int64_t after, std::int64_t last,
+                            const std::function<void(const StoredReading&)>& visit) {
+  std::vector<StoredReading> readings;
+  read_.run([&](pqxx::work& work) {
+    for (const auto& row : work.exec(fmt::format(
+             "SELECT {} FROM wearwell_reading WHERE unit = {} AND place > {} AND place <= {} ORDER "
+             "BY place",
+             reading_columns, work.quote(unit), after, last)))
+      readings.push_back(reading_in(row));
+  });
+  for (const StoredReading& each : readings) visit(each);
+}
+
+std::uint64_t PostgresStore::count() {
+  std::uint64_t number = 0;
+  read_.run([&](pqxx::work& work) {
+    number = work.exec1("SELECT count(*) FROM wearwell_reading")[0].as<std::uint64_t>();
+  });
+  return number;
+}
+
+void PostgresStore::save(const std::string& population, const std::vector<Checkpoint>& states,
+                         std::int64_t all_up_to) {
+  write_.run([&](pqxx::work& work) {
+    for (const Checkpoint& each : states)
+      work.exec(fmt::format(
+          "INSERT INTO wearwell_state VALUES ({}, {}, {}, {}) ON CONFLICT (unit) DO UPDATE SET "
+          "population = excluded.population, place = excluded.place, bytes = excluded.bytes",
+          work.quote(each.unit), work.quote(population), each.place, work.quote_raw(each.bytes)));
+    put(work, "population", population);
+    put(work, "all_up_to", fmt::format("{}", all_up_to));
+  });
+}
+
+std::vector<Checkpoint> PostgresStore::states(const std::string& population) {
+  std::vector<Checkpoint> states;
+  read_.run([&](pqxx::work& work) {
+    for (const auto& row : work.exec_params(
+             "SELECT unit, place, bytes FROM wearwell_state WHERE population = $1", population))
+      states.push_back(
+          {row[0].c_str(), row[1].as<std::int64_t>(), pqxx::binarystring(row[2]).str()});
+  });
+  return states;
+}
+
+std::int64_t PostgresStore::all_up_to(const std::string& population) {
+  std::int64_t place = 0;
+  read_.run([&](pqxx::work& work) {
+    const std::string at = value_of(work, "all_up_to");
+    if (!at.empty() && value_of(work, "population") == population) place = std::stoll(at);
+  });
+  return place;
+}
+
+void PostgresStore::log(const std::vector<AlarmChange>& changes) {
+  if (changes.empty()) return;
+  write_.run([&](pqxx::work& work) {
+    for (const AlarmChange& each : changes)
+      work.exec_params(
+          "INSERT INTO wearwell_alarm (unit, time_ms, alarm, risk) VALUES ($1, $2, $3, $4)",
+          each.unit, each.time_ms, name(each.alarm), each.risk);
+  });
+}
+
+std::vector<AlarmChange> PostgresStore::alarms() {
+  std::vector<AlarmChange> changes;
+  read_.run([&](pqxx::work& work) {
+    for (const auto& row :
+         work.exec("SELECT DISTINCT ON (unit) unit, time_ms, alarm, risk FROM wearwell_alarm ORDER "
+                   "BY unit, number DESC"))
+      changes.push_back({row[0].c_str(), row[1].as<std::int64_t>(), alarm_named(row[2].c_str()),
+                         row[3].as<double>()});
+  });
+  return changes;
+}
+
+void PostgresStore::note_file(const std::string& file, std::int64_t bytes) {
+  write_.run([&](pqxx::work& work) {
+    work.exec_params(
+        "INSERT INTO wearwell_file VALUES ($1, $2) ON CONFLICT (name) DO UPDATE SET bytes = "
+        "excluded.bytes",
+        file, bytes);
+  });
+}
+
+std::map<std::string, std::int64_t> PostgresStore::files() {
+  std::map<std::string, std::int64_t> files;
+  read_.run([&](pqxx::work& work) {
+    for (const auto& row : work.exec("SELECT name, bytes FROM wearwell_file"))
+      files[row[0].c_str()] = row[1].as<std::int64_t>();
+  });
+  return files;
+}
+
+}  // namespace
+
+std::unique_ptr<Store> open_postgres_store(const std::string& url, const StoreColumns& columns,
+                                           Access access) {
+  return std::make_unique<PostgresStore>(url, columns, access);
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,215 @@
+#include "wearwell/monitor/reading_mapping.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/monitor/time_text.h"
+
+namespace wearwell::monitor {
+namespace {
+
+std::string shown_value(std::string_view text) {
+  return printable(shortened(text));
+}
+
+ColumnField read_column_field(const TomlReader& columns, const prognosis::ReadingColumn& column) {
+  ColumnField chosen{column.name, column.measured, column.name, Unit{"1", 1, 0}, {}};
+  const auto plain = [&](const TomlReader& at, std::string_view key) {
+    if (may_be_plain(column.unit.text) && column.unit.scale == 1) return;
+    at.fail(key,
+            fmt::format("in which unit does it come? Write {{ field = \"{}\", unit = \"{}\" }}",
+                        chosen.field, column.unit.text));
+  };
+  if (columns.is_text(column.name)) {
+    chosen.field = columns.required_text(column.name);
+    plain(columns, column.name);
+    return chosen;
+  }
+  const TomlReader table = columns.required_table(column.name);
+  if (table.has("value")) {
+    if (column.measured) table.fail("value", "what is measured has no constant value");
+    if (table.has("field") || table.has("unit"))
+      table.fail("value", "is a constant: it comes from no field, and has its unit with it");
+    chosen.constant = table.required_quantity("value", column.unit.text).si();
+    return chosen;
+  }
+  chosen.field = table.required_text("field");
+  const auto unit = table.text("unit");
+  if (!unit) {
+    plain(table, "unit");
+    return chosen;
+  }
+  try {
+    chosen.unit = read_unit(*unit, column.unit.text);
+  } catch (const InputError& error) {
+    table.fail("unit", error.what());
+  }
+  return chosen;
+}
+
+void read_identity(const TomlReader& reading, bool topic_names_unit, ReadingMapping& mapping) {
+  if (topic_names_unit) {
+    if (reading.has("unit"))
+      reading.fail("unit", "the topic names the unit already; leave out this, or {unit} there");
+  } else {
+    mapping.unit = reading.required_text("unit");
+  }
+  mapping.sequence = reading.text("sequence").value_or("");
+  if (reading.has("time")) {
+    mapping.time = reading.required_text("time");
+    const auto format = reading.choice("time_format", {"iso 8601", "unix s", "unix ms"});
+    if (!format) reading.fail("time_format", "is missing: \"iso 8601\", \"unix s\" or \"unix ms\"");
+    mapping.format = *format == "iso 8601" ? TimeFormat::iso
+                     : *format == "unix s" ? TimeFormat::unix_s
+                                           : TimeFormat::unix_ms;
+  }
+  if (mapping.time.empty() && mapping.sequence.empty())
+    reading.fail("sequence",
+                 "is missing, and so is time: one of these fields must tell a reading from the "
+                 "same one sent twice");
+}
+
+std::int64_t time_of(const Field& field, TimeFormat format) {
+  const auto refuse = [&](const char* expected) {
+    throw InputError(fmt::format("{} is {}, and should be {}", shown_value(field.name),
+                                 field.kind == Field::Kind::text
+                                     ? fmt::format("'{}'", shown_value(field.text))
+                                     : fmt::format("{}", field.number),
+                                 expected));
+  };
+  if (format == TimeFormat::iso) {
+    const auto time = unix_ms_of_iso(field.text);
+    if (field.kind != Field::Kind::text || !time)
+      refuse("a time with its zone like 2026-11-22T15:04:05Z");
+    return *time;
+  }
+  const bool seconds = format == TimeFormat::unix_s;
+  const double scale = seconds ? 1000 : 1;
+  if (field.kind != Field::Kind::number || !(field.number >= 0) ||
+      field.number * scale > static_cast<double>(latest_unix_ms))
+    refuse(seconds ? "a Unix time in seconds, up to the year 2200"
+                   : "a Unix time in milliseconds, up to the year 2200");
+  return field.whole ? field.integer * (seconds ? 1000 : 1) : std::llround(field.number * scale);
+}
+
+double number_of(const Field* field, const ColumnField& column) {
+  if (column.constant) return *column.constant;
+  if (!field || field->kind == Field::Kind::null) return std::numeric_limits<double>::quiet_NaN();
+  double value = field->number;
+  if (field->kind == Field::Kind::text) {
+    const char* end = field->text.data() + field->text.size();
+    const auto [rest, error] = std::from_chars(field->text.data(), end, value);
+    if (error != std::errc() || rest != end || field->text.empty())
+      throw InputError(fmt::format("{} is '{}', and should be a number", shown_value(column.field),
+                                   shown_value(field->text)));
+  } else if (field->kind != Field::Kind::number) {
+    throw InputError(fmt::format("{} should be a number", shown_value(column.field)));
+  }
+  const double si = to_si(column.unit, value);
+  if (!std::isfinite(si))
+    throw InputError(fmt::format("{} is no finite number", shown_value(column.field)));
+  return si;
+}
+
+/// A name as a unit or a label may have it, from a text or a whole number.
+std::string name_of(const Field* field, const std::string& what) {
+  if (!field || field->kind == Field::Kind::null)
+    throw InputError(fmt::format("{} is missing", shown_value(what)));
+  std::string name = !field->text.empty() ? field->text
+                     : field->whole       ? fmt::format("{}", field->integer)
+                                          : std::string();
+  if (name.empty() || name.size() > longest_name || printable(name) != name)
+    throw InputError(
+        fmt::format("{} is '{}', and should be a name of 1 to {} bytes without control characters",
+                    shown_value(what), shown_value(name), longest_name));
+  return name;
+}
+
+/// What can never count is not kept, so that a whole reading of the same key may follow.
+void refuse_missing(const StoredReading& reading, const ReadingMapping& mapping) {
+  bool measured = false;
+  for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
+    const bool there = !std::isnan(reading.numbers[i]);
+    if (!there && !mapping.columns[i].measured)
+      throw InputError(fmt::format("{} is missing", shown_value(mapping.columns[i].field)));
+    measured = measured || (there && mapping.columns[i].measured);
+  }
+  if (measured) return;
+  for (const ColumnField& column : mapping.columns) {
+    if (column.measured) throw InputError(fmt::format("{} is missing", shown_value(column.field)));
+  }
+}
+
+}  // namespace
+
+ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
+                            bool topic_names_unit) {
+  ReadingMapping mapping;
+  read_identity(reading, topic_names_unit, mapping);
+  const TomlReader columns = reading.required_table("columns");
+  std::vector<std::string> missing;
+  for (const prognosis::ReadingColumn& column : tracker.columns()) {
+    if (!columns.has(column.name)) {
+      missing.push_back(fmt::format("{} [{}]", column.name, column.unit.text));
+      continue;
+    }
+    mapping.columns.push_back(read_column_field(columns, column));
+  }
+  for (const std::string& label : tracker.labels()) {
+    if (!columns.has(label)) {
+      missing.push_back(label);
+      continue;
+    }
+    mapping.labels.push_back(columns.required_text(label));
+  }
+  // A key that is none of the study's columns is misspelt; that is said first.
+  if (!missing.empty()) {
+    columns.finish();
+    reading.fail("columns",
+                 fmt::format("the study has {} as well; say which field of a message brings each",
+                             fmt::join(missing, ", ")));
+  }
+  return mapping;
+}
+
+StoredReading reading_of(const Fields& fields, const std::string& unit,
+                         const ReadingMapping& mapping, std::int64_t received_ms) {
+  StoredReading reading;
+  if (mapping.unit.empty()) {
+    Field topic{"{unit}", Field::Kind::text};
+    topic.text = unit;
+    reading.unit = name_of(&topic, "the unit of the topic");
+  } else {
+    reading.unit = name_of(find_field(fields, mapping.unit), mapping.unit);
+  }
+  reading.received_ms = received_ms;
+  if (!mapping.time.empty()) {
+    const Field* time = find_field(fields, mapping.time);
+    if (!time || time->kind == Field::Kind::null)
+      throw InputError(fmt::format("{} is missing", shown_value(mapping.time)));
+    reading.time_ms = time_of(*time, mapping.format);
+  }
+  reading.key = reading.time_ms;
+  if (!mapping.sequence.empty()) {
+    const Field* sequence = find_field(fields, mapping.sequence);
+    if (!sequence || sequence->kind != Field::Kind::number || !sequence->whole)
+      throw InputError(fmt::format("{} should be a whole number", shown_value(mapping.sequence)));
+    reading.key = sequence->integer;
+  }
+  for (const ColumnField& column : mapping.columns)
+    reading.numbers.push_back(
+        number_of(column.constant ? nullptr : find_field(fields, column.field), column));
+  refuse_missing(reading, mapping);
+  for (const std::string& label : mapping.labels)
+    reading.labels.push_back(name_of(find_field(fields, label), label));
+  return reading;
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/monitor/message.h"
+#include "wearwell/monitor/store.h"
+#include "wearwell/prognosis/tracker.h"
+
+namespace wearwell::monitor {
+
+enum class TimeFormat { iso, unix_s, unix_ms };
+
+/// Where the number of a column comes from.
+struct ColumnField {
+  std::string column;  ///< of the study, for messages
+  bool measured = false;
+  std::string field;               ///< of the message
+  Unit unit;                       ///< that its number has there
+  std::optional<double> constant;  ///< SI: of every reading, instead of a field
+};
+
+/// How the fields of a message become a reading: [reading] of a configuration.
+struct ReadingMapping {
+  std::string unit;  ///< field; empty: the topic names it
+  std::string time;  ///< field; empty: messages have no time
+  TimeFormat format = TimeFormat::iso;
+  std::string sequence;              ///< field; empty: time tells readings apart
+  std::vector<ColumnField> columns;  ///< as Tracker::columns
+  std::vector<std::string> labels;   ///< fields, as Tracker::labels
+};
+
+inline constexpr std::size_t longest_name = 200;  ///< bytes of a unit's name, or of a label
+
+/// `topic_names_unit`: then no field may. Throws InputError with file, place and key: a column without a field or a unit,
+/// neither time nor sequence, ...
+ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
+                            bool topic_names_unit);
+
+/// The reading that a row of a message is. `unit`: of the topic, or empty. Throws InputError that names the field and its value.
+StoredReading reading_of(const Fields& fields, const std::string& unit,
+                         const ReadingMapping& mapping, std::int64_t received_ms);
+
+}  // namespace wearwell::monitor

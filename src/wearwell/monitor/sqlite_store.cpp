@@ -1,0 +1,273 @@
+#include "wearwell/monitor/sqlite_store.h"
+
+#include <fmt/format.h>
+
+#include <mutex>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/lock_file.h"
+#include "wearwell/monitor/alarm.h"
+#include "wearwell/monitor/sqlite_session.h"
+
+namespace wearwell::monitor {
+namespace {
+
+constexpr const char* tables = R"(
+  CREATE TABLE wearwell (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
+  CREATE TABLE reading (
+    place INTEGER PRIMARY KEY, unit TEXT NOT NULL, key INTEGER NOT NULL, time_ms INTEGER NOT NULL,
+    received_ms INTEGER NOT NULL, numbers TEXT NOT NULL, labels TEXT NOT NULL, UNIQUE (unit, key));
+  CREATE TABLE state (
+    unit TEXT PRIMARY KEY, population TEXT NOT NULL, place INTEGER NOT NULL, bytes BLOB NOT NULL);
+  CREATE TABLE alarm (
+    number INTEGER PRIMARY KEY, unit TEXT NOT NULL, time_ms INTEGER NOT NULL, alarm TEXT NOT NULL, risk REAL NOT NULL);
+  CREATE INDEX alarm_of_unit ON alarm (unit, number);
+  CREATE TABLE file (name TEXT PRIMARY KEY, bytes INTEGER NOT NULL) WITHOUT ROWID;)";
+
+constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
+
+StoredReading reading_in(const SqliteStatement& row) {
+  return {row.integer(0),       row.text(1),    row.integer(2),
+          row.integer(3),       row.integer(4), numbers_of(row.text(5)),
+          texts_of(row.text(6))};
+}
+
+class SqliteStore : public Store {
+ public:
+  SqliteStore(const std::filesystem::path& file, const StoreColumns& columns, Access access);
+
+  std::vector<Kept> add(const std::vector<StoredReading>& readings) override;
+  std::vector<StoredReading> after(std::int64_t place, std::size_t count) override;
+  void of_unit(const std::string& unit, std::int64_t after, std::int64_t last,
+               const std::function<void(const StoredReading&)>& visit) override;
+  std::uint64_t count() override;
+  void save(const std::string& population, const std::vector<Checkpoint>& states,
+            std::int64_t all_up_to) override;
+  std::vector<Checkpoint> states(const std::string& population) override;
+  std::int64_t all_up_to(const std::string& population) override;
+  void log(const std::vector<AlarmChange>& changes) override;
+  std::vector<AlarmChange> alarms() override;
+  void note_file(const std::string& file, std::int64_t bytes) override;
+  std::map<std::string, std::int64_t> files() override;
+
+ private:
+  void begin_tables(const StoreColumns& columns);
+  void check(const StoreColumns& columns);
+  std::string value(const char* name);
+  void put(const char* name, const std::string& value);
+
+  const std::string name_;
+  std::optional<LockFile> lock_;
+  // Readers go on while a commit waits for the disk.
+  std::mutex write_lock_, read_lock_;
+  SqliteSession write_, read_;
+  std::unique_ptr<SqliteStatement> insert_, existing_, of_unit_;
+};
+
+/// Where a monitor writes nobody else does; a reader must find a store.
+std::optional<LockFile> locked(const std::filesystem::path& file, Access access) {
+  if (access == Access::read) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored))
+      throw InputError(fmt::format("{} is no store yet: no monitor has run", file.string()));
+    return {};
+  }
+  return std::optional<LockFile>(std::in_place, file, [&] {
+    throw InputError(fmt::format("{} is in use by another wearwell monitor", file.string()));
+  });
+}
+
+SqliteStore::SqliteStore(const std::filesystem::path& file, const StoreColumns& columns,
+                         Access access)
+    : name_(file.string()), lock_(locked(file, access)), write_(file), read_(file) {
+  try {
+    write_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
+    SqliteStatement there(write_, "SELECT count(*) FROM sqlite_master");
+    there.next();
+    const bool fresh = there.integer(0) == 0;
+    there.reset();
+    if (fresh && access == Access::write) begin_tables(columns);
+  } catch (const StoreError& error) {
+    const int code = sqlite3_errcode(write_.get()) & 0xff;
+    if (code == SQLITE_NOTADB || code == SQLITE_CANTOPEN || code == SQLITE_READONLY)
+      throw InputError(fmt::format("store.url: {}", error.what()));
+    throw;
+  }
+  check(columns);
+  insert_ = std::make_unique<SqliteStatement>(
+      write_,
+      "INSERT INTO reading (unit, key, time_ms, received_ms, numbers, labels) VALUES (?, ?, ?, ?, "
+      "?, ?) ON CONFLICT DO NOTHING");
+  existing_ = std::make_unique<SqliteStatement>(
+      write_, "SELECT numbers, labels FROM reading WHERE unit = ? AND key = ?");
+  of_unit_ = std::make_unique<SqliteStatement>(
+      read_,
+      fmt::format(
+          "SELECT {} FROM reading WHERE unit = ? AND place > ? AND place <= ? ORDER BY place",
+          reading_columns));
+}
+
+void SqliteStore::begin_tables(const StoreColumns& columns) {
+  SqliteTransaction transaction(write_);
+  write_.run(tables);
+  put("version", fmt::format("{}", store_version));
+  put("numbers", json_of(columns.numbers));
+  put("labels", json_of(columns.labels));
+  put("keys", columns.sequence ? "sequence" : "time");
+  transaction.commit();
+}
+
+// Later versions bring an older store up to date here, one step a version, each in a transaction.
+void SqliteStore::check(const StoreColumns& columns) {
+  std::string version;
+  try {
+    version = value("version");
+  } catch (const StoreError&) {
+    throw InputError(fmt::format("{} is a database, but no store of wearwell", name_));
+  }
+  check_store(name_, version,
+              {texts_of(value("numbers")), texts_of(value("labels")), value("keys") == "sequence"},
+              columns);
+}
+
+std::string SqliteStore::value(const char* name) {
+  SqliteStatement select(write_, "SELECT value FROM wearwell WHERE name = ?");
+  select.bind(1, std::string_view(name));
+  return select.next() ? select.text(0) : std::string();
+}
+
+void SqliteStore::put(const char* name, const std::string& value) {
+  SqliteStatement insert(write_, "INSERT OR REPLACE INTO wearwell VALUES (?, ?)");
+  insert.bind(1, std::string_view(name)).bind(2, std::string_view(value)).run();
+}
+
+std::vector<Kept> SqliteStore::add(const std::vector<StoredReading>& readings) {
+  const std::lock_guard lock(write_lock_);
+  std::vector<Kept> kept;
+  kept.reserve(readings.size());
+  SqliteTransaction transaction(write_);
+  for (const StoredReading& each : readings) {
+    const std::string numbers = json_of(each.numbers), labels = json_of(each.labels);
+    insert_->bind(1, std::string_view(each.unit)).bind(2, each.key).bind(3, each.time_ms);
+    insert_->bind(4, each.received_ms).bind(5, std::string_view(numbers));
+    insert_->bind(6, std::string_view(labels)).run();
+    if (write_.changes() == 1) {
+      kept.push_back(Kept::stored);
+      continue;
+    }
+    existing_->bind(1, std::string_view(each.unit)).bind(2, each.key);
+    const bool same =
+        existing_->next() && existing_->text(0) == numbers && existing_->text(1) == labels;
+    existing_->reset();
+    kept.push_back(same ? Kept::repeated : Kept::contradicts);
+  }
+  transaction.commit();
+  return kept;
+}
+
+std::vector<StoredReading> SqliteStore::after(std::int64_t place, std::size_t count) {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(
+      read_, fmt::format("SELECT {} FROM reading WHERE place > ? ORDER BY place LIMIT ?",
+                         reading_columns));
+  select.bind(1, place).bind(2, static_cast<std::int64_t>(count));
+  std::vector<StoredReading> readings;
+  while (select.next()) readings.push_back(reading_in(select));
+  return readings;
+}
+
+void SqliteStore::of_unit(const std::string& unit, std::int64_t after, std::int64_t last,
+                          const std::function<void(const StoredReading&)>& visit) {
+  std::vector<StoredReading> readings;
+  {
+    const std::lock_guard lock(read_lock_);
+    of_unit_->bind(1, std::string_view(unit)).bind(2, after).bind(3, last);
+    while (of_unit_->next()) readings.push_back(reading_in(*of_unit_));
+    of_unit_->reset();
+  }
+  for (const StoredReading& each : readings) visit(each);
+}
+
+std::uint64_t SqliteStore::count() {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_, "SELECT count(*) FROM reading");
+  return select.next() ? static_cast<std::uint64_t>(select.integer(0)) : 0;
+}
+
+void SqliteStore::save(const std::string& population, const std::vector<Checkpoint>& states,
+                       std::int64_t all_up_to) {
+  const std::lock_guard lock(write_lock_);
+  SqliteTransaction transaction(write_);
+  SqliteStatement insert(write_, "INSERT OR REPLACE INTO state VALUES (?, ?, ?, ?)");
+  for (const Checkpoint& each : states) {
+    insert.bind(1, std::string_view(each.unit)).bind(2, std::string_view(population));
+    insert.bind(3, each.place).bind_bytes(4, each.bytes).run();
+  }
+  put("population", population);
+  put("all_up_to", fmt::format("{}", all_up_to));
+  transaction.commit();
+}
+
+std::vector<Checkpoint> SqliteStore::states(const std::string& population) {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_, "SELECT unit, place, bytes FROM state WHERE population = ?");
+  select.bind(1, std::string_view(population));
+  std::vector<Checkpoint> states;
+  while (select.next()) states.push_back({select.text(0), select.integer(1), select.text(2)});
+  return states;
+}
+
+std::int64_t SqliteStore::all_up_to(const std::string& population) {
+  const std::lock_guard lock(write_lock_);
+  const std::string at = value("all_up_to");
+  return at.empty() || value("population") != population ? 0 : std::stoll(at);
+}
+
+void SqliteStore::log(const std::vector<AlarmChange>& changes) {
+  if (changes.empty()) return;
+  const std::lock_guard lock(write_lock_);
+  SqliteTransaction transaction(write_);
+  SqliteStatement insert(write_,
+                         "INSERT INTO alarm (unit, time_ms, alarm, risk) VALUES (?, ?, ?, ?)");
+  for (const AlarmChange& each : changes) {
+    insert.bind(1, std::string_view(each.unit)).bind(2, each.time_ms);
+    insert.bind(3, std::string_view(name(each.alarm))).bind(4, each.risk).run();
+  }
+  transaction.commit();
+}
+
+std::vector<AlarmChange> SqliteStore::alarms() {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_,
+                         "SELECT unit, time_ms, alarm, risk FROM alarm WHERE number IN (SELECT "
+                         "max(number) FROM alarm GROUP BY unit)");
+  std::vector<AlarmChange> changes;
+  while (select.next())
+    changes.push_back(
+        {select.text(0), select.integer(1), alarm_named(select.text(2)), select.number(3)});
+  return changes;
+}
+
+void SqliteStore::note_file(const std::string& file, std::int64_t bytes) {
+  const std::lock_guard lock(write_lock_);
+  SqliteStatement insert(write_, "INSERT OR REPLACE INTO file VALUES (?, ?)");
+  insert.bind(1, std::string_view(file)).bind(2, bytes).run();
+}
+
+std::map<std::string, std::int64_t> SqliteStore::files() {
+  const std::lock_guard lock(read_lock_);
+  SqliteStatement select(read_, "SELECT name, bytes FROM file");
+  std::map<std::string, std::int64_t> files;
+  while (select.next()) files[select.text(0)] = select.integer(1);
+  return files;
+}
+
+}  // namespace
+
+std::unique_ptr<Store> open_sqlite_store(const std::filesystem::path& file,
+                                         const StoreColumns& columns, Access access) {
+  return std::make_unique<SqliteStore>(file, columns, access);
+}
+
+}  // namespace wearwell::monitor

@@ -1,0 +1,101 @@
+#include "wearwell/monitor/store.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/monitor/postgres_store.h"
+#include "wearwell/monitor/sqlite_store.h"
+
+namespace wearwell::monitor {
+
+bool is_postgres(const std::string& url) {
+  return url.starts_with("postgresql://") || url.starts_with("postgres://");
+}
+
+std::string shown_store(const std::string& url) {
+  return is_postgres(url) ? shown_url(url) : url;
+}
+
+std::unique_ptr<Store> open_store(const std::string& url, const std::filesystem::path& folder,
+                                  const StoreColumns& columns, Access access) {
+  if (is_postgres(url)) return open_postgres_store(url, columns, access);
+  return open_sqlite_store(folder / url, columns, access);
+}
+
+void check_store(const std::string& name, const std::string& version, const StoreColumns& there,
+                 const StoreColumns& wanted) {
+  if (version != fmt::format("{}", store_version))
+    throw InputError(fmt::format("{} is a store of version '{}'; this wearwell knows version {}",
+                                 name, printable(shortened(version)), store_version));
+  const auto differ = [&](const char* what, const auto& kept, const auto& asked) {
+    if (kept == asked) return;
+    throw InputError(
+        fmt::format("{} holds readings with the {} {}, and the result that the configuration names "
+                    "has {}; begin another "
+                    "store",
+                    name, what, printable(json_of(kept)), printable(json_of(asked))));
+  };
+  differ("columns", there.numbers, wanted.numbers);
+  differ("labels", there.labels, wanted.labels);
+  if (there.sequence != wanted.sequence)
+    throw InputError(
+        fmt::format("{} tells readings apart by their {}, and the configuration by their {}; begin "
+                    "another store",
+                    name, there.sequence ? "sequence numbers" : "times",
+                    wanted.sequence ? "sequence numbers" : "times"));
+}
+
+std::string json_of(const std::vector<double>& numbers) {
+  std::string text = "[";
+  for (const double each : numbers) {
+    if (text.size() > 1) text += ',';
+    text += std::isfinite(each) ? fmt::format("{}", each) : "null";
+  }
+  return text + ']';
+}
+
+std::string json_of(const std::vector<std::string>& texts) {
+  return nlohmann::json(texts).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::vector<double> numbers_of(std::string_view json) {
+  const auto damaged = [&] { return StoreError(fmt::format("'{}' is no list of numbers", json)); };
+  std::vector<double> numbers;
+  if (json.size() < 2 || json.front() != '[' || json.back() != ']') throw damaged();
+  const char* at = json.data() + 1;
+  const char* end = json.data() + json.size() - 1;
+  while (at < end) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    if (*at == 'n') {
+      at += 4;
+    } else {
+      const auto [rest, error] = std::from_chars(at, end, value);
+      if (error != std::errc()) throw damaged();
+      at = rest;
+    }
+    if (at > end || (at < end && *at != ',')) throw damaged();
+    ++at;
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+std::vector<std::string> texts_of(std::string_view json) {
+  if (json == "[]") return {};
+  const auto list = nlohmann::json::parse(json, nullptr, false);
+  if (!list.is_array()) throw StoreError(fmt::format("'{}' is no list of texts", json));
+  std::vector<std::string> texts;
+  for (const auto& each : list) {
+    if (!each.is_string()) throw StoreError(fmt::format("'{}' is no list of texts", json));
+    texts.push_back(each.get<std::string>());
+  }
+  return texts;
+}
+
+}  // namespace wearwell::monitor

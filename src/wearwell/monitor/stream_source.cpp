@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <vector>
+
+#include "wearwell/monitor/line_feed.h"
+#include "wearwell/monitor/source.h"
+
+namespace wearwell::monitor {
+namespace {
+
+/// False where the store could not take it before the end.
+bool hand_over(SourceContext& context, LineFeed& feed, bool ended, std::stop_token stop) {
+  while (const auto piece = feed.next(ended)) {
+    if (piece->too_long) {
+      context.intake.refuse(context.settings,
+                            fmt::format("a line of more than {} bytes", longest_row));
+    } else if (!piece->payload.empty()) {
+      const Message message{"", piece->payload};
+      if (!deliver_until_stored(context, std::span(&message, 1), stop)) return false;
+    }
+    feed.taken(*piece);
+  }
+  return true;
+}
+
+}  // namespace
+
+void read_stream(SourceContext& context, int descriptor, std::stop_token stop) {
+  LineFeed feed;
+  std::vector<char> buffer(LineFeed::piece_size);
+  while (!stop.stop_requested()) {
+    constexpr int patience_ms = 100;
+    pollfd ready{descriptor, POLLIN, 0};
+    if (poll(&ready, 1, patience_ms) <= 0) continue;
+    const ssize_t count = read(descriptor, buffer.data(), buffer.size());
+    if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (count > 0) feed.push({buffer.data(), static_cast<std::size_t>(count)});
+    if (!hand_over(context, feed, count <= 0, stop) || count <= 0) break;
+  }
+  if (!feed.empty())
+    context.notices.tell("source." + context.settings.name,
+                         "the end came before all that was read was stored; send it again");
+}
+
+}  // namespace wearwell::monitor

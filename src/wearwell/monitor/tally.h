@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+namespace wearwell::monitor {
+
+/// What became of messages since the monitor began, in all and of the units that it knows. Any thread may call.
+class Tally {
+ public:
+  struct Counts {
+    std::uint64_t refused = 0, repeated = 0;
+    std::string last_problem = {};
+  };
+  struct Total {
+    std::uint64_t messages = 0, refused = 0, repeated = 0;
+    std::int64_t last_message_ms = 0;
+  };
+
+  explicit Tally(std::size_t most_units) : most_units_(most_units) {}
+
+  void messages(std::uint64_t count, std::int64_t now_ms);
+  void repeated(const std::string& unit);
+  /// `unit` may be empty or unknown: then it counts in all alone.
+  void refused(const std::string& unit, const std::string& problem);
+  /// False where it is new and there are as many as there may be.
+  bool admit(const std::string& unit);
+
+  Counts counts(const std::string& unit) const;
+  Total total() const;
+
+ private:
+  const std::size_t most_units_;
+  mutable std::mutex lock_;
+  Total total_;
+  std::unordered_map<std::string, Counts> units_;
+};
+
+}  // namespace wearwell::monitor

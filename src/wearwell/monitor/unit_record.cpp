@@ -1,0 +1,185 @@
+#include "wearwell/monitor/unit_record.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "wearwell/base/error.h"
+
+namespace wearwell::monitor {
+namespace {
+
+using Json = nlohmann::json;
+constexpr double never = std::numeric_limits<double>::infinity();
+
+UnitMoment moment_of(const StoredReading& reading, const prognosis::Forecast& forecast,
+                     const TrackerUnits& units) {
+  UnitMoment moment;
+  moment.time_ms = reading.time_ms ? reading.time_ms : reading.received_ms;
+  moment.at = units.at(forecast.now);
+  moment.measured = units.measured(reading.numbers);
+  moment.level = units.level(forecast);
+  const Interval remaining = units.remaining(forecast);
+  moment.life = {moment.at + remaining.q05, moment.at + remaining.q50, moment.at + remaining.q95};
+  return moment;
+}
+
+Json json_of_moment(const UnitMoment& each) {
+  return {each.time_ms,   each.at,        each.measured ? Json(*each.measured) : Json(),
+          each.level.q05, each.level.q50, each.level.q95,
+          each.life.q05,  each.life.q50,  each.life.q95};
+}
+
+UnitMoment moment_of(const Json& json) {
+  UnitMoment moment;
+  moment.time_ms = json.at(0);
+  moment.at = json.at(1);
+  if (!json.at(2).is_null()) moment.measured = json.at(2).get<double>();
+  moment.level = {json.at(3), json.at(4), json.at(5)};
+  moment.life = {json.at(6), json.at(7), json.at(8)};
+  return moment;
+}
+
+}  // namespace
+
+TrackerUnits::TrackerUnits(const prognosis::Tracker& tracker)
+    : axis_(tracker.axis().unit), level_(tracker.limit().unit) {
+  const auto columns = tracker.columns();
+  const auto same_kind = [&](const prognosis::ReadingColumn& column) {
+    try {
+      read_unit(column.unit.text, level_.text);
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  std::size_t measured = 0;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (!columns[i].measured) continue;
+    ++measured;
+    if (same_kind(columns[i]) && (!measured_ || columns[i].name == tracker.limited()))
+      measured_ = i;
+  }
+  // Of several, which of them the limit is of is only sure by its name.
+  if (measured > 1 && measured_ && columns[*measured_].name != tracker.limited()) measured_.reset();
+}
+
+Interval TrackerUnits::level(const prognosis::Forecast& forecast) const {
+  return {level(forecast.level05), level(forecast.level50), level(forecast.level95)};
+}
+
+Interval TrackerUnits::remaining(const prognosis::Forecast& forecast) const {
+  if (forecast.remaining.points().empty()) return {0, 0, 0};
+  return {along(forecast.remaining.quantile(0.05)), along(forecast.remaining.quantile(0.5)),
+          along(forecast.remaining.quantile(0.95))};
+}
+
+std::optional<double> TrackerUnits::measured(const std::vector<double>& numbers) const {
+  if (!measured_ || *measured_ >= numbers.size() || std::isnan(numbers[*measured_])) return {};
+  return level(numbers[*measured_]);
+}
+
+double risk_within(const prognosis::Forecast& forecast, double horizon) {
+  if (forecast.remaining.points().empty()) return forecast.passed;
+  return forecast.passed + (1 - forecast.passed) * forecast.remaining.cdf(horizon);
+}
+
+bool is_kept_moment(std::uint64_t n) {
+  constexpr std::uint64_t all = 32;
+  constexpr double step = 0.04;  // of the logarithm
+  if (n <= all) return true;
+  const auto class_of = [](std::uint64_t k) {
+    return std::floor(std::log(static_cast<double>(k)) / step);
+  };
+  return class_of(n) != class_of(n - 1);
+}
+
+void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& units,
+          Store& store) {
+  record.place = reading.place;
+  record.last_time_ms = std::max(record.last_time_ms, reading.time_ms);
+  record.last_received_ms = reading.received_ms;
+  const bool first = record.readings == 0;
+  const bool late = !first && reading.key < record.last_key;
+  record.late += late;
+  record.last_key = first ? reading.key : std::max(record.last_key, reading.key);
+  ++record.readings;
+  const prognosis::History history = [&](const auto& visit) {
+    store.of_unit(record.unit, 0, reading.place - 1, [&](const StoredReading& each) {
+      visit({each.numbers, each.labels});
+    });
+  };
+  const prognosis::Taken taken = record.state->take({reading.numbers, reading.labels}, history);
+  if (!taken.problem.empty()) record.last_problem = taken.problem;
+  if (!taken.counted) {
+    ++record.not_counted;
+    return;
+  }
+  record.contradicting += taken.contradicts;
+  if (!first && !late) {
+    constexpr double outside = 0.1;  // of 5 to 95 %, on both sides
+    ++record.judged;
+    record.held += taken.surprise >= outside;
+  }
+  if (is_kept_moment(record.readings))
+    record.moments.push_back(moment_of(reading, record.state->forecast(), units));
+}
+
+UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker) {
+  UnitRecord record;
+  record.unit = unit;
+  record.state = tracker.begin(unit);
+  return record;
+}
+
+std::string bytes_of(const UnitRecord& record) {
+  Json moments = Json::array();
+  for (const UnitMoment& each : record.moments) moments.push_back(json_of_moment(each));
+  const std::string state = record.state->save();
+  const Json json = {
+      {"state", Json::binary({state.begin(), state.end()})},
+      {"readings", record.readings},
+      {"late", record.late},
+      {"contradicting", record.contradicting},
+      {"not_counted", record.not_counted},
+      {"held", record.held},
+      {"judged", record.judged},
+      {"problem", record.last_problem},
+      {"key", record.last_key},
+      {"time_ms", record.last_time_ms},
+      {"received_ms", record.last_received_ms},
+      {"moments", moments},
+  };
+  const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
+  return {bytes.begin(), bytes.end()};
+}
+
+UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracker& tracker) {
+  try {
+    const Json json = Json::from_cbor(checkpoint.bytes);
+    const auto& state = json.at("state").get_binary();
+    UnitRecord record;
+    record.unit = checkpoint.unit;
+    record.place = checkpoint.place;
+    record.state = tracker.restore(std::string(state.begin(), state.end()));
+    json.at("readings").get_to(record.readings);
+    json.at("late").get_to(record.late);
+    json.at("contradicting").get_to(record.contradicting);
+    json.at("not_counted").get_to(record.not_counted);
+    json.at("held").get_to(record.held);
+    json.at("judged").get_to(record.judged);
+    json.at("problem").get_to(record.last_problem);
+    json.at("key").get_to(record.last_key);
+    json.at("time_ms").get_to(record.last_time_ms);
+    json.at("received_ms").get_to(record.last_received_ms);
+    for (const Json& each : json.at("moments")) record.moments.push_back(moment_of(each));
+    return record;
+  } catch (const Json::exception& error) {
+    throw InputError(
+        fmt::format("the state of unit '{}' is damaged: {}", checkpoint.unit, error.what()));
+  }
+}
+
+}  // namespace wearwell::monitor

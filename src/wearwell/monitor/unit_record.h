@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wearwell/monitor/fleet_view.h"
+#include "wearwell/monitor/store.h"
+#include "wearwell/prognosis/tracker.h"
+
+namespace wearwell::monitor {
+
+/// What is known of a unit, and follows from its readings in the order of storage alone: the same after a restart.
+struct UnitRecord {
+  std::string unit;
+  std::unique_ptr<prognosis::TrackedUnit> state;
+  std::int64_t place = 0;  ///< of the last reading that is in it
+  std::uint64_t readings = 0, late = 0, contradicting = 0, not_counted = 0;
+  std::uint64_t held = 0, judged = 0;  ///< readings within 5 to 95 % of what was forecast of them
+  std::string last_problem = {};
+  std::int64_t last_key = 0;  ///< the largest
+  std::int64_t last_time_ms = 0, last_received_ms = 0;
+  std::vector<UnitMoment> moments = {};
+};
+
+/// How the numbers of a tracker are told: in the units of its study.
+class TrackerUnits {
+ public:
+  explicit TrackerUnits(const prognosis::Tracker& tracker);
+
+  double at(double si) const { return from_si(axis_, si); }
+  double along(double si) const { return si / axis_.scale; }  ///< a length of the axis
+  double level(double si) const { return from_si(level_, si); }
+  Interval level(const prognosis::Forecast& forecast) const;
+  /// From now on; infinite where it may never be.
+  Interval remaining(const prognosis::Forecast& forecast) const;
+  /// Of a reading: what is measured of what the limit is of, if that is measured.
+  std::optional<double> measured(const std::vector<double>& numbers) const;
+
+ private:
+  Unit axis_, level_;
+  std::optional<std::size_t> measured_;
+};
+
+/// The probability that the limit is reached within `horizon` (SI) from now on.
+double risk_within(const prognosis::Forecast& forecast, double horizon);
+
+/// Takes a reading behind all that are in it. Its history is read from the store where nodes are laid anew. When it throws
+/// StoreError the record must be made anew (begun_record).
+void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& units,
+          Store& store);
+
+/// Whether the moment of the n-th reading is kept: all of the first, then ever fewer, so that a thousand more take little more
+/// room.
+bool is_kept_moment(std::uint64_t n);
+
+UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker);
+
+std::string bytes_of(const UnitRecord& record);
+/// Throws InputError where the bytes are damaged.
+UnitRecord restored_record(const Checkpoint& checkpoint, const prognosis::Tracker& tracker);
+
+}  // namespace wearwell::monitor

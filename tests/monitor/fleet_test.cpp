@@ -1,0 +1,298 @@
+// States follow from the readings in the order of storage alone: whatever is cut, repeated, late, or taken up again.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "monitor/fleet_rig.h"
+#include "wearwell/base/rng.h"
+#include "wearwell/monitor/unit_record.h"
+
+namespace wearwell::monitor {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+using Fleets = FleetRig;
+
+TEST_F(Fleets, TellWhatIsKnown) {
+  open();
+  for (int n = 1; n <= 20; ++n) {
+    deliver(message("slow", n, 0.5 * n));
+    deliver(message("fast", n, 45.0 * n));
+  }
+  catch_up();
+  const FleetView fleet = fleet_->fleet();
+  EXPECT_EQ(fleet.units, 2U);
+  EXPECT_EQ(fleet.stored, 40U);
+  EXPECT_EQ(fleet.messages, 40U);
+  EXPECT_EQ(fleet.axis_unit, "h");
+  EXPECT_EQ(fleet.horizon, 100);
+  const auto units = fleet_->units("", 0, 10);
+  ASSERT_EQ(units.size(), 2U);
+  EXPECT_EQ(units[0].unit, "fast");
+  EXPECT_EQ(units[0].alarm, Alarm::act);
+  EXPECT_EQ(units[1].alarm, Alarm::ok);
+  EXPECT_EQ(units[0].at, 20);
+  std::uint64_t matching = 0;
+  EXPECT_EQ(fleet_->units("SLO", 0, 10, &matching)[0].unit, "slow");
+  EXPECT_EQ(matching, 1U);
+  const auto detail = fleet_->unit("fast");
+  ASSERT_TRUE(detail);
+  EXPECT_EQ(detail->moments.size(), 20U);
+  EXPECT_EQ(detail->moments[4].measured, 225);
+  EXPECT_EQ(detail->judged, 19U);
+  EXPECT_GT(detail->survival.size(), 50U);
+  EXPECT_EQ(detail->survival.front().survival, 1);
+  EXPECT_FALSE(fleet_->unit("another"));
+}
+
+TEST_F(Fleets, TellWhatHasChanged) {
+  open();
+  deliver(message("a", 1, 1));
+  deliver(message("b", 1, 1));
+  catch_up();
+  const std::uint64_t before = fleet_->version();
+  EXPECT_EQ(fleet_->changed_since(0).size(), 2U);
+  EXPECT_TRUE(fleet_->changed_since(before).empty());
+  deliver(message("b", 2, 2));
+  catch_up();
+  EXPECT_THAT(fleet_->changed_since(before), ElementsAre("b"));
+  EXPECT_GT(fleet_->version(), before);
+}
+
+TEST_F(Fleets, CountRepeatedLateAndContradicting) {
+  open();
+  for (const int n : {1, 2, 5, 5, 4, 5}) deliver(message("a", n, n));
+  EXPECT_EQ(deliver(message("a", 5, 7)).refused, 1U);
+  deliver(message("a", 6, 9000));
+  catch_up();
+  const UnitView view = fleet_->units("", 0, 1)[0];
+  EXPECT_EQ(view.quality.readings, 5U);
+  EXPECT_EQ(view.quality.repeated, 2U);
+  EXPECT_EQ(view.quality.late, 1U);
+  EXPECT_EQ(view.quality.contradicting, 1U);
+  EXPECT_EQ(view.quality.refused, 1U);
+  EXPECT_THAT(view.quality.last_problem,
+              HasSubstr("another reading with number 5 is stored already"));
+}
+
+TEST_F(Fleets, RefuseWhatIsNoReading) {
+  open();
+  const auto problem = [&](const std::string& payload) {
+    const Delivery delivery = deliver(payload);
+    EXPECT_TRUE(delivery.stored);
+    EXPECT_EQ(delivery.refused, 1U);
+    return delivery.problem;
+  };
+  EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "time": 3})"), "wear is missing");
+  EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": 3})"), "time is missing");
+  EXPECT_EQ(problem(R"({"machine": "a", "n": 1.5, "wear": 3, "time": 3})"),
+            "n should be a whole number");
+  EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": "1,5", "time": 3})"),
+            "wear is '1,5', and should be a number");
+  EXPECT_EQ(problem(R"({"machine": "a", "n": 1, "wear": true, "time": 3})"),
+            "wear should be a number");
+  EXPECT_THAT(problem(R"({"machine": "a\u0007", "n": 1, "wear": 1, "time": 3})"),
+              HasSubstr("should be a name"));
+  EXPECT_THAT(problem(R"({"n": 1, "wear": 1, "time": 3})"), HasSubstr("machine is missing"));
+  EXPECT_EQ(deliver(R"({"machine": 12, "n": 1, "wear": "1.5", "time": 3})").readings, 1U);
+  catch_up();
+  EXPECT_EQ(fleet_->units("", 0, 1)[0].unit, "12");
+}
+
+TEST_F(Fleets, LetInSoManyUnits) {
+  most_units_ = 2;
+  open();
+  deliver(message("a", 1, 1));
+  deliver(message("b", 1, 1));
+  EXPECT_THAT(deliver(message("c", 1, 1)).problem, HasSubstr("limits.units"));
+  EXPECT_EQ(deliver(message("a", 2, 1)).readings, 1U);
+}
+
+TEST_F(Fleets, GoOnFromAnyMomentToTheSameBits) {
+  Rng rng(5, 1);
+  std::vector<std::string> messages;
+  for (int n = 1; n <= 150; ++n) {
+    for (const char* unit : {"a", "b", "c"})
+      messages.push_back(message(unit, n, n * rng.uniform(0.5, 1.5)));
+  }
+  for (std::size_t i = messages.size(); i-- > 1;)
+    if (rng.uniform() < 0.3)
+      std::swap(messages[i], messages[i - rng.bits() % std::min<std::size_t>(i, 9)]);
+  const auto feed = [&](const std::function<void()>& between) {
+    for (const std::string& each : messages) {
+      deliver(each);
+      between();
+    }
+    catch_up();
+    return bits();
+  };
+  open();
+  const std::string whole = feed([] {});
+  std::filesystem::remove_all(folder());
+  std::filesystem::create_directory(folder());
+  threads_ = 1;
+  open();
+  // Ended at any moment: sometimes with its states kept, sometimes with the readings alone; and messages come again.
+  const std::string cut = feed([&] {
+    const double what = rng.uniform();
+    if (what < 0.2) fleet_->apply();
+    if (what < 0.1) fleet_->save();
+    if (what < 0.05) open();
+    if (what > 0.9) deliver(messages[rng.bits() % 20]);
+  });
+  EXPECT_EQ(cut, whole);
+  // And with other states thrown away, from the readings.
+  store_->save("population", {{"b", 3, "damaged"}}, 3);
+  open();
+  catch_up();
+  EXPECT_EQ(bits(), whole);
+}
+
+TEST_F(Fleets, RaiseAlarmsWithHysteresis) {
+  EXPECT_EQ(alarm_at(0.051, Alarm::ok, alarm_), Alarm::watch);
+  EXPECT_EQ(alarm_at(0.041, Alarm::ok, alarm_), Alarm::ok);
+  EXPECT_EQ(alarm_at(0.041, Alarm::watch, alarm_), Alarm::watch);
+  EXPECT_EQ(alarm_at(0.039, Alarm::watch, alarm_), Alarm::ok);
+  EXPECT_EQ(alarm_at(0.17, Alarm::act, alarm_), Alarm::act);
+  EXPECT_EQ(alarm_at(0.15, Alarm::act, alarm_), Alarm::watch);
+  EXPECT_EQ(alarm_at(0.17, Alarm::watch, alarm_), Alarm::watch);
+  EXPECT_EQ(alarm_at(0.041, Alarm::act, alarm_), Alarm::watch);
+  EXPECT_EQ(alarm_at(0.5, Alarm::ok, alarm_), Alarm::act);
+  open();
+  deliver(message("a", 1, 1));
+  catch_up();
+  deliver(message("a", 10, 450));
+  catch_up();
+  EXPECT_THAT(changes_, ElementsAre("a ok -> act"));
+  open();
+  fleet_->refresh(true);
+  EXPECT_THAT(changes_, ElementsAre("a ok -> act"));  // which is known
+  EXPECT_EQ(store_->alarms().size(), 1U);
+}
+
+TEST_F(Fleets, DoNotKnowOfASilentUnit) {
+  alarm_.silence = 0.3;
+  open();
+  deliver(message("a", 1, 1));
+  catch_up();
+  EXPECT_EQ(fleet_->units("", 0, 1)[0].alarm, Alarm::ok);
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  fleet_->refresh();
+  EXPECT_EQ(fleet_->units("", 0, 1)[0].alarm, Alarm::unknown);
+  EXPECT_EQ(fleet_->fleet().unknown, 1U);
+  deliver(message("a", 2, 2));
+  catch_up();
+  EXPECT_EQ(fleet_->units("", 0, 1)[0].alarm, Alarm::ok);
+  EXPECT_THAT(changes_, ElementsAre("a ok -> unknown", "a unknown -> ok"));
+  // What was last heard of before the program began is as old as it is.
+  std::this_thread::sleep_for(std::chrono::milliseconds(600));
+  open();
+  fleet_->refresh(true);
+  EXPECT_EQ(fleet_->units("", 0, 1)[0].alarm, Alarm::unknown);
+}
+
+TEST(Moments, GrowSlowly) {
+  int kept = 0;
+  for (std::uint64_t n = 1; n <= 1'000'000; ++n) kept += is_kept_moment(n);
+  EXPECT_TRUE(is_kept_moment(1) && is_kept_moment(32));
+  EXPECT_LT(kept, 320);
+}
+
+/// A store that fails when it is told to, before or after it has done what it was asked.
+class FailingStore : public Store {
+ public:
+  enum class Fails { never, before, after };
+  explicit FailingStore(std::unique_ptr<Store> store) : store_(std::move(store)) {}
+  Fails adds = Fails::never;
+  bool reads = true;
+
+  std::vector<Kept> add(const std::vector<StoredReading>& readings) override {
+    if (adds == Fails::before) throw StoreError("the disk is full");
+    auto kept = store_->add(readings);
+    if (adds == Fails::after) throw StoreError("the connection was lost");
+    return kept;
+  }
+  std::vector<StoredReading> after(std::int64_t place, std::size_t count) override {
+    look();
+    return store_->after(place, count);
+  }
+  void of_unit(const std::string& unit, std::int64_t after, std::int64_t last,
+               const std::function<void(const StoredReading&)>& visit) override {
+    look();
+    if (fails_histories && last < INT64_MAX && after == 0) {
+      fails_histories = false;
+      throw StoreError("the connection was lost");
+    }
+    store_->of_unit(unit, after, last, visit);
+  }
+  std::uint64_t count() override { return store_->count(); }
+  void save(const std::string& population, const std::vector<Checkpoint>& states,
+            std::int64_t all_up_to) override {
+    store_->save(population, states, all_up_to);
+  }
+  std::vector<Checkpoint> states(const std::string& p) override { return store_->states(p); }
+  std::int64_t all_up_to(const std::string& p) override { return store_->all_up_to(p); }
+  void log(const std::vector<AlarmChange>& changes) override { store_->log(changes); }
+  std::vector<AlarmChange> alarms() override { return store_->alarms(); }
+  void note_file(const std::string& file, std::int64_t bytes) override {
+    store_->note_file(file, bytes);
+  }
+  std::map<std::string, std::int64_t> files() override { return store_->files(); }
+
+  bool fails_histories = false;
+
+ private:
+  void look() const {
+    if (!reads) throw StoreError("the connection was lost");
+  }
+  std::unique_ptr<Store> store_;
+};
+
+class FailingFleets : public FleetRig {
+ protected:
+  std::unique_ptr<Store> make_store() override {
+    auto store = std::make_unique<FailingStore>(FleetRig::make_store());
+    failing_ = store.get();
+    return store;
+  }
+  FailingStore* failing_ = nullptr;
+};
+
+TEST_F(FailingFleets, LoseNothing) {
+  open();
+  for (int n = 1; n <= 120; ++n) {
+    using Fails = FailingStore::Fails;
+    const std::string payload = message("a", n, n) + "\n" + message("b", n, 2 * n);
+    failing_->adds = n % 7 == 3 ? Fails::before : n % 7 == 5 ? Fails::after : Fails::never;
+    const Delivery delivery = deliver(payload);
+    EXPECT_EQ(delivery.stored, failing_->adds == Fails::never);
+    failing_->adds = Fails::never;
+    if (!delivery.stored) {
+      EXPECT_TRUE(deliver(payload).stored);
+    }
+    failing_->reads = n % 5 != 0;
+    failing_->fails_histories = n % 11 == 0;
+    try {
+      fleet_->apply();
+    } catch (const StoreError&) {
+    }
+    failing_->reads = true;
+  }
+  failing_->fails_histories = false;
+  catch_up();
+  EXPECT_EQ(store_->count(), 240U);
+  const std::string here = bits();
+  for (const UnitView& each : fleet_->units("", 0, 2)) EXPECT_EQ(each.quality.readings, 120U);
+  // The same from the readings alone.
+  store_->save("another", {}, 0);
+  store_->save("population", {{"a", 0, "damaged"}, {"b", 0, "damaged"}}, 0);
+  open();
+  catch_up();
+  EXPECT_EQ(bits(), here);
+}
+
+}  // namespace
+}  // namespace wearwell::monitor

@@ -1,0 +1,150 @@
+// What both stores promise: a reading once and for good, the order of storage, and what they refuse.
+#include <gmock/gmock.h>
+
+#include "monitor/fleet_rig.h"
+#include "support/servers.h"
+#include "wearwell/base/rng.h"
+
+namespace wearwell::monitor {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class Stores : public ScratchTest, public testing::WithParamInterface<const char*> {
+ protected:
+  void SetUp() override {
+    if (GetParam() != std::string("postgres")) return;
+    if (!PostgresServer::installed()) GTEST_SKIP() << "PostgreSQL is not installed";
+    server_ = std::make_unique<PostgresServer>(folder() / "postgres");
+  }
+  std::string url() const { return server_ ? server_->url() : "fleet.sqlite"; }
+  std::unique_ptr<Store> open(const StoreColumns& columns = {{"wear", "time"}, {"site"}, true},
+                              Access access = Access::write) {
+    return open_store(url(), folder(), columns, access);
+  }
+  static StoredReading reading(const std::string& unit, std::int64_t key, double wear) {
+    return {0, unit, key, 1000 * key, 1, {wear, std::nan("")}, {"a \"b\" ü"}};
+  }
+  static std::string shown(const std::vector<StoredReading>& readings) {
+    std::string text;
+    for (const StoredReading& each : readings)
+      text += fmt::format("{} {} {} {} {};", each.unit, each.key, each.numbers[0],
+                          std::isnan(each.numbers[1]), each.labels[0]);
+    return text;
+  }
+  std::unique_ptr<PostgresServer> server_;
+};
+
+TEST_P(Stores, KeepAReadingOnce) {
+  auto store = open();
+  const double third = 1.0 / 3;
+  EXPECT_THAT(store->add({reading("b", 2, third), reading("a", 1, 1e-300), reading("b", 2, third)}),
+              ElementsAre(Kept::stored, Kept::stored, Kept::repeated));
+  EXPECT_THAT(store->add({reading("b", 2, 0.5), reading("b", 3, 0.5), reading("a", 1, 1e-300)}),
+              ElementsAre(Kept::contradicts, Kept::stored, Kept::repeated));
+  const std::string all =
+      "b 2 0.3333333333333333 true a \"b\" ü;a 1 1e-300 true a \"b\" ü;b 3 0.5 true a \"b\" ü;";
+  EXPECT_EQ(shown(store->after(0, 100)), all);
+  store = nullptr;
+  store = open();
+  EXPECT_EQ(shown(store->after(0, 100)), all);
+  EXPECT_EQ(store->count(), 3U);
+  const auto first = store->after(0, 1);
+  EXPECT_EQ(shown(store->after(first[0].place, 1)), "a 1 1e-300 true a \"b\" ü;");
+  std::string of_b;
+  store->of_unit("b", 0, INT64_MAX,
+                 [&](const StoredReading& each) { of_b += std::to_string(each.key); });
+  EXPECT_EQ(of_b, "23");
+  store->of_unit("b", first[0].place, INT64_MAX,
+                 [&](const StoredReading& each) { of_b += std::to_string(each.key); });
+  EXPECT_EQ(of_b, "233");
+}
+
+TEST_P(Stores, KeepStatesOfOnePopulation) {
+  auto store = open();
+  const std::string bytes("\0\xff'\\x", 5);
+  store->save("p", {{"a", 3, bytes}, {"b", 4, ""}}, 4);
+  store->save("p", {{"b", 7, "new"}}, 7);
+  const auto states = store->states("p");
+  ASSERT_EQ(states.size(), 2U);
+  for (const Checkpoint& each : states) {
+    EXPECT_EQ(each.bytes, each.unit == "a" ? bytes : "new");
+    EXPECT_EQ(each.place, each.unit == "a" ? 3 : 7);
+  }
+  EXPECT_EQ(store->all_up_to("p"), 7);
+  EXPECT_EQ(store->all_up_to("another"), 0);
+  EXPECT_TRUE(store->states("another").empty());
+}
+
+TEST_P(Stores, KeepAlarmsAndFiles) {
+  auto store = open();
+  store->log({{"a", 1, Alarm::watch, 0.1}, {"b", 2, Alarm::act, 0.5}, {"a", 3, Alarm::ok, 0.01}});
+  std::map<std::string, std::string> last;
+  for (const AlarmChange& each : store->alarms()) last[each.unit] = name(each.alarm);
+  EXPECT_EQ(last, (std::map<std::string, std::string>{{"a", "ok"}, {"b", "act"}}));
+  store->note_file("x", 5);
+  store->note_file("x", 9);
+  EXPECT_EQ(store->files(), (std::map<std::string, std::int64_t>{{"x", 9}}));
+}
+
+TEST_P(Stores, AreOfOneMonitor) {
+  const auto store = open();
+  EXPECT_THAT(message_of<InputError>([&] { open(); }),
+              HasSubstr("in use by another wearwell monitor"));
+  EXPECT_EQ(open({{"wear", "time"}, {"site"}, true}, Access::read)->count(), 0U);
+}
+
+TEST_P(Stores, AreNotReadAsSomethingElse) {
+  EXPECT_THAT(message_of<InputError>([&] {
+                open({{"wear", "time"}, {"site"}, true}, Access::read);
+              }),
+              HasSubstr("no store yet"));
+  open();
+  EXPECT_THAT(message_of<InputError>([&] {
+                open({{"wear", "force"}, {"site"}, true});
+              }),
+              HasSubstr("begin another store"));
+  EXPECT_THAT(message_of<InputError>([&] {
+                open({{"wear", "time"}, {"site"}, false});
+              }),
+              HasSubstr("tells readings apart by their sequence numbers"));
+}
+
+TEST_P(Stores, KeepManyWithRepeatsAmongThem) {
+  auto store = open();
+  Rng rng(3, 1);
+  std::map<std::pair<std::string, std::int64_t>, double> expected;
+  for (int batch = 0; batch < 5; ++batch) {
+    std::vector<StoredReading> readings;
+    std::vector<Kept> wanted;
+    for (int i = 0; i < 2500; ++i) {
+      const std::string unit(1, static_cast<char>('a' + rng.bits() % 5));
+      const auto key = static_cast<std::int64_t>(rng.bits() % 2000);
+      const double wear = static_cast<double>(rng.bits() % 2);
+      readings.push_back(reading(unit, key, wear));
+      const auto [at, fresh] = expected.try_emplace({unit, key}, wear);
+      wanted.push_back(fresh                ? Kept::stored
+                       : at->second == wear ? Kept::repeated
+                                            : Kept::contradicts);
+    }
+    EXPECT_EQ(store->add(readings), wanted);
+  }
+  EXPECT_EQ(store->count(), expected.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(, Stores, testing::Values("sqlite", "postgres"),
+                         [](const auto& each) { return std::string(each.param); });
+
+TEST_F(ScratchTest, AFileThatIsNoStoreIsRefused) {
+  write("text.sqlite", std::string(5000, 'x'));
+  EXPECT_THAT(message_of<InputError>([&] { open_store("text.sqlite", folder(), {}); }),
+              HasSubstr("not a database"));
+  const std::string other = (folder() / "other.sqlite").string();
+  if (run_command("sqlite3 '" + other + "' 'create table t (a)'").exit_code != 0) GTEST_SKIP();
+  EXPECT_THAT(message_of<InputError>([&] { open_store("other.sqlite", folder(), {}); }),
+              HasSubstr("no store of wearwell"));
+}
+
+}  // namespace
+}  // namespace wearwell::monitor

@@ -1,0 +1,218 @@
+#pragma once
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <pwd.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "support/run_command.h"
+
+namespace wearwell {
+
+/// A port of loopback that is free now.
+inline int free_port() {
+  const int fd = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  if (bind(fd, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
+      getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0)
+    throw std::runtime_error("no free port");
+  close(fd);
+  return ntohs(address.sin_port);
+}
+
+inline bool is_listening(int port) {
+  const int fd = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const bool there = connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+  close(fd);
+  return there;
+}
+
+/// Whether it came true within so many seconds.
+inline bool eventually(const std::function<bool()>& true_now, double seconds = 60) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  while (!true_now()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  return true;
+}
+
+/// A program of our own, ended by its process id with this object at the latest.
+class ChildProcess {
+ public:
+  ChildProcess() = default;
+  /// Standard output and error go to `log`; standard input is `input`, closed where that is -1.
+  ChildProcess(const std::vector<std::string>& command, const std::filesystem::path& log,
+               int input = -1) {
+    pid_ = fork();
+    if (pid_ < 0) throw std::runtime_error("fork");
+    if (pid_ > 0) return;
+    if (FILE* out = std::fopen(log.c_str(), "a")) {
+      dup2(fileno(out), 1);
+      dup2(fileno(out), 2);
+    }
+    if (input >= 0) {
+      dup2(input, 0);
+    } else {
+      close(0);
+    }
+    for (int fd = 3; fd < 1000; ++fd) close(fd);
+    std::vector<char*> arguments;
+    for (const std::string& each : command) arguments.push_back(const_cast<char*>(each.c_str()));
+    arguments.push_back(nullptr);
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+  }
+  ~ChildProcess() { end(SIGKILL); }
+  ChildProcess(ChildProcess&& other) noexcept : pid_(std::exchange(other.pid_, -1)) {}
+  ChildProcess& operator=(ChildProcess&& other) noexcept {
+    end(SIGKILL);
+    pid_ = std::exchange(other.pid_, -1);
+    return *this;
+  }
+
+  bool runs() {
+    if (pid_ <= 0) return false;
+    if (waitpid(pid_, &status_, WNOHANG) != pid_) return true;
+    pid_ = -1;
+    return false;
+  }
+  /// Sends a signal and waits for its end; its exit code, or 128 and the signal that ended it.
+  int end(int signal) {
+    if (pid_ <= 0) return code();
+    kill(pid_, signal);
+    waitpid(std::exchange(pid_, -1), &status_, 0);
+    return code();
+  }
+  int wait() {
+    if (pid_ > 0) waitpid(std::exchange(pid_, -1), &status_, 0);
+    return code();
+  }
+  pid_t pid() const { return pid_; }
+
+ private:
+  int code() const { return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_); }
+  pid_t pid_ = -1;
+  int status_ = 0;
+};
+
+/// The mosquitto of Debian on a port of its own, its messages kept in a folder of its own.
+class Broker {
+ public:
+  static bool installed() { return std::filesystem::exists("/usr/sbin/mosquitto"); }
+
+  explicit Broker(const std::filesystem::path& folder) : folder_(folder), port_(free_port()) {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "mosquitto.conf")
+        << "listener " << port_ << " 127.0.0.1\nallow_anonymous true\npersistence true\n"
+        << "persistence_location " << folder_.string() << "/\nautosave_on_changes true\n"
+        << "autosave_interval 1\nmax_queued_messages 0\nmax_inflight_messages 0\n"
+        << (geteuid() == 0 ? "user root\n" : "");
+    start();
+  }
+  void start() {
+    process_ = ChildProcess({"/usr/sbin/mosquitto", "-c", (folder_ / "mosquitto.conf").string()},
+                            folder_ / "log");
+    if (!eventually([&] { return is_listening(port_); }))
+      throw std::runtime_error("mosquitto does not start");
+  }
+  void kill() { process_.end(SIGKILL); }
+  /// As a service is stopped: with what it holds on the disk.
+  void stop() { process_.end(SIGTERM); }
+  int port() const { return port_; }
+  std::string url() const { return "mqtt://127.0.0.1:" + std::to_string(port_); }
+
+ private:
+  std::filesystem::path folder_;
+  int port_;
+  ChildProcess process_;
+};
+
+/// The PostgreSQL of Debian on a port of its own, with a new cluster in a folder of its own; not as root, which it refuses.
+class PostgresServer {
+ public:
+  static std::string binaries() { return "/usr/lib/postgresql/15/bin/"; }
+  static bool installed() {
+    return std::filesystem::exists(binaries() + "postgres") &&
+           (geteuid() != 0 || getpwnam("postgres") != nullptr);
+  }
+
+  explicit PostgresServer(const std::filesystem::path& folder)
+      : folder_(folder), port_(free_port()) {
+    std::filesystem::create_directories(folder_);
+    if (geteuid() == 0) run_or_throw("chown postgres '" + folder_.string() + "'");
+    // Who is not root must come to it.
+    for (auto at = folder_.parent_path(); geteuid() == 0 && at != at.root_path() && at != "/tmp";
+         at = at.parent_path())
+      run_or_throw("chmod a+x '" + at.string() + "'");
+    run_or_throw(as_user() + binaries() + "initdb -D '" + data() +
+                 "' -A trust -U wearwell --no-sync -E UTF8 --locale=C > /dev/null");
+    start();
+    run_or_throw(as_user() + binaries() + "createdb -h 127.0.0.1 -p " + std::to_string(port_) +
+                 " -U wearwell fleet");
+  }
+  void start() {
+    std::vector<std::string> command = {"postgres"};
+    command = {binaries() + "postgres",
+               "-D",
+               data(),
+               "-p",
+               std::to_string(port_),
+               "-c",
+               "listen_addresses=127.0.0.1",
+               "-c",
+               "unix_socket_directories="};
+    if (geteuid() == 0)
+      command.insert(command.begin(),
+                     {"setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"});
+    process_ = ChildProcess(command, "/dev/null");
+    const std::string ready = binaries() + "pg_isready -q -h 127.0.0.1 -p " + std::to_string(port_);
+    if (!eventually([&] { return run_command(ready).exit_code == 0; }))
+      throw std::runtime_error("postgres does not start");
+  }
+  /// All of it at once, as when the machine loses its power. Its children see their parent go and end.
+  void kill() {
+    process_.end(SIGKILL);
+    std::filesystem::remove(data() + "/postmaster.pid");
+  }
+  std::string url() const {
+    return "postgresql://wearwell@127.0.0.1:" + std::to_string(port_) + "/fleet";
+  }
+
+ private:
+  std::string data() const { return (folder_ / "data").string(); }
+  static std::string as_user() {
+    return geteuid() == 0 ? "setpriv --reuid=postgres --regid=postgres --clear-groups " : "";
+  }
+  static void run_or_throw(const std::string& line) {
+    const CommandResult result = run_command(line);
+    if (result.exit_code != 0) throw std::runtime_error(line + ": " + result.err);
+  }
+
+  std::filesystem::path folder_;
+  int port_;
+  ChildProcess process_;
+};
+
+}  // namespace wearwell
