@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace wearwell::prognosis {
 namespace {
@@ -13,24 +14,24 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 WeightedLives::WeightedLives(std::span<const double> life, std::span<const double> weight) {
-  std::vector<std::size_t> order;
+  std::vector<std::pair<double, double>> points;
+  points.reserve(life.size());
   double sum = 0;
   for (std::size_t i = 0; i < life.size(); ++i) {
     if (!(weight[i] > 0) || std::isnan(life[i])) continue;
-    order.push_back(i);
+    points.emplace_back(life[i], weight[i]);
     sum += weight[i];
   }
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return life[a] < life[b] || (life[a] == life[b] && a < b);
-  });
+  std::sort(points.begin(), points.end());
+  for (auto* each : {&life_, &weight_, &cumulated_}) each->reserve(points.size());
   double before = 0;
-  for (const std::size_t i : order) {
-    const double share = weight[i] / sum;
-    if (!life_.empty() && life_.back() == life[i]) {
+  for (const auto& [place, all] : points) {
+    const double share = all / sum;
+    if (!life_.empty() && life_.back() == place) {
       weight_.back() += share;
       cumulated_.back() += 0.5 * share;
     } else {
-      life_.push_back(life[i]);
+      life_.push_back(place);
       weight_.push_back(share);
       cumulated_.push_back(before + 0.5 * share);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibration/tracker_coverage.h"
 #include "models/ownlaw/watched.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
@@ -165,6 +166,16 @@ TEST(OwnTracker, ManyReadingsOfOneUnit) {
   EXPECT_GT(forecast.effective, 50);
 }
 
+// What tests/calibration does with 2,000 units of as many populations.
+TEST(OwnTracker, IntervalsHoldTheTruth) {
+  const TrackedCoverage coverage = tracked_coverage({}, 12, 12, 500);
+  EXPECT_EQ(coverage.failed, 0);
+  for (const auto& each : coverage.of) {
+    EXPECT_GT(each.units, 100);
+    EXPECT_NEAR(each.share(), 0.9, 0.08);
+  }
+}
+
 TEST(OwnTracker, WhatCannotBeTaken) {
   const Watched watched(straight, lines(rates, 5, 0.3));
   Followed unit(*watched.tracker, "new");
@@ -177,6 +188,44 @@ TEST(OwnTracker, WhatCannotBeTaken) {
   EXPECT_TRUE(far.counted);
   EXPECT_TRUE(far.contradicts);
   EXPECT_LT(far.surprise, 1e-4);
+}
+
+// One that no path can go through leaves the unit as it was.
+TEST(OwnTracker, AProcessThatOnlyRises) {
+  std::string study = straight;
+  const auto change = [&](const std::string& from, const std::string& to) {
+    study.replace(study.find(from), from.size(), to);
+  };
+  change("[law]\nwear = \"b * time\"\n", "");
+  change("\"normal\"", "\"gamma-process\"");
+  change("mean = \"wear\"\nsd", "mean = \"b * time\"\nscale");
+  change("limit = { wear", "limit = { depth");
+  const Watched watched(study, lines(rates, 5, 0.1),
+                        points({{1 * um / h, 0.3, 0.05 * um}, {1.1 * um / h, 0.4, 0.1 * um}}));
+  Followed unit(*watched.tracker, "new");
+  EXPECT_TRUE(unit.take({1 * um, 1 * h}).counted);
+  EXPECT_TRUE(unit.take({3 * um, 3 * h}).counted);
+  const std::string before = unit.unit->save();
+  for (const auto& [depth, time] : {std::pair{2.5, 4.0}, {3.5, 2.0}, {2.0, 3.0}}) {
+    const Taken taken = unit.take({depth * um, time * h});
+    EXPECT_FALSE(taken.counted);
+    EXPECT_FALSE(taken.problem.empty());
+    EXPECT_EQ(unit.unit->save(), before);
+  }
+  EXPECT_TRUE(unit.take({2 * um, 2 * h}).counted);
+  EXPECT_EQ(unit.unit->readings(), 3u);
+}
+
+TEST(OwnTracker, StudiesThatCannotBeFollowed) {
+  std::string study = straight;
+  const std::string limit = "limit = { wear = \"12 um\" }\n";
+  study.erase(study.find(limit), limit.size());
+  try {
+    const Watched watched(study, lines(rates, 5, 0.3), points({{1 * um / h, 0.3, 0.3 * um}}));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("has no limit"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ double at_score(const double* values, double score) {
   return std::exp(sum);
 }
 
-constexpr int parts = 4;  // of a node's place on its line
+constexpr int parts = 4;             // of a node's place on its line
+constexpr double negligible = 1e-8;  // nodes with less are left out
 
 // What nodes of one line have, drawn out between them: a parabola through each and its neighbours, of the logarithm
 // of the weight and of the number. The sum of the weights is that of the trapezoidal rule with a step so much finer.
@@ -45,7 +46,7 @@ template <class Put>
 void draw_out(std::span<const double> weight, std::span<const double> number, const Put& put) {
   const std::size_t n = weight.size();
   for (std::size_t k = 0; k < n; ++k) {
-    if (!(weight[k] > 1e-10)) continue;
+    if (!(weight[k] > negligible)) continue;
     const bool inner = k > 0 && k + 1 < n && weight[k - 1] > 0 && weight[k + 1] > 0 &&
                        std::isfinite(number[k - 1] + number[k] + number[k + 1]);
     if (!inner) {

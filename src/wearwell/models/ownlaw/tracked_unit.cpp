@@ -46,7 +46,7 @@ TrackedUnit::TrackedUnit(std::shared_ptr<const Tracked> tracked, std::string uni
 void TrackedUnit::lay(std::vector<UnitReading> all) {
   all.insert(all.begin(), seen_.begin(), seen_.end());
   sort_along(all);
-  nodes_ = lay_nodes(tracked_->population, seen_, all);
+  nodes_ = lay_nodes(tracked_->population, seen_, all, nodes_);
   log_weight_ = nodes_.log_before;
   paths_ = tracked_->rows.paths();
   std::vector<double> value(log_weight_.size());
@@ -213,6 +213,7 @@ std::string TrackedUnit::save() const {
                 static_cast<std::size_t>(nodes_.nodes.parameters->size())});
   }
   to.short_numbers(nodes_.log_point);
+  if (!seen_.empty()) to.short_numbers(nodes_.log_seen);
   to.short_numbers(nodes_.shape);
   to.short_numbers(log_weight_);
   to.numbers({&laid_effective_, 1});
@@ -260,8 +261,11 @@ std::unique_ptr<TrackedUnit> TrackedUnit::restore(
   }
   const std::size_t effects = tracked->population.effects();
   nodes.log_point = from.short_numbers();
+  nodes.log_seen =
+      unit->seen_.empty() ? std::vector<double>(nodes.nodes.lines()) : from.short_numbers();
   nodes.shape = from.short_numbers();
   from.demand(nodes.log_point.size() == nodes.nodes.lines() &&
+              nodes.log_seen.size() == nodes.nodes.lines() &&
               nodes.shape.size() == nodes.nodes.lines() * UnitNodes::shape_size(effects));
   nodes.fill(*tracked->law);
   unit->log_weight_ = from.short_numbers();

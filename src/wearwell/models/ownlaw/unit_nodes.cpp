@@ -185,7 +185,7 @@ void UnitNodes::fill(const OwnLaw& law) {
   PopulationAt population_at(law);
   for (std::size_t j = 0; j < lines; ++j) {
     if (d == 0) {
-      log_before[j] = log_point[j];
+      log_before[j] = log_point[j] - log_seen[j];
       continue;
     }
     const double* own_shape = &shape[j * size];
@@ -206,22 +206,27 @@ void UnitNodes::fill(const OwnLaw& law) {
         log_share = std::log(own_shape[2] * own_shape[4] / static_cast<double>(per_line)) +
                     0.5 * (u * u + v * v - z[0] * z[0] - z[1] * z[1]);
       }
-      log_before[i] = log_point[j] + log_share;
+      log_before[i] = log_point[j] - log_seen[j] + log_share;
       for (std::size_t e = 0; e < d; ++e) nodes.effect[e][i] = population.value(law, e, z);
     }
   }
 }
 
 UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
-                    const std::vector<UnitReading>& all) {
+                    const std::vector<UnitReading>& all, const UnitNodes& before) {
   const OwnLaw& law = *population.law;
   const UnitAt at_seen(law, seen), at_all(law, all);
-  PopulationPoints points = population.few;
-  Looked looked = look_at(points, at_seen, at_all);
   UnitNodes laid;
-  const double few = effective_number(looked.log_weight);
+  laid.own = before.own;
+  PopulationPoints points = population.few;
+  if (before.own) {
+    points.values = before.nodes.parameters;
+    points.log_weight = before.log_point;
+  }
+  Looked looked = look_at(points, at_seen, at_all);
+  const double least = least_few * effective_number(population.few.log_weight);
   const bool more = population.many.log_weight.size() > population.few.log_weight.size();
-  if (more && few < least_few * effective_number(points.log_weight)) {
+  if (more && effective_number(looked.log_weight) < least) {
     const Looked of_many = look_at(population.many, at_seen, at_all);
     if (effective_number(of_many.log_weight) > 0) {
       laid.own = true;
@@ -235,13 +240,17 @@ UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitRead
   }
   const std::size_t d = law.effects.size(), size = UnitNodes::shape_size(d);
   laid.nodes.parameters = points.values;
+  laid.log_point = points.log_weight;
+  laid.log_seen = looked.log_seen;
   laid.shape.resize(points.log_weight.size() * size);
   for (std::size_t j = 0; j < points.log_weight.size(); ++j) {
-    laid.log_point.push_back(points.log_weight[j] - looked.log_seen[j]);
     shape_of(looked.all[j], d, j, laid.shape.data() + j * size);
   }
-  const double top = *std::max_element(laid.log_point.begin(), laid.log_point.end());
-  for (double& each : laid.log_point) each = static_cast<float>(each - top);
+  // In single precision, as states are saved.
+  for (auto* each : {&laid.log_point, &laid.log_seen}) {
+    const double top = *std::max_element(each->begin(), each->end());
+    for (double& one : *each) one = static_cast<float>(one - top);
+  }
   for (double& each : laid.shape) each = static_cast<float>(each);
   laid.fill(law);
   return laid;

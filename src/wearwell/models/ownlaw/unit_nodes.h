@@ -38,8 +38,10 @@ struct NodePopulation {
 /// and their weights before readings, so that likelihoods of readings need only multiply them.
 struct UnitNodes {
   Nodes nodes;
-  bool own = false;               ///< the points are this unit's, not the population's few
-  std::vector<double> log_point;  ///< of each line: weight of its point before readings
+  bool own = false;  ///< the points are this unit's, not the population's few
+  /// Of each line: the weight of its point before readings, and what the study's rows of the unit have in it
+  /// already, which count with the readings.
+  std::vector<double> log_point, log_seen;
   std::vector<double> shape;  ///< of each line: 0, 2 (first z, step) or 5 (mean, factor) numbers
   std::vector<double> log_before;  ///< of each node: its weight before readings; from these
 
@@ -49,9 +51,10 @@ struct UnitNodes {
 };
 
 /// Lays the nodes of a unit that the study has seen with rows `seen` (maybe none) and that has shown `all` since the
-/// beginning, those among them. Both along the axis.
+/// beginning, those among them. Both along the axis. `before`: its nodes until now, whose points are kept where they
+/// are its own and will do.
 UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitReading>& seen,
-                    const std::vector<UnitReading>& all);
+                    const std::vector<UnitReading>& all, const UnitNodes& before);
 
 /// 1 / sum of squares of weights, which are given as logarithms and not normalized; 0 where all are none.
 double effective_number(std::span<const double> log_weight);
