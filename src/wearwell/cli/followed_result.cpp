@@ -4,12 +4,12 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
-#include "wearwell/prognosis/carried_state.h"
+#include "wearwell/cli/carried.h"
 
 namespace wearwell {
 
 FollowedResult followed_result(const std::filesystem::path& result, Models models) {
-  const prognosis::CarriedState state = prognosis::read_state(result);
+  const prognosis::CarriedState state = read_carried(result);
   for (const Model& model : models)
     if (model.key == state.model && model.track) return {model.track(state), state.trusted};
   throw InputError(fmt::format("{}: units of a study of model \"{}\" cannot be followed one by one",

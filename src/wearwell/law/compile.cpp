@@ -10,6 +10,7 @@
 #include "wearwell/law/reading.h"
 #include "wearwell/law/regroup.h"
 #include "wearwell/law/rules.h"
+#include "wearwell/law/written_graph.h"
 
 namespace wearwell::law {
 namespace {
@@ -268,6 +269,15 @@ class Compiler {
 };
 
 }  // namespace
+
+WrittenGraph written_graph(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
+                           const Symbols& symbols) {
+  check(symbols);
+  WrittenGraph written;
+  Compiler compiler(law, wanted, symbols, written.graph);
+  written.roots = compiler.run(wanted);
+  return written;
+}
 
 Program compile(const std::vector<Line>& law, const std::vector<Wanted>& wanted,
                 const Symbols& symbols, bool continued) {

@@ -1,5 +1,6 @@
 #include "wearwell/models/ownlaw/model.h"
 
+#include "wearwell/models/ownlaw/export_command.h"
 #include "wearwell/models/ownlaw/own_keys.h"
 #include "wearwell/models/ownlaw/own_study.h"
 #include "wearwell/models/ownlaw/own_tracker.h"
@@ -58,7 +59,9 @@ std::string_view fleet_truth() {
 Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::law_study},
                                             {"wear.csv", resource::law_data}};
-  return law_with("law", example);
+  Model law = law_with("law", example);
+  law.add_commands = add_export_command;  // of all that are of this model
+  return law;
 }
 
 Model life() {

@@ -24,6 +24,10 @@ class NodeLives {
   /// What is limited, as expressions; of a process its mean and its spread.
   const std::vector<law::Wanted>& wanted() const { return wanted_; }
 
+  const Conditions& given() const { return given_; }  ///< what is said of the conditions to come
+  double begin() const { return path_.begin; }        ///< of paths, along the axis, SI
+  double scale() const { return path_.scale; }        ///< of the axis, SI
+
   /// A unit without rows: where paths begin.
   UnitReading before_rows() const;
 

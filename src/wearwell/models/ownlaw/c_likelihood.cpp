@@ -1,0 +1,84 @@
+#include "wearwell/models/ownlaw/c_likelihood.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wearwell/base/error.h"
+#include "wearwell/law/c_text.h"
+
+namespace wearwell::ownlaw {
+namespace {
+
+// `y` and the slots a, b are there; sets `value`.
+const char* density_of(ResponseFamily family) {
+  switch (family) {
+    case ResponseFamily::normal:
+      return "    const double z = (y - a) / b;\n"
+             "    value = b > 0 ? -0.5 * z * z - (log(b) + 0.91893853320467274178) : -INFINITY;\n";
+    case ResponseFamily::lognormal:
+      return "    const double z = (log(y) - log(a)) / b;\n"
+             "    value = a > 0 && b > 0 && y > 0\n"
+             "                ? -0.5 * z * z - log(b) - log(y) - 0.91893853320467274178\n"
+             "                : -INFINITY;\n";
+    case ResponseFamily::lognormal_by_moments:
+      return "    const double s2 = log1p((b / a) * (b / a)), s = sqrt(s2);\n"
+             "    const double z = (log(y) - log(a) + 0.5 * s2) / s;\n"
+             "    value = a > 0 && b > 0 && y > 0\n"
+             "                ? -0.5 * z * z - log(s) - log(y) - 0.91893853320467274178\n"
+             "                : -INFINITY;\n";
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+std::size_t measured_column(const OwnLaw& law, std::size_t m) {
+  const auto at = std::find_if(law.data.numbers.begin(), law.data.numbers.end(),
+                               [&](const auto& c) { return c.name == law.measured[m].column; });
+  return static_cast<std::size_t>(at - law.data.numbers.begin());
+}
+
+void refuse_law(const OwnLaw& law) {
+  for (const char* name : {"status", "lower", "upper", "entry", "count"})
+    if (law.data.number(name) || law.data.label(name))
+      throw InputError(fmt::format(
+          "the study has a column '{}': readings that are more than one exact number (censored, "
+          "truncated, counted) are not exported to C",
+          name));
+  for (const Measured& each : law.measured) {
+    if (each.process)
+      throw InputError(
+          fmt::format("'{}' grows in random steps ({}): such a process is not exported to C",
+                      each.column, each.form->name));
+    if (each.trials || !density_of(each.form->family))
+      throw InputError(
+          fmt::format("'{}' is of the {} family, which is not exported to C; normal and lognormal "
+                      "are",
+                      each.column, each.form->name));
+  }
+}
+
+void add_likelihood(const OwnLaw& law, std::string& functions, std::string& sum,
+                    std::string& measured) {
+  for (std::size_t m = 0; m < law.measured.size(); ++m) {
+    const Measured& each = law.measured[m];
+    std::string slot[most_response_slots] = {"0", "0", "0"};
+    for (std::size_t o = 0; o < each.wanted.size(); ++o) {
+      const std::string name =
+          fmt::format("measured_{}_{}", m, each.form->slots[each.slot[o]].name);
+      functions += law::c_function(law.lines, each.wanted[o], law.row_symbols, name);
+      slot[each.slot[o]] = name + "(number, label, parameter, effect)";
+    }
+    const std::size_t column = measured_column(law, m);
+    sum += fmt::format(
+        "  if (!isnan(number[{}])) {{ /* {} */\n    const double y = number[{}];\n"
+        "    const double a = {};\n    const double b = {};\n    double value;\n    {{\n{}    }}\n"
+        "    sum += isfinite(value) ? value : -INFINITY;\n  }}\n",
+        column, each.column, column, slot[0], slot[1], density_of(each.form->family));
+    measured += fmt::format("{}!isnan(at->number[{}])", m == 0 ? "" : " || ", column);
+  }
+}
+
+}  // namespace wearwell::ownlaw

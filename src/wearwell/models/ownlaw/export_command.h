@@ -1,0 +1,10 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace wearwell::ownlaw {
+
+/// wearwell export c: a unit on line as C99.
+void add_export_command(CLI::App& app, int& exit_code);
+
+}  // namespace wearwell::ownlaw
