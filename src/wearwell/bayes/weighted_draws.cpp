@@ -67,8 +67,12 @@ Distribution::Distribution(const WeightedDraws& draws,
                                   : 0.5 * a + 0.5 * b - at_node;
       // Evenly spread mass has the variance of a third of the square of half its width. The square of
       // the width itself may be no number.
-      half_width =
-          std::hypot(half_width, half * std::sqrt(12 * (along.square - along.mean * along.mean)));
+      const double stretch = 12 * (along.square - along.mean * along.mean);
+      if (std::abs(half) < 1e150 && std::abs(half) > 1e-150 && half_width < 1e150) {
+        half_width = std::sqrt(half_width * half_width + half * half * stretch);
+      } else {
+        half_width = std::hypot(half_width, half * std::sqrt(stretch));
+      }
     }
     if (!std::isfinite(center + half_width) || !std::isfinite(center - half_width)) {
       center = at_node;
