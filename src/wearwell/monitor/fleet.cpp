@@ -50,7 +50,7 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
     unit.alarm = unit.shown = unit.logged = each.alarm;
     if (unit.lost) any_lost_ = true;
   }
-  stored_ = store_.count();
+  stored_before_ = store_.count();
 }
 
 Fleet::~Fleet() = default;
@@ -93,6 +93,8 @@ std::size_t Fleet::apply() {
   }
   if (readings.empty()) {
     live_ = true;
+    const std::lock_guard lock(lock_);
+    lag_ms_ = 0;
     return 0;
   }
   for (const auto& [unit, list] : work) {
@@ -100,7 +102,7 @@ std::size_t Fleet::apply() {
   }
   place_ = readings.back().place;
   const std::lock_guard lock(lock_);
-  if (live_) stored_ += readings.size();
+  lag_ms_ = std::max<std::int64_t>(0, unix_ms_now() - readings.front().received_ms);
   return readings.size();
 }
 

@@ -80,14 +80,16 @@ class Fleet : public FleetReader {
   std::int64_t place_ = 0;
   std::vector<Unit*> stale_;  ///< whose forecast is older than their readings, each once
   std::atomic<bool> any_lost_ = false;
-  bool live_ = false;  ///< what the store held at the beginning has been taken
+  bool live_ = false;                ///< what the store held at the beginning has been taken
+  std::uint64_t stored_before_ = 0;  ///< this monitor began
   Clock::time_point silence_checked_ = {};
 
   mutable std::mutex lock_;  ///< of what follows
   std::map<std::string, std::shared_ptr<const Seen>> seen_;
   std::map<std::uint64_t, std::string> changes_;  ///< by version, each unit once
   std::map<std::string, std::uint64_t> changed_;
-  std::uint64_t version_ = 0, stored_ = 0;
+  std::uint64_t version_ = 0;
+  std::int64_t lag_ms_ = 0;
 };
 
 }  // namespace wearwell::monitor

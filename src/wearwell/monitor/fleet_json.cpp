@@ -47,7 +47,8 @@ Json json_of(const FleetView& fleet) {
             {"stored", fleet.stored},
             {"refused", fleet.refused},
             {"repeated", fleet.repeated},
-            {"last_ms", fleet.last_message_ms}}},
+            {"last_ms", fleet.last_message_ms},
+            {"lag_ms", fleet.lag_ms}}},
           {"now_ms", fleet.now_ms},
           {"started_ms", fleet.started_ms}};
 }

@@ -40,6 +40,7 @@
     if (lost) all.push(['fail', 'Connection lost.', `What is shown is as of ${wearwell.clock(lost)}; it is tried again.`]);
     if (fleet && !fleet.trusted) all.push(['warn', 'Not to be trusted.', 'The result that the population was learned from did not pass its checks: numbers here may mislead.']);
     if (fleet && fleet.units.all > 0 && fleet.units.unknown === fleet.units.all) all.push(['warn', 'No news.', `No ${fleet.noun} has reported for long.`]);
+    if (fleet && fleet.messages.lag_ms > 5000) all.push(['warn', 'Behind.', `Readings come faster than they are worked through: what is shown lags behind those that are stored.`]);
     // An alert is told once, not whenever something else changes.
     const text = JSON.stringify(all);
     if (banners.dataset.text === text) return;

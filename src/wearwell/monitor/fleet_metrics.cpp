@@ -76,6 +76,9 @@ void add_fleet(const FleetView& fleet, Text* text) {
   count("wearwell_messages_stored_total", "Messages that are stored.", fleet.stored);
   count("wearwell_messages_refused_total", "Messages that were refused.", fleet.refused);
   count("wearwell_messages_repeated_total", "Messages that had come before.", fleet.repeated);
+  text->family("wearwell_state_lag_seconds", "gauge",
+               "How long what states were last told had lain in the store; 0: they know all.");
+  text->sample("", seconds(fleet.lag_ms));
   text->family("wearwell_last_message_timestamp_seconds", "gauge",
                "When a message last came, Unix time; 0: none yet.");
   text->sample("", seconds(fleet.last_message_ms));

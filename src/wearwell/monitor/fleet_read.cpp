@@ -39,13 +39,14 @@ FleetView Fleet::fleet() const {
   view.trusted = settings_.trusted;
   const Tally::Total total = tally_.total();
   view.messages = total.messages;
+  view.stored = stored_before_ + total.stored;
   view.refused = total.refused;
   view.repeated = total.repeated;
   view.last_message_ms = total.last_message_ms;
   view.now_ms = unix_ms_now();
   view.started_ms = started_ms_;
   const std::lock_guard lock(lock_);
-  view.stored = stored_;
+  view.lag_ms = lag_ms_;
   view.units = seen_.size();
   for (const auto& [name, seen] : seen_) {
     const Alarm alarm = seen->view.alarm;

@@ -67,6 +67,8 @@ struct FleetView {
   std::uint64_t units = 0, ok = 0, watch = 0, act = 0, unknown = 0;
   std::uint64_t messages = 0, stored = 0, refused = 0, repeated = 0;
   std::int64_t now_ms = 0, started_ms = 0;
+  std::int64_t lag_ms =
+      0;  ///< how long what states were last told had lain in the store; 0: they know all
   std::int64_t last_message_ms = 0;  ///< when one last came, whatever became of it; 0: none yet
 };
 

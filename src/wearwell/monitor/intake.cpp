@@ -38,6 +38,7 @@ Delivery Intake::deliver(const SourceSettings& source, std::span<const Message> 
              delivery);
     }
   }
+  tally_.stored(delivery.readings);
   return delivery;
 }
 

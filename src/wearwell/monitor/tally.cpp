@@ -8,6 +8,11 @@ void Tally::messages(std::uint64_t count, std::int64_t now_ms) {
   total_.last_message_ms = now_ms;
 }
 
+void Tally::stored(std::uint64_t readings) {
+  const std::lock_guard lock(lock_);
+  total_.stored += readings;
+}
+
 void Tally::repeated(const std::string& unit) {
   const std::lock_guard lock(lock_);
   ++total_.repeated;

@@ -15,13 +15,14 @@ class Tally {
     std::string last_problem = {};
   };
   struct Total {
-    std::uint64_t messages = 0, refused = 0, repeated = 0;
+    std::uint64_t messages = 0, stored = 0, refused = 0, repeated = 0;
     std::int64_t last_message_ms = 0;
   };
 
   explicit Tally(std::size_t most_units) : most_units_(most_units) {}
 
   void messages(std::uint64_t count, std::int64_t now_ms);
+  void stored(std::uint64_t readings);
   void repeated(const std::string& unit);
   /// `unit` may be empty or unknown: then it counts in all alone.
   void refused(const std::string& unit, const std::string& problem);
