@@ -6,9 +6,11 @@
 #include <string>
 
 #include "parquet_file.h"
+#include "wearwell/fleet/duckdb_engine.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_predict.h"
 #include "wearwell/models/clutch/clutch_study.h"
+#include "wearwell/models/clutch/fleet_run.h"
 #include "wearwell/models/clutch/wear_map.h"
 
 namespace wearwell::clutch {
@@ -82,6 +84,60 @@ void predict_full(benchmark::State& state) {
   BENCHMARK(name)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()
 PREDICT(predict_scatter_only);
 PREDICT(predict_full);
+
+// `wearwell fleet` from Parquet on two threads: sums in fixed point, and the report.
+void fleet_run(benchmark::State& state, bool with_replicates) {
+  const long long cycles = state.range(0);
+  const ParquetFile file("wearwell-bench-fleet", fleet_of(cycles));
+  const IdentifiedModel model{example().model, "bench"};
+  for (auto _ : state) {
+    const auto engine = fleet::duckdb_engine({.files = {file.path().string()}, .threads = 2});
+    const Result result =
+        find_fleet(model, {engine.get()},
+                   {.first = true, .replicates = with_replicates, .levels = {25, 50, 75, 100}}, {});
+    benchmark::DoNotOptimize(result.header.data.rows);
+  }
+  state.counters["cycles/s"] = benchmark::Counter(static_cast<double>(cycles),
+                                                  benchmark::Counter::kIsIterationInvariantRate);
+}
+void fleet_scatter_only(benchmark::State& state) {
+  fleet_run(state, false);
+}
+void fleet_full(benchmark::State& state) {
+  fleet_run(state, true);
+}
+// What the engine takes to read the same columns: the limit.
+void fleet_scan(benchmark::State& state) {
+  const long long cycles = state.range(0);
+  const ParquetFile file("wearwell-bench-fleet", fleet_of(cycles));
+  for (auto _ : state) {
+    const auto engine = fleet::duckdb_engine({.files = {file.path().string()}, .threads = 2});
+    engine->rows(
+        "select max(plate), max(cycle), sum(columns('speed|torque|temp|time|energy')) from cycles",
+        0, [](const fleet::Row& row) { benchmark::DoNotOptimize(row.numbers.front()); });
+  }
+  state.counters["cycles/s"] = benchmark::Counter(static_cast<double>(cycles),
+                                                  benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(fleet_scan)
+    ->Arg(20'000'000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime();
+BENCHMARK(fleet_scatter_only)
+    ->Arg(1'000'000)
+    ->Arg(20'000'000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Iterations(1);
+BENCHMARK(fleet_full)
+    ->Arg(1'000'000)
+    ->Arg(4'000'000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Iterations(1);
 
 }  // namespace
 }  // namespace wearwell::clutch

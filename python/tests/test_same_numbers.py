@@ -10,7 +10,7 @@ import pytest
 import wearwell as ww
 from conftest import binary, source
 
-studies = sorted(s for s in glob.glob(os.path.join(source, "examples", "*", "*.toml")) if not s.endswith("truth.toml"))
+studies = sorted(s for s in glob.glob(os.path.join(source, "examples", "*", "*.toml")) if not s.endswith(("truth.toml", "monitor.toml")))
 
 
 def files_below(folder):

@@ -33,7 +33,7 @@ const std::vector<std::set<std::string>> order = {
     {"study", "selection"},
     {"prognosis", "fleet"},
     {"joint", "bearing", "clutch", "fatigue", "ownlaw"},
-    {"models"},
+    {"models", "monitor"},
     {"cli"},
     {"embed"}};
 

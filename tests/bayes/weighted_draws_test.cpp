@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "support/between.h"
+#include "wearwell/bayes/cell_shares.h"
 
 namespace wearwell {
 namespace {
@@ -264,6 +265,55 @@ TEST(Distribution, WideNodesWithWeightDoNotMoveTheBulk) {
   cells.back().node = std::nan("");
   EXPECT_TRUE(std::isnan(Distribution(cells_of(cells), itself).quantile(0.5)));
   EXPECT_TRUE(std::isnan(Distribution(cells_of(cells), itself).mean()));
+}
+
+// A normal density of two axes on a grid, of a number that both move: layers along the first, each wider than their distance.
+TEST(CellShares, LayersFitTogether) {
+  constexpr double step = 0.5, second = 0.3;
+  constexpr int reach = 12, side = 2 * reach + 1;
+  WeightedDraws draws{Points(side * side, 2), Eigen::VectorXd(side * side), {}, {}};
+  draws.lower.assign(2, Points(side * side, 2));
+  draws.upper = draws.lower;
+  for (int i = 0; i < side * side; ++i) {
+    const Eigen::RowVector2d x(step * (i % side - reach), step * (i / side - reach));
+    draws.values.row(i) = x;
+    draws.weights[i] = std::exp(-0.5 * x.squaredNorm());
+    for (int a = 0; a < 2; ++a) {
+      const Eigen::RowVector2d half = 0.5 * step * Eigen::RowVector2d::Unit(a);
+      draws.lower[static_cast<std::size_t>(a)].row(i) = x - half;
+      draws.upper[static_cast<std::size_t>(a)].row(i) = x + half;
+    }
+  }
+  draws.weights /= draws.weights.sum();
+  const auto number = [](const double* x) { return x[0] + second * x[1]; };
+  std::vector<double> edges;
+  for (int i = -60; i <= 60; ++i) edges.push_back(0.05 * i);
+  const std::vector<double> shares = cell_shares(draws, number, edges);
+  const Distribution even(draws, number);
+  // Cells without a parabola add their own variance.
+  const double sd = std::sqrt((1 + second * second) * (1 + step * step / 12));
+  const auto normal = [&](double x) { return 0.5 * std::erfc(-x / sd * M_SQRT1_2); };
+  double worst = 0, worst_even = 0, sum = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const double truth = normal(edges[i + 1]) - normal(edges[i]);
+    worst = std::max(worst, std::abs(shares[i] - truth));
+    worst_even =
+        std::max(worst_even, std::abs(even.cdf(edges[i + 1]) - even.cdf(edges[i]) - truth));
+    sum += shares[i];
+  }
+  const double highest = 0.05 / sd / std::sqrt(2 * M_PI);
+  EXPECT_LT(worst, 0.02 * highest);
+  EXPECT_LT(worst, 0.5 * worst_even);
+  EXPECT_NEAR(sum, even.cdf(edges.back()) - even.cdf(edges.front()), 1e-3);
+}
+
+// Draws are points, and cells without width too.
+TEST(CellShares, OfDraws) {
+  const WeightedDraws draws{
+      Points{{1.0}, {2.0}, {2.5}, {9.0}}, Eigen::VectorXd::Constant(4, 0.25), {}, {}};
+  const std::vector<double> shares =
+      cell_shares(draws, [](const double* x) { return x[0]; }, {0, 1.5, 3});
+  EXPECT_EQ(shares, (std::vector<double>{0.25, 0.5}));
 }
 
 }  // namespace

@@ -124,6 +124,8 @@ async function lively(browser) {
   await page.goto(`${address}#unit=${name}`);
   await page.waitForSelector(`#detail[data-unit="${name}"] .tally`);
   const before = await page.textContent('#detail .facts');
+  await page.fill('#search', name);
+  await page.waitForFunction(() => document.querySelectorAll('.row').length === 1, null, {timeout: 10000});
   for (let i = 0; i < 5; ++i) report(20);
   await page.waitForFunction((old) => document.querySelector('#detail .facts').textContent !== old, before, {timeout: 15000})
       .catch(() => faults.push('a reading does not show'));
@@ -133,6 +135,7 @@ async function lively(browser) {
   // By keyboard: search, down to a machine, open it, read values off a plot, back.
   await page.keyboard.press('Escape');
   await page.keyboard.press('/');
+  await page.keyboard.press('Control+A');
   await page.keyboard.type('m103');
   await page.waitForFunction(() => document.querySelectorAll('.row').length === 10, null, {timeout: 10000})
       .catch(() => faults.push('the search does not narrow'));

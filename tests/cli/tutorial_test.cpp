@@ -59,17 +59,19 @@ TEST_P(Tutorial, PrintsWhatItShows) {
   std::filesystem::remove_all(folder);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    , Tutorial,
-    testing::Values("README.md", "docs/bearing.md", "docs/clutch.md", "docs/compare.md",
-                    "docs/decisions.md", "docs/degradation.md", "docs/edge.md", "docs/fatigue.md",
-                    "docs/joint.md", "docs/life.md", "docs/monitor-tutorial.md", "docs/select.md",
-                    "docs/spectrum.md", "docs/staircase.md", "docs/tables.md", "docs/units.md"),
-    [](const auto& each) {
-      std::string name = std::filesystem::path(each.param).stem().string();
-      std::replace(name.begin(), name.end(), '-', '_');
-      return name;
-    });
+INSTANTIATE_TEST_SUITE_P(, Tutorial,
+                         testing::Values("README.md", "docs/bearing.md", "docs/clutch.md",
+                                         "docs/compare.md", "docs/decisions.md",
+                                         "docs/degradation.md", "docs/edge.md", "docs/fatigue.md",
+                                         "docs/fleet.md", "docs/joint.md", "docs/life.md",
+                                         "docs/monitor-tutorial.md", "docs/select.md",
+                                         "docs/spectrum.md", "docs/staircase.md", "docs/state.md",
+                                         "docs/tables.md", "docs/units.md"),
+                         [](const auto& each) {
+                           std::string name = std::filesystem::path(each.param).stem().string();
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace wearwell

@@ -169,6 +169,8 @@ const std::vector<Writer>& writers() {
   static const std::vector<Writer> all = {
       {"fit", fit, copy_joint, "out", is_listed_whole},
       {"fit_again", fit, then(copy_joint, fit + " --seed 2"), "out", is_listed_whole},
+      {"update", "update out joint/joint_wear.csv -o more --quiet --no-report --threads 1",
+       then(copy_joint, fit), "more", is_listed_whole},
       {"select", select, write_table, "out", is_listed_whole},
       {"select_again", select, then(write_table, select + " --keep 3"), "out", is_listed_whole},
       {"report", "report out", prepare_earlier_report, "out", is_equal},

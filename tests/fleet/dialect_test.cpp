@@ -57,7 +57,7 @@ TEST(Dialect, ACommentHasOneLine) {
 }
 
 TEST(Dialect, UnknownDialectsAreRefused) {
-  EXPECT_EQ(read_dialect("clickhouse"), Dialect::clickhouse);
+  EXPECT_EQ(read_dialect("postgresql"), Dialect::postgresql);
   EXPECT_THROW(read_dialect("mysql"), InputError);
 }
 

@@ -131,7 +131,7 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   // Beyond what the sums hold.
   changed = cycles;
   changed[50].temperature = 1e12;
-  refused(changed, "out of range");
+  refused(changed, "beyond what the sums hold");
 }
 
 // Names are quoted and texts are data, whatever is in them.

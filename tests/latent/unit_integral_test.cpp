@@ -109,6 +109,23 @@ TEST(UnitIntegral, AgreesWithBruteForce) {
   }
 }
 
+// Far from where the search begins, which is a summit of its own: nothing grows there.
+TEST(UnitIntegral, FindsAModeThatIsNowhereNear) {
+  const std::vector<Formulas::F> units = {[](const double* z) {
+    double sum = 0;
+    for (int i = 1; i <= 5; ++i) sum += normal(2.0 * i, 2e-7 * i * std::exp(4.6 * z[0]), 0.01);
+    return sum;
+  }};
+  Formulas terms(1, units);
+  UnitIntegrals result;
+  integrate(terms, result);
+  EXPECT_TRUE(result.settled);
+  double mean = 0;
+  for (const Sweep& sweep : result.sweeps) mean += sweep.weight[0] * sweep.z[0];
+  EXPECT_NEAR(mean, std::log(1e7) / 4.6, 1e-3);
+  EXPECT_NEAR(result.log_likelihood[0], brute_force(units[0]), 1e-9);
+}
+
 // Readings a + b t with both effects: the integral of a normal law of five dimensions is known.
 TEST(UnitIntegral, TwoEffectsAgreeWithTheNormalLaw) {
   const double y[] = {1.2, 3.3, 4.1, 6.6}, sd = 0.5, r = -0.6, sa = 0.8, sb = 0.3;

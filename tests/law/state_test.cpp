@@ -106,6 +106,73 @@ TEST(State, OfCrackGrowthIsItsClosedFormAndInfiniteBeyondFailure) {
   EXPECT_EQ(size[2], INFINITY);
 }
 
+// Units at rates of their own, in proportion to a number by row, run along one trajectory, each to its place; beside
+// the same rate with the axis in it, which is integrated by steps.
+TEST(State, OfUnitsThatDifferRunsAlongOneTrajectory) {
+  const std::pair<const char*, const char*> laws[] = {
+      {"u^2/1 [cycle] * 0.01 * size^(b/2)", "0.8"},
+      {"u^2/1 [cycle] * 0.01 * (1 - (size/b)^2)", "0*a"},
+      {"-exp(u)/1 [cycle] * 0.02 * size^1.5 * a", "4"},
+      {"u^2/1 [cycle] * 0.002 * size^1.5*exp(-size^2)", "1"}};
+  for (const auto& [rate, beginning] : laws) {
+    SCOPED_TRACE(rate);
+    Laboratory along, steps;
+    along.law = {{"d(size)/d(n)", rate}, {"size(0)", beginning}};
+    steps.law = along.law;
+    steps.law[0].text += " + 0*(n/1 [cycle^2])*size";
+    for (const std::vector<std::size_t>& paths :
+         {std::vector<std::size_t>{0}, std::vector<std::size_t>{0, 1, 2}}) {
+      along.paths = steps.paths = paths;
+      const auto found = along.values("size"), wanted = steps.values("size");
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i] / wanted[i], 1, 1e-9) << i;
+      const auto by = along.slopes("size", {1, -0.5, 2}),
+                 by_steps = steps.slopes("size", {1, -0.5, 2});
+      for (std::size_t p = 0; p < by.parameters.size(); ++p) {
+        EXPECT_NEAR(by.parameters[p], by_steps.parameters[p],
+                    1e-7 * std::abs(by_steps.parameters[p]));
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(by.by_row[0][i], by_steps.by_row[0][i], 1e-7 * std::abs(by_steps.by_row[0][i]));
+      }
+    }
+  }
+}
+
+// A kink of the rate at 1.14 has a closed form on either side of it.
+TEST(State, OfARateWithAKinkIsExactBeyondIt) {
+  Laboratory laboratory;
+  laboratory.law = {{"d(size)/d(n)", "u^2/1 [cycle] * 0.002 * max(size, b*0.6)^1.5"},
+                    {"size(0)", "1"}};
+  laboratory.paths = {0, 1, 2};
+  const double kink = 1.9 * 0.6;
+  const auto size = laboratory.values("size");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double u = laboratory.by_row[0][i], way = u * u * 0.002 * laboratory.columns[4][i];
+    const double until = (kink - 1) / std::pow(kink, 1.5);
+    const double closed = way < until ? 1 + way * std::pow(kink, 1.5)
+                                      : std::pow(std::pow(kink, -0.5) - (way - until) / 2, -2);
+    EXPECT_NEAR(size[i] / closed, 1, 1e-9) << i;
+  }
+}
+
+// What stands on a trajectory does not depend on what was asked before.
+TEST(State, IsTheSameWhateverWasAskedBefore) {
+  Laboratory laboratory;
+  laboratory.law = {{"d(size)/d(n)", "u^2/1 [cycle] * 0.01 * size^(b/2)"}, {"size(0)", "0.8"}};
+  laboratory.paths = {0, 1, 2};
+  const Program program = laboratory.program({"size"});
+  const Data data = program.bind(laboratory.rows());
+  Workspace fresh = program.workspace(3), used = program.workspace(3);
+  const auto at = laboratory.pointers();
+  for (std::size_t row = 3; row-- > 0;) {
+    const double* from = at[0] + row;
+    program.forward(data, row, row + 1, {laboratory.parameters, {&from, 1}}, used);
+  }
+  program.forward(data, 0, 3, {laboratory.parameters, at}, used);
+  program.forward(data, 0, 3, {laboratory.parameters, at}, fresh);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(used.values(0)[i], fresh.values(0)[i]);
+}
+
 // dy/dx = -b (y - cos x): the axis in the rate is where the state is, not the row's value.
 TEST(State, WhoseRateKnowsWhereItIs) {
   Laboratory laboratory;

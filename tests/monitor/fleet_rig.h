@@ -9,6 +9,7 @@
 #include "wearwell/monitor/fleet.h"
 #include "wearwell/monitor/intake.h"
 #include "wearwell/monitor/monitor_run.h"
+#include "wearwell/monitor/unit_record.h"
 
 namespace wearwell::monitor {
 
@@ -73,7 +74,12 @@ class FleetRig : public ScratchTest {
     fleet_->save();
     std::string all;
     std::map<std::string, std::string> states;
-    for (const Checkpoint& each : store_->states("population")) states[each.unit] = each.bytes;
+    for (const Checkpoint& each : store_->states("population")) {
+      UnitRecord record = restored_record(each, tracker_);
+      record.last_received_ms = 0;  // all but when messages came
+      for (UnitMoment& moment : record.moments) moment.time_ms = 0;
+      states[each.unit] = bytes_of(record);
+    }
     for (const auto& [unit, bytes] : states) all += unit + bytes;
     if (!forecasts) return all;
     for (const UnitView& each : fleet_->units("", 0, SIZE_MAX))

@@ -40,7 +40,7 @@ TEST_F(Fleets, TellWhatIsKnown) {
   EXPECT_EQ(matching, 1U);
   const auto detail = fleet_->unit("fast");
   ASSERT_TRUE(detail);
-  EXPECT_EQ(detail->moments.size(), 20U);
+  EXPECT_EQ(detail->moments.size(), 17U);  // sixteen, and the last
   EXPECT_EQ(detail->moments[4].measured, 225);
   EXPECT_EQ(detail->judged, 19U);
   EXPECT_GT(detail->survival.size(), 50U);
@@ -143,12 +143,12 @@ TEST_F(Fleets, GoOnFromAnyMomentToTheSameBits) {
     if (what < 0.05) open();
     if (what > 0.9) deliver(messages[rng.bits() % 20]);
   });
-  EXPECT_EQ(cut, whole);
+  EXPECT_TRUE(cut == whole);
   // And with other states thrown away, from the readings.
   store_->save("population", {{"b", 3, "damaged"}}, 3);
   open();
   catch_up();
-  EXPECT_EQ(bits(), whole);
+  EXPECT_TRUE(bits() == whole);
 }
 
 TEST_F(Fleets, RaiseAlarmsWithHysteresis) {
@@ -197,8 +197,8 @@ TEST_F(Fleets, DoNotKnowOfASilentUnit) {
 TEST(Moments, GrowSlowly) {
   int kept = 0;
   for (std::uint64_t n = 1; n <= 1'000'000; ++n) kept += is_kept_moment(n);
-  EXPECT_TRUE(is_kept_moment(1) && is_kept_moment(32));
-  EXPECT_LT(kept, 320);
+  EXPECT_TRUE(is_kept_moment(1) && is_kept_moment(12));
+  EXPECT_LT(kept, 120);
 }
 
 /// A store that fails when it is told to, before or after it has done what it was asked.
@@ -291,7 +291,7 @@ TEST_F(FailingFleets, LoseNothing) {
   store_->save("population", {{"a", 0, "damaged"}, {"b", 0, "damaged"}}, 0);
   open();
   catch_up();
-  EXPECT_EQ(bits(), here);
+  EXPECT_TRUE(bits() == here);
 }
 
 }  // namespace

@@ -198,6 +198,13 @@ TEST_F(HttpServerTest, KeepsConnectionsAsTheyAskFor) {
   HttpClient old(server_.port());
   old.send("GET /health HTTP/1.0\r\nHost: localhost\r\n\r\n");
   EXPECT_THAT(old.rest(), HasSubstr("200 OK"));
+  HttpClient kept(server_.port());
+  for (int i = 0; i < 2; ++i) {
+    kept.send("GET /health HTTP/1.0\r\nHost: localhost\r\nConnection: keep-alive\r\n\r\n");
+    const HttpReply reply = kept.reply();
+    EXPECT_EQ(reply.status, 200);
+    EXPECT_EQ(reply.field("Connection"), "keep-alive");
+  }
 }
 
 TEST_F(HttpServerTest, AnswersManyAtOnce) {
@@ -225,6 +232,7 @@ class HttpLimitsTest : public HttpServerTest {
     HttpLimits limits;
     limits.body_bytes = 10'000;
     limits.connections = 12;
+    limits.large_bodies = 3;
     limits.streams = 4;
     limits.header = limits.body = milliseconds(400);
     return limits;
@@ -263,6 +271,25 @@ TEST_F(HttpLimitsTest, BodiesEndSomewhere) {
   for (int i = 0; i < 10; ++i) pieces.send(piece);
   EXPECT_EQ(pieces.reply().status, 413);
   EXPECT_TRUE(is_well());
+}
+
+TEST_F(HttpLimitsTest, LargeBodiesTakeTurns) {
+  // Of unknown length, they might become large.
+  const std::string begin = request_of("POST /api/readings", "Transfer-Encoding: chunked\r\n");
+  std::vector<std::unique_ptr<HttpClient>> senders;
+  for (int i = 0; i < 3; ++i) {
+    senders.push_back(std::make_unique<HttpClient>(server_.port()));
+    senders.back()->send(begin + "1\r\nx\r\n");
+  }
+  int busy = 0;
+  for (int i = 0; i < 100 && busy != 503; ++i) busy = ask(server_.port(), begin).status;
+  EXPECT_EQ(busy, 503);
+  EXPECT_EQ(post("small").status, 400);
+  for (const auto& each : senders) {
+    each->send("0\r\n\r\n");
+    EXPECT_EQ(each->reply().status, 400);
+  }
+  EXPECT_EQ(ask(server_.port(), begin + "0\r\n\r\n").status, 400);
 }
 
 TEST_F(HttpLimitsTest, WhoSendsLittleByLittleIsCutOff) {

@@ -39,6 +39,7 @@ TEST(Comparison, RanksByElpd) {
   EXPECT_DOUBLE_EQ(comparison.studies[1].behind->se, 2);
   const auto json = to_json(comparison);
   EXPECT_EQ(json["studies"][1]["behind"]["elpd"].get<double>(), 4);
+  EXPECT_NEAR(json["studies"][0]["weight"].get<double>(), 1, 1e-6);
   EXPECT_EQ(json["studies"][1]["mode"]["bic"].get<double>(), 44.25);
   EXPECT_EQ(json["studies"][0]["parameters"]["k"]["mean"].get<double>(), 7.51e-4);
   const std::string text = comparison_text(comparison);
@@ -46,6 +47,19 @@ TEST(Comparison, RanksByElpd) {
   EXPECT_THAT(text, HasSubstr("0.000751 +- 1.1e-05"));
   EXPECT_THAT(text, HasSubstr("AIC and BIC of worse are at the mode"));
   EXPECT_THAT(text, HasSubstr("From 2 observations"));
+}
+
+// Each of two predicts half of the observations: they share the weight, whoever is best in sum.
+TEST(Comparison, WeighsByWhatAMixtureWouldPredict) {
+  const Comparison comparison = compare({{"early", sample({{-1, 0, 0.1}, {-5, 0, 0.1}})},
+                                         {"late", sample({{-4.9, 0, 0.1}, {-1, 0, 0.1}})}});
+  double sum = 0;
+  for (const auto& each : comparison.studies) {
+    EXPECT_NEAR(each.weight, 0.5, 0.01);
+    sum += each.weight;
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_THAT(comparison_text(comparison), HasSubstr("(stacking): late 0.5"));
 }
 
 // Differences within twice the errors of both are not known: those studies stay as given.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "wearwell/bayes/cell_shares.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/math/root.h"
 
@@ -34,6 +35,48 @@ struct Along {
   }
 };
 
+// Where a cell's mass lies of a number in the mean, and the half width over which it is spread evenly; of that
+// the part along the axis along which it is widest.
+struct Spread {
+  double center = 0, half_width = 0;
+  // Of the half widths along the axes the largest, the squares of the others, and how far the mass lies from the
+  // middle of the largest.
+  double widest = 0, others = 0, off = 0;
+
+  Spread(const WeightedDraws& draws, Eigen::Index i, double at_node,
+         const std::function<double(const double* x)>& quantity)
+      : center(at_node) {
+    for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
+      const double a = quantity(draws.lower[axis].row(i).data());
+      const double b = quantity(draws.upper[axis].row(i).data());
+      const double half = 0.5 * b - 0.5 * a;
+      if (!std::isfinite(half)) continue;
+      const Along along(draws, i, axis);
+      const double middle = 0.5 * a + 0.5 * b - at_node;
+      const double moved = draws.has_cells()
+                               ? along.of_lower(along.mean, along.square) * (a - at_node) +
+                                     along.of_upper(along.mean, along.square) * (b - at_node)
+                               : middle;
+      center += moved;
+      // Evenly spread mass has the variance of a third of the square of half its width. The square of
+      // the width itself may be no number.
+      const double stretch = 12 * (along.square - along.mean * along.mean);
+      if (std::abs(half) < 1e150 && std::abs(half) > 1e-150 && half_width < 1e150) {
+        half_width = std::sqrt(half_width * half_width + half * half * stretch);
+      } else {
+        half_width = std::hypot(half_width, half * std::sqrt(stretch));
+      }
+      if (std::abs(half) > widest) {
+        others += widest * widest;
+        widest = std::abs(half);
+        off = moved - middle;
+      } else {
+        others += half * half;
+      }
+    }
+  }
+};
+
 }  // namespace
 
 Distribution::Distribution(const WeightedDraws& draws,
@@ -55,21 +98,8 @@ Distribution::Distribution(const WeightedDraws& draws,
       undefined += weight;
       continue;
     }
-    double center = at_node, half_width = 0;
-    for (std::size_t axis = 0; std::isfinite(at_node) && axis < draws.lower.size(); ++axis) {
-      const double a = quantity(draws.lower[axis].row(i).data());
-      const double b = quantity(draws.upper[axis].row(i).data());
-      const double half = 0.5 * b - 0.5 * a;
-      if (!std::isfinite(half)) continue;
-      const Along along(draws, i, axis);
-      center += draws.has_cells() ? along.of_lower(along.mean, along.square) * (a - at_node) +
-                                        along.of_upper(along.mean, along.square) * (b - at_node)
-                                  : 0.5 * a + 0.5 * b - at_node;
-      // Evenly spread mass has the variance of a third of the square of half its width. The square of
-      // the width itself may be no number.
-      half_width =
-          std::hypot(half_width, half * std::sqrt(12 * (along.square - along.mean * along.mean)));
-    }
+    const Spread spread(draws, i, at_node, quantity);
+    double center = spread.center, half_width = spread.half_width;
     if (!std::isfinite(center + half_width) || !std::isfinite(center - half_width)) {
       center = at_node;
       half_width = 0;
@@ -137,6 +167,50 @@ double Distribution::quantile(double p) const {
       {2 * half_width_[i], 1e-12 * std::abs(center_[i]), std::numeric_limits<double>::min()});
   return solve_increasing([&](double x) { return cdf(x) - p; }, center_[i], step,
                           {.relative = 0x1p-39}, lowest, highest);
+}
+
+std::vector<double> cell_shares(const WeightedDraws& draws,
+                                const std::function<double(const double* x)>& quantity,
+                                const std::vector<double>& edges) {
+  // The mass below each edge: of cells that it cuts, and of those that end before it.
+  std::vector<double> cut(edges.size(), 0.0), whole(edges.size() + 1, 0.0);
+  double total = 0;
+  for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
+    const double weight = draws.cell_weight(i);
+    const double at_node = quantity(draws.values.row(i).data());
+    if (!(weight > 0) || std::isnan(at_node)) continue;
+    total += weight;
+    Spread spread(draws, i, at_node, quantity);
+    if (!(std::isfinite(spread.center) && spread.half_width < 1e150)) {
+      spread.center = at_node;
+      spread.half_width = spread.widest = spread.others = 0;
+    }
+    // Along the widest axis the density is a straight line about its middle, with the mean of the mass.
+    const double a = spread.widest, b = std::sqrt(spread.others),
+                 off = std::clamp(spread.off, -a / 3, a / 3), middle = spread.center - off;
+    // The integral up to x of its distribution.
+    const auto integral = [a, off](double x) {
+      if (!(x < a)) return x - off;
+      if (!(x > -a)) return 0.0;
+      return (x + a) * (x + a) / (4 * a) + off * (0.25 * x * (x * x / (a * a) - 3) / a - 0.5);
+    };
+    const auto distribution = [a, off](double x) {
+      return std::clamp(0.5 * (1 + x / a) + 0.75 * off / a * (x * x / (a * a) - 1), 0.0, 1.0);
+    };
+    const auto first = std::upper_bound(edges.begin(), edges.end(), middle - a - b);
+    auto edge = static_cast<std::size_t>(first - edges.begin());
+    for (; edge < edges.size() && edges[edge] < middle + a + b; ++edge) {
+      const double x = edges[edge] - middle;
+      cut[edge] +=
+          weight * (b > 1e-6 * a ? (integral(x + b) - integral(x - b)) / (2 * b) : distribution(x));
+    }
+    whole[edge] += weight;
+  }
+  std::partial_sum(whole.begin(), whole.end(), whole.begin());
+  std::vector<double> shares;
+  for (std::size_t k = 0; k + 1 < edges.size(); ++k)
+    shares.push_back(std::max(0.0, cut[k + 1] + whole[k + 1] - cut[k] - whole[k]) / total);
+  return shares;
 }
 
 WeightedSampler::WeightedSampler(const WeightedDraws& draws) : draws_(draws) {

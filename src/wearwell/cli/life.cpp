@@ -17,6 +17,7 @@
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/reweighted.h"
 #include "wearwell/prognosis/unit_life.h"
+#include "wearwell/prognosis/updated_study.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/run_study.h"
 
@@ -36,6 +37,7 @@ struct LifeOptions {
 struct Moved {
   std::string how;  // empty without readings
   std::size_t counted = 0, repeated = 0;
+  std::vector<prognosis::Contradiction> contradictions = {};
 };
 
 double risk_of(const std::string& text) {
@@ -57,15 +59,16 @@ Moved take_readings(const LifeOptions& options, Models models, prognosis::Carrie
   const Posterior of_all = posterior_of(*after);
   const prognosis::Reweighted moved =
       prognosis::reweighted(state.posterior, posterior_of(*before), of_all);
-  Moved told{"", joined.counted, joined.repeated};
+  const PosteriorStudy& study = require_posterior_study(*after);
+  prognosis::judge_new_data(study, state.posterior, joined);
+  Moved told{"", joined.counted, joined.repeated, joined.contradictions};
   state.source = std::move(joined.source);
   if (prognosis::resolves(moved)) {
     told.how = fmt::format("nodes reweighted, {:.0f} effective", moved.effective);
     state.posterior = moved.draws;
     return told;
   }
-  const PosteriorStudy& study = require_posterior_study(*after);
-  SamplerChoice choice = sampler_of(options.result);
+  const SamplerChoice choice = sampler_of(options.result);
   const Fit fitted = fit(of_all, fit_settings(study, choice));
   if (!proper(fitted))
     throw InputError("with these readings the posterior has no lives: wearwell update says why");
@@ -76,6 +79,12 @@ Moved take_readings(const LifeOptions& options, Models models, prognosis::Carrie
 
 ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json();
+}
+
+// 0.93, not 0.9299999999999999.
+double survival(double share) {
+  constexpr double digits = 1e12;
+  return std::round((1 - share) * digits) / digits;
 }
 
 ordered_json json_of(const UnitLife& life, const Moved& moved, bool trusted) {
@@ -98,10 +107,15 @@ ordered_json json_of(const UnitLife& life, const Moved& moved, bool trusted) {
   if (life.horizon) json["horizon"] = {{"within", *life.horizon}, {"reached", *life.reached}};
   json["survival"] = ordered_json::array();
   for (std::size_t i = 0; i < life.share.size(); ++i)
-    json["survival"].push_back({{"life", number(life.life[i])}, {"survival", 1 - life.share[i]}});
-  if (!moved.how.empty())
-    json["readings"] = {
-        {"counted", moved.counted}, {"repeated", moved.repeated}, {"how", moved.how}};
+    json["survival"].push_back(
+        {{"life", number(life.life[i])}, {"survival", survival(life.share[i])}});
+  if (moved.how.empty()) return json;
+  json["readings"] = {{"counted", moved.counted},
+                      {"repeated", moved.repeated},
+                      {"how", moved.how},
+                      {"contradictions", ordered_json::array()}};
+  for (const prognosis::Contradiction& each : moved.contradictions)
+    json["readings"]["contradictions"].push_back({{"place", each.place}, {"why", each.why}});
   return json;
 }
 
@@ -109,32 +123,34 @@ present::Table table_of(const UnitLife& life) {
   present::Table table{
       "survival", "Survival", {{life.name, life.unit, present::life()}, {"survival", "1"}}};
   for (std::size_t i = 0; i < life.share.size(); ++i)
-    table.rows.push_back({life.life[i], 1 - life.share[i]});
+    table.rows.push_back({life.life[i], survival(life.share[i])});
   return table;
 }
 
 void print(const UnitLife& life, const Moved& moved, bool trusted) {
   const auto shown = [&](double value) {
-    return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("never");
+    return std::isfinite(value) ? plain_number(value) : std::string("never");
   };
   if (!trusted)
     fmt::print(
         "Not trusted: a check of the fit failed; wearwell report or its summary say which.\n");
   fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining life", life.of, life.at);
-  if (life.from) fmt::print("  counted from {:.6g} {} on\n", *life.from, life.unit);
-  if (life.passed)
-    fmt::print("  the end lies before that with a probability of {}; given that it does not:\n",
-               probability_in_words(*life.passed));
+  if (life.from) fmt::print("  counted from {} {} on\n", plain_number(*life.from, 6), life.unit);
   if (!moved.how.empty())
     fmt::print("  with {} new reading{} ({} there already); {}\n", moved.counted,
                moved.counted == 1 ? "" : "s", moved.repeated, moved.how);
+  if (life.passed)
+    fmt::print("  the end lies before that with a probability of {}; given that it does not:\n",
+               probability_in_words(*life.passed));
+  for (const prognosis::Contradiction& each : moved.contradictions)
+    fmt::print("  look at {}: {}\n", each.place, each.why);
   fmt::print("  median {} {}, 90 % interval {} .. {}\n", shown(life.quantile(0.5)), life.unit,
              shown(life.quantile(0.05)), shown(life.quantile(0.95)));
   fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
              shown(life.quantile(0.5)));
   if (life.horizon)
-    fmt::print("  within {:.6g} {} the end is reached with a probability of {}\n", *life.horizon,
-               life.unit, probability_in_words(*life.reached));
+    fmt::print("  within {} {} the end is reached with a probability of {}\n",
+               plain_number(*life.horizon, 6), life.unit, probability_in_words(*life.reached));
   fmt::print("  inspect again within {} {}: {} risk of reaching the end before\n",
              shown(life.inspect_within), life.unit, probability_in_words(life.risk));
 }

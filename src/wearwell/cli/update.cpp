@@ -56,8 +56,10 @@ int run_update(const UpdateOptions& options, Models models) {
   prognosis::JoinedData joined = joined_files(state.source, options);
   Source source = joined.source;
   const auto read = read_study(source, models);
-  const PosteriorStudy study = prognosis::updated_study(
-      require_posterior_study(*read), state.posterior, std::move(joined), names_of(options.data));
+  const PosteriorStudy& of_all = require_posterior_study(*read);
+  prognosis::judge_new_data(of_all, state.posterior, joined);
+  const PosteriorStudy study =
+      prognosis::updated_study(of_all, std::move(joined), names_of(options.data));
   ResultFolder folder(options.output);
   Result result = [&] {
     ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);

@@ -112,12 +112,14 @@ Types types(Dialect dialect) {
 }
 
 std::string whole(Dialect dialect, const std::string& real) {
-  if (dialect == Dialect::clickhouse) return fmt::format("toInt64(round({}))", real);
-  return fmt::format("cast(round({}) as bigint)", real);
+  if (dialect == Dialect::clickhouse)
+    return fmt::format("toInt64(round({0}) + throwIf(not (abs({0}) < 9.2e18)))", real);
+  return fmt::format("cast({} as bigint)", real);  // which rounds
 }
 
 std::string wide(Dialect dialect, const std::string& real) {
-  if (dialect == Dialect::clickhouse) return fmt::format("toDecimal128(round({}), 0)", real);
+  if (dialect == Dialect::clickhouse)
+    return fmt::format("toDecimal128(round({0}) + throwIf(not (abs({0}) < 1e36)), 0)", real);
   return fmt::format("cast(round({}) as {})", real, types(dialect).sum);
 }
 

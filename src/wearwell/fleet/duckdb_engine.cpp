@@ -71,6 +71,8 @@ class DuckdbEngine : public Engine {
   std::string table() const override { return "cycles"; }
   std::string source() const override { return source_; }
   std::vector<EngineColumn> columns() override;
+  void begin() override { execute("begin transaction"); }
+  void commit() override { execute("commit"); }
   void run(const std::string& statements, const Monitor& monitor, const std::string& what,
            long long total) override;
   void rows(const std::string& query, std::size_t texts,

@@ -14,10 +14,10 @@ namespace wearwell::fleet {
 struct DuckdbSettings {
   std::vector<std::string> files;  ///< names, or patterns as of a shell: "cycles/*.parquet"
   std::string unit = {};  ///< the column that names units: words in CSV, whatever they look like
-  std::filesystem::path state;  ///< a database that keeps sums; empty: none
-  std::filesystem::path spill;  ///< a folder where that one is made
-  int threads = 0;              ///< 0: all
-  long memory = 0;              ///< MB; 0: half of the machine's
+  std::filesystem::path state = {};  ///< a database that keeps sums; empty: none
+  std::filesystem::path spill = {};  ///< a folder where that one is made
+  int threads = 0;                   ///< 0: all
+  long memory = 0;                   ///< MB; 0: half of the machine's
 };
 
 /// The files are the table `cycles`; nothing else can be read or written. Throws InputError where a pattern

@@ -34,11 +34,16 @@ class Engine {
   /// What people call it.
   virtual std::string source() const = 0;
   virtual std::vector<EngineColumn> columns() = 0;
+  /// What follows is done whole or not at all, and sees the table as it is now; undone without `commit`.
+  /// ClickHouse has nothing of the kind.
+  virtual void begin() = 0;
+  virtual void commit() = 0;
   /// Statements, one after the other, without an answer. `what`: the steps that progress is told in,
   /// of which there are `total`. Throws Cancelled.
   virtual void run(const std::string& statements, const Monitor& monitor, const std::string& what,
                    long long total) = 0;
-  /// The rows of a query: the first `texts` columns as text, the others as numbers.
+  /// The rows of a query: the first `texts` columns as text, the others as numbers. After
+  /// `begin`.
   virtual void rows(const std::string& query, std::size_t texts,
                     const std::function<void(const Row&)>& take) = 0;
 };

@@ -93,18 +93,20 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
                    "residuals of neighbours along " + data.drivers.front().name + " are alike",
                    other_law});
   if (data.unit.empty()) return tests;
-  // Unit by unit: what is alike within one may cancel over all of them.
+  // Unit by unit, or where rows are judged one by one measured column by column: what is alike within one may
+  // cancel over all of them.
+  const std::string one = data.terms ? "measured column" : "unit";
   std::vector<std::size_t> within = order;
   std::stable_sort(within.begin(), within.end(), [&](std::size_t a, std::size_t b) {
     return data.unit[row[a]] < data.unit[row[b]];
   });
-  tests.push_back({"order within units",
+  tests.push_back({"order within " + one + "s",
                    [within](std::span<const double> z) {
                      std::vector<double> ordered;
                      for (const std::size_t i : within) ordered.push_back(z[i]);
                      return neighbour_test(ordered);
                    },
-                   "residuals of neighbours of one unit are alike", other_law});
+                   "residuals of neighbours of one " + one + " are alike", other_law});
   return tests;
 }
 

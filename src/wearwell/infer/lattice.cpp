@@ -7,11 +7,12 @@
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <unordered_map>
 
 #include "wearwell/base/monitor.h"
 #include "wearwell/infer/ridge_map.h"
-#include "wearwell/math/view.h"
 
 // Longer than others: one rule, whose lines are filled, judged and told in the same coordinates.
 namespace wearwell {
@@ -213,7 +214,7 @@ class Lattice {
   // index, and along the lines. Relative differences, the largest.
   double error(bool moments) const {
     Eigen::Matrix<double, 2 * d + 1, 4> sums = Eigen::Matrix<double, 2 * d + 1, 4>::Zero();
-    const Eigen::VectorXd middle = natural(at(lines_.front(), 0));
+    const Eigen::Vector4d middle = natural(at(lines_.front(), 0));
     for (const Line& line : lines_) {
       const int parity = (line.index[0] + line.index[1] + line.index[2]) & 1;
       for (std::size_t j = 0; j < line.values.size(); ++j) {
@@ -223,7 +224,7 @@ class Lattice {
         Eigen::Matrix<double, 2 * d + 1, 1> terms = Eigen::Matrix<double, 2 * d + 1, 1>::Zero();
         terms[0] = mass;
         if (moments) {
-          const Eigen::VectorXd x = natural(at(line, t)) - middle;
+          const Eigen::Vector4d x = natural(at(line, t)) - middle;
           terms.segment<d>(1) = mass * x;
           terms.segment<d>(1 + d) = mass * x.cwiseAbs2();
         }
@@ -249,9 +250,9 @@ class Lattice {
     for (const Line& line : lines_) {
       for (const double v : line.values) mass += std::exp(v) * line.width;
     }
-    const Eigen::VectorXd middle = natural(at(lines_.front(), 0));
-    Eigen::VectorXd first = Eigen::VectorXd::Zero(d);
-    Eigen::MatrixXd second = Eigen::MatrixXd::Zero(d, d);
+    const Eigen::Vector4d middle = natural(at(lines_.front(), 0));
+    Eigen::Vector4d first = Eigen::Vector4d::Zero();
+    Eigen::Matrix4d second = Eigen::Matrix4d::Zero();
     double highest = -INFINITY;
     std::vector<std::pair<const Line*, int>> kept;
     for (const Line& line : lines_) {
@@ -262,7 +263,7 @@ class Lattice {
         if (here > negligible_share * mass) kept.emplace_back(&line, t);
         const Place there = at(line, t);
         highest = std::max(highest, reference_ + line.values[j] - there.log_jacobian);
-        const Eigen::VectorXd x = natural(there) - middle;
+        const Eigen::Vector4d x = natural(there) - middle;
         first += here / mass * x;
         second += here / mass * (x * x.transpose());
       }
@@ -349,9 +350,9 @@ class Lattice {
                      half_way(line.width, other.width, opposite.width) * line_step_ * t);
   }
 
-  Eigen::VectorXd natural(const Place& there) const {
-    Eigen::VectorXd x(d);
-    posterior_.to_natural(there.z, view(x));
+  Eigen::Vector4d natural(const Place& there) const {
+    Eigen::Vector4d x;
+    posterior_.to_natural(there.z, std::span<double>(x.data(), d));
     return x;
   }
 
@@ -435,12 +436,26 @@ class Lattice {
   std::unordered_map<std::uint64_t, std::size_t> known_;
 };
 
-// Infinite where the lattice does not end soon.
-double coarse_error(const Posterior& posterior, const Chart& chart, const ExactSettings& settings) {
-  constexpr double step = 0.7;
-  constexpr long most = 400'000;
-  Lattice lattice(posterior, chart, step, step);
-  return lattice.fill(most).empty() ? lattice.error(settings.second_moments) : INFINITY;
+// A lattice that is filled, or why it could not be.
+struct Filled {
+  std::unique_ptr<Lattice> lattice;
+  std::string failure;
+  double error = INFINITY;  // where it was filled
+
+  Filled(const Posterior& posterior, const Chart& chart, double step, long most,
+         const ExactSettings& settings)
+      : lattice(std::make_unique<Lattice>(posterior, chart, step, std::min(step, 0.8))),
+        failure(lattice->fill(most)) {
+    if (failure.empty()) error = lattice->error(settings.second_moments);
+  }
+};
+
+// The next step, by how far the error is from the tolerance: it falls at least as fast as exp(-c/step)
+// where the density is smooth.
+double next_step(double step, double error, double tolerance, long nodes, long left) {
+  const double a_little = step / std::sqrt(2.0);
+  const bool enough = std::pow(error, std::sqrt(2.0)) <= tolerance || error >= 1;
+  return enough || 16 * nodes > left ? a_little : 0.5 * step;
 }
 
 }  // namespace
@@ -450,38 +465,55 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   const RidgeMap map(posterior, whitening);
   const Straight straight(whitening);
   const AlongRidge along(map);
-  // Each is round where the other is not; a coarse lattice tells.
-  const bool ridge = !map.affine() && coarse_error(posterior, along, settings) <
-                                          coarse_error(posterior, straight, settings);
-  const Chart& chart = ridge ? static_cast<const Chart&>(along) : straight;
+  // Each chart is round where the other is not; lattices of middling steps tell. Where one is dear, the one that ends
+  // soon.
+  constexpr double coarsest = 1, telling = 0.7;
+  constexpr long few_nodes = 140'000, enough_nodes = 400'000;
+  const Chart* chart = &straight;
+  std::optional<Filled> filled(std::in_place, posterior, straight, coarsest, most_nodes, settings);
+  if (!map.affine()) {
+    const bool dear = !filled->failure.empty() || filled->lattice->nodes() > few_nodes;
+    const auto error = [&](const Chart& of) {
+      return Filled(posterior, of, telling, enough_nodes, settings).error;
+    };
+    if (dear ? Filled(posterior, along, coarsest, few_nodes, settings).failure.empty()
+             : error(along) < error(straight)) {
+      chart = &along;
+      filled.reset();
+    }
+  }
   ExactPosterior exact;
   long evaluations = 0;
-  double before = INFINITY;
-  for (double step = 1; evaluations < settings.max_evaluations; step /= std::sqrt(2.0)) {
+  double before = INFINITY, step_before = coarsest;
+  for (double step = coarsest; evaluations < settings.max_evaluations;) {
     if (settings.stop.stop_requested()) throw Cancelled();
-    Lattice lattice(posterior, chart, step, std::min(step, 0.8));
-    const std::string failure = lattice.fill(most_nodes);
-    evaluations += lattice.nodes();
-    if (!failure.empty()) {
-      exact.failure = failure;
+    if (!filled) filled.emplace(posterior, *chart, step, most_nodes, settings);
+    const long nodes = filled->lattice->nodes();
+    evaluations += nodes;
+    if (!filled->failure.empty()) {
+      exact.failure = filled->failure;
       break;
     }
-    const double error = lattice.error(settings.second_moments);
+    const double error = filled->error;
     if (error <= std::max(settings.tolerance, good_enough)) {
-      exact = lattice.result(settings.second_moments);
+      exact = filled->lattice->result(settings.second_moments);
       exact.error = error;
     }
     if (error <= settings.tolerance) break;
-    // Across a kink or a jump errors fall by a power of the step, each four times as dear as the one
-    // before: what the evaluations will not suffice for is not begun.
-    const double steps = std::log(settings.tolerance / error) / std::log(error / before);
-    const bool hopeless =
-        std::isfinite(before) &&
-        (error >= before || std::pow(4, steps) * static_cast<double>(evaluations) >
-                                static_cast<double>(settings.max_evaluations));
+    // Across a kink or a jump errors fall by a power of the step: what the evaluations will not suffice
+    // for is not begun.
+    const double power = std::log(before / error) / std::log(step_before / step);
+    const bool hopeless = std::isfinite(before) &&
+                          (error >= before || std::pow(error / settings.tolerance, 4 / power) *
+                                                      static_cast<double>(evaluations) >
+                                                  static_cast<double>(settings.max_evaluations));
     before = error;
+    step_before = step;
     if (hopeless && error <= good_enough) break;
     exact.failure = fmt::format("no convergence in {} evaluations", evaluations);
+    step =
+        next_step(step, error, settings.tolerance, nodes, settings.max_evaluations - evaluations);
+    filled.reset();
   }
   if (exact.error <= good_enough && exact.nodes.values.rows() > 0) exact.failure.clear();
   exact.evaluations = evaluations;

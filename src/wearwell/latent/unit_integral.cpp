@@ -38,7 +38,15 @@ class Search {
         slope_(units_ * effects_),
         wanted_(units_, 1) {}
 
-  std::vector<Bell> bells() { return effects_ == 1 ? along_line() : over_plane(); }
+  std::vector<Bell> bells() {
+    return effects_ == 1 ? along_line(std::vector<Pair>(units_)) : over_plane();
+  }
+
+  // One effect: of these units alone, from elsewhere.
+  std::vector<Bell> bells(const std::vector<std::uint8_t>& whose, std::vector<Pair> from) {
+    wanted_ = whose;
+    return along_line(std::move(from));
+  }
 
  private:
   // log f and its slopes at `at` for the units that are wanted.
@@ -60,7 +68,8 @@ class Search {
   // Units without a density at 0 begin where there is one.
   void begin(std::vector<Pair>& at, std::vector<double>& log_f, std::vector<Pair>& slope) {
     look(at, log_f, slope);
-    const auto lost = [&](std::size_t u) { return !(log_f[u] > -infinity); };
+    const std::vector<std::uint8_t> whose = wanted_;
+    const auto lost = [&](std::size_t u) { return whose[u] && !(log_f[u] > -infinity); };
     for (const double away : {1.0, -1.0, 2.5, -2.5, 5.0, -5.0}) {
       bool any = false;
       for (std::size_t u = 0; u < units_; ++u) {
@@ -73,12 +82,12 @@ class Search {
       }
       look(at, log_f, slope);
     }
-    for (std::size_t u = 0; u < units_; ++u) wanted_[u] = !lost(u);
+    for (std::size_t u = 0; u < units_; ++u) wanted_[u] = whose[u] && !lost(u);
   }
 
   // One effect: the root of the slope by the secant's method within a bracket.
-  std::vector<Bell> along_line() {
-    std::vector<Pair> at(units_), slope(units_), next(units_), next_slope(units_);
+  std::vector<Bell> along_line(std::vector<Pair> at) {
+    std::vector<Pair> slope(units_), next(units_), next_slope(units_);
     std::vector<double> log_f(units_, -infinity), next_f(units_, -infinity);
     std::vector<double> curvature(units_, 1), low(units_, -infinity), high(units_, infinity);
     begin(at, log_f, slope);
@@ -216,7 +225,7 @@ struct Sum {
 
 class Lattice {
  public:
-  Lattice(UnitTerms& terms, const std::vector<Bell>& bells, UnitIntegrals& result)
+  Lattice(UnitTerms& terms, std::vector<Bell>& bells, UnitIntegrals& result)
       : terms_(terms),
         bells_(bells),
         result_(result),
@@ -292,16 +301,51 @@ class Lattice {
     }
   }
 
+  bool agrees(std::size_t u) const {
+    return !(sums_[u].highest > -infinity) || sums_[u].difference() <= most_difference;
+  }
+
+  // Units of which a node on the way stands well above the mode that was found: another look from there.
+  void look_again(double step) {
+    constexpr double above = 1;
+    std::vector<std::uint8_t> whose(units_, 0);
+    std::vector<Pair> from(units_);
+    bool any = false;
+    for (std::size_t u = 0; u < units_; ++u) {
+      if (agrees(u)) continue;
+      double highest = result_.sweeps[0].log_f[u] + above;
+      for (std::size_t n = 1; n < used_; ++n) {
+        const Sweep& each = result_.sweeps[n];
+        if (!(each.log_f[u] > highest)) continue;
+        highest = each.log_f[u];
+        from[u][0] = each.z[u];
+        whose[u] = 1;
+        any = true;
+      }
+    }
+    if (!any) return;
+    const std::vector<Bell> bells = Search(terms_).bells(whose, from);
+    for (std::size_t u = 0; u < units_; ++u) {
+      if (!whose[u]) continue;
+      bells_[u] = bells[u];
+      sums_[u] = {};
+      for (std::size_t n = 0; n < used_; ++n) result_.sweeps[n].log_f[u] = -infinity;
+    }
+    walk(whose, step, false);
+  }
+
   void line() {
-    double step = 0.2;
+    // The longest at which the rule with every second node agrees with it where the integrand is a bell.
+    double step = 0.14;
     std::vector<std::uint8_t> whose(units_, 1);
     walk(whose, step, false);
+    look_again(step);
     for (int halving = 0;; ++halving) {
       bool again = false;
       for (std::size_t u = 0; u < units_; ++u) {
         if (!whose[u]) continue;
         finish(u, step);
-        whose[u] = sums_[u].highest > -infinity && sums_[u].difference() > most_difference;
+        whose[u] = !agrees(u);
         again |= whose[u] != 0;
       }
       if (!again) return;
@@ -385,7 +429,7 @@ class Lattice {
   }
 
   UnitTerms& terms_;
-  const std::vector<Bell>& bells_;
+  std::vector<Bell>& bells_;
   UnitIntegrals& result_;
   std::size_t units_, effects_, used_ = 0;
   std::vector<std::uint8_t> wanted_;
@@ -402,7 +446,7 @@ double UnitIntegrals::sum() const {
 }
 
 void integrate(UnitTerms& terms, UnitIntegrals& result) {
-  const std::vector<Bell> bells = Search(terms).bells();
+  std::vector<Bell> bells = Search(terms).bells();
   Lattice(terms, bells, result).run();
 }
 

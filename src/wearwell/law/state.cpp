@@ -10,6 +10,7 @@
 
 #include "wearwell/law/trajectory.h"
 
+// Longer than others: one solver: by steps and along trajectories, forwards and backwards.
 namespace wearwell::law {
 namespace {
 
@@ -250,23 +251,38 @@ struct StateSolver::Body {
       carried = give;
       return true;
     }
-    const double begins = row.before == 0 ? row.on->rate_at_anchor() : row.on->rate(row.before);
-    if (!(std::abs(begins) > least * std::abs(row.on->rate_at_anchor()))) return false;
-    const double ends = row.on->rate(row.now), ratio = ends / begins;
+    if (last.on != row.on || last.t != row.now) {
+      last = {row.on, row.now, 0, std::move(last.by_input)};
+      row.on->slopes(row.now, last.rate, last.by_input);
+    }
+    next = {row.on, row.before, row.on->rate_at_anchor(), std::move(next.by_input)};
+    if (row.before > 0) {
+      row.on->slopes(row.before, next.rate, next.by_input);
+    } else {
+      next.by_input.assign(plan.inputs.size(), 0.0);
+    }
+    if (!(std::abs(next.rate) > least * std::abs(row.on->rate_at_anchor()))) return false;
+    const double ratio = last.rate / next.rate;
     carried = give * ratio;
     for (std::size_t j = 0; j < to.inputs.size(); ++j) {
       if (to.inputs[j] == nullptr) continue;
-      double by = j == shared->factor_input() ? ends * way : 0;
-      if (plan.shape_inputs[j]) {
-        by += row.on->slope(row.now, j);
-        if (row.before > 0) by -= ratio * row.on->slope(row.before, j);
-      }
+      double by = j == shared->factor_input() ? last.rate * way : 0;
+      if (plan.shape_inputs[j]) by += last.by_input[j] - ratio * next.by_input[j];
       to.inputs[j][rows.inputs[j].uniform ? 0 : i] += give * by;
     }
+    std::swap(last, next);
     return true;
   }
 
+  // A place on a trajectory.
+  struct Place {
+    const Trajectory* on = nullptr;
+    double t = 0, rate = 0;
+    Numbers by_input;
+  };
+
   const StatePlan& plan;
+  Place last, next;  // of the row looked at last: its beginning; of one before it
   Rate rate;
   std::optional<SharedPaths> shared;
   StateStart start;
@@ -313,6 +329,7 @@ void StateSolver::forward(const StateRows& rows, double* state) {
 void StateSolver::reverse(const StateRows& rows, const double* state, const double* adjoint,
                           StateAdjoints& to) {
   double carried = 0;
+  body_->last.on = nullptr;
   for (std::size_t i = rows.count; i-- > 0;) {
     const bool first = rows.starts[i] != 0 || i == 0;
     const double give = carried + adjoint[i];

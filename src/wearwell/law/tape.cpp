@@ -5,6 +5,7 @@
 
 #include "wearwell/law/rate_factor.h"
 
+// Longer than others: one walk over the graph, and the plan of a state that it meets.
 namespace wearwell::law {
 namespace {
 

@@ -6,16 +6,19 @@
 
 #include "wearwell/law/vector_math.h"
 
+// Longer than others: one solution: its panels, what is read off them, and their slopes.
 namespace wearwell::law {
 namespace {
 
 constexpr std::size_t lanes = RateShape::lanes;
 using Lanes = RateShape::Lanes;
+using Powers = std::array<double, lanes + 1>;
 
 constexpr double most_error = 1e-13;       // of y, of a panel
 constexpr double most_rate_error = 1e-11;  // of g, of a panel
 constexpr double most_bend = 25;           // of a panel: the integral of dg/dy
 constexpr std::size_t most_panels = 1000;
+constexpr double nearly_there = 1e-10;  // of the time to a pole: the rest is none
 
 // Chebyshev nodes x of a panel (-1, 1), what makes coefficients of values there, and integrals from -1 to each.
 struct Rule {
@@ -62,7 +65,7 @@ const Rule& rule() {
 }
 
 // half * integrals of f to each node, and to the end in the last place.
-void integrate(const Lanes& f, double half, std::array<double, lanes + 1>& to) {
+void integrate(const Lanes& f, double half, Powers& to) {
   for (std::size_t i = 0; i <= lanes; ++i) {
     const Lanes& row = rule().integral[i];
     double lane[4] = {};
@@ -81,15 +84,31 @@ void coefficients_of(const double* values, double* to) {
   }
 }
 
-// Clenshaw's sum.
-double value_of(const double* coefficient, std::size_t count, double x) {
-  double one = 0, two = 0;
-  for (std::size_t k = count; k-- > 1;) {
-    const double next = 2 * x * one - two + coefficient[k];
-    two = one;
-    one = next;
+// A polynomial in powers of x. Coefficients fall off by 10^-11 and more over a panel, so that nothing cancels there.
+double value_of(const double* c, double x) {
+  const double x2 = x * x, x4 = x2 * x2;
+  const auto four = [&](const double* p) { return (p[0] + p[1] * x) + (p[2] + p[3] * x) * x2; };
+  const double low = four(c) + four(c + 4) * x4, high = four(c + 8) + four(c + 12) * x4;
+  return low + (high + c[16] * (x4 * x4)) * (x4 * x4);
+}
+
+// From coefficients of Chebyshev polynomials, 17, to those of powers.
+void make_powers(Powers& c) {
+  static const auto table = [] {
+    std::array<Powers, lanes + 1> t{};  // [k][power]
+    t[0][0] = t[1][1] = 1;
+    for (std::size_t k = 2; k <= lanes; ++k) {
+      for (std::size_t p = 0; p <= lanes; ++p) {
+        t[k][p] = (p > 0 ? 2 * t[k - 1][p - 1] : 0) - t[k - 2][p];
+      }
+    }
+    return t;
+  }();
+  Powers sum{};
+  for (std::size_t k = 0; k <= lanes; ++k) {
+    for (std::size_t p = k % 2; p <= k; p += 2) sum[p] += c[k] * table[k][p];
   }
-  return x * one - two + coefficient[0];
+  c = sum;
 }
 
 double largest(const double* values, std::size_t count) {
@@ -198,7 +217,7 @@ void Trajectory::first_step() {
 bool Trajectory::solve(double y0, double g0, double bend, double length, Panel& panel) {
   const double half = 0.5 * length;
   Lanes y, residual, by_state;
-  std::array<double, lanes + 1> to, exponent;
+  Powers to, exponent;
   for (std::size_t i = 0; i < lanes; ++i) {
     const double t = half * (rule().x[i] + 1), u = bend * t;
     y[i] = y0 + g0 * t * (std::abs(u) < 1e-8 ? 1 : (vector_exp(u) - 1) / u);
@@ -239,6 +258,7 @@ bool Trajectory::solve(double y0, double g0, double bend, double length, Panel& 
   if (!close) return false;
   const double* g = shape_(y);
   if (!moves(g)) return false;
+  panel.g[lanes] = 0;
   coefficients_of(g, panel.g.data());
   panel.nodes = y;
   panel.length = length;
@@ -255,7 +275,17 @@ bool Trajectory::solve(double y0, double g0, double bend, double length, Panel& 
   double last = 0;
   for (const double each : panel.y) last += each;
   panel.last = last;
+  panel.left = largest(&panel.g[lanes - 3], 3);
+  panel.size = largest(panel.g.data(), lanes);
+  make_powers(panel.y);
+  make_powers(panel.g);
   return std::isfinite(last) && (last - y0) * direction_ > 0;
+}
+
+// Towards a pole g grows from panel to panel, however short these become; beside a jump of g it does not.
+bool Trajectory::rises_steeply() const {
+  constexpr std::size_t some = 8;
+  return panels_ > some && panel_[panels_ - 1].size > 4 * panel_[panels_ - 1 - some].size;
 }
 
 bool Trajectory::extend() {
@@ -271,15 +301,16 @@ bool Trajectory::extend() {
   shape_.differentiate();
   const double bend = shape_.by_state()[0];
   if (std::abs(bend) * step_ > 10) step_ = 10 / std::abs(bend);
-  for (int attempt = 0; attempt < 60 && step_ > 4 * epsilon * panel.begin; ++attempt) {
+  const bool rises = rises_steeply();
+  const double least = (rises ? nearly_there : 4 * epsilon) * panel.begin;
+  for (int attempt = 0; attempt < 60 && step_ > least; ++attempt) {
     if (!solve(y0, g0, bend, step_, panel)) {
       step_ *= 0.4;
       continue;
     }
-    const double left = largest(&panel.g[lanes - 3], 3);
     const double size = std::max(std::abs(y0), std::abs(panel.last));
-    const double excess = std::max(left * step_ / (2 * lanes) / (most_error * size),
-                                   left / (most_rate_error * largest(panel.g.data(), lanes)));
+    const double excess = std::max(panel.left * step_ / (2 * lanes) / (most_error * size),
+                                   panel.left / (most_rate_error * panel.size));
     const double next = 0.8 * std::pow(std::max(excess, 1e-12), -1.0 / (lanes - 2));
     if (excess <= 1) {
       step_ *= std::min(next, 4.0);
@@ -289,9 +320,7 @@ bool Trajectory::extend() {
     step_ *= std::clamp(next, 0.1, 0.8);
   }
   ended_ = true;
-  constexpr double far = 1e8;
-  const double size = panels_ == 0 ? 0 : std::max(std::abs(anchor_), std::abs(panel_[0].last));
-  blown_ = panels_ > 0 && std::abs(y0) > far * size && y0 * direction_ > 0;
+  blown_ = rises && !(step_ > least);
   return false;
 }
 
@@ -311,45 +340,46 @@ std::size_t Trajectory::panel_of(double t) const {
 
 double Trajectory::state(double t) const {
   const Panel& panel = panel_[panel_of(t)];
-  return value_of(panel.y.data(), lanes + 1, 2 * (t - panel.begin) / panel.length - 1);
-}
-
-double Trajectory::rate(double t) const {
-  const Panel& panel = panel_[panel_of(t)];
-  return value_of(panel.g.data(), lanes, 2 * (t - panel.begin) / panel.length - 1);
+  return value_of(panel.y.data(), 2 * (t - panel.begin) / panel.length - 1);
 }
 
 // s' = (dg/dy) s + dg/dinput along the panel.
 void Trajectory::find_slopes(std::size_t p) {
   Panel& panel = panel_[p];
   const double half = 0.5 * panel.length;
-  panel.slopes.resize(inputs_.size() * (lanes + 1));
+  panel.slopes.resize(inputs_.size());
   shape_(panel.nodes);
   shape_.differentiate();
   Lanes by, grown;
-  std::array<double, lanes + 1> exponent, to;
+  Powers exponent, to;
   std::copy_n(shape_.by_state(), lanes, by.begin());
   integrate(by, half, exponent);
   for (std::size_t i = 0; i < lanes; ++i) grown[i] = vector_exp(exponent[i]);
   for (std::size_t j = 0; j < inputs_.size(); ++j) {
     if (!counts_[j]) continue;
-    const double before = p == 0 ? 0 : panel_[p - 1].slopes[j * (lanes + 1) + lanes];
+    const double before = p == 0 ? 0 : panel_[p - 1].slopes[j].last;
     for (std::size_t i = 0; i < lanes; ++i) by[i] = shape_.by_input(j)[i] / grown[i];
     integrate(by, half, to);
     Lanes s;
     for (std::size_t i = 0; i < lanes; ++i) s[i] = grown[i] * (before + to[i]);
-    double* slopes = &panel.slopes[j * (lanes + 1)];
-    coefficients_of(s.data(), slopes);
-    slopes[lanes] = vector_exp(exponent[lanes]) * (before + to[lanes]);
+    Slope& slope = panel.slopes[j];
+    slope.powers[lanes] = 0;
+    coefficients_of(s.data(), slope.powers.data());
+    make_powers(slope.powers);
+    slope.last = vector_exp(exponent[lanes]) * (before + to[lanes]);
   }
 }
 
-double Trajectory::slope(double t, std::size_t input) {
+void Trajectory::slopes(double t, double& rate, std::vector<double>& by_input) {
   const std::size_t p = panel_of(t);
   while (sloped_ <= p) find_slopes(sloped_++);
   const Panel& panel = panel_[p];
-  return value_of(&panel.slopes[input * (lanes + 1)], lanes,
-                  2 * (t - panel.begin) / panel.length - 1);
+  const double x = 2 * (t - panel.begin) / panel.length - 1;
+  rate = value_of(panel.g.data(), x);
+  by_input.resize(inputs_.size());
+  for (std::size_t j = 0; j < inputs_.size(); ++j) {
+    if (counts_[j]) by_input[j] = value_of(panel.slopes[j].powers.data(), x);
+  }
 }
 
 double Trajectory::place(double y) {
@@ -365,9 +395,9 @@ double Trajectory::place(double y) {
   const Panel& panel = panel_[p];
   double low = -1, high = 1, x = 2 * (y - panel.first) / (panel.last - panel.first) - 1;
   for (int round = 0; round < 60; ++round) {
-    const double off = y - value_of(panel.y.data(), lanes + 1, x);
+    const double off = y - value_of(panel.y.data(), x);
     (off * direction_ > 0 ? low : high) = x;
-    const double move = off / (0.5 * panel.length * value_of(panel.g.data(), lanes, x));
+    const double move = off / (0.5 * panel.length * value_of(panel.g.data(), x));
     double next = x + move;
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
     const bool there = std::abs(next - x) < 1e-15;

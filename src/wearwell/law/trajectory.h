@@ -55,23 +55,30 @@ class Trajectory {
 
   // Of t that were reached.
   double state(double t) const;
-  double rate(double t) const;  ///< g there
-  double rate_at_anchor() const { return rate_; }
-  /// The derivative of y(t) by an input of the shape.
-  double slope(double t, std::size_t input);
+  double rate_at_anchor() const { return rate_; }  ///< g there
+  /// g, and the derivatives of y(t) by the inputs of the shape.
+  void slopes(double t, double& rate, std::vector<double>& by_input);
 
   /// Where y is reached, as far as it is; NaN where it is not.
   double place(double y);
 
  private:
   using Lanes = RateShape::Lanes;
+  using Powers =
+      std::array<double, RateShape::lanes + 1>;  // coefficients of a polynomial in -1 .. 1
+  struct Slope {
+    Powers powers;
+    double last;  // at the end
+  };
   struct Panel {
     double begin, length, first, last;  // in t; y at its ends
-    std::array<double, RateShape::lanes + 1> y;
-    Lanes g, nodes;              // coefficients; y at the nodes
-    std::vector<double> slopes;  // coefficients, then the value at the end, of each input
+    double left, size;                  // last and largest coefficients of g
+    Powers y, g;
+    Lanes nodes;                // y there
+    std::vector<Slope> slopes;  // by each input
   };
   bool extend();
+  bool rises_steeply() const;
   void first_step();
   bool solve(double y0, double g0, double bend, double length, Panel& panel);
   void find_slopes(std::size_t panel);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/workers.h"
@@ -14,7 +15,7 @@ namespace wearwell::monitor {
 struct Fleet::Unit {
   UnitRecord record;
   bool lost = false;  ///< the record must be made anew
-  bool unsaved = false, stale = false;
+  bool unsaved = false, stale = false, queued = false;
   Alarm alarm = Alarm::ok;  ///< of its risk alone
   Alarm shown = Alarm::ok, logged = Alarm::ok;
   Clock::time_point heard = {}, forecast_at = {};
@@ -36,9 +37,10 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
     try {
       unit.record = restored_record(each, tracker_);
       unit.lost = false;
-      unit.stale = true;
+      unit.stale = unit.queued = true;
+      stale_.push_back(&unit);
     } catch (const InputError& error) {
-      unit.lost = true;
+      unit.lost = any_lost_ = true;
       notices_.tell("store", fmt::format("{}; it is made anew from the readings", error.what()));
     }
     hear(unit, unit.record.last_received_ms);
@@ -46,6 +48,7 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
   for (const AlarmChange& each : store_.alarms()) {
     Unit& unit = unit_named(each.unit);
     unit.alarm = unit.shown = unit.logged = each.alarm;
+    if (unit.lost) any_lost_ = true;
   }
   stored_ = store_.count();
 }
@@ -74,8 +77,10 @@ std::size_t Fleet::apply() {
   const std::vector<StoredReading> readings = store_.after(place_, most);
   std::map<std::string, std::vector<const StoredReading*>> of_unit;
   for (const StoredReading& each : readings) of_unit[each.unit].push_back(&each);
-  for (const auto& [name, unit] : units_) {
-    if (unit->lost) of_unit[name];
+  if (any_lost_.exchange(false)) {
+    for (const auto& [name, unit] : units_) {
+      if (unit->lost) of_unit[name];
+    }
   }
   std::vector<std::pair<Unit*, const std::vector<const StoredReading*>*>> work;
   for (const auto& [name, list] : of_unit) work.emplace_back(&unit_named(name), &list);
@@ -83,6 +88,9 @@ std::size_t Fleet::apply() {
     const auto& [unit, list] = work[static_cast<std::size_t>(i)];
     apply_to(*unit, *list);
   });
+  for (const auto& [unit, list] : work) {
+    if (unit->stale && !std::exchange(unit->queued, true)) stale_.push_back(unit);
+  }
   if (readings.empty()) {
     live_ = true;
     return 0;
@@ -119,7 +127,7 @@ void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readin
     }
     for (const StoredReading* each : readings) take_one(*each);
   } catch (const StoreError&) {
-    unit.lost = true;  // in the middle of a reading, perhaps
+    unit.lost = any_lost_ = true;  // in the middle of a reading, perhaps
     throw;
   }
 }
@@ -169,9 +177,9 @@ bool Fleet::refresh(bool all) {
   constexpr auto slice = std::chrono::milliseconds(100);
   const Clock::time_point begin = Clock::now();
   std::vector<Unit*> due;
-  for (const auto& [name, unit] : units_) {
+  for (Unit* unit : stale_) {
     if (unit->stale && !unit->lost && (all || begin - unit->forecast_at >= between))
-      due.push_back(unit.get());
+      due.push_back(unit);
   }
   // Who has waited longest comes first.
   std::sort(due.begin(), due.end(), [](const Unit* a, const Unit* b) {
@@ -192,6 +200,8 @@ bool Fleet::refresh(bool all) {
       break;
     }
   }
+  std::erase_if(stale_,
+                [](Unit* unit) { return !unit->stale && std::exchange(unit->queued, false); });
   fall_silent();
   if (!unlogged_.empty()) {
     store_.log(unlogged_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <map>
@@ -77,6 +78,8 @@ class Fleet : public FleetReader {
   std::unordered_map<std::string, std::unique_ptr<Unit>> units_;
   std::vector<AlarmChange> unlogged_;
   std::int64_t place_ = 0;
+  std::vector<Unit*> stale_;  ///< whose forecast is older than their readings, each once
+  std::atomic<bool> any_lost_ = false;
   bool live_ = false;  ///< what the store held at the beginning has been taken
   Clock::time_point silence_checked_ = {};
 

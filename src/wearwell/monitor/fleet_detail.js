@@ -23,8 +23,13 @@
     const read = view.moments.filter((each) => finite(each.measured)).map((each) => ({x: each.at, y: each.measured}));
     const split = points.findIndex((each) => each.x > view.at);
     const behind = split < 0 ? points : points.slice(0, split + 1), ahead = split < 0 ? [] : points.slice(Math.max(0, split - 1));
+    // When the limit is reached lies on it. A wedge leads there where no path ahead is known.
+    const life = view.passed > 0.5 ? null : {low: view.at + view.remaining.q05, y: finite(view.remaining.q50) ? view.at + view.remaining.q50 : null,
+                                            high: finite(view.remaining.q95) ? view.at + view.remaining.q95 : null};
+    const far = life ? Math.min(life.high ?? Infinity, view.at + 3 * (view.remaining.q50 ?? view.remaining.q05 ?? 0)) : 0;
     const x = domain([...points.map((each) => each.x), ...read.map((each) => each.x), view.at]);
-    x[1] = Math.max(view.at, ...points.map((each) => each.x).filter(finite), ...read.map((each) => each.x));
+    x[1] = Math.max(view.at, finite(far) ? 1.04 * far : 0, ...points.map((each) => each.x).filter(finite), ...read.map((each) => each.x));
+    const wedge = life && ahead.length < 3 && finite(life.low);
     const y = domain([1.15 * fleet.limit, ...behind.flatMap((each) => [each.low, each.high]), ...ahead.map((each) => each.low),
                       ...ahead.filter((each) => each.y < 1.3 * fleet.limit).map((each) => each.y), ...read.map((each) => each.y)]);
     const stops = points.filter((each) => finite(each.x));
@@ -35,12 +40,16 @@
       marks: [
         {kind: 'band', look: 'behind', points: behind}, {kind: 'band', look: 'ahead', points: ahead},
         {kind: 'line', look: 'behind', points: behind}, {kind: 'line', look: 'ahead', points: ahead},
+        ...(wedge ? [{kind: 'wedge', look: 'ahead', from: [view.at, view.level.q50], to: [life.low, life.high ?? 2 * x[1], fleet.limit]}] : []),
+        ...(wedge && finite(life.y) ? [{kind: 'line', look: 'ahead', points: [{x: view.at, y: view.level.q50}, {x: life.y, y: fleet.limit}]}] : []),
         {kind: 'rule', look: 'limit', y: fleet.limit, word: `limit ${given(fleet.limit, fleet.level_unit)}`},
-        {kind: 'rule', look: 'now', x: view.at, word: 'now', low: true}, {kind: 'points', look: 'reading', points: read}],
+        {kind: 'rule', look: 'now', x: view.at, word: 'now', low: true},
+        ...(life && finite(life.low) ? [{kind: 'span', look: 'life', y: fleet.limit, low: life.low, high: life.high ?? 2 * x[1], middle: life.y}] : []),
+        {kind: 'points', look: 'reading', points: read}],
       at: stops.map((each) => each.x), start: Math.max(0, split - 1),
       read: (i) => `At ${quantity(stops[i].x, fleet.axis_unit)}: ${fleet.limited} ${quantity(stops[i].y, fleet.level_unit)}, 90 % within ${range(stops[i].low, stops[i].high, fleet.level_unit)}`,
       hint: 'Point at it, or use the arrow keys, to read values.',
-      legend: [['reading', 'readings'], ['behind', 'median and 90 %, behind'], ['ahead', 'ahead']],
+      legend: [['reading', 'readings'], ['behind', 'median and 90 %, behind'], ...(life ? [['life', 'when the limit is reached, 90 %']] : []), ...(ahead.length < 3 ? [] : [['ahead', 'ahead']])],
     };
   }
 
@@ -113,7 +122,8 @@
     return element('dl', {class: 'tiles'},
         tile('Remaining life', quantity(view.remaining.q50, fleet.axis_unit), `90 %: ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}${view.passed > 0.01 ? '; if the limit is not behind it' : ''}`),
         tile('B10', quantity(view.b10, fleet.axis_unit), '90 % of its like last longer'),
-        tile(`${wearwell.capital(fleet.limited)} now`, quantity(view.level.q50, fleet.level_unit), `90 %: ${range(view.level.q05, view.level.q95, fleet.level_unit)}`),
+        tile(`${wearwell.capital(fleet.limited)} now`, quantity(view.level.q50, fleet.level_unit),
+             view.level.q05 === view.level.q95 ? `limit: ${given(fleet.limit, fleet.level_unit)}` : `90 %: ${range(view.level.q05, view.level.q95, fleet.level_unit)}`),
         tile('Last reading', last ? `${wearwell.age(wearwell.now() - last)} ago` : 'none', last ? `at ${quantity(view.at, fleet.axis_unit)}, ${wearwell.clock(last)}` : 'what is shown is of the population'));
   }
 

@@ -54,7 +54,7 @@
     document.title = `${fleet.units.act ? `(${fleet.units.act}) ` : ''}${fleet.title || 'wearwell monitor'}`;
     const noun = fleet.units.all === 1 ? fleet.noun : wearwell.plural(fleet.noun);
     document.getElementById('subtitle').textContent = `${wearwell.count(fleet.units.all)} ${noun}, ` +
-        (last ? `last message ${wearwell.age(wearwell.now() - last)} ago` : 'no message yet');
+        (last ? `last message ${wearwell.age(wearwell.now() - last)} ago` : `no message since its start ${wearwell.age(wearwell.now() - fleet.started_ms)} ago`);
     complaints();
   }
 

@@ -114,6 +114,9 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
       text->sample(labels[i] + ",percentile=\"95\"", value.q95);
     }
   };
+  text->family("wearwell_fleet_units_shown", "gauge",
+               "Units that have samples of their own here, the riskiest.");
+  text->sample("", static_cast<double>(units.size()));
   gauge("wearwell_unit_alarm", "0: ok, 1: watch, 2: act, -1: unknown.",
         [](const UnitView& unit) { return code(unit.alarm); });
   gauge("wearwell_unit_risk_ratio", "Probability that the limit is reached within the horizon.",

@@ -74,6 +74,14 @@
           if (finite(each.x) && finite(each.y)) group.append(element('circle', {class: mark.look, cx: x(each.x).toFixed(1), cy: y(each.y).toFixed(1), r: mark.points.length > 120 ? 2 : 3.2}));
         }
       }
+      if (mark.kind === 'wedge') {
+        const [left, right, at] = mark.to;
+        group.append(element('path', {class: `band ${mark.look}`, d: `M${x(mark.from[0])} ${y(mark.from[1])}L${x(left)} ${y(at)}L${x(right)} ${y(at)}Z`}));
+      }
+      if (mark.kind === 'span') {
+        group.append(element('line', {class: `span ${mark.look}`, x1: x(mark.low), x2: x(mark.high), y1: y(mark.y), y2: y(mark.y)}));
+        if (finite(mark.middle)) group.append(element('circle', {class: `span ${mark.look}`, cx: x(mark.middle), cy: y(mark.y), r: 4.5}));
+      }
       if (mark.kind === 'rule') {
         const [x1, x2] = mark.x === undefined ? [box.left, box.right] : [x(mark.x), x(mark.x)];
         const [y1, y2] = mark.y === undefined ? [box.top, box.bottom] : [y(mark.y), y(mark.y)];
@@ -81,7 +89,7 @@
         if (mark.word) {
           const flat = mark.x === undefined, right = !flat && x1 > box.left + 0.7 * box.width;
           group.append(element('text', {class: `word ${mark.look}`, x: flat ? box.left + 6 : x1 + (right ? -5 : 5),
-                                        y: flat ? y1 - 6 : mark.low ? box.bottom - 8 : box.top + 10, 'text-anchor': right ? 'end' : 'start'}, mark.word));
+                                        y: flat ? y1 - 6 : mark.low ? box.bottom - 8 : box.top + 16, 'text-anchor': right ? 'end' : 'start'}, mark.word));
         }
       }
     }

@@ -67,9 +67,11 @@ std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset
       if (wanted.empty() || lower(name).find(wanted) != std::string::npos) found.push_back(seen);
     }
   }
-  // By name where risks are equal, as they stand.
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a->view.risk > b->view.risk; });
+  // Where risks are equal, who has less before it; then by name, as they stand.
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return std::pair(-a->view.risk, a->view.remaining.q05) <
+           std::pair(-b->view.risk, b->view.remaining.q05);
+  });
   if (matching) *matching = found.size();
   std::vector<UnitView> views;
   for (std::size_t i = std::min(offset, found.size()); i < found.size() && views.size() < count;

@@ -82,6 +82,7 @@ class Connection final : public HttpConnection,
   ~Connection() override {
     hub_.connections.erase(this);
     hub_.streams.erase(this);
+    if (large_) --hub_.large_bodies;
   }
 
   void start() override {
@@ -140,6 +141,15 @@ class Connection final : public HttpConnection,
     question_ = question_of(request);
     if (auto refused = hub_.routes.refuse(question_)) return respond(std::move(*refused));
     if (HttpRoutes::is_events(question_)) return listen();
+    if (is_large()) {
+      if (hub_.large_bodies >= hub_.limits.large_bodies) {
+        HttpAnswer answer = refusal(503, "too much is being sent already");
+        answer.fields.emplace_back("Retry-After", "5");
+        return respond(std::move(answer));
+      }
+      large_ = true;
+      ++hub_.large_bodies;
+    }
     if (beast::iequals(request[http::field::expect], "100-continue")) {
       tcp().expires_after(hub_.limits.write);
       static constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
@@ -149,6 +159,12 @@ class Connection final : public HttpConnection,
                               });
     }
     read_body();
+  }
+
+  bool is_large() const {
+    constexpr std::uint64_t large = 64 * 1024;
+    const auto length = parser_->content_length();
+    return !parser_->is_done() && (!length || *length > large);
   }
 
   void read_body() {
@@ -180,9 +196,10 @@ class Connection final : public HttpConnection,
 
   void respond(HttpAnswer answer) {
     ++hub_.answers[answer.status];
+    if (std::exchange(large_, false)) --hub_.large_bodies;
     const bool read = parser_->is_done();
     response_ = {};
-    response_.version(11);
+    response_.version(parser_->get().version() == 10 ? 10 : 11);  // the older is told what is kept
     response_.result(answer.status);
     set_common_fields(&response_, is_secret);
     response_.set(http::field::content_type, answer.type);
@@ -259,6 +276,7 @@ class Connection final : public HttpConnection,
   std::shared_ptr<const std::string> event_;
   std::optional<std::uint64_t> version_;
   bool writing_ = false;
+  bool large_ = false;  ///< whether it counts among `large_bodies`
 };
 
 }  // namespace

@@ -41,6 +41,7 @@ struct HttpHub {
   // Of the thread of `io` alone; connections that end with it take themselves off.
   std::set<HttpConnection*> connections, streams;
   std::map<unsigned, std::uint64_t> answers;
+  std::size_t large_bodies = 0;  ///< that are being sent or worked on
   boost::asio::io_context io{1};
   boost::asio::thread_pool readers{2}, deliveries{2};
 };

@@ -14,6 +14,8 @@ namespace wearwell::monitor {
 namespace {
 
 constexpr std::size_t units_at_once = 500;
+/// Of more the metrics show the riskiest: each has some twenty lines, and Prometheus keeps every one.
+constexpr std::size_t units_measured = 10'000;
 /// Beyond so many an event says that many changed, not which.
 constexpr std::size_t names_at_once = 200;
 constexpr std::string_view unit_prefix = "/api/units/";
@@ -217,9 +219,8 @@ HttpAnswer HttpRoutes::readings(const std::string& body) const {
 }
 
 HttpAnswer HttpRoutes::metrics(const HttpCounts& http) const {
-  constexpr std::size_t all = 1'000'000'000;
   return {200, "text/plain; version=0.0.4; charset=utf-8",
-          metrics_text(reader_.fleet(), reader_.units("", 0, all), http)};
+          metrics_text(reader_.fleet(), reader_.units("", 0, units_measured), http)};
 }
 
 std::string HttpRoutes::event(std::optional<std::uint64_t> version, std::uint64_t* reached) const {

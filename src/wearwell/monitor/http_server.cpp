@@ -106,6 +106,17 @@ struct HttpServer::State {
     address = fmt::format("{}://{}:{}/", tls ? "https" : "http", host, port);
   }
 
+  // What one connection runs into, memory that is not to be had above all, is not the end of the others.
+  void run() {
+    for (;;) {
+      try {
+        hub.io.run();
+        return;
+      } catch (const std::exception&) {
+      }
+    }
+  }
+
   void accept() {
     acceptor.async_accept([this](Error error, Tcp::socket socket) {
       if (error == net::error::operation_aborted) return;
@@ -209,7 +220,7 @@ HttpServer::HttpServer(const HttpSettings& settings, const FleetReader& reader, 
     : state_(std::make_unique<State>(settings, reader, inbox)) {
   state_->accept();
   state_->run_ticks();
-  state_->thread = std::thread([state = state_.get()] { state->hub.io.run(); });
+  state_->thread = std::thread([state = state_.get()] { state->run(); });
 }
 
 HttpServer::~HttpServer() {

@@ -13,8 +13,9 @@ namespace wearwell::monitor {
 struct HttpLimits {
   std::size_t header_bytes = 8 * 1024;       ///< of a request line and all its fields
   std::size_t body_bytes = 4 * 1024 * 1024;  ///< of readings posted at once
-  std::size_t connections = 256;             ///< open at one time
-  std::size_t streams = 64;                  ///< of these, listening to events
+  std::size_t large_bodies = 32;  ///< of more than 64 KiB, or of unknown length, at one time
+  std::size_t connections = 256;  ///< open at one time
+  std::size_t streams = 64;       ///< of these, listening to events
   std::chrono::milliseconds header{10'000};  ///< for a whole header, or between two requests
   std::chrono::milliseconds body{30'000};    ///< for a whole body
   std::chrono::milliseconds write{20'000};   ///< for a client to take an answer or an event

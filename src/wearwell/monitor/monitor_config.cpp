@@ -139,7 +139,7 @@ AlarmSettings read_alarm(const TomlReader& root, const prognosis::Tracker& track
   const TomlReader table = root.required_table("alarm");
   AlarmSettings alarm;
   const prognosis::ReadingColumn& axis = tracker.axis();
-  alarm.horizon = table.required_quantity("horizon", axis.unit.text).si() - axis.unit.offset;
+  alarm.horizon = required_si(table, "horizon", axis.unit) - axis.unit.offset;
   if (!(alarm.horizon > 0)) table.fail("horizon", "must be above 0");
   const auto share = [&](const char* key, double usual) {
     const auto value = table.quantity(key, "1");

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <chrono>
 #include <map>
+#include <thread>
 
 #include "wearwell/base/error.h"
 #include "wearwell/monitor/alarm.h"
@@ -99,11 +101,17 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
     there = {texts_of(value_of(work, "numbers")), texts_of(value_of(work, "labels")),
              value_of(work, "keys") == "sequence"};
   };
-  try {
-    (access == Access::write ? write_ : read_).run(look);
-  } catch (const StoreError& error) {
-    if (in_use_) throw InputError(error.what());
-    throw;
+  // The server may take a moment to see that a monitor that was killed has gone.
+  constexpr int patience = 50;
+  for (int i = 0;; ++i) {
+    try {
+      (access == Access::write ? write_ : read_).run(look);
+      break;
+    } catch (const StoreError& error) {
+      if (!in_use_) throw;
+      if (i == patience) throw InputError(error.what());
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   if (version.empty())
     throw InputError(fmt::format("{} holds no store yet: no monitor has run", name_));

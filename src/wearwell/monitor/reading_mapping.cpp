@@ -19,6 +19,11 @@ std::string shown_value(std::string_view text) {
   return printable(shortened(text));
 }
 
+/// A unit as a message has it, of the kind of `like`, which need not be an SI unit.
+Unit unit_like(const std::string& text, const Unit& like) {
+  return text == like.text ? like : read_unit(text, like.text);
+}
+
 ColumnField read_column_field(const TomlReader& columns, const prognosis::ReadingColumn& column) {
   ColumnField chosen{column.name, column.measured, column.name, Unit{"1", 1, 0}, {}};
   const auto plain = [&](const TomlReader& at, std::string_view key) {
@@ -37,7 +42,7 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
     if (column.measured) table.fail("value", "what is measured has no constant value");
     if (table.has("field") || table.has("unit"))
       table.fail("value", "is a constant: it comes from no field, and has its unit with it");
-    chosen.constant = table.required_quantity("value", column.unit.text).si();
+    chosen.constant = required_si(table, "value", column.unit);
     return chosen;
   }
   chosen.field = table.required_text("field");
@@ -47,7 +52,7 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
     return chosen;
   }
   try {
-    chosen.unit = read_unit(*unit, column.unit.text);
+    chosen.unit = unit_like(*unit, column.unit);
   } catch (const InputError& error) {
     table.fail("unit", error.what());
   }
@@ -148,6 +153,17 @@ void refuse_missing(const StoredReading& reading, const ReadingMapping& mapping)
 }
 
 }  // namespace
+
+double required_si(const TomlReader& table, const std::string& key, const Unit& like) {
+  Quantity quantity = table.required_quantity(key, like.text);
+  if (quantity.unit.text == like.text) quantity.unit = like;
+  try {
+    refuse_two_readings(quantity, like);
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
+  }
+  return quantity.si();
+}
 
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit) {

@@ -32,6 +32,9 @@ struct ReadingMapping {
   std::vector<std::string> labels;   ///< fields, as Tracker::labels
 };
 
+/// A quantity of the kind of `like`, in SI. A plain number beside a unit of another size than 1 is refused.
+double required_si(const TomlReader& table, const std::string& key, const Unit& like);
+
 inline constexpr std::size_t longest_name = 200;  ///< bytes of a unit's name, or of a label
 
 /// `topic_names_unit`: then no field may. Throws InputError with file, place and key: a column without a field or a unit,

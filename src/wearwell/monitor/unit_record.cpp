@@ -87,8 +87,8 @@ double risk_within(const prognosis::Forecast& forecast, double horizon) {
 }
 
 bool is_kept_moment(std::uint64_t n) {
-  constexpr std::uint64_t all = 32;
-  constexpr double step = 0.04;  // of the logarithm
+  constexpr std::uint64_t all = 12;
+  constexpr double step = 0.12;  // of the logarithm
   if (n <= all) return true;
   const auto class_of = [](std::uint64_t k) {
     return std::floor(std::log(static_cast<double>(k)) / step);

@@ -123,10 +123,14 @@ bool same_content(const Table& a, const Table& b) {
   return true;
 }
 
+std::string shown(const Column& column, std::size_t row) {
+  return column.is_number ? fmt::format("{:.6g}", column.numbers[row]) : column.text[row];
+}
+
 std::string measured_in_words(const Table& table, const DataRoles& roles, std::size_t row) {
   std::vector<std::string> words;
   for (const std::string& each : roles.measured)
-    words.push_back(fmt::format("{} = {}", each, cell_word(table.column(each), row)));
+    words.push_back(fmt::format("{} = {}", each, shown(table.column(each), row)));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
@@ -177,6 +178,19 @@ const Found& chosen(const std::vector<Found>& all, const LifeQuestion& question)
                                did_you_mean(question.unit, names), known));
 }
 
+// A unit that was read later than what it is said to have come to counts from its last reading.
+void require_ahead(const Found& mine, const std::vector<Found>& all, const std::string& survived) {
+  for (const Found& each : all) {
+    const bool from_there =
+        each.request.of.starts_with("new ") && each.request.name == "remaining life";
+    if (!from_there || each.request.at == mine.request.at) continue;
+    throw InputError(fmt::format(
+        "--survived: {} was read beyond {} already: leave it out, what remains counts {}",
+        mine.request.of, survived,
+        mine.request.at.substr(std::min(mine.request.at.rfind("from "), mine.request.at.size()))));
+  }
+}
+
 UnitLife described(const Found& found) {
   UnitLife life{.of = found.request.of, .at = found.request.at, .unit = found.request.unit.text};
   life.name = found.request.name;
@@ -266,10 +280,12 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
   const std::vector<double> levels = levels_of(risk);
   std::vector<std::pair<std::string, std::string>> keys = {{"b_lives", list_of(levels)}};
   if (law && question.survived)
-    keys.emplace_back("survived", fmt::format("\"{}\"", *question.survived));
+    keys.emplace_back("survived", nlohmann::json(*question.survived).dump());
   const auto asked = read(with_wishes(source, keys));
   const std::vector<Found> all = lives_of(require_posterior_study(*asked), posterior, levels);
-  UnitLife life = described(chosen(all, question));
+  const Found& mine = chosen(all, question);
+  if (law && question.survived) require_ahead(mine, all, *question.survived);
+  UnitLife life = described(mine);
   if (!law) life = of_tests(source, read, posterior, question, std::move(life));
   finish(question, life);
   return life;

@@ -93,13 +93,15 @@ void add(TradeAddition own, TradeAddition& all) {
 
 }  // namespace
 
-std::vector<Contradiction> hardly_possible(const PosteriorStudy& study, const WeightedDraws& before,
-                                           const JoinedData& joined) {
+std::optional<std::vector<Contradiction>> hardly_possible(const PosteriorStudy& study,
+                                                          const WeightedDraws& before,
+                                                          const JoinedData& joined) {
   constexpr double least = 1e-3;
   const std::size_t rows = data_table(joined.source).rows;
-  if (!study.fit_data || joined.fresh.empty() ||
-      before.values.cols() != static_cast<Eigen::Index>(study.parameters.size()))
-    return {};
+  std::vector<Contradiction> found;
+  if (joined.fresh.empty()) return found;
+  if (!study.fit_data || before.values.cols() != static_cast<Eigen::Index>(study.parameters.size()))
+    return std::nullopt;
   std::size_t of_effects = 0;
   for (const UnitEffect& effect : study.fit_data->effects) of_effects += effect.of.size();
   const std::vector<Eigen::Index> points =
@@ -108,8 +110,7 @@ std::vector<Contradiction> hardly_possible(const PosteriorStudy& study, const We
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t p) {
     scores[p] = study.fit_data->scores(before.values.row(points[p]).data());
   });
-  if (scores.empty() || scores.front().size() != rows + of_effects) return {};
-  std::vector<Contradiction> found;
+  if (scores.empty() || scores.front().size() != rows + of_effects) return std::nullopt;
   for (const std::size_t row : joined.fresh) {
     double below = 0, above = 0;  // of an observation in an interval what is kindest to it
     for (const std::vector<NormalScore>& each : scores) {
@@ -125,9 +126,15 @@ std::vector<Contradiction> hardly_possible(const PosteriorStudy& study, const We
   return found;
 }
 
-PosteriorStudy updated_study(const PosteriorStudy& study, const WeightedDraws& before,
-                             JoinedData joined, const std::string& files) {
-  for (Contradiction& each : hardly_possible(study, before, joined)) {
+void judge_new_data(const PosteriorStudy& study, const WeightedDraws& before, JoinedData& joined) {
+  auto found = hardly_possible(study, before, joined);
+  if (!found) {
+    joined.notes.push_back(
+        "whether the new readings go with what was known was looked at by their place alone: the "
+        "law does not score them row by row");
+    found.emplace();
+  }
+  for (Contradiction& each : *found) {
     const auto known =
         std::find_if(joined.contradictions.begin(), joined.contradictions.end(),
                      [&](const Contradiction& other) { return other.row == each.row; });
@@ -138,6 +145,10 @@ PosteriorStudy updated_study(const PosteriorStudy& study, const WeightedDraws& b
     each.place = place_in_words(data_table(joined.source), joined.roles, each.row);
     joined.contradictions.push_back(std::move(each));
   }
+}
+
+PosteriorStudy updated_study(const PosteriorStudy& study, JoinedData joined,
+                             const std::string& files) {
   PosteriorStudy updated = study;
   const auto shared = std::make_shared<const JoinedData>(std::move(joined));
   updated.checks = [shared, files, own = study.checks](const Fit& fit) {

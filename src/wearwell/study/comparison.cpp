@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/infer/model_weights.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/trust_blocks.h"
 
@@ -55,13 +56,13 @@ std::string obstacle_of(const std::vector<Comparison::Entry>& studies) {
 
 std::vector<std::string> cautions_of(const Comparison& comparison) {
   std::vector<std::string> cautions;
-  for (const auto& [name, result, behind] : comparison.studies) {
+  for (const auto& [name, result, behind, weight] : comparison.studies) {
     if (!result.header.trusted) {
       cautions.push_back(fmt::format("{} is not trusted: a check of it failed.", name));
     }
   }
   if (!comparison.comparable) return cautions;
-  for (const auto& [name, result, behind] : comparison.studies) {
+  for (const auto& [name, result, behind, weight] : comparison.studies) {
     const Loo& loo = result.loo->loo;
     const auto bad = std::count_if(loo.terms.begin(), loo.terms.end(),
                                    [&](const LooTerm& term) { return loo.doubtful(term); });
@@ -154,7 +155,21 @@ void rank(Comparison& comparison) {
     }
     first = end;
   }
-  for (auto& each : studies) each.behind = elpd_difference(loo_of(best).terms, loo_of(each).terms);
+  std::vector<const Loo*> models;
+  for (const auto& each : studies) models.push_back(&loo_of(each));
+  const std::vector<double> weights = model_weights(models);
+  for (std::size_t i = 0; i < studies.size(); ++i) {
+    studies[i].behind = elpd_difference(loo_of(best).terms, loo_of(studies[i]).terms);
+    studies[i].weight = weights[i];
+  }
+}
+
+std::string weights_in_words(const Comparison& comparison) {
+  std::vector<std::string> shares;
+  for (const auto& each : comparison.studies)
+    shares.push_back(fmt::format("{} {:.3f}", each.name, each.weight));
+  return fmt::format("Weights of the mixture that predicts best (stacking): {}",
+                     fmt::join(shares, ", "));
 }
 
 std::optional<ModeSummary> mode_of(const SavedResult& result) {
@@ -166,7 +181,7 @@ std::optional<ModeSummary> mode_of(const SavedResult& result) {
 Comparison compare(std::vector<std::pair<std::string, SavedResult>> results) {
   Comparison comparison;
   for (auto& [name, result] : results) {
-    comparison.studies.push_back({name, std::move(result), {}});
+    comparison.studies.push_back({name, std::move(result), {}, 0});
   }
   comparison.obstacle = obstacle_of(comparison.studies);
   comparison.comparable = comparison.obstacle.empty();
@@ -187,7 +202,7 @@ std::string comparison_text(const Comparison& comparison) {
   } else {
     rows = {{"", "data", "rows", "parameters", "trusted"}};
   }
-  for (const auto& [name, result, behind] : comparison.studies) {
+  for (const auto& [name, result, behind, weight] : comparison.studies) {
     rows.push_back({name});
     auto& row = rows.back();
     if (comparison.comparable) {
@@ -209,6 +224,7 @@ std::string comparison_text(const Comparison& comparison) {
   out +=
       (comparison.comparable ? "Prediction of each observation from all others\n" : "Studies\n") +
       text_table(rows);
+  if (comparison.comparable) out += wrapped(printable(weights_in_words(comparison)), 2, 4);
   if (!comparison.obstacle.empty()) out += wrapped(printable(comparison.obstacle), 2, 4);
 
   Rows parameters = {{""}};
@@ -234,7 +250,7 @@ std::string comparison_text(const Comparison& comparison) {
 nlohmann::ordered_json to_json(const Comparison& comparison) {
   using Json = nlohmann::ordered_json;
   Json studies = Json::array();
-  for (const auto& [name, result, behind] : comparison.studies) {
+  for (const auto& [name, result, behind, weight] : comparison.studies) {
     Json each = {{"study", name},
                  {"title", result.header.title},
                  {"model", result.header.model},
@@ -253,7 +269,10 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
                      {"p_loo", loo.p_loo()},
                      {"khat_max", loo.khat_max()}};
     }
-    if (behind) each["behind"] = {{"elpd", behind->value}, {"se", behind->se}};
+    if (behind) {
+      each["behind"] = {{"elpd", behind->value}, {"se", behind->se}};
+      each["weight"] = weight;
+    }
     if (const auto mode = mode_of(result)) {
       each["mode"] = {{"log_likelihood", mode->log_likelihood},
                       {"maximum_likelihood", mode->maximum_likelihood},

@@ -17,6 +17,7 @@ struct Comparison {
     /// elpd of the best less its own, with the standard error of the difference; only where
     /// `comparable`.
     std::optional<ElpdDifference> behind;
+    double weight = 0;  ///< model_weights; only where `comparable`
   };
   std::vector<Entry> studies;         ///< best elpd first where comparable and known, else as given
   bool comparable = false;            ///< same data, of which the same observations are left out

@@ -38,23 +38,26 @@ Section verdict_section(const Comparison& comparison) {
                  {"Se", "1", fixed(2)},
                  {"Behind the best", "1", fixed(2)},
                  {"Se of that", "1", fixed(2)},
+                 {"Weight", "1", fixed(3)},
                  {"p_loo", "1", fixed(1)},
                  {"Largest Pareto k", "1", fixed(2)},
                  {"AIC", "1", fixed(2)},
                  {"BIC", "1", fixed(2)},
                  {"Parameters", "1", fixed(0)}}};
-    for (const auto& [name, result, behind] : comparison.studies) {
+    for (const auto& [name, result, behind, weight] : comparison.studies) {
       const Loo& loo = result.loo->loo;
       const bool mode = result.mode && result.mode->problem.empty();
-      table.rows.push_back({name, loo.elpd(), loo.se(), behind->value, behind->se, loo.p_loo(),
-                            loo.khat_max(), mode ? Cell(result.mode->aic) : Cell(),
+      table.rows.push_back({name, loo.elpd(), loo.se(), behind->value, behind->se, weight,
+                            loo.p_loo(), loo.khat_max(), mode ? Cell(result.mode->aic) : Cell(),
                             mode ? Cell(result.mode->bic) : Cell(),
                             static_cast<double>(result.parameters.size())});
     }
     section.add(std::move(table));
     section.add(
         Prose{"elpd is the expected log predictive density, summed over the observations (natural "
-              "logarithm, data in SI units); larger is better. Smaller AIC and BIC are better."});
+              "logarithm, data in SI units); larger is better. Weights are those of the mixture "
+              "that predicts "
+              "best (stacking). Smaller AIC and BIC are better."});
   }
   for (const std::string& caution : comparison.cautions) section.add(Prose{caution});
   return section;
@@ -74,7 +77,7 @@ struct Overlaid {
 std::vector<Overlaid> overlaid(const Comparison& comparison) {
   std::vector<Overlaid> all;
   for (std::size_t s = 0; s < comparison.studies.size(); ++s) {
-    const auto& [name, result, behind] = comparison.studies[s];
+    const auto& [name, result, behind, weight] = comparison.studies[s];
     for (std::size_t i = 0; i < result.parameters.size(); ++i) {
       const ParameterSummary& p = result.parameters[i];
       auto found = std::find_if(all.begin(), all.end(), [&](const Overlaid& each) {
@@ -175,7 +178,7 @@ Section study_section(const Comparison& comparison) {
       {{"Study"}, {"Title"}, {"Model"}, {"Data"}, {"Rows", "1", present::given}, {"Trusted"}},
       {},
       true};
-  for (const auto& [name, result, behind] : comparison.studies) {
+  for (const auto& [name, result, behind, weight] : comparison.studies) {
     const Header& header = result.header;
     table.rows.push_back({name, header.title, header.equation, header.data.names(),
                           static_cast<double>(header.data.rows), trust_word(header.checks)});

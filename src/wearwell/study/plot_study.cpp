@@ -8,6 +8,7 @@
 
 #include "wearwell/base/printable.h"
 #include "wearwell/base/sha1.h"
+#include "wearwell/bayes/cell_shares.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/study/describe.h"
@@ -50,6 +51,20 @@ Curve density_curve(const Distribution& distribution, const std::vector<double>&
     curve.x.push_back(0.5 * (edges[i] + edges[i + 1]));
     curve.y.push_back((until - below) / (edges[i + 1] - edges[i]));
     below = until;
+  }
+  return curve;
+}
+
+// The same of a parameter, by cells that fit together.
+Curve density_curve(const Parameter& parameter, Eigen::Index index, const WeightedDraws& nodes,
+                    Range range) {
+  const std::vector<double> edges = spaced(range, curve_points);
+  const std::vector<double> shares = cell_shares(
+      nodes, [&](const double* x) { return from_si(parameter.unit, x[index]); }, edges);
+  Curve curve;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    curve.x.push_back(0.5 * (edges[i] + edges[i + 1]));
+    curve.y.push_back(shares[i] / (edges[i + 1] - edges[i]));
   }
   return curve;
 }
@@ -115,7 +130,7 @@ ParameterPlots plot_parameter(const PosteriorStudy& study, std::size_t i, const 
   const Range range = range_of(parameter, posterior);
   ParameterPlots plots{
       histogram(parameter, index, fit.draws, range), {}, prior_curve(parameter, range)};
-  if (fit.exact) plots.exact = density_curve(posterior, spaced(range, curve_points));
+  if (fit.exact) plots.exact = density_curve(parameter, index, fit.exact->nodes, range);
   return plots;
 }
 

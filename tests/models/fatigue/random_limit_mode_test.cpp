@@ -61,8 +61,8 @@ Minimum climb(const LogDensity& likelihood) {
 }
 
 // tests/golden/random_limit_mode.R: the laminate panel of Pascual and Meeker (1999), normal and smallest extreme value laws of
-// life and limit. Their own normal-normal fit, as printed, is 30.27, -5.100 and a log likelihood of -86.22 where densities
-// are those of the logarithm of life.
+// life and limit. Their own normal-normal fit, 30.27, -5.100 and a log likelihood of -86.22 where densities are those of the
+// logarithm of life, was quoted from memory before R's was computed; the paper itself was not at hand.
 TEST(RandomLimitMode, OfTheLaminatePanelAsInR) {
   const LifeTests tests = laminate_panel();
   ASSERT_EQ(tests.size(), 125u);

@@ -121,5 +121,51 @@ TEST_F(OwnFit, StepsOfAProcessAreJudged) {
   EXPECT_EQ(right.verdict, Verdict::pass) << right.detail;
 }
 
+// Two columns of the same units, of which one is not as the law says.
+TEST_F(OwnFit, AllMeasuredColumnsAreJudged) {
+  const auto check = [&](double power) {
+    Rng rng(9, 0);
+    std::string text = "m,t,y,w\n";
+    for (int u = 1; u <= 6; ++u) {
+      for (int t = 1; t <= 6; ++t) {
+        const std::string w =
+            t == 2 ? "" : fmt::format("{:.6f}", 3 * std::pow(t / 3.0, power) + 0.1 * rng.normal());
+        text += fmt::format("{},{},{:.6f},{}\n", u, t, t + 0.1 * rng.normal(), w);
+      }
+    }
+    write("d.csv", text);
+    const auto file = write("study.toml", R"(
+model = "law"
+[data]
+file = "d.csv"
+[data.columns]
+y = "y"
+w = "w"
+t = "t"
+[likelihood.y]
+family = "normal"
+mean = "k*t"
+sd = "sigma"
+[likelihood.w]
+family = "normal"
+mean = "k*t"
+sd = "sigma"
+[prior]
+k = { law = "lognormal", median = 1, log_sd = 1 }
+sigma = { law = "half-normal", scale = 1 }
+)");
+    const PosteriorSummary result =
+        run_study(wearwell::read_posterior_study(file), {Method::exact, 1, {}, 400, {}}, {}, false);
+    for (const Check& each : result.checks) {
+      if (each.name == "fit") return each;
+    }
+    ADD_FAILURE() << "no check of fit";
+    return Check{};
+  };
+  const Check right = check(1), bent = check(1.3);
+  EXPECT_EQ(right.verdict, Verdict::pass) << right.detail;
+  EXPECT_EQ(bent.verdict, Verdict::fail) << bent.detail;
+}
+
 }  // namespace
 }  // namespace wearwell

@@ -9,6 +9,7 @@
 #include "models/ownlaw/watched.h"
 #include "wearwell/base/rng.h"
 
+// Longer than others: a study for every kind of law.
 namespace wearwell::ownlaw {
 namespace {
 
@@ -98,9 +99,12 @@ void expect_followed(const Kind& kind) {
   const Watched part(kind.study, without_last(kind.columns, readings.size()), posterior);
   {
     SCOPED_TRACE("seen");
-    const LimitedLives fit = lives_of_fit(whole, posterior);
+    const LimitedLives fit = lives_of_fit(whole, posterior, !whole.design.law->has_process());
     expect_alike(whole.tracker->begin(unit)->forecast(), fit.remaining[last], fit.passed[last],
                  kind.tolerance);
+    if (!whole.design.law->has_process()) {  // dear in a fit
+      expect_alike(whole.tracker->begin("new")->forecast(), fit.next, 0, kind.tolerance);
+    }
   }
   const LimitedLives fit = lives_of_fit(whole, given_unit(whole, posterior, last));
   std::vector<std::size_t> order(readings.size());

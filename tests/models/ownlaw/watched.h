@@ -97,8 +97,9 @@ struct Followed {
   }
 };
 
-// What a fit says of its unit u.
-inline LimitedLives lives_of_fit(const Watched& watched, const WeightedDraws& posterior) {
+// What a fit says of its units, and of a new one.
+inline LimitedLives lives_of_fit(const Watched& watched, const WeightedDraws& posterior,
+                                 bool of_new_unit = false) {
   const TomlReader predict = watched.design.root.required_table("predict");
   const auto rows = watched.rows();
   const Asked asked(predict, watched.design.law, rows);
@@ -119,7 +120,7 @@ inline LimitedLives lives_of_fit(const Watched& watched, const WeightedDraws& po
     path.seen.push_back(seen_unit(asked, limits, name, wanted, u));
     if (process) path.seen.back().behind.reset();
   }
-  path.next.reset();
+  if (!of_new_unit) path.next.reset();
   if (process) return process_lives(*rows, limit, posterior);
   return limited_lives(*rows, path, posterior);
 }

@@ -6,20 +6,6 @@
 #include "wearwell/models/clutch/sql_writer.h"
 
 namespace wearwell::clutch {
-namespace {
-
-const std::vector<std::string> count_names = {"cycles",
-                                              "refused",
-                                              "repeated",
-                                              "outside_slip_speed",
-                                              "outside_torque",
-                                              "outside_temperature",
-                                              "outside_closing_time",
-                                              "outside_any",
-                                              "negative"};
-
-}  // namespace
-
 using fleet::number;
 
 std::string SqlColumns::text() const {
@@ -54,7 +40,7 @@ std::string SqlWriter::count_if(const std::string& condition) const {
 
 std::string SqlWriter::setup() const {
   std::string sums;
-  for (const std::string& each : count_names)
+  for (const char* each : count_names)
     sums += fmt::format(",\n  {} {} not null", each, types_.whole);
   for (const std::string& each : sum_names())
     sums += fmt::format(",\n  {} {} not null", each, types_.sum);
@@ -62,6 +48,12 @@ std::string SqlWriter::setup() const {
   for (const SqlParameter& each : parameters_.all)
     rows.push_back(fmt::format("  ({}, {}, {}, {})", id_, each.replicate,
                                fleet::literal(dialect_, each.name), number(each.value)));
+  const std::string head =
+      "-- 1. Set-up: the model's numbers as rows, and a table for sums. May be run again.\n"
+      "-- SI, temperatures in degrees Celsius. Replicate 0 is the model; the others are models "
+      "that "
+      "chance might have led to.\n";
+  if (clickhouse()) return head + setup_of_clickhouse(fmt::format("{}", fmt::join(rows, ",")));
   return fmt::format(
       "-- 1. Set-up: the model's numbers as rows, and a table for sums. May be run again.\n"
       "-- SI, temperatures in degrees Celsius. Replicate 0 is the model; the others are models "
@@ -83,13 +75,20 @@ std::string SqlWriter::setup() const {
 
 /// The parameters as one row.
 std::string SqlWriter::parameters() const {
+  // Of ClickHouse a value that is missing would be 0, not nothing.
+  const char* value = clickhouse() ? "maxIf(value, replicate = {} and name = {})"
+                                   : "max(case when replicate = {} and name = {} then value end)";
+  const std::string all =
+      clickhouse() ? fmt::format("\nhaving throwIf(uniqExact(replicate, name) != {}) = 0",
+                                 parameters_.all.size())
+                   : "";
   SqlColumns columns;
   for (const SqlParameter& each : parameters_.all)
-    columns.add(fmt::format("max(case when replicate = {} and name = {} then value end)",
-                            each.replicate, fleet::literal(dialect_, each.name)),
-                each.column);
-  return fmt::format("(select\n  {}\nfrom {} where model = {}) as k", columns.text(), model_table_,
-                     id_);
+    columns.add(
+        fmt::format(fmt::runtime(value), each.replicate, fleet::literal(dialect_, each.name)),
+        each.column);
+  return fmt::format("(select\n  {}\nfrom {} where model = {}{}) as k", columns.text(),
+                     model_table_, id_, all);
 }
 
 std::string SqlWriter::in_si(const SqlColumn& column) const {
@@ -111,8 +110,8 @@ std::string SqlWriter::unit() const {
 std::string SqlWriter::valid() const {
   std::string text = "cycle >= 1 and cycle <= 9e15 and cycle = floor(cycle)";
   for (const char* each : {"slip_speed", "torque", "closing_time", "energy"})
-    text += fmt::format(" and {0} > 0 and {0} < 1e300", each);
-  return text + " and temperature >= -273.15e0 and temperature < 1e300";
+    text += fmt::format(" and raw_{0} > 0 and raw_{0} < 1e300", each);
+  return text + " and raw_temperature >= -273.15e0 and raw_temperature < 1e300";
 }
 
 std::string SqlWriter::si(bool fresh) const {
@@ -121,45 +120,63 @@ std::string SqlWriter::si(bool fresh) const {
   SqlColumns columns;
   columns.add(unit, "unit");
   columns.add(cycle, "cycle");
-  for (std::size_t i = 0; i < 4; ++i) columns.add(in_si(source_.inputs[i]), input_columns[i]);
-  columns.add(in_si(source_.energy), "energy");
+  for (std::size_t i = 0; i < 4; ++i)
+    columns.add(in_si(source_.inputs[i]), std::string("raw_") + input_columns[i]);
+  columns.add(in_si(source_.energy), "raw_energy");
   if (fresh && source_.first) {
     columns.add("0", "after_cycle");
     columns.add("0", "energy_before");
   }
   if (!fresh || source_.first)
     return fmt::format("select\n  {}\nfrom {} as t{}", columns.text(), source_.table, fence());
-  columns.add("coalesce(last.after_cycle, 0)", "after_cycle");
-  columns.add("coalesce(last.energy, 0)", "energy_before");
+  columns.add(clickhouse() ? "last.after_cycle" : "coalesce(last.after_cycle, 0)", "after_cycle");
+  columns.add(clickhouse() ? "last.energy" : "coalesce(last.energy, 0)", "energy_before");
+  // ClickHouse has 0 where a join finds nothing.
+  const std::string fresh_rows =
+      clickhouse()
+          ? fmt::format("{} > last.after_cycle", cycle)
+          : fmt::format("last.after_cycle is null or {0} is null or {0} > last.after_cycle", cycle);
   return fmt::format(
       "select\n  {}\nfrom {} as t\nleft join (\n  select unit, max(last_cycle) as after_cycle, "
       "sum(energy) as energy from {} where model = {} group by unit\n) as last on last.unit = "
-      "{}\nwhere last.after_cycle is null or {} is null or {} > last.after_cycle{}",
-      columns.text(), source_.table, sums_table_, id_, fleet::text(dialect_, unit), cycle, cycle,
+      "{}\nwhere {}{}",
+      columns.text(), source_.table, sums_table_, id_, fleet::text(dialect_, unit), fresh_rows,
       fence());
 }
 
+std::string SqlWriter::checked() const {
+  SqlColumns columns;
+  for (const char* each : {"unit", "cycle", "after_cycle", "energy_before"}) columns.keep(each);
+  columns.add(valid(), "valid");
+  // A row that is refused counts as nothing. ClickHouse would leave what is no value out of arrays.
+  const char* choice = clickhouse() ? "if({}, {}, {})" : "case when {} then {} end";
+  const auto add = [&](const std::string& value, const char* otherwise, const std::string& name) {
+    columns.add(fmt::format(fmt::runtime(choice), valid(), value, otherwise), name);
+  };
+  for (const char* each : input_columns) add(std::string("raw_") + each, "1e0", each);
+  add(fleet::whole(dialect_, "raw_energy * " + number(1 / units_.energy)), "0", "fixed_energy");
+  return fmt::format("select\n  {}\nfrom (\n-- the new cycles, in SI\n{}\n) as si{}",
+                     columns.text(), si(true), fence());
+}
+
 std::string SqlWriter::ordered() const {
-  SqlColumns checked;
-  for (const char* each : {"unit", "cycle", "after_cycle", "energy_before"}) checked.keep(each);
-  checked.add(valid(), "valid");
-  for (const char* each : input_columns)
-    checked.add(fmt::format("case when {} then {} end", valid(), each), each);
-  checked.add(fmt::format("case when {} then {} end", valid(),
-                          fleet::whole(dialect_, "energy * " + number(1 / units_.energy))),
-              "fixed_energy");
+  if (clickhouse()) return ordered_by_arrays();
   return fmt::format(
       "select *,\n"
       "  energy_before + coalesce(sum(fixed_energy) over (partition by unit order by cycle\n"
       "    rows between unbounded preceding and 1 preceding), 0) as before,\n"
       "  lag(cycle) over (partition by unit order by cycle) as cycle_before\n"
-      "from (\nselect\n  {}\nfrom (\n-- the new cycles, in SI\n{}\n) as si{}\n) as checked{}",
-      checked.text(), si(true), fence(), fence());
+      "from (\n{}\n) as checked{}",
+      checked(), fence());
 }
 
 std::string SqlWriter::powers() const {
   SqlColumns columns;
   columns.add(fmt::format("fixed_energy * {}", number(units_.energy)), "energy");
+  columns.add(fmt::format("fixed_energy * {}", number(0.5 * units_.energy / units_.volume)),
+              "half_energy");
+  columns.add(fmt::format("fixed_energy * {}", number(0.5 * units_.energy / units_.fine)),
+              "half_fine");
   columns.add(fmt::format("{} * {}", fleet::real(dialect_, "before"), number(units_.energy)),
               "running");
   for (std::size_t p = 0; p < parameters_.pairs.size(); ++p) {
@@ -177,12 +194,12 @@ std::string SqlWriter::powers() const {
 }
 
 std::string SqlWriter::run_in(std::size_t b, const std::string& energy) const {
-  const auto mode = [&](const char* share, const char* scale) {
+  const auto mode = [&](const char* share, const char* rate) {
     return fmt::format(
         "{} * {}", parameters_.column(b, share),
-        fleet::decay(dialect_, fmt::format("-{} / {}", energy, parameters_.column(b, scale))));
+        fleet::decay(dialect_, fmt::format("{} * {}", energy, parameters_.column(b, rate))));
   };
-  return fmt::format("(1e0 + {} + {})", mode("slow", "slow_energy"), mode("fast", "fast_energy"));
+  return fmt::format("(1e0 + {} + {})", mode("slow", "slow_rate"), mode("fast", "fast_rate"));
 }
 
 std::string SqlWriter::rates() const {
@@ -219,8 +236,10 @@ std::string SqlWriter::sigma() const {
 std::string SqlWriter::worn() const {
   SqlColumns columns;
   columns.add(sigma() + " * energy", "step");
+  // w + |w| is 2 w, or 0 where the rate is negative: exactly, and in less time than a choice.
   for (std::size_t b = 0; b <= replicates_; ++b)
-    columns.add(fmt::format("greatest(w{}, 0e0) * energy", b), fmt::format("settled{}", b));
+    columns.add(fmt::format("(w{0} + abs(w{0})) * {1}", b, b == 0 ? "half_fine" : "half_energy"),
+                fmt::format("settled{}", b));
   return fmt::format(
       "select *,\n  {}\nfrom (\n-- wear rates: of the model, then of the replicates\n{}\n) as "
       "rates{}",
@@ -229,44 +248,43 @@ std::string SqlWriter::worn() const {
 
 std::string SqlWriter::query() const {
   std::vector<std::string> names = {"model", "unit", "after_cycle", "last_cycle"};
-  names.insert(names.end(), count_names.begin(), count_names.end());
+  names.insert(names.end(), std::begin(count_names), std::end(count_names));
   for (const std::string& each : sum_names()) names.push_back(each);
   SqlColumns columns;
   columns.keep(id_);
   columns.keep(fleet::text(dialect_, "unit"));
   columns.keep("max(after_cycle)");
-  columns.keep("coalesce(max(cycle), max(after_cycle))");
-  for (const char* condition : {"valid", "not coalesce(valid, false)", "cycle = cycle_before"})
+  columns.keep(clickhouse() ? "max(cycle)" : "coalesce(max(cycle), max(after_cycle))");
+  const char* refused = clickhouse() ? "valid = 0" : "not coalesce(valid, false)";
+  for (const char* condition :
+       {clickhouse() ? "valid = 1" : "valid", refused, "cycle = cycle_before"})
     columns.keep(count_if(condition));
   std::string any;
   for (const char* each : input_columns) {
     const std::string out = fmt::format("{0} < {1} or {0} > {2}", each,
                                         parameters_.column(0, std::string(each) + "_from"),
                                         parameters_.column(0, std::string(each) + "_to"));
-    columns.keep(count_if(out));
+    columns.keep(count_if(counted(out)));
     any += (any.empty() ? "" : " or ") + out;
   }
-  columns.keep(count_if(any));
-  columns.keep(count_if("w0 < 0"));
+  columns.keep(count_if(counted(any)));
+  columns.keep(count_if(counted("w0 < 0")));
   const auto sum = [&](const std::string& fixed) {
-    columns.keep(fmt::format("coalesce({}, 0)", fleet::sum_of(dialect_, fixed)));
-  };
-  const auto fine = [&](const std::string& x, double unit) {
-    sum(fleet::wide(dialect_, fmt::format("{} * {}", x, number(1 / unit))));
+    const std::string total = fleet::sum_of(dialect_, fixed);
+    columns.keep(clickhouse() ? total : fmt::format("coalesce({}, 0)", total));
   };
   sum("fixed_energy");
-  fine("settled0 * " + run_in(0, "running"), units_.fine);
-  fine("step * step", units_.variance);
-  fine("settled0", units_.fine);
+  sum(fleet::wide(dialect_, "settled0 * " + run_in(0, "running")));
+  sum(fleet::wide(dialect_, fmt::format("step * step * {}", number(1 / units_.variance))));
+  sum(fleet::wide(dialect_, "settled0"));
   for (std::size_t i = 0; i < 4; ++i)
     sum(fleet::whole(dialect_,
-                     fmt::format("{} * {}", input_columns[i], number(1 / units_.inputs[i]))));
-  for (const bool run : {true, false}) {
-    for (std::size_t b = 1; b <= replicates_; ++b)
-      sum(fleet::whole(dialect_,
-                       fmt::format("settled{}{} * {}", b, run ? " * " + run_in(b, "running") : "",
-                                   number(1 / units_.volume))));
-  }
+                     fmt::format("{} * {}{}", input_columns[i], number(1 / units_.inputs[i]),
+                                 clickhouse() ? " * valid" : "")));
+  for (std::size_t b = 1; b <= replicates_; ++b)
+    sum(fleet::whole(dialect_, fmt::format("settled{} * {}", b, run_in(b, "running"))));
+  for (std::size_t b = 1; b <= replicates_; ++b)
+    sum(fleet::whole(dialect_, fmt::format("settled{}", b)));
   return fmt::format(
       "-- 2. Query: adds the sums of all cycles behind the last that was counted of each unit. May "
       "be run again, and adds nothing then.\n"

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/models/clutch/sql_writer.h"
 
 namespace wearwell::clutch {
@@ -12,45 +11,40 @@ namespace {
 
 constexpr int newton_steps = 8;
 
-constexpr const char* counts[] = {"cycles",
-                                  "refused",
-                                  "repeated",
-                                  "outside_slip_speed",
-                                  "outside_torque",
-                                  "outside_temperature",
-                                  "outside_closing_time",
-                                  "outside_any",
-                                  "negative"};
-
 }  // namespace
 
 /// The sums of each unit over all runs, in SI.
 std::string SqlWriter::unit_sums() const {
-  SqlColumns columns;
-  columns.keep("unit");
-  columns.add(fleet::real(dialect_, "max(last_cycle)"), "last_cycle");
-  for (const char* each : counts)
-    columns.add(fleet::real(dialect_, fmt::format("sum({})", each)), each);
-  const auto add = [&](const std::string& name, double unit) {
-    columns.add(
-        fmt::format("{} * {}", fleet::real(dialect_, fmt::format("sum({})", name)), number(unit)),
-        name);
+  SqlColumns inner, outer;
+  outer.keep("unit");
+  inner.keep("unit");
+  // ClickHouse would take the new name for the column within the sum.
+  const auto add = [&](const std::string& sum, const std::string& name, const std::string& factor) {
+    inner.add(fleet::real(dialect_, sum) + factor, "total_" + name);
+    outer.add("total_" + name, name);
   };
-  add("energy", units_.energy);
-  add("volume", units_.fine);
-  add("variance", units_.variance);
-  add("settled", units_.fine);
-  for (std::size_t i = 0; i < 4; ++i) add(std::string("sum_") + input_columns[i], units_.inputs[i]);
+  add("max(last_cycle)", "last_cycle", "");
+  for (const char* each : count_names) add(fmt::format("sum({})", each), each, "");
+  const auto add_sum = [&](const std::string& name, double unit) {
+    add(fmt::format("sum({})", name), name, " * " + number(unit));
+  };
+  add_sum("energy", units_.energy);
+  add_sum("volume", units_.fine);
+  add_sum("variance", units_.variance);
+  add_sum("settled", units_.fine);
+  for (std::size_t i = 0; i < 4; ++i)
+    add_sum(std::string("sum_") + input_columns[i], units_.inputs[i]);
   for (const char letter : {'v', 's'}) {
     for (std::size_t b = 1; b <= replicates_; ++b)
-      add(fmt::format("{}{}", letter, b), units_.volume);
+      add_sum(fmt::format("{}{}", letter, b), units_.volume);
   }
-  return fmt::format("select\n  {}\nfrom {} where model = {} group by unit", columns.text(),
-                     sums_table_, id_);
+  return fmt::format(
+      "select\n  {}\nfrom (\nselect\n  {}\nfrom {} where model = {} group by unit\n) as totals",
+      outer.text(), inner.text(), sums_table_, id_);
 }
 
 std::string SqlWriter::totals() const {
-  return unit_sums() + "\norder by unit";
+  return unit_sums();
 }
 
 /// Volume of replicate b after `n` more cycles of the unit's own mean duty; run-in as a geometric series.
@@ -127,7 +121,7 @@ std::string SqlWriter::wear() const {
 }
 
 std::string SqlWriter::combine() const {
-  const std::string mm3_of = " * " + number(1 / mm3);
+  const std::string mm3_of = " * 1e9";
   const std::string worn_out = parameters_.column(0, "worn_out");
   const std::string full = fmt::format("sqrt(variance + model_variance + power({} * volume, 2))",
                                        parameters_.column(0, "plate_sd"));
@@ -153,7 +147,7 @@ std::string SqlWriter::combine() const {
     columns.add(fmt::format("life_left + 2e0 * life_sd_{}", each),
                 fmt::format("life_left_{}_high", each));
   }
-  for (const char* each : counts) {
+  for (const char* each : count_names) {
     if (std::string(each) != "cycles") columns.keep(each);
   }
   return fmt::format(
@@ -199,10 +193,10 @@ std::string SqlWriter::check() const {
   columns.keep(fleet::real(dialect_, count_if(fmt::format("not coalesce({}, false)", valid()))));
   columns.keep(fleet::real(dialect_, count_if("unit is null")));
   for (const char* each : input_columns) {
-    columns.keep(fmt::format("min({})", each));
-    columns.keep(fmt::format("max({})", each));
+    columns.keep(fmt::format("min(raw_{})", each));
+    columns.keep(fmt::format("max(raw_{})", each));
   }
-  columns.keep("max(energy)");
+  columns.keep("max(raw_energy)");
   return fmt::format("select\n  {}\nfrom (\n{}\n) as si", columns.text(), si(false));
 }
 

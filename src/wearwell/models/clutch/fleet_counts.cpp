@@ -29,8 +29,8 @@ UnitRow FleetCounts::add(const UnitSums& sums) {
       for (std::size_t b = 0; b < models_; ++b) {
         const double p = forecast.reached(b, levels_[l] * model_.worn_out, horizons_[h]);
         Sum& sum = at(l, h, b);
-        sum.mean += p;
-        sum.variance += p * (1 - p);
+        sum.mean += std::llround(p / probability_unit);
+        sum.variance += std::llround(p * (1 - p) / probability_unit);
       }
     }
   }
@@ -42,7 +42,7 @@ UnitRow FleetCounts::add(const UnitSums& sums) {
   duty_[4].push_back(static_cast<float>(sums.energy / sums.cycles));
   worn_.push_back(static_cast<float>(sums.volume / model_.worn_out));
   cycles_ += sums.cycles;
-  energy_ += sums.energy;
+  energy_ += std::llround(sums.energy / energy_unit);
   outside_any_ += sums.outside_any;
   negative_ += sums.negative;
   units_outside_ += sums.outside_any > 0;
@@ -63,15 +63,18 @@ UnitRow FleetCounts::add(const UnitSums& sums) {
 
 UnitCount FleetCounts::reached(std::size_t level, std::size_t horizon) const {
   const Sum* const sums = &sums_[(level * horizons_.size() + horizon) * models_];
-  UnitCount count{sums[0].mean};
+  const auto mean = [&](std::size_t b) {
+    return static_cast<double>(sums[b].mean) * probability_unit;
+  };
+  UnitCount count{mean(0)};
   const std::size_t first = models_ > 1 ? 1 : 0;
   // The share of the mixture that is at or below x.
   const auto below = [&](double x) {
     double share = 0;
     for (std::size_t b = first; b < models_; ++b) {
-      const double sd = std::sqrt(sums[b].variance);
-      share += sd > 0 ? 0.5 * std::erfc((sums[b].mean - x) / (sd * std::numbers::sqrt2))
-                      : (x >= sums[b].mean ? 1.0 : 0.0);
+      const double sd = std::sqrt(static_cast<double>(sums[b].variance) * probability_unit);
+      share += sd > 0 ? 0.5 * std::erfc((mean(b) - x) / (sd * std::numbers::sqrt2))
+                      : (x >= mean(b) ? 1.0 : 0.0);
     }
     return share / static_cast<double>(models_ - first);
   };

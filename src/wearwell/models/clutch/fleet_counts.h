@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -49,16 +50,18 @@ class FleetCounts {
   const std::array<std::vector<float>, duties>& duty() const { return duty_; }
   const std::vector<float>& worn() const { return worn_; }  ///< share of the worn-out volume
   double cycles() const { return cycles_; }
-  double energy() const { return energy_; }
+  double energy() const { return static_cast<double>(energy_) * energy_unit; }
   const std::array<double, 4>& outside() const { return outside_; }
   double outside_any() const { return outside_any_; }
   double negative() const { return negative_; }
   std::size_t units_outside() const { return units_outside_; }
 
  private:
+  /// In fixed point, so that the order of the units changes nothing.
   struct Sum {
-    double mean = 0, variance = 0;
+    std::int64_t mean = 0, variance = 0;
   };
+  static constexpr double probability_unit = 0x1p-36, energy_unit = 0x1p-8;
   Sum& at(std::size_t level, std::size_t horizon, std::size_t b) {
     return sums_[(level * horizons_.size() + horizon) * models_ + b];
   }
@@ -70,7 +73,8 @@ class FleetCounts {
   std::size_t units_ = 0, units_outside_ = 0;
   std::array<std::vector<float>, duties> duty_;
   std::vector<float> worn_;
-  double cycles_ = 0, energy_ = 0, outside_any_ = 0, negative_ = 0;
+  std::int64_t energy_ = 0;
+  double cycles_ = 0, outside_any_ = 0, negative_ = 0;
   std::array<double, 4> outside_{};
 };
 

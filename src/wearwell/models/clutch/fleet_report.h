@@ -13,8 +13,7 @@ namespace wearwell::clutch {
 struct FleetFindings {
   std::string version, model_id, engine, source;
   std::vector<std::string> files;
-  double rows = 0;     ///< looked at in this run
-  double seconds = 0;  ///< that the engine took for them
+  double rows = 0;  ///< looked at in this run
   bool replicates = true;
   std::vector<UnitRow> units;  ///< worst first
   std::string statements;      ///< that were run

@@ -37,7 +37,11 @@ void run_sql(const SqlOptions& options) {
       fleet::comment(fmt::format("wearwell {}: clutch wear of the units in {}, for {}; model {}",
                                  WEARWELL_VERSION, options.table, options.dialect, read.id));
   fmt::print("{}", head);
-  if (wanted("setup")) fmt::print("{}", sql.setup);
+  if (wanted("setup")) {
+    // ClickHouse has no transactions.
+    const bool whole = dialect != fleet::Dialect::clickhouse;
+    fmt::print("{}{}{}", whole ? "begin;\n" : "", sql.setup, whole ? "commit;\n" : "");
+  }
   if (wanted("query")) fmt::print("{}", sql.query);
   if (wanted("combine")) fmt::print("{}", sql.combine);
 }

@@ -44,6 +44,9 @@ class Builder {
     add(replicate, "fast", run_in.fast);
     add(replicate, "slow_energy", run_in.slow_energy);
     add(replicate, "fast_energy", run_in.fast_energy);
+    // Multiplied by once a row, where a division takes longer.
+    add(replicate, "slow_rate", -1 / run_in.slow_energy);
+    add(replicate, "fast_rate", -1 / run_in.fast_energy);
   }
 
   SqlParameters out;

@@ -24,6 +24,17 @@ class SqlColumns {
 inline constexpr const char* input_columns[] = {"slip_speed", "torque", "temperature",
                                                 "closing_time"};
 
+/// What is counted for each unit.
+inline constexpr const char* count_names[] = {"cycles",
+                                              "refused",
+                                              "repeated",
+                                              "outside_slip_speed",
+                                              "outside_torque",
+                                              "outside_temperature",
+                                              "outside_closing_time",
+                                              "outside_any",
+                                              "negative"};
+
 /// Writes the statements of one model. A query is SELECTs in each other, from the rows outwards: every level
 /// adds columns to those of the level within.
 class SqlWriter {
@@ -43,7 +54,12 @@ class SqlWriter {
   std::string k(std::size_t replicate, const std::string& name) const {
     return "k." + parameters_.column(replicate, name);
   }
+  bool clickhouse() const { return dialect_ == fleet::Dialect::clickhouse; }
   std::string count_if(const std::string& condition) const;
+  /// Of rows that are not refused; elsewhere these are nothing, which meets no condition.
+  std::string counted(const std::string& condition) const {
+    return clickhouse() ? "valid = 1 and (" + condition + ")" : condition;
+  }
   /// PostgreSQL would put expressions into each other, and compute them as often as they are used.
   const char* fence() const { return dialect_ == fleet::Dialect::postgresql ? "\noffset 0" : ""; }
   std::vector<std::string> sum_names() const;
@@ -53,7 +69,10 @@ class SqlWriter {
   std::string valid() const;
   std::string sigma() const;
   std::string si(bool fresh) const;
+  std::string checked() const;
   std::string ordered() const;
+  std::string ordered_by_arrays() const;
+  std::string setup_of_clickhouse(const std::string& rows) const;
   std::string powers() const;
   std::string rates() const;
   std::string worn() const;

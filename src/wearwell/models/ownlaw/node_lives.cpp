@@ -168,9 +168,14 @@ struct NodeLives::Ahead {
     changes &= !runs;
   }
 
+  // Where paths are looked at from.
+  double from() const { return runs && path->begun ? path->place : lives.path_.begin; }
+
   void evaluate(const NodeRow& row, const double* place) {
     NodeProgram::GoesOn on;
-    if (runs && path->begun) on = {path->place, &path->carried, &lives.steps_, lives.row_length_};
+    if (runs) {
+      on = {from(), path->begun ? &path->carried : nullptr, &lives.steps_, lives.row_length_};
+    }
     lives.program_->evaluate(nodes, begin, count, row, place, on, scratch);
   }
   double at(std::size_t o, std::size_t i) const { return output(*lives.program_, scratch, o, i); }
@@ -199,9 +204,8 @@ struct NodeLives::Ahead {
   }
 
   void cross(const double* level, double* place) {
-    const double from = runs && path->begun ? path->place : lives.path_.begin;
     search_crossings(
-        lives.path_.rising, from, lives.path_.scale, count, level,
+        lives.path_.rising, from(), lives.path_.scale, count, level,
         [&](const double* trial) { evaluate(ahead, trial); },
         [&](std::size_t i) { return at(0, i); }, place, passed_by);
   }

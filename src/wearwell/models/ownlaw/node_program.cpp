@@ -117,7 +117,7 @@ void NodeProgram::bind_rows(std::size_t count, const NodeRow& row, const double*
   if (on.steps) {
     for (const std::size_t c : *on.steps) {
       for (std::size_t i = 0; i < count; ++i) {
-        scratch.columns_[c][i] = scratch.columns_[axis_][i] - on.from;
+        scratch.columns_[c][i] = scratch.columns_[axis_][i] - *on.from;
       }
     }
   }
@@ -129,9 +129,9 @@ void NodeProgram::bind_rows(std::size_t count, const NodeRow& row, const double*
   if (!plain_) {
     rows.paths.resize(count);
     for (std::size_t i = 0; i < count; ++i) rows.paths[i] = i;
-    if (on.carried) rows.from.assign(count, on.from);
+    if (on.from) rows.from.assign(count, *on.from);
     for (std::size_t i = 0; on.row_length > 0 && i < count; ++i) {
-      rows.repeats.push_back((scratch.columns_[axis_][i] - on.from) / on.row_length);
+      rows.repeats.push_back((scratch.columns_[axis_][i] - *on.from) / on.row_length);
     }
   }
   program_.bind(rows, scratch.data_);

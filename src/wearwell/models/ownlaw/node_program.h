@@ -47,7 +47,7 @@ class NodeProgram {
 
   /// How rows go on from one before, and rows ahead of which one step stands for all (RunningPath).
   struct GoesOn {
-    double from = 0;  ///< the place of the row before, SI
+    std::optional<double> from = {};  ///< the place of the row before, or where the path begins, SI
     const std::vector<std::vector<double>>* carried =
         nullptr;  ///< by what runs, then node; null of a path that begins
     const std::vector<std::size_t>* steps = nullptr;  ///< columns that are the way from `from`

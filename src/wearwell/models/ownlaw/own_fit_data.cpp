@@ -69,50 +69,75 @@ std::vector<double> drawn_effects(const OwnRows& rows, const double* x) {
   return z;
 }
 
+// Of the observations of column c.
+void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
+                const std::vector<double>& slots, std::vector<NormalScore>& scores) {
+  const Measured& column = units.law().measured[c];
+  if (column.process) {
+    const std::vector<NormalScore> steps = units.step_scores(z, c);
+    scores.insert(scores.end(), steps.begin(), steps.end());
+    return;
+  }
+  for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
+    scores.push_back(score(column, column.observed.responses[i], &slots[i * most_response_slots]));
+  }
+}
+
+// The columns that any expression depends on, where all observations have them.
+std::vector<Driver> drivers_of(const OwnLaw& law) {
+  std::vector<Driver> all;
+  for (std::size_t c = 0; c < law.row_symbols.columns.size(); ++c) {
+    const std::string& name = law.row_symbols.columns[c].name;
+    bool used = false, whole = true;
+    Driver driver{name, {}};
+    for (const Measured& measured : law.measured) {
+      used |= measured.program.uses_column(c);
+      for (const std::size_t row : measured.observed.rows) {
+        driver.value.push_back(law.data.number(name)->values[row]);
+        whole &= std::isfinite(driver.value.back());
+      }
+    }
+    if (used && whole) all.push_back(std::move(driver));
+  }
+  return all;
+}
+
 }  // namespace
 
 std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
   const OwnLaw& law = rows->law();
-  if (law.measured.size() > 1) return {};
-  const Measured& measured = law.measured.front();
-  for (const Response& each : measured.observed.responses) {
-    if (each.entry > -infinity) return {};
-  }
   FitData data;
+  for (const Measured& measured : law.measured) {
+    for (const Response& each : measured.observed.responses) {
+      if (each.entry > -infinity) return {};
+    }
+    const std::vector<int>& counts = measured.observed.counts;
+    data.counts.insert(data.counts.end(), counts.begin(), counts.end());
+  }
   data.scores = [rows](const double* x) {
     const std::vector<double> z = drawn_effects(*rows, x);
     UnitRows& units = rows->mine().rows;
     units.move_to(x);
-    const Measured& column = rows->law().measured.front();
     std::vector<NormalScore> scores;
-    if (column.process) {
-      scores = units.step_scores(z, 0);
-    } else {
-      const std::vector<double> slots = units.each_slot(z).front();
-      for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
-        scores.push_back(
-            score(column, column.observed.responses[i], &slots[i * most_response_slots]));
-      }
-    }
+    const std::vector<std::vector<double>> slots = units.each_slot(z);
+    for (std::size_t c = 0; c < slots.size(); ++c) add_scores(units, z, c, slots[c], scores);
     const std::size_t d = rows->law().effects.size();
     for (std::size_t e = 0; e < d; ++e) {
       for (std::size_t i = e; i < z.size(); i += d) scores.push_back({z[i], z[i]});
     }
     return scores;
   };
-  data.counts = measured.observed.counts;
-  for (std::size_t c = 0; c < law.row_symbols.columns.size(); ++c) {
-    const std::string& name = law.row_symbols.columns[c].name;
-    if (!measured.program.uses_column(c)) continue;
-    Driver driver{name, {}};
-    for (const std::size_t row : measured.observed.rows) {
-      driver.value.push_back(law.data.number(name)->values[row]);
+  data.drivers = drivers_of(law);
+  if (law.measured.size() > 1) data.noun = "observation";
+  // Readings of one column follow each other: those of another may lie off the other way.
+  for (std::size_t c = 0; c < law.measured.size(); ++c) {
+    if (law.measured.size() == 1 && !law.by_unit()) break;
+    for (const std::size_t row : law.measured[c].observed.rows) {
+      data.unit.push_back(c * law.units.size() + law.unit_of_row[row]);
     }
-    data.drivers.push_back(std::move(driver));
   }
   if (!law.by_unit()) return data;
   data.terms = false;  // factors of the likelihood are units
-  for (const std::size_t row : measured.observed.rows) data.unit.push_back(law.unit_of_row[row]);
   for (const Effect& effect : law.effects) {
     UnitEffect named{effect.name, {}};
     for (const std::string& unit : law.units) {

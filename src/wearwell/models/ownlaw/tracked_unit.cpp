@@ -47,7 +47,7 @@ void TrackedUnit::lay(std::vector<UnitReading> all) {
   all.insert(all.begin(), seen_.begin(), seen_.end());
   sort_along(all);
   nodes_ = lay_nodes(tracked_->population, seen_, all, nodes_);
-  log_weight_ = nodes_.log_before;
+  log_weight_ = std::move(nodes_.log_before);
   paths_ = tracked_->rows.paths();
   std::vector<double> value(log_weight_.size());
   std::vector<NodePath> after = paths_;
@@ -268,6 +268,8 @@ std::unique_ptr<TrackedUnit> TrackedUnit::restore(
               nodes.log_seen.size() == nodes.nodes.lines() &&
               nodes.shape.size() == nodes.nodes.lines() * UnitNodes::shape_size(effects));
   nodes.fill(*tracked->law);
+  nodes.log_before.clear();
+  nodes.log_before.shrink_to_fit();
   unit->log_weight_ = from.short_numbers();
   from.demand(unit->log_weight_.size() == nodes.nodes.count());
   unit->laid_effective_ = from.numbers().at(0);

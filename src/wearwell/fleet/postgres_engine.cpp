@@ -1,0 +1,146 @@
+#include "wearwell/fleet/postgres_engine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/trim.hpp>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <limits>
+#include <pqxx/pqxx>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+
+namespace wearwell::fleet {
+namespace {
+
+/// The first line of what the server says, without its "ERROR: ".
+std::string sentence(const std::string& message) {
+  std::string line = message.substr(0, message.find('\n'));
+  if (boost::algorithm::starts_with(line, "ERROR:")) line.erase(0, 6);
+  return printable(boost::algorithm::trim_copy(line));
+}
+
+/// Types of numbers in pg_type, which no version changes: bigint, smallint, integer, real, double precision,
+/// numeric.
+constexpr unsigned numbers[] = {20, 21, 23, 700, 701, 1700};
+constexpr unsigned reals[] = {700, 701, 1700};
+
+class PostgresEngine : public Engine {
+ public:
+  PostgresEngine(const std::string& address, const std::string& table)
+      : name_(table), table_(table_identifier(Dialect::postgresql, table)) {
+    try {
+      connection_ = std::make_unique<pqxx::connection>(address);
+      // Compiling expressions of a thousand columns takes longer than they do.
+      execute("set jit = off; set client_min_messages = error; set datestyle = iso");
+    } catch (const pqxx::broken_connection& error) {
+      throw InputError(fmt::format("PostgreSQL is not reached: {}", sentence(error.what())));
+    }
+  }
+
+  Dialect dialect() const override { return Dialect::postgresql; }
+  std::string in_words() const override {
+    const int version = connection_->server_version();
+    return fmt::format("PostgreSQL {}.{}", version / 10000, version % 10000);
+  }
+  std::string table() const override { return table_; }
+  std::string source() const override {
+    const char* host = connection_->hostname();
+    return fmt::format("{} at {}:{}", printable(name_), printable(host ? host : "this machine"),
+                       printable(connection_->port()));
+  }
+
+  std::vector<EngineColumn> columns() override;
+  void begin() override { execute("begin transaction isolation level repeatable read"); }
+  void commit() override { execute("commit"); }
+  void run(const std::string& statements, const Monitor& monitor, const std::string& what,
+           long long total) override;
+  void rows(const std::string& query, std::size_t texts,
+            const std::function<void(const Row&)>& take) override;
+
+ private:
+  pqxx::result execute(const std::string& statements);
+
+  std::string name_, table_;
+  std::unique_ptr<pqxx::connection> connection_;
+};
+
+pqxx::result PostgresEngine::execute(const std::string& statements) {
+  try {
+    pqxx::nontransaction work(*connection_);
+    return work.exec(statements);
+  } catch (const pqxx::broken_connection& error) {
+    throw InputError(fmt::format("{}: the connection broke: {}", source(), sentence(error.what())));
+  } catch (const pqxx::sql_error& error) {
+    const std::string said = sentence(error.what());
+    if (said.find("user request") != std::string::npos) throw Cancelled();
+    if (error.sqlstate().starts_with("53"))  // insufficient resources
+      throw MachineError(fmt::format("{}: {}", source(), said));
+    throw InputError(fmt::format("{}: {}", source(), said));
+  }
+}
+
+std::vector<EngineColumn> PostgresEngine::columns() {
+  const pqxx::result result = execute("select * from " + table_ + " limit 0");
+  std::vector<EngineColumn> found;
+  for (pqxx::row_size_type c = 0; c < result.columns(); ++c) {
+    const auto among = [&](const auto& types) {
+      return std::find(std::begin(types), std::end(types), result.column_type(c)) !=
+             std::end(types);
+    };
+    found.push_back({result.column_name(c), among(numbers), among(reals)});
+  }
+  return found;
+}
+
+void PostgresEngine::run(const std::string& statements, const Monitor& monitor,
+                         const std::string& what, long long) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  auto work = std::async(std::launch::async, [&] { execute(statements); });
+  while (work.wait_for(std::chrono::milliseconds(200)) != std::future_status::ready) {
+    if (monitor.stop.stop_requested()) connection_->cancel_query();
+    // The server does not tell how far it is.
+    if (monitor.progress)
+      monitor.progress({what, 0, 0, std::chrono::duration<double>(Clock::now() - start).count()});
+  }
+  work.get();
+}
+
+void PostgresEngine::rows(const std::string& query, std::size_t texts,
+                          const std::function<void(const Row&)>& take) {
+  constexpr int at_once = 2000;
+  execute("declare wearwell no scroll cursor for " + query);
+  Row row;
+  row.texts.resize(texts);
+  for (;;) {
+    const pqxx::result some = execute(fmt::format("fetch {} from wearwell", at_once));
+    for (const pqxx::row& each : some) {
+      row.numbers.resize(each.size() - texts);
+      for (std::size_t c = 0; c < each.size(); ++c) {
+        const pqxx::field field = each[static_cast<pqxx::row_size_type>(c)];
+        if (c < texts) {
+          row.texts[c] = field.is_null() ? "" : field.c_str();
+        } else {
+          row.numbers[c - texts] =
+              field.is_null() ? std::numeric_limits<double>::quiet_NaN() : field.as<double>();
+        }
+      }
+      take(row);
+    }
+    if (some.size() < at_once) break;
+  }
+  execute("close wearwell");
+}
+
+}  // namespace
+
+std::unique_ptr<Engine> postgres_engine(const std::string& address, const std::string& table) {
+  return std::make_unique<PostgresEngine>(address, table);
+}
+
+}  // namespace wearwell::fleet

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "wearwell/fleet/engine.h"
+
+namespace wearwell::fleet {
+
+/// A server of PostgreSQL, reached as libpq has it ("postgresql://user@host/database"; passwords
+/// belong into ~/.pgpass), and the table of cycles in it, as `table_identifier` reads its name. All that is
+/// done is one transaction of isolation level repeatable read. Throws InputError.
+std::unique_ptr<Engine> postgres_engine(const std::string& address, const std::string& table);
+
+}  // namespace wearwell::fleet

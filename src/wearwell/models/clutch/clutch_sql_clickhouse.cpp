@@ -1,0 +1,45 @@
+// What ClickHouse wants otherwise.
+#include <fmt/format.h>
+
+#include "wearwell/models/clutch/sql_writer.h"
+
+namespace wearwell::clutch {
+
+/// The same rows a second time change nothing: they are read by their largest value. Its client wants
+/// them in one line.
+std::string SqlWriter::setup_of_clickhouse(const std::string& rows) const {
+  std::string sums;
+  for (const char* each : count_names) sums += fmt::format(",\n  {} {}", each, types_.whole);
+  for (const std::string& each : sum_names()) sums += fmt::format(",\n  {} {}", each, types_.sum);
+  return fmt::format(
+      "set max_query_size = 16777216, max_ast_elements = 1000000, max_expanded_ast_elements = "
+      "10000000;\ncreate table if not exists {0} (\n  model String, replicate Int32, name String, "
+      "value "
+      "Float64) engine = ReplacingMergeTree order by (model, replicate, name);\n"
+      "-- One row a unit and run of statement 2, of which no two may run at the same time: nothing "
+      "here refuses the second.\n"
+      "create table if not exists {1} (\n  model String, unit String, after_cycle Int64, "
+      "last_cycle "
+      "Int64{2}) engine = MergeTree order by (model, unit, after_cycle);\n"
+      "insert into {0} (model, replicate, name, value) values{3};\n",
+      model_table_, sums_table_, sums, rows);
+}
+
+/// ClickHouse of 2018 has no window functions: the cycles of a unit as an array, in order.
+std::string SqlWriter::ordered_by_arrays() const {
+  const std::string row =
+      "cycle, valid, slip_speed, torque, temperature, closing_time, fixed_energy";
+  return fmt::format(
+      "select unit, after_cycle, cycle, valid, slip_speed, torque, temperature, closing_time, "
+      "fixed_energy,\n  energy_before + toDecimal128(passed, 0) as before, cycle_before\n"
+      "from (\nselect unit, any(after_cycle) as after_cycle, any(energy_before) as energy_before,\n"
+      "  arraySort(x -> x.1, groupArray(({}))) as r\nfrom (\n{}\n) as checked\ngroup by unit\n"
+      "having throwIf(sum(toFloat64(fixed_energy)) > 9e18) = 0\n) as units\narray join r.1 as "
+      "cycle, "
+      "r.2 as valid, r.3 as slip_speed, r.4 as torque, r.5 as temperature, r.6 as closing_time,\n"
+      "  r.7 as fixed_energy, arrayMap((c, x) -> c - x, arrayCumSum(r.7), r.7) as passed,\n"
+      "  arrayPopBack(arrayPushFront(r.1, toInt64(0))) as cycle_before",
+      row, checked());
+}
+
+}  // namespace wearwell::clutch

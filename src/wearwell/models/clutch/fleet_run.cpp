@@ -1,0 +1,183 @@
+#include "wearwell/models/clutch/fleet_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/base/workers.h"
+#include "wearwell/models/clutch/clutch_sql.h"
+#include "wearwell/models/clutch/fleet_columns.h"
+
+namespace wearwell::clutch {
+namespace {
+
+/// What a look at all rows tells before they are summed.
+struct FleetCheck {
+  double rows = 0;
+  std::string ranges;  ///< least and most of each input, in words
+};
+
+/// Throws InputError for rows that no sum can take.
+FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
+  FleetCheck check;
+  engine.rows(sql.check, 0, [&](const fleet::Row& row) {
+    check.rows = row.numbers[0];
+    const double refused = row.numbers[1], nameless = row.numbers[2];
+    if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
+    check.ranges = fmt::format(
+        "slip_speed {:.6g} .. {:.6g} rad/s, torque {:.6g} .. {:.6g} N m, temperature {:.6g} .. "
+        "{:.6g} degC, closing_time {:.6g} .. {:.6g} s, energy up to {:.6g} J",
+        row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6], row.numbers[7],
+        row.numbers[8], row.numbers[9], row.numbers[10], row.numbers[11]);
+    if (nameless > 0)
+      throw InputError(fmt::format("{}: {:.0f} rows name no unit", engine.source(), nameless));
+    if (refused > 0)
+      throw InputError(fmt::format(
+          "{}: {:.0f} rows of {:.0f} have no value, or one that cannot be: cycles are whole "
+          "numbers of at least 1, temperatures above absolute zero, all else positive (these are: "
+          "{})",
+          engine.source(), refused, check.rows, check.ranges));
+  });
+  return check;
+}
+
+void refuse_late(fleet::Engine& engine, const ClutchSql& sql) {
+  engine.rows(sql.late, 1, [&](const fleet::Row& row) {
+    throw InputError(
+        fmt::format("{}: unit {} has {:.0f} cycles up to the last one that was counted, of which "
+                    "{:.0f} were counted: "
+                    "rows came late or went; sum them all anew, without --state",
+                    engine.source(), printable(row.texts.front()), row.numbers[0], row.numbers[1]));
+  });
+}
+
+void refuse_repeated(const fleet::Engine& engine, const UnitSums& sums) {
+  if (sums.repeated > 0)
+    throw InputError(fmt::format("{}: unit {} has {:.0f} cycles whose number stands there twice",
+                                 engine.source(), printable(sums.unit), sums.repeated));
+}
+
+/// Now, and after parts of the mean number of cycles so far, in round numbers.
+std::vector<double> horizons_of(double mean_cycles) {
+  std::vector<double> horizons = {0};
+  for (const double share : {0.25, 0.5, 1.0}) {
+    const double n = share * mean_cycles, digit = std::pow(10, std::floor(std::log10(n)));
+    const double rounded = std::max(1.0, std::round(n / digit) * digit);
+    if (rounded > horizons.back()) horizons.push_back(rounded);
+  }
+  return horizons;
+}
+
+/// Where one engine stands.
+struct Shard {
+  fleet::Engine& engine;
+  ClutchSql sql = {};
+  double rows = 0;
+};
+
+/// Everything up to the sums of its units.
+void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
+               const Monitor& monitor) {
+  fleet::Engine& engine = shard.engine;
+  SqlSource source;
+  source.table = engine.table();
+  source.first = request.first;
+  source.prefix = request.prefix;
+  engine.begin();
+  read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
+  shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
+  const FleetCheck check = check_rows(engine, shard.sql);
+  shard.rows = check.rows;
+  engine.run(shard.sql.setup, {}, "", 0);
+  if (!request.first) refuse_late(engine, shard.sql);
+  try {
+    engine.run(shard.sql.query, monitor, "cycles", static_cast<long long>(shard.rows));
+  } catch (const InputError& error) {
+    if (std::string_view(error.what()).find("out of range") == std::string_view::npos) throw;
+    throw InputError(fmt::format(
+        "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
+        "They are: {} ({})",
+        engine.source(), check.ranges, error.what()));
+  }
+}
+
+/// Horizons as asked for, now among them; else from the mean number of cycles.
+std::vector<double> horizons_for(const FleetRequest& request, const std::vector<Shard>& shards) {
+  std::vector<double> horizons = request.horizons;
+  if (horizons.empty()) {
+    double units = 0, cycles = 0;
+    for (const Shard& shard : shards) {
+      shard.engine.rows(shard.sql.size, 0, [&](const fleet::Row& row) {
+        units += row.numbers[0];
+        cycles += row.numbers[1];
+      });
+    }
+    return horizons_of(cycles / units);
+  }
+  if (horizons.front() != 0) horizons.insert(horizons.begin(), 0);
+  return horizons;
+}
+
+void refuse_torn(const std::vector<UnitRow>& units) {
+  std::vector<const std::string*> names;
+  for (const UnitRow& each : units) names.push_back(&each.unit);
+  std::sort(names.begin(), names.end(), [](auto a, auto b) { return *a < *b; });
+  const auto twice =
+      std::adjacent_find(names.begin(), names.end(), [](auto a, auto b) { return *a == *b; });
+  if (twice != names.end())
+    throw InputError(fmt::format(
+        "unit {} has cycles in more than one of the databases: all rows of a unit must lie in one "
+        "(distribute them by unit)",
+        printable(**twice)));
+}
+
+}  // namespace
+
+Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*>& engines,
+                  const FleetRequest& request, const Monitor& monitor) {
+  const bool full = request.replicates && !model.model.replicates.empty();
+  std::vector<Shard> shards;
+  for (fleet::Engine* engine : engines) shards.push_back({*engine});
+  run_workers(static_cast<int>(shards.size()), [&](int i) {
+    // One engine's progress stands for that of all.
+    sum_shard(shards[static_cast<std::size_t>(i)], model, request, full,
+              i == 0 ? monitor : Monitor{.progress = {}, .stop = monitor.stop});
+  });
+  FleetFindings found{.version = WEARWELL_VERSION,
+                      .model_id = model.id,
+                      .engine = "",
+                      .source = "",
+                      .files = request.files,
+                      .rows = 0,
+                      .replicates = full,
+                      .units = {},
+                      .statements = shards.front().sql.setup + shards.front().sql.query};
+  for (const Shard& shard : shards) {
+    found.engine += (found.engine.empty() ? "" : ", ") + shard.engine.in_words();
+    found.rows += shard.rows;
+    if (request.files.empty()) found.files.push_back(shard.engine.source());
+  }
+  std::vector<double> levels;
+  for (const double percent : request.levels) levels.push_back(percent / 100);
+  FleetCounts counts(model.model, full, levels, horizons_for(request, shards));
+  const std::size_t replicates = full ? model.model.replicates.size() : 0;
+  for (const Shard& shard : shards) {
+    shard.engine.rows(shard.sql.totals, 1, [&](const fleet::Row& row) {
+      const UnitSums sums = unit_sums(row, replicates);
+      refuse_repeated(shard.engine, sums);
+      found.units.push_back(counts.add(sums));
+    });
+  }
+  refuse_torn(found.units);
+  worst_first(found.units);
+  Result result = fleet_result(model.model, counts, found);
+  for (const Shard& shard : shards) shard.engine.commit();
+  return result;
+}
+
+}  // namespace wearwell::clutch

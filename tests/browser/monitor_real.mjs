@@ -1,0 +1,117 @@
+// `wearwell monitor` itself: a result is fitted, machines report by HTTP, and the page in headless Chromium shows them as
+// they do. What it shows of the riskiest is what the program prints of it at its end.
+//
+//   node monitor_real.mjs NODE_MODULES WEARWELL STUDY.toml FOLDER
+import {spawn, spawnSync} from 'node:child_process';
+import {mkdirSync, rmSync, writeFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {createServer} from 'node:net';
+import {join, resolve} from 'node:path';
+
+const [modules, wearwell, study, folder] = process.argv.slice(2);
+const require = createRequire(join(resolve(modules), 'any.js'));
+const {chromium} = require('playwright-core');
+
+const faults = [];
+const check = (holds, fault) => { if (!holds) faults.push(fault); };
+
+rmSync(folder, {recursive: true, force: true});
+mkdirSync(folder, {recursive: true});
+const fit = spawnSync(wearwell, ['fit', study, '-o', join(folder, 'result'), '--quiet'], {encoding: 'utf8'});
+if (fit.status > 1) {
+  console.log(`wearwell fit: ${fit.status} ${fit.stderr}`);
+  process.exit(1);
+}
+const port = await new Promise((done) => {
+  const probe = createServer();
+  probe.listen(0, '127.0.0.1', () => { const {port: free} = probe.address(); probe.close(() => done(free)); });
+});
+writeFileSync(join(folder, 'fleet.toml'), `title = "Lasers in the field"
+result = "result"
+[source.web]
+kind = "http"
+[reading]
+unit = "laser"
+time = "ts"
+time_format = "unix s"
+[reading.columns]
+increase = { field = "increase", unit = "%" }
+time = { field = "hours", unit = "h" }
+[alarm]
+horizon = "500 h"
+watch = 0.05
+act = 0.3
+[http]
+listen = "127.0.0.1:${port}"
+`);
+
+const address = `http://127.0.0.1:${port}/`;
+const program = spawn(wearwell, ['monitor', join(folder, 'fleet.toml'), '--json'], {stdio: ['ignore', 'pipe', 'pipe']});
+let out = '', err = '';
+program.stdout.on('data', (data) => { out += data; });
+program.stderr.on('data', (data) => { err += data; });
+const ended = new Promise((done) => program.once('exit', done));
+const sleep = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
+for (let i = 0; i < 600; ++i) {
+  if (await fetch(`${address}health`).then((answer) => answer.ok, () => false)) break;
+  await sleep(100);
+}
+
+// Laser 0 wears fastest. Paths that any machine draws: what is tested is how they show.
+const lasers = 12, begin = Math.floor(Date.now() / 1000) - 3600;
+async function report(step) {
+  const lines = [];
+  for (let i = 0; i < lasers; ++i) {
+    lines.push(JSON.stringify({laser: `L${String(i).padStart(2, '0')}`, ts: begin + 60 * step, hours: 250 * step,
+                               increase: Number((step * (0.9 - 0.05 * i)).toFixed(3))}));
+  }
+  const answer = await fetch(`${address}api/readings`, {method: 'POST', body: lines.join('\n')});
+  return {status: answer.status, ...await answer.json()};
+}
+
+const browser = await chromium.launch({
+  executablePath: '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+         '--disable-component-update', '--disable-sync'],
+});
+try {
+  const page = await browser.newPage({viewport: {width: 1280, height: 900}});
+  page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) faults.push(`console: ${message.text()}`); });
+  page.on('pageerror', (error) => faults.push(`script: ${error.message}`));
+  await page.goto(address, {timeout: 60000});
+  await page.waitForSelector('#connection[data-state="live"]', {timeout: 60000});
+  check((await page.textContent('#subtitle')).startsWith('0 lasers'), 'a fleet of none is not told');
+  for (let step = 1; step <= 10; ++step) {
+    const {status, readings} = await report(step);
+    check(status === 200 && readings === lasers, `report ${step}: ${status}, ${readings} readings`);
+  }
+  const again = await report(10);
+  check(again.status === 200 && again.repeated === lasers, 'the same again is not found as repeated');
+  const wrong = await fetch(`${address}api/readings`, {method: 'POST', body: '{"laser": "L00", "hours": "many"}'});
+  check(wrong.status === 400, `nonsense is answered with ${wrong.status}`);
+  // All of it arrives by events, with nobody touching the page.
+  const arrived = () => [...document.querySelectorAll('.row')].length === 12 && document.querySelector('.row[id="row-0"]').dataset.unit === 'L00';
+  await page.waitForFunction(arrived, null, {timeout: 60000}).catch(() => faults.push('twelve lasers do not show'));
+  await page.goto(`${address}#unit=L00`);
+  await page.waitForFunction(() => /^10\D/.test(document.querySelector('.facts dd')?.textContent + ' '), null, {timeout: 60000})
+      .catch(() => faults.push('ten readings do not show'));
+  check(await page.evaluate(() => document.querySelectorAll('#detail figure').length) === 3, 'not all of three plots are drawn');
+  check(/Of 9 earlier forecasts/.test(await page.textContent('.tally')), 'forecasts that were judged are not told');
+  const risk = await page.evaluate(() => document.querySelector('.lead').textContent);
+  const view = await (await fetch(`${address}api/units/L00`)).json();
+  check(risk.includes(`${(100 * view.risk).toFixed(0)}\u202f%`) || view.risk > 0.999, `"${risk}", and the risk is ${view.risk}`);
+  await page.screenshot({path: join(folder, 'page.png')});
+} finally {
+  await browser.close();
+  program.kill('SIGTERM');
+}
+const status = await ended;
+check(status === 0, `the program ended with ${status}: ${err}`);
+try {
+  JSON.parse(out);
+} catch {
+  faults.push(`what the program prints is no JSON: ${out.slice(0, 200)}`);
+}
+for (const fault of faults) console.log(fault);
+console.log(faults.length ? 'FAILED' : 'passed');
+process.exit(faults.length ? 1 : 0);

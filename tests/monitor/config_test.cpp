@@ -1,0 +1,130 @@
+// A configuration means one thing, or is refused with its place.
+#include <gmock/gmock.h>
+
+#include "monitor/growth_tracker.h"
+#include "support/scratch.h"
+#include "wearwell/monitor/monitor_config.h"
+
+namespace wearwell::monitor {
+namespace {
+
+using testing::HasSubstr;
+
+class Configs : public ScratchTest {
+ protected:
+  static constexpr const char* good = R"(result = "result"
+[reading]
+unit = "machine"
+time = "t"
+time_format = "iso 8601"
+[reading.columns]
+wear = { field = "w", unit = "um" }
+time = { field = "h", unit = "min" }
+[source.line]
+kind = "stdin"
+[alarm]
+horizon = "2 h"
+watch = "10 %"
+silence = "1 d"
+)";
+  MonitorConfig read(const std::string& text) const {
+    std::filesystem::create_directories(folder() / "result");
+    const TomlReader root = TomlReader::parse({folder() / "c.toml", text});
+    EXPECT_EQ(read_result_path(root), folder() / "result");
+    return read_monitor_config(root, tracker_);
+  }
+  /// What is said when `from` is replaced, behind the file's name.
+  std::string refusal(const std::string& from, const std::string& to) const {
+    std::string text = good;
+    const std::size_t at = text.find(from);
+    if (at == text.npos) throw std::logic_error(from);
+    text.replace(at, from.size(), to);
+    const std::string message = message_of<InputError>([&] { read(text); });
+    const std::string file = (folder() / "c.toml").string();
+    EXPECT_TRUE(message.starts_with(file + ":")) << message;
+    return message.substr(std::min(file.size() + 1, message.size()));
+  }
+  GrowthTracker tracker_;
+};
+
+TEST_F(Configs, Whole) {
+  const MonitorConfig config = read(good);
+  EXPECT_EQ(config.store, "fleet.sqlite");
+  EXPECT_EQ(config.alarm.horizon, 7200);
+  EXPECT_EQ(config.alarm.watch, 0.1);
+  EXPECT_EQ(config.alarm.act, 0.2);
+  EXPECT_EQ(config.alarm.silence, 86400);
+  EXPECT_FALSE(config.http);
+  EXPECT_FALSE(config.sequence);
+  ASSERT_EQ(config.sources.size(), 1U);
+  const ReadingMapping& mapping = config.sources[0].mapping;
+  EXPECT_EQ(mapping.columns[0].unit.scale, 1e-6);
+  EXPECT_EQ(mapping.columns[1].unit.scale, 60);
+  const StoredReading reading = reading_of(
+      fields_of_json(R"({"machine": "M1", "t": "2026-11-22T15:04:05Z", "w": 1500000, "h": 30})"),
+      "", mapping, 5);
+  EXPECT_EQ(reading.unit, "M1");
+  EXPECT_EQ(reading.key, 1795359845000);
+  EXPECT_EQ(reading.numbers, (std::vector<double>{1.5, 1800}));
+}
+
+// The unit of a study need not be one of the SI; a column in it is converted all the same.
+TEST_F(Configs, UnitsOfTheStudy) {
+  std::string text = good;
+  text.replace(text.find("\"min\""), 5, "\"h\"");
+  EXPECT_EQ(read(text).sources[0].mapping.columns[1].unit.scale, 3600);
+  EXPECT_EQ(read(text).alarm.horizon, 7200);
+}
+
+TEST_F(Configs, OfABroker) {
+  std::string text = good;
+  text.replace(text.find("unit = \"machine\"\n"), 17, "");
+  text.replace(
+      text.find("kind = \"stdin\""), 14,
+      "kind = \"mqtt\"\nbroker = \"mqtts://[::1]:99\"\ntopic = \"a/{unit}\"\nclient = \"me\"");
+  const SourceSettings source = read(text).sources[0];
+  EXPECT_EQ(source.broker.host, "::1");
+  EXPECT_EQ(source.broker.port, 99);
+  EXPECT_TRUE(source.broker.tls);
+  EXPECT_EQ(source.broker.client, "me");
+  EXPECT_TRUE(source.mapping.unit.empty());
+}
+
+TEST_F(Configs, Refused) {
+  EXPECT_THAT(refusal("unit = \"machine\"", "units = \"machine\""),
+              HasSubstr("reading.unit: is missing"));
+  EXPECT_THAT(refusal("time = \"t\"\ntime_format = \"iso 8601\"", ""), HasSubstr("so is time"));
+  EXPECT_THAT(refusal("time_format = \"iso 8601\"", ""),
+              HasSubstr("reading.time_format: is missing"));
+  EXPECT_THAT(refusal(", unit = \"um\"", ""), HasSubstr("in which unit does it come?"));
+  EXPECT_THAT(refusal("\"um\"", "\"s\""), HasSubstr("wrong dimension"));
+  EXPECT_THAT(refusal("wear = {", "wera = {"), HasSubstr("did you mean 'wear'"));
+  EXPECT_THAT(refusal("wear = { field = \"w\", unit = \"um\" }", ""),
+              HasSubstr("the study has wear [m] as well"));
+  EXPECT_THAT(refusal("{ field = \"w\", unit = \"um\" }", "{ value = \"1 um\" }"),
+              HasSubstr("no constant value"));
+  EXPECT_THAT(refusal("\"stdin\"", "\"stdio\""), HasSubstr("nearest: 'stdin'"));
+  EXPECT_THAT(refusal("kind = \"stdin\"", "kind = \"stdin\"\n[source.two]\nkind = \"stdin\""),
+              HasSubstr("one source of this kind"));
+  EXPECT_THAT(refusal("kind = \"stdin\"", "kind = \"folder\"\nfolder = \"nowhere\""),
+              HasSubstr("no such file or folder"));
+  EXPECT_THAT(refusal("kind = \"stdin\"", "kind = \"http\""), HasSubstr("needs a server, [http]"));
+  EXPECT_THAT(refusal("kind = \"stdin\"", "kind = \"mqtt\"\nbroker = \"tcp://x\"\ntopic = \"a\""),
+              HasSubstr("mqtt://HOST:PORT"));
+  EXPECT_THAT(
+      refusal("kind = \"stdin\"", "kind = \"mqtt\"\nbroker = \"mqtt://x\"\ntopic = \"a/{unit}\""),
+      HasSubstr("the topic names the unit already"));
+  EXPECT_THAT(refusal("horizon = \"2 h\"", ""), HasSubstr("alarm.horizon: is missing"));
+  EXPECT_THAT(refusal("horizon = \"2 h\"", "horizon = \"2 km\""), HasSubstr("wrong dimension"));
+  EXPECT_THAT(refusal("\"10 %\"", "\"30 %\""), HasSubstr("must be below act"));
+  EXPECT_THAT(refusal("[alarm]", "[http]\nlisten = \"0.0.0.0:80\"\n[alarm]"),
+              HasSubstr("needs a token"));
+  EXPECT_THAT(refusal("[alarm]", "[http]\nlisten = \"127.0.0.1:0x\"\n[alarm]"),
+              HasSubstr("no HOST:PORT"));
+  EXPECT_THAT(refusal("[alarm]", "[store]\nurl = \"mysql://x\"\n[alarm]"),
+              HasSubstr("neither a file nor postgresql"));
+  EXPECT_THAT(refusal("silence", "silent"), HasSubstr("did you mean 'silence'"));
+}
+
+}  // namespace
+}  // namespace wearwell::monitor

@@ -1,0 +1,302 @@
+// The program with real servers and real faults: killed at any moment, without its broker, its database, its disk. What is
+// stored in the end is what was sent, and states are the same bits as without faults.
+#include <gmock/gmock.h>
+#include <sys/mount.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "monitor/program_rig.h"
+
+namespace wearwell::monitor {
+namespace {
+
+using testing::HasSubstr;
+
+void sleep_s(double seconds) {
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+/// How often a test kills: 20 times, or as many as WEARWELL_KILLS says.
+int kills() {
+  const char* many = std::getenv("WEARWELL_KILLS");
+  return many ? std::atoi(many) : 20;
+}
+
+class Programs : public ProgramRig {
+ protected:
+  /// What is known when nothing goes wrong.
+  std::string undisturbed(const std::vector<std::string>& lines) const {
+    const auto config = configure("undisturbed", folder_source);
+    append(config.parent_path() / "incoming" / "a.jsonl", lines);
+    const CommandResult run =
+        run_wearwell("monitor '" + config.string() + "' --once --threads 1 --quiet");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return known(config);
+  }
+};
+
+TEST_F(Programs, ReadStandardInputToItsEnd) {
+  const auto config = configure("a", "[source.line]\nkind = \"stdin\"\n");
+  append(folder() / "lines", readings(3, 5));
+  append(folder() / "lines", {readings(3, 5)[4], "{\"machine\": \"M01\"}", "nonsense"});
+  const CommandResult run =
+      run_wearwell("monitor '" + config.string() + "' < '" + (folder() / "lines").string() + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("3 units: 0 to act upon"));
+  EXPECT_THAT(run.out, HasSubstr("15 readings stored; of 18 messages 1 repeated, 2 refused."));
+  EXPECT_THAT(run.err, HasSubstr("source.line: refused: t is missing"));
+  const CommandResult exported = run_wearwell("monitor '" + config.string() + "' --export '" +
+                                              (folder() / "r.parquet").string() + "'");
+  EXPECT_EQ(exported.out, "15 readings are in " + (folder() / "r.parquet").string() + "\n");
+  const CommandResult csv = run_wearwell("monitor '" + config.string() + "' --export '" +
+                                         (folder() / "r.csv").string() + "'");
+  EXPECT_EQ(csv.exit_code, 0);
+  EXPECT_THAT(content(folder() / "r.csv"),
+              HasSubstr("machine,key,time,received,depth [um],force [N],distance "
+                        "[km]\nM00,1,2023-11-14T22:14:20.000Z,"));
+  EXPECT_EQ(run_wearwell("monitor '" + config.string() +
+                         "' --once --json < /dev/null | grep -c '\"all\":3'")
+                .out,
+            "1\n");
+}
+
+TEST_F(Programs, EndOnASignalWithAllThatWasStored) {
+  const auto config = configure("a", folder_source);
+  const auto lines = readings(4, 20);
+  append(config.parent_path() / "incoming" / "a.jsonl", lines);
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+  EXPECT_THAT(log(config), HasSubstr("80 readings stored"));
+  EXPECT_EQ(known(config) == undisturbed(lines), true);
+}
+
+TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
+  Rng rng(23, 1);
+  const auto config = configure("a", folder_source);
+  const auto file = config.parent_path() / "incoming" / "a.jsonl";
+  const int rounds = kills(), machines = 8;
+  const auto lines = readings(machines, 10 * (rounds + 1));
+  std::size_t sent = 0;
+  for (int round = 0; round <= rounds; ++round) {
+    ChildProcess monitor = start(config);
+    sleep_s(rng.uniform(0, 0.5));
+    const std::size_t end = std::min(lines.size(), sent + 10 * machines);
+    append(file, {lines.begin() + static_cast<std::ptrdiff_t>(sent),
+                  lines.begin() + static_cast<std::ptrdiff_t>(end)});
+    append(file, {lines[rng.bits() % end], "{half"});  // and what comes again
+    sent = end;
+    sleep_s(rng.uniform(0, 1.5));
+    monitor.end(SIGKILL);
+  }
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+  EXPECT_TRUE(known(config) == undisturbed(lines));
+}
+
+class PostgresPrograms : public Programs {
+ protected:
+  void SetUp() override {
+    if (!PostgresServer::installed()) GTEST_SKIP() << "PostgreSQL is not installed";
+    server_ = std::make_unique<PostgresServer>(folder() / "postgres");
+  }
+  std::unique_ptr<PostgresServer> server_;
+};
+
+TEST_F(PostgresPrograms, GoOnWhenTheServerIsBack) {
+  const auto config = configure("a", folder_source, server_->url());
+  const auto file = config.parent_path() / "incoming" / "a.jsonl";
+  const auto lines = readings(8, 60);
+  ChildProcess monitor = start(config);
+  const std::size_t parts = 6, part = lines.size() / parts;
+  for (std::size_t i = 0; i < parts; ++i) {
+    append(file, {lines.begin() + static_cast<std::ptrdiff_t>(i * part),
+                  lines.begin() + static_cast<std::ptrdiff_t>((i + 1) * part)});
+    if (i == 0) {
+      ASSERT_TRUE(eventually([&] { return stored(config, server_->url()) > 0; })) << log(config);
+    }
+    if (i % 2 == 0) continue;
+    sleep_s(0.2);
+    server_->kill();
+    sleep_s(0.5);
+    server_->start();
+  }
+  ASSERT_TRUE(eventually([&] { return stored(config, server_->url()) == lines.size(); }))
+      << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+  EXPECT_TRUE(known(config, server_->url()) == undisturbed(lines)) << log(config);
+  EXPECT_THAT(log(config), HasSubstr("store: "));
+}
+
+class BrokerPrograms : public Programs {
+ protected:
+  void SetUp() override {
+    if (!Broker::installed() ||
+        run_command("command -v mosquitto_pub mosquitto_sub").exit_code != 0)
+      GTEST_SKIP() << "mosquitto or its clients are not installed";
+    broker_ = std::make_unique<Broker>(folder() / "broker");
+  }
+  std::filesystem::path configure_mqtt(const std::string& more = "",
+                                       const std::string& store = "fleet.sqlite") const {
+    return configure(
+        "a",
+        fmt::format(
+            "[source.plant]\nkind = \"mqtt\"\nbroker = \"{}\"\ntopic = \"plant/{{unit}}/wear\"\n{}",
+            broker_->url(), more),
+        store, true);
+  }
+  /// Sends readings `from` to `to` of each machine, at least once, and returns when the broker has them.
+  void send(int from, int to) const {
+    const auto lines = readings(machines, 200, false);
+    for (int i = 0; i < machines; ++i) {
+      const auto file = folder() / "to-send";
+      std::filesystem::remove(file);
+      for (int n = from; n <= to; ++n) append(file, {lines[(n - 1) * machines + i]});
+      const CommandResult run =
+          run_command(fmt::format("mosquitto_pub -p {} -q 1 -t plant/M{:02}/wear -l < '{}'",
+                                  broker_->port(), i, file.string()));
+      ASSERT_EQ(run.exit_code, 0) << run.err;
+    }
+  }
+  static constexpr int machines = 5;
+  std::unique_ptr<Broker> broker_;
+};
+
+TEST_F(BrokerPrograms, StoreWhatIsSentAndTellTheStates) {
+  const auto config = configure_mqtt(
+      fmt::format("[publish]\nbroker = \"{}\"\nprefix = \"fleet\"\n", broker_->url()));
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] {
+    return log(config).find("follows plant/+/wear") != std::string::npos;
+  })) << log(config);
+  send(1, 20);
+  EXPECT_TRUE(eventually([&] { return stored(config) == 20 * machines; })) << log(config);
+  const auto told = [&] {
+    return run_command(fmt::format("mosquitto_sub -p {} -t 'fleet/+/state' -C {} -W 5 -v",
+                                   broker_->port(), static_cast<int>(machines)))
+        .out;
+  };
+  EXPECT_TRUE(eventually([&] {
+    return told().find("fleet/M04/state {\"unit\":\"M04\"") != std::string::npos;
+  })) << told();
+  // A broker that has gone comes back; it may have forgotten, and is told again.
+  broker_->kill();
+  std::filesystem::remove(folder() / "broker" / "mosquitto.db");
+  sleep_s(0.3);
+  broker_->start();
+  EXPECT_TRUE(eventually([&] {
+    return told().find("fleet/M04/state {\"unit\":\"M04\"") != std::string::npos;
+  })) << log(config);
+  // Subscribed anew, since otherwise this would be lost.
+  ASSERT_TRUE(eventually([&] {
+    send(21, 25);
+    return stored(config) == 25 * machines;
+  })) << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0);
+}
+
+TEST_F(BrokerPrograms, KilledLoseNothingThatTheBrokerHas) {
+  const auto config = configure_mqtt();
+  Rng rng(5, 1);
+  {
+    ChildProcess monitor = start(config);  // from here on the broker keeps what comes
+    ASSERT_TRUE(eventually([&] { return log(config).find("follows") != std::string::npos; }))
+        << log(config);
+  }
+  int last = 0;
+  for (int round = 0; round < 5; ++round) {
+    ChildProcess monitor = start(config);
+    send(last + 1, last + 20);
+    last += 20;
+    sleep_s(rng.uniform(0, 0.6));
+    monitor.end(SIGKILL);
+  }
+  ChildProcess monitor = start(config);
+  EXPECT_TRUE(eventually([&] {
+    return stored(config) == static_cast<std::uint64_t>(last * machines);
+  })) << stored(config)
+      << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0);
+}
+
+TEST_F(BrokerPrograms, AcknowledgeNothingThatIsNotStored) {
+  if (!PostgresServer::installed()) GTEST_SKIP() << "PostgreSQL is not installed";
+  PostgresServer server(folder() / "postgres");
+  const auto config = configure_mqtt("", server.url());
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return log(config).find("follows") != std::string::npos; }))
+      << log(config);
+  send(1, 10);
+  ASSERT_TRUE(eventually([&] { return stored(config, server.url()) == 10 * machines; }))
+      << log(config);
+  // It reads what it cannot store, and is killed.
+  server.kill();
+  send(11, 40);
+  ASSERT_TRUE(eventually([&] {
+    return log(config).find("cannot take readings, which wait") != std::string::npos;
+  })) << log(config);
+  monitor.end(SIGKILL);
+  server.start();
+  monitor = start(config);
+  EXPECT_TRUE(eventually([&] { return stored(config, server.url()) == 40 * machines; }))
+      << stored(config, server.url()) << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0);
+}
+
+TEST_F(Programs, WaitWhereTheDiskIsFull) {
+  const auto disk = folder() / "disk";
+  std::filesystem::create_directory(disk);
+  if (mount("wearwell-monitor", disk.c_str(), "tmpfs", 0, "size=8m") != 0)
+    GTEST_SKIP() << "only root may mount a small disk";
+  const auto config = configure("a", folder_source, (disk / "fleet.sqlite").string());
+  const auto file = config.parent_path() / "incoming" / "a.jsonl";
+  const auto lines = readings(10, 100);
+  append(file, {lines.begin(), lines.begin() + 50});
+  ChildProcess monitor = start(config);
+  const std::string url = (disk / "fleet.sqlite").string();
+  EXPECT_TRUE(eventually([&] { return stored(config, url) == 50; })) << log(config);
+  run_command("cat /dev/zero > '" + (disk / "fill").string() + "' 2> /dev/null");
+  append(file, {lines.begin() + 50, lines.end()});
+  EXPECT_TRUE(eventually([&] {
+    return log(config).find("is the disk full?") != std::string::npos;
+  })) << log(config);
+  EXPECT_TRUE(monitor.runs());
+  std::filesystem::remove(disk / "fill");
+  EXPECT_TRUE(eventually([&] { return stored(config, url) == lines.size(); })) << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+  EXPECT_TRUE(known(config, url) == undisturbed(lines));
+  umount(disk.c_str());
+}
+
+/// Of a process, in MB.
+double resident(pid_t pid) {
+  std::ifstream file(fmt::format("/proc/{}/statm", pid));
+  double all = 0, pages = 0;
+  file >> all >> pages;
+  return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+// A reading a minute of twenty machines for a day.
+TEST_F(Programs, NeedNoMoreMemoryWithTime) {
+  const auto config = configure("a", folder_source);
+  const auto file = config.parent_path() / "incoming" / "a.jsonl";
+  const auto lines = readings(20, 1440);
+  ChildProcess monitor = start(config);
+  double third = 0;
+  for (std::size_t part = 0; part < 3; ++part) {
+    const std::size_t size = lines.size() / 3;
+    append(file, {lines.begin() + static_cast<std::ptrdiff_t>(part * size),
+                  lines.begin() + static_cast<std::ptrdiff_t>((part + 1) * size)});
+    ASSERT_TRUE(eventually([&] { return stored(config) == (part + 1) * size; }, 200))
+        << log(config);
+    sleep_s(1);
+    if (part == 0) third = resident(monitor.pid());
+  }
+  EXPECT_LT(resident(monitor.pid()), third + 40) << "MB, after " << third;
+  EXPECT_EQ(monitor.end(SIGTERM), 0);
+}
+
+}  // namespace
+}  // namespace wearwell::monitor
