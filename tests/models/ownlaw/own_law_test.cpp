@@ -51,6 +51,46 @@ rho = { law = "flat" }
 
 constexpr double um = 1e-6, h = 3600;
 
+// Values of their own beside intervals, run-outs and what failed before it was looked at: empty cells of the
+// value's column are no rows without an observation.
+class ObservedLives : public ScratchTest {
+ protected:
+  std::shared_ptr<const OwnLaw> law(const std::string& rows) const {
+    write("lives.csv", "life,lower,upper\n" + rows);
+    const auto file = write("study.toml", R"(
+model = "law"
+[data]
+file = "lives.csv"
+[data.columns]
+life = { column = "life", unit = "h" }
+lower = { column = "lower", unit = "h" }
+upper = { column = "upper", unit = "h" }
+[likelihood.life]
+family = "lognormal"
+median = "m"
+log_sd = "s"
+[prior]
+m = { law = "flat", unit = "h" }
+s = { law = "flat" }
+)");
+    const Source source = source_of(file);
+    return read_own_law(TomlReader::parse(source.study), source);
+  }
+};
+
+TEST_F(ObservedLives, CountWhetherTheyAreExactOrNot) {
+  const Observed seen = law("100,,\n,50,150\n,200,\n,,80\n90,,\n")->measured.front().observed;
+  ASSERT_EQ(seen.responses.size(), 5u);
+  const Seen expected[] = {Seen::exactly, Seen::between, Seen::above, Seen::below, Seen::exactly};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(seen.responses[i].seen, expected[i]) << i;
+  EXPECT_DOUBLE_EQ(seen.responses[1].until, 150 * h);
+  EXPECT_EQ(seen.failures, 4u);
+}
+
+TEST_F(ObservedLives, AreRefusedWhereARowSaysNothing) {
+  EXPECT_THROW(law("100,,\n,,\n90,,\n"), InputError);
+}
+
 void expect_gradient(const LogDensity& density, std::vector<double> x) {
   std::vector<double> gradient(x.size());
   const double value = density.value_and_gradient(x, gradient);

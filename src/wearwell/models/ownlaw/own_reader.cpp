@@ -557,7 +557,7 @@ class Reader {
       } catch (const InputError& error) {
         table.fail("", error.what());
       }
-      const bool may_lack = written_.size() > 1 || special.lower.has_value();
+      const bool may_lack = written_.size() > 1;
       measured.observed = read_observed(law_->data, written.column, *written.form, special,
                                         written.trials, may_lack);
       law_->measured.push_back(std::move(measured));

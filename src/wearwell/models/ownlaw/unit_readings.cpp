@@ -142,7 +142,7 @@ std::string ReadingReader::read_special(const prognosis::Reading& from,
   try {
     const OwnData data = one_row(from);
     for (const Measured& each : law_->measured) {
-      const bool may_lack = law_->measured.size() > 1 || special.lower.has_value();
+      const bool may_lack = law_->measured.size() > 1;
       const Observed observed =
           read_observed(data, each.column, *each.form, special, each.trials, may_lack);
       reading.responses.emplace_back();
