@@ -214,8 +214,8 @@ TEST_F(Door, SlipsInACommandLine) {
   const std::pair<const char*, const char*> slips[] = {
       {"fti joint/study.toml",
        "'fti' is no command of wearwell; did you mean 'fit'? (commands: fit, bearing, clutch, "
-       "sql, fleet, fatigue, "
-       "select, check, compare, new, report, help, version; see wearwell help)"},
+       "sql, fleet, fatigue, export, select, check, compare, update, life, decide, backtest, "
+       "monitor, new, report, help, version; see wearwell help)"},
       {"Fit joint/study.toml", "did you mean 'fit'?"},
       {"joint/study.toml", "'joint/study.toml' is no command of wearwell (commands: fit, "},
       {"", "wearwell needs a command: fit, bearing, "},
