@@ -90,7 +90,11 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
     sleep_s(rng.uniform(0, 1.5));
     monitor.end(SIGKILL);
   }
+  const std::size_t told_before = log(config).size();
   ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] {
+    return log(config).find("follows", told_before) != std::string::npos;
+  })) << log(config);
   ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
   EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
   EXPECT_TRUE(known(config) == undisturbed(lines));
@@ -213,7 +217,11 @@ TEST_F(BrokerPrograms, KilledLoseNothingThatTheBrokerHas) {
     sleep_s(rng.uniform(0, 0.6));
     monitor.end(SIGKILL);
   }
+  const std::size_t told_before = log(config).size();
   ChildProcess monitor = start(config);
+  EXPECT_TRUE(eventually([&] {
+    return log(config).find("follows", told_before) != std::string::npos;
+  })) << log(config);
   EXPECT_TRUE(eventually([&] {
     return stored(config) == static_cast<std::uint64_t>(last * machines);
   })) << stored(config)

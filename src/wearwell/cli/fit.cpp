@@ -44,10 +44,10 @@ int run_fit(const FitOptions& options, Models models) {
   const auto study = read_study(source, models);
   const bool netcdf = !options.netcdf.empty();
   if (netcdf) static_cast<void>(require_posterior_study(*study));
-  ResultFolder folder(output);
   const auto* const of_posterior = dynamic_cast<const PosteriorStudy*>(study.get());
   std::optional<Source> carried;
   if (of_posterior) carried = prognosis::carried_source(source, *of_posterior);
+  ResultFolder folder(output);
   std::optional<StagedFile> draws;
   if (netcdf) draws.emplace(options.netcdf);
   Result result = [&] {
