@@ -56,7 +56,7 @@ constexpr double um = 1e-6, h = 3600;
 class ObservedLives : public ScratchTest {
  protected:
   std::shared_ptr<const OwnLaw> law(const std::string& rows) const {
-    write("lives.csv", "life,lower,upper\n" + rows);
+    write("lives.csv", "bearing,life,lower,upper\n" + rows);
     const auto file = write("study.toml", R"(
 model = "law"
 [data]
@@ -79,7 +79,8 @@ s = { law = "flat" }
 };
 
 TEST_F(ObservedLives, CountWhetherTheyAreExactOrNot) {
-  const Observed seen = law("100,,\n,50,150\n,200,\n,,80\n90,,\n")->measured.front().observed;
+  const Observed seen =
+      law("1,100,,\n2,,50,150\n3,,200,\n4,,,80\n5,90,,\n")->measured.front().observed;
   ASSERT_EQ(seen.responses.size(), 5u);
   const Seen expected[] = {Seen::exactly, Seen::between, Seen::above, Seen::below, Seen::exactly};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(seen.responses[i].seen, expected[i]) << i;
@@ -88,7 +89,7 @@ TEST_F(ObservedLives, CountWhetherTheyAreExactOrNot) {
 }
 
 TEST_F(ObservedLives, AreRefusedWhereARowSaysNothing) {
-  EXPECT_THROW(law("100,,\n,,\n90,,\n"), InputError);
+  EXPECT_THROW(law("1,100,,\n2,,,\n3,90,,\n"), InputError);
 }
 
 void expect_gradient(const LogDensity& density, std::vector<double> x) {
