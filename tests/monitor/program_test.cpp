@@ -93,7 +93,7 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
   const std::size_t told_before = log(config).size();
   ChildProcess monitor = start(config);
   ASSERT_TRUE(eventually([&] {
-    return log(config).find("follows", told_before) != std::string::npos;
+    return log(config).find("monitoring", told_before) != std::string::npos;
   })) << log(config);
   ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
   EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
