@@ -1,7 +1,9 @@
 #include "wearwell/prognosis/weighted_lives.h"
 
 #include <algorithm>
+#include <boost/sort/spreadsort/float_sort.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -11,18 +13,31 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+struct Point {
+  double life, weight;
+};
+
+// By the bits of the life: half of what a monitor computed was comparisons.
+void sort(std::vector<Point>& points) {
+  const auto bits = [](const Point& point, unsigned shift) {
+    return boost::sort::spreadsort::float_mem_cast<double, std::int64_t>(point.life) >> shift;
+  };
+  const auto less = [](const Point& a, const Point& b) { return a.life < b.life; };
+  boost::sort::spreadsort::float_sort(points.begin(), points.end(), bits, less);
+}
+
 }  // namespace
 
 WeightedLives::WeightedLives(std::span<const double> life, std::span<const double> weight) {
-  std::vector<std::pair<double, double>> points;
+  std::vector<Point> points;
   points.reserve(life.size());
   double sum = 0;
   for (std::size_t i = 0; i < life.size(); ++i) {
     if (!(weight[i] > 0) || std::isnan(life[i])) continue;
-    points.emplace_back(life[i], weight[i]);
+    points.push_back({life[i], weight[i]});
     sum += weight[i];
   }
-  std::sort(points.begin(), points.end());
+  sort(points);
   for (auto* each : {&life_, &weight_, &cumulated_}) each->reserve(points.size());
   double before = 0;
   for (const auto& [place, all] : points) {
