@@ -20,28 +20,6 @@ namespace {
 
 constexpr double um = 1e-6, h = 3600, limit = 12 * um, now = 3 * h;
 
-const char* const study = R"(
-[data.columns]
-depth = { column = "depth", unit = "um" }
-time = { column = "time", unit = "h" }
-unit = "unit"
-[law]
-wear = "b * time"
-[likelihood.depth]
-family = "normal"
-mean = "wear"
-sd = "sigma"
-[prior]
-b = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
-scatter = { law = "half-normal", scale = 0.5 }
-sigma = { law = "half-normal", scale = "0.5 um" }
-[varies.unit]
-b = { law = "lognormal", log_sd = "scatter" }
-[predict]
-along = "time"
-limit = { wear = "12 um" }
-)";
-
 // The new unit comes first.
 struct Design {
   std::vector<double> time;
@@ -75,7 +53,7 @@ struct Design {
         unit.push_back("u" + std::to_string(u));
       }
     }
-    return {study, {numbers("depth", depth), numbers("time", time), texts("unit", unit)}};
+    return {straight, {numbers("depth", depth), numbers("time", time), texts("unit", unit)}};
   }
 };
 

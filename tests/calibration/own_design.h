@@ -12,6 +12,29 @@
 
 namespace wearwell::ownlaw {
 
+/// Units whose wear is a straight line through 0, each at a rate of its own.
+inline const std::string straight = R"(
+[data.columns]
+depth = { column = "depth", unit = "um" }
+time = { column = "time", unit = "h" }
+unit = "unit"
+[law]
+wear = "b * time"
+[likelihood.depth]
+family = "normal"
+mean = "wear"
+sd = "sigma"
+[prior]
+b = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
+scatter = { law = "half-normal", scale = 0.5 }
+sigma = { law = "half-normal", scale = "0.5 um" }
+[varies.unit]
+b = { law = "lognormal", log_sd = "scatter" }
+[predict]
+along = "time"
+limit = { wear = "12 um" }
+)";
+
 /// A study of a law in memory, read once; its observations are replaced from replication to replication.
 struct OwnDesign {
   Source source;

@@ -26,28 +26,6 @@ struct TrackedCoverage {
   int failed = 0;  ///< populations without quadrature
 };
 
-inline const char* const tracked_study = R"(
-[data.columns]
-depth = { column = "depth", unit = "um" }
-time = { column = "time", unit = "h" }
-unit = "unit"
-[law]
-wear = "b * time"
-[likelihood.depth]
-family = "normal"
-mean = "wear"
-sd = "sigma"
-[prior]
-b = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
-scatter = { law = "half-normal", scale = 0.5 }
-sigma = { law = "half-normal", scale = "0.5 um" }
-[varies.unit]
-b = { law = "lognormal", log_sd = "scatter" }
-[predict]
-along = "time"
-limit = { wear = "12 um" }
-)";
-
 /// Where the truth lies in what is said after 3, 5 and 10 readings; NaN of a unit that was at its limit by then.
 using TrackedPlaces = std::array<double, 3>;
 
@@ -67,8 +45,8 @@ inline std::vector<TrackedPlaces> follow_units(const std::vector<double>& fixed,
     }
   }
   const std::vector<double> x =
-      fixed.empty() ? OwnDesign(tracked_study, {numbers("depth", depth), numbers("time", time),
-                                                texts("unit", unit)})
+      fixed.empty() ? OwnDesign(straight, {numbers("depth", depth), numbers("time", time),
+                                           texts("unit", unit)})
                           .from_priors(rng)
                     : fixed;
   const auto rate = [&] { return x[0] * std::exp(x[1] * rng.normal()); };
@@ -78,7 +56,7 @@ inline std::vector<TrackedPlaces> follow_units(const std::vector<double>& fixed,
       depth[5 * u + i] = (b * time[5 * u + i] * h + x[2] * rng.normal()) / um;
     }
   }
-  const OwnDesign design(tracked_study,
+  const OwnDesign design(straight,
                          {numbers("depth", depth), numbers("time", time), texts("unit", unit)});
   const ExactPosterior exact =
       exact_posterior(std::make_shared<const OwnRows>(design.law, depth.size()), 3e-3);

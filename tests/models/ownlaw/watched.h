@@ -18,28 +18,6 @@ namespace wearwell::ownlaw {
 
 inline constexpr double um = 1e-6, h = 3600;
 
-inline const std::string straight = R"(
-[data.columns]
-depth = { column = "depth", unit = "um" }
-time = { column = "time", unit = "h" }
-unit = "unit"
-[law]
-wear = "b * time"
-[likelihood.depth]
-family = "normal"
-mean = "wear"
-sd = "sigma"
-[prior]
-b = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
-scatter = { law = "half-normal", scale = 0.5 }
-sigma = { law = "half-normal", scale = "0.5 um" }
-[varies.unit]
-b = { law = "lognormal", log_sd = "scatter" }
-[predict]
-along = "time"
-limit = { wear = "12 um" }
-)";
-
 // A posterior of a few points, even in weight.
 inline WeightedDraws points(const std::vector<std::vector<double>>& x) {
   WeightedDraws draws;

@@ -306,6 +306,19 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
   return data;
 }
 
+SpecialColumns special_columns(const OwnData& data) {
+  SpecialColumns special;
+  const auto take = [&](const char* name, std::optional<std::string>& to) {
+    if (data.number(name) || data.label(name)) to = name;
+  };
+  take("status", special.status);
+  take("lower", special.lower);
+  take("upper", special.upper);
+  take("entry", special.entry);
+  take("count", special.count);
+  return special;
+}
+
 Observed read_observed(const OwnData& data, const std::string& name, const ResponseForm& form,
                        const SpecialColumns& special, const std::optional<std::string>& trials,
                        bool may_lack) {

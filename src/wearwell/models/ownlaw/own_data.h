@@ -48,6 +48,8 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
 struct SpecialColumns {
   std::optional<std::string> status, lower, upper, entry, count;
 };
+/// Those that there are.
+SpecialColumns special_columns(const OwnData& data);
 
 /// The observations of one measured column, of the rows that have one.
 struct Observed {

@@ -476,16 +476,8 @@ class Reader {
     }
   }
 
-  SpecialColumns special_columns() const {
-    SpecialColumns special;
-    const auto take = [&](const char* name, std::optional<std::string>& to) {
-      if (law_->data.number(name) || law_->data.label(name)) to = name;
-    };
-    take("status", special.status);
-    take("lower", special.lower);
-    take("upper", special.upper);
-    take("entry", special.entry);
-    take("count", special.count);
+  SpecialColumns allowed_special_columns() const {
+    const SpecialColumns special = special_columns(law_->data);
     const auto process = std::find_if(written_.begin(), written_.end(),
                                       [](const auto& each) { return each.process != nullptr; });
     if (process != written_.end()) {
@@ -511,7 +503,7 @@ class Reader {
 
   void compile_measured() {
     const TomlReader likelihoods = root_.required_table("likelihood");
-    const SpecialColumns special = special_columns();
+    const SpecialColumns special = allowed_special_columns();
     for (const WrittenLikelihood& written : written_) {
       const TomlReader table = likelihoods.required_table(written.column);
       const NumberColumn* column = law_->data.number(written.column);

@@ -297,7 +297,7 @@ std::unique_ptr<TrackedUnit> TrackedUnit::restore(
       unit->last_.row.labels.push_back(static_cast<int>(from.number()));
     }
   }
-  from.demand(from.at_end());
+  from.end();
   unit->weigh();
   return unit;
 }

@@ -12,23 +12,6 @@
 namespace wearwell::ownlaw {
 namespace {
 
-bool has_column(const OwnData& data, const std::string& name) {
-  return data.number(name) || data.label(name);
-}
-
-SpecialColumns special_of(const OwnData& data) {
-  SpecialColumns special;
-  const auto take = [&](const char* name, std::optional<std::string>& to) {
-    if (has_column(data, name)) to = name;
-  };
-  take("status", special.status);
-  take("lower", special.lower);
-  take("upper", special.upper);
-  take("entry", special.entry);
-  take("count", special.count);
-  return special;
-}
-
 // The label whose levels are units: that which varies, or the only one where rows follow each other.
 std::optional<std::string> label_of_units(const OwnLaw& law) {
   if (law.label) return law.label;
@@ -47,7 +30,7 @@ ReadingReader::ReadingReader(std::shared_ptr<const OwnLaw> law) : law_(std::move
     return std::any_of(law_->measured.begin(), law_->measured.end(),
                        [&](const Measured& each) { return each.column == name; });
   };
-  const SpecialColumns special = special_of(data);
+  const SpecialColumns special = special_columns(data);
   for (const NumberColumn& each : data.numbers) {
     const bool special_name =
         each.name == special.lower || each.name == special.upper || each.name == special.entry;
@@ -137,7 +120,7 @@ std::string ReadingReader::read(const prognosis::Reading& from, UnitReading& rea
 // What the study's own reader says of such a row.
 std::string ReadingReader::read_special(const prognosis::Reading& from,
                                         UnitReading& reading) const {
-  const SpecialColumns special = special_of(law_->data);
+  const SpecialColumns special = special_columns(law_->data);
   bool any = false;
   try {
     const OwnData data = one_row(from);
