@@ -42,6 +42,22 @@ TEST(Unit, ConvertsToSi) {
   EXPECT_DOUBLE_EQ(read_unit("degF", "K").scale, 1 / 1.8);
 }
 
+// What a unit must be like may be any unit, and the same one again.
+TEST(Unit, ItselfKeepsItsSize) {
+  for (const char* si :
+       {"1",   "m",         "m^3",   "m^3/(N m)", "m^3/J", "m^2/N", "1/Pa",  "Pa",  "N",
+        "N m", "N m/cycle", "N m/s", "J",         "W",     "s",     "Hz",    "m/s", "K",
+        "kg",  "A",         "V",     "cycle",     "rev",   "rev/s", "rad/s", "rad", "log10(Pa)"}) {
+    EXPECT_EQ(read_unit(si, si).scale, 1) << si;
+    EXPECT_EQ(read_unit(si, si).offset, 0) << si;
+  }
+  EXPECT_DOUBLE_EQ(read_unit("um", "um").scale, 1e-6);
+  EXPECT_DOUBLE_EQ(read_unit("mm", "um").scale, 1e-3);
+  EXPECT_DOUBLE_EQ(to_si(read_unit("degC", "degC"), 20), 293.15);
+  EXPECT_DOUBLE_EQ(read_unit("log10(MPa)", "log10(MPa)").offset, 6);
+  EXPECT_DOUBLE_EQ(read_quantity("5 km", "km").si(), 5000);
+}
+
 TEST(Unit, RefusesNonsenseAndWrongDimension) {
   EXPECT_THROW(read_unit("mmm^3", "m^3"), InputError);
   EXPECT_THROW(read_unit("mm^2", "m^3"), InputError);

@@ -216,8 +216,12 @@ Unit read_linear(const std::string& written, std::string_view si, double value) 
 
 Unit read_unit(std::string_view text, std::string_view si, double value) {
   const std::string written = boost::algorithm::trim_copy(std::string(text));
-  if (written == si) return Unit{written, 1, 0};
-  if (!is_logarithm(si)) return read_linear(written, si, value);
+  if (!is_logarithm(si)) {
+    // The unit itself needs no check; it need not be one of the SI.
+    const auto same = written == si ? parse_unit(written) : std::nullopt;
+    return same && same->linear ? Unit{written, same->scale, same->offset}
+                                : read_linear(written, si, value);
+  }
   if (!is_logarithm(written)) {
     throw InputError(
         fmt::format("'{}' is not the logarithm of a quantity (write one like '{}')", written, si));

@@ -20,7 +20,6 @@
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
 #include "wearwell/prognosis/decisions_report.h"
-#include "wearwell/prognosis/unit_like.h"
 
 namespace wearwell {
 namespace prognosis {
@@ -60,24 +59,31 @@ double amount_per(const std::string& option, const std::string& text, const Unit
   if (slash == std::string::npos)
     throw InputError(fmt::format("{}: '{}' must be an amount for so much use, like '50 EUR/{}'",
                                  option, printable(text), axis.text));
-  const auto per = unit_like(text.substr(slash + 1), axis);
-  if (!per)
+  const std::string per = text.substr(slash + 1);
+  double use = 0;
+  try {
+    use = read_unit(per, axis.text).scale;
+  } catch (const InputError&) {
     throw InputError(fmt::format("{}: '{}' is no unit like {}, in which lives are counted", option,
-                                 printable(text.substr(slash + 1)), axis.text));
+                                 printable(per), axis.text));
+  }
   std::string before = text.substr(0, slash);
   while (!before.empty() && before.back() == ' ') before.pop_back();
-  return amount(option, before, currency, first) / per->scale;
+  return amount(option, before, currency, first) / use;
 }
 
 // A number with a unit of the dimension of one that is known, in SI.
 double like_value(const std::string& option, const std::string& text, const Unit& like,
                   Allowed allowed = Allowed::any) {
-  const std::size_t at = std::min(text.find_first_not_of("0123456789.eE+- "), text.size());
-  const auto unit = unit_like(at == text.size() ? "1" : text.substr(at), like);
-  if (!unit)
-    throw InputError(fmt::format("{}: '{}' must be a number with a unit like {}", option,
-                                 printable(text), like.text));
-  return to_si(*unit, option_value(option, text.substr(0, at), "1", allowed));
+  Quantity quantity;
+  try {
+    quantity = read_quantity(text, like.text);
+    refuse_two_readings(quantity, like);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: '{}' must be a number with a unit like {}: {}", option,
+                                 printable(text), like.text, error.what()));
+  }
+  return checked_option(option, text, quantity.si(), allowed);
 }
 
 Question question_of(const DecideOptions& options, const Unit& axis) {

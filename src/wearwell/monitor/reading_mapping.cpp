@@ -19,11 +19,6 @@ std::string shown_value(std::string_view text) {
   return printable(shortened(text));
 }
 
-/// A unit as a message has it, of the kind of `like`, which need not be an SI unit.
-Unit unit_like(const std::string& text, const Unit& like) {
-  return text == like.text ? like : read_unit(text, like.text);
-}
-
 ColumnField read_column_field(const TomlReader& columns, const prognosis::ReadingColumn& column) {
   ColumnField chosen{column.name, column.measured, column.name, Unit{"1", 1, 0}, {}};
   const auto plain = [&](const TomlReader& at, std::string_view key) {
@@ -52,7 +47,7 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
     return chosen;
   }
   try {
-    chosen.unit = unit_like(*unit, column.unit);
+    chosen.unit = read_unit(*unit, column.unit.text);
   } catch (const InputError& error) {
     table.fail("unit", error.what());
   }
@@ -155,8 +150,7 @@ void refuse_missing(const StoredReading& reading, const ReadingMapping& mapping)
 }  // namespace
 
 double required_si(const TomlReader& table, const std::string& key, const Unit& like) {
-  Quantity quantity = table.required_quantity(key, like.text);
-  if (quantity.unit.text == like.text) quantity.unit = like;
+  const Quantity quantity = table.required_quantity(key, like.text);
   try {
     refuse_two_readings(quantity, like);
   } catch (const InputError& error) {

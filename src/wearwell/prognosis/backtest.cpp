@@ -10,7 +10,6 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/input/heading.h"
-#include "wearwell/prognosis/unit_like.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -40,11 +39,12 @@ NumberAt number_column(const Table& table, const ReadingColumn& wanted) {
     throw InputError(fmt::format("{}: the column '{}' needs its unit: '{} [{}]'", table.source,
                                  printable(column.name), wanted.name, wanted.unit.text));
   const std::string text = said.empty() ? column.unit.empty() ? "1" : bare_unit(column.unit) : said;
-  const auto unit = unit_like(text, wanted.unit);
-  if (!unit)
-    throw InputError(fmt::format("{}: '{}' of the column '{}' is no unit like {}", table.source,
-                                 printable(text), printable(column.name), wanted.unit.text));
-  return {&column, *unit};
+  try {
+    return {&column, read_unit(text, wanted.unit.text)};
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}, column '{}': {}", table.source, printable(column.name),
+                                 printable(error.what())));
+  }
 }
 
 std::string text_at(const Column& column, std::size_t row) {
