@@ -24,6 +24,30 @@ std::vector<std::string> problems_of(const std::string& payload, std::size_t* ro
   return problems;
 }
 
+// A stream that is broken off and goes on: half a line, or no JSON at all, is one refusal.
+TEST(LineFeed, AHalfLineCostsItselfWhereverItStands) {
+  for (const std::string bad : {"{\"a\": 1, \"b", "{bad", "garbage", "]"}) {
+    for (int place = 0; place < 3; ++place) {
+      std::vector<std::string> lines = {"{\"a\": 1}", "{\"a\": 2}"};
+      lines.insert(lines.begin() + place, bad);
+      LineFeed feed;
+      feed.push("{\"a\": 0}\n");
+      const auto begin = feed.next(false);
+      ASSERT_TRUE(begin);
+      feed.taken(*begin);
+      for (const std::string& line : lines) feed.push(line + "\n");
+      const auto piece = feed.next(false);
+      ASSERT_TRUE(piece);
+      std::size_t rows = 0, refused = 0;
+      for_each_row(
+          piece->payload, [&](const Fields&) { ++rows; }, [&](const std::string&) { ++refused; },
+          piece->form);
+      EXPECT_EQ(rows, 2U) << bad << " at " << place;
+      EXPECT_EQ(refused, 1U) << bad << " at " << place;
+    }
+  }
+}
+
 TEST(MessageFields, OfJson) {
   const Fields fields = fields_of_json(
       R"({"machine": "M7", "n": 12, "metrics": {"wear": 1.5e-3, "deep": {"x": true}}, "list": [1, {"a": 2}], "none": null})");

@@ -134,7 +134,7 @@ bool FolderReader::read_on(const fs::path& path, const Descriptor& file, Growing
     context_.intake.refuse(context_.settings, fmt::format("{}: a line of more than {} bytes",
                                                           path.string(), longest_row));
   } else if (!piece->payload.empty()) {
-    const Message message{"", piece->payload};
+    const Message message{"", piece->payload, piece->form};
     if (!deliver_until_stored(context_, std::span(&message, 1), stop_)) return false;
   }
   feed.taken(*piece);

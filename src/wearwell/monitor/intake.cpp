@@ -86,7 +86,7 @@ void Intake::read(const SourceSettings& source, const Message& message, Batch& b
       refuse_row(named ? named->text : unit, error.what());
     }
   };
-  for_each_row(message.payload, row, refuse_message);
+  for_each_row(message.payload, row, refuse_message, message.form);
 }
 
 void Intake::commit(Batch& batch) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/monitor/message.h"
 #include "wearwell/monitor/monitor_config.h"
 #include "wearwell/monitor/notices.h"
 #include "wearwell/monitor/store.h"
@@ -16,6 +17,7 @@ namespace wearwell::monitor {
 
 struct Message {
   std::string topic, payload;
+  Form form = Form::any;
 };
 
 /// Takes messages of all sources, makes readings of them and stores these; those that wait at the same time are stored in one

@@ -14,16 +14,16 @@ std::optional<LineFeed::Piece> LineFeed::next(bool ended) {
   std::size_t from = 0;
   if (skipping_) {  // the rest of a line that was too long
     const std::size_t end = text_.find('\n');
-    if (end == text_.npos) return Piece{"", text_.size(), false, true};
+    if (end == text_.npos) return Piece{"", Form::any, text_.size(), false, true};
     from = end + 1;
   }
   const std::size_t last = ended ? text_.size() : text_.rfind('\n') + 1;  // 0 where there is none
   if (last == 0) {
     if (text_.size() <= longest_row) return {};
-    return Piece{"", text_.size(), true, true};
+    return Piece{"", Form::any, text_.size(), true, true};
   }
   std::string_view lines = std::string_view(text_).substr(from, last - from);
-  Piece piece{"", last};
+  Piece piece{"", Form::any, last};
   if (!begun_ && heading_.empty() && !is_json(lines)) {
     const std::size_t first = lines.find_first_not_of("\r\n");
     if (first == lines.npos) return piece;
@@ -33,7 +33,12 @@ std::optional<LineFeed::Piece> LineFeed::next(bool ended) {
   }
   begun_ = true;
   if (lines.find_first_not_of(" \t\r\n") == lines.npos) return piece;
-  piece.payload = heading_.empty() ? std::string(lines) : heading_ + "\n" + std::string(lines);
+  if (heading_.empty()) {
+    piece.payload = lines;
+    piece.form = Form::json_lines;
+  } else {
+    piece.payload = heading_ + "\n" + std::string(lines);
+  }
   return piece;
 }
 

@@ -17,6 +17,7 @@ class LineFeed {
 
   struct Piece {
     std::string payload;
+    Form form = Form::any;
     std::size_t bytes = 0;  ///< of the stream that it takes up
     bool too_long = false;  ///< a line without end: nothing of it is a message
     bool skips = false;     ///< what follows belongs to such a line

@@ -207,7 +207,7 @@ std::vector<std::string> cells_of(std::string_view line) {
 }
 
 void for_each_row(std::string_view payload, const std::function<void(const Fields&)>& row,
-                  const std::function<void(const std::string&)>& bad) {
+                  const std::function<void(const std::string&)>& bad, Form form) {
   const auto guarded = [&](const std::function<void()>& read) {
     try {
       read();
@@ -219,7 +219,9 @@ void for_each_row(std::string_view payload, const std::function<void(const Field
     return bad(fmt::format("is of {} bytes; {} is the most", payload.size(), longest_message));
   const std::string_view text = trimmed(payload);
   if (text.empty()) return bad("is empty");
-  if (text.front() != '{' && text.front() != '[') return guarded([&] { read_csv(text, row, bad); });
+  const bool stream = form == Form::json_lines;
+  if (!stream && text.front() != '{' && text.front() != '[')
+    return guarded([&] { read_csv(text, row, bad); });
   const auto read_object = [&](std::string_view object) {
     guarded([&] {
       if (object.size() > longest_row)
@@ -227,10 +229,11 @@ void for_each_row(std::string_view payload, const std::function<void(const Field
       row(fields_of_json(object));
     });
   };
-  // One object over many lines, or one a line: the first line tells.
+  // One object over many lines, or one a line: the first line tells. Of a stream that line may be half of one, which
+  // costs the others nothing.
   const std::string_view first = trimmed(text.substr(0, text.find('\n')));
   const bool lines = first.size() == text.size() || first.back() == '}';
-  if (!lines) return read_object(text);
+  if (!lines && (!stream || Json::accept(text))) return read_object(text);
   for_each_line(text, read_object);
 }
 

@@ -37,10 +37,14 @@ Fields fields_of_json(std::string_view text);
 /// Throws InputError for a quote that is not closed.
 std::vector<std::string> cells_of(std::string_view line);
 
+/// What is known of a message: nothing, or that it is a piece of a stream that began with JSON.
+enum class Form { any, json_lines };
+
 /// Calls `row` with the fields of each object or line, and `bad` with what is wrong with one that cannot
 /// be read; the others count all the same. A message is an object of JSON, lines of such objects, or CSV
 /// with a heading.
 void for_each_row(std::string_view payload, const std::function<void(const Fields&)>& row,
-                  const std::function<void(const std::string& problem)>& bad);
+                  const std::function<void(const std::string& problem)>& bad,
+                  Form form = Form::any);
 
 }  // namespace wearwell::monitor

@@ -18,7 +18,7 @@ bool hand_over(SourceContext& context, LineFeed& feed, bool ended, std::stop_tok
       context.intake.refuse(context.settings,
                             fmt::format("a line of more than {} bytes", longest_row));
     } else if (!piece->payload.empty()) {
-      const Message message{"", piece->payload};
+      const Message message{"", piece->payload, piece->form};
       if (!deliver_until_stored(context, std::span(&message, 1), stop)) return false;
     }
     feed.taken(*piece);
