@@ -93,6 +93,7 @@ TEST_F(Decide, NamesTheRowThatIsNoLife) {
   EXPECT_THAT(table("life\n1\n"), HasSubstr("needs its unit"));
   EXPECT_THAT(table("life [h]\n12\n-3\n"), HasSubstr("row 2"));
   EXPECT_THAT(table("life [h],unit\n12,A\n"), HasSubstr("nothing is said of the life of a new"));
+  EXPECT_THAT(table("life [h]\n100\n100\n"), HasSubstr("lie at one place"));
   EXPECT_THAT(table("life [h],colour\n12,red\n"), HasSubstr("colour"));
 }
 

@@ -53,6 +53,16 @@ struct Points {
   WeightedLives lives() const { return {life, weight}; }
 };
 
+// One place for all is known to the day: what chance leaves is not.
+void refuse_one_place(const Table& table, const Points& points) {
+  const auto [least, most] = std::minmax_element(points.life.begin(), points.life.end());
+  if (*least < *most || !std::isfinite(*least)) return;
+  throw InputError(fmt::format(
+      "{}: all lives of a new one lie at one place; points of their distribution are wanted, some "
+      "hundred of them",
+      table.source));
+}
+
 double sum(const std::vector<double>& all) {
   double total = 0;
   for (const double each : all) total += each;
@@ -92,6 +102,7 @@ KnownLives lives_of_table(const Table& table) {
   }
   for (const auto& [_, points] : fresh) {
     if (sum(points.weight) <= 0) continue;
+    refuse_one_place(table, points);
     if (known.fresh.lives.empty()) known.fresh.weight.clear();
     known.fresh.lives.push_back(points.lives());
     known.fresh.weight.push_back(sum(points.weight));
