@@ -8,8 +8,8 @@
 
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/input/toml_edit.h"
 #include "wearwell/models/registry.h"
-#include "wearwell/prognosis/asked_study.h"
 #include "wearwell/prognosis/carry.h"
 #include "wearwell/prognosis/reweighted.h"
 #include "wearwell/study/inference_data.h"

@@ -8,12 +8,18 @@
 
 namespace wearwell {
 
-FollowedResult followed_result(const std::filesystem::path& result, Models models) {
-  const prognosis::CarriedState state = read_carried(result);
+std::unique_ptr<const prognosis::Tracker> tracker_of(const prognosis::CarriedState& state,
+                                                     const std::filesystem::path& result,
+                                                     Models models) {
   for (const Model& model : models)
-    if (model.key == state.model && model.track) return {model.track(state), state.trusted};
+    if (model.key == state.model && model.track) return model.track(state);
   throw InputError(fmt::format("{}: units of a study of model \"{}\" cannot be followed one by one",
                                result.string(), printable(state.model)));
+}
+
+FollowedResult followed_result(const std::filesystem::path& result, Models models) {
+  const prognosis::CarriedState state = read_carried(result);
+  return {tracker_of(state, result, models), state.trusted};
 }
 
 }  // namespace wearwell

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/tracker.h"
 #include "wearwell/study/model.h"
 
@@ -13,6 +14,12 @@ struct FollowedResult {
   std::unique_ptr<const prognosis::Tracker> tracker;
   bool trusted = true;
 };
+
+/// What follows the units of a state read from `result`. Throws InputError that names it, where it is of a model whose
+/// units cannot be followed.
+std::unique_ptr<const prognosis::Tracker> tracker_of(const prognosis::CarriedState& state,
+                                                     const std::filesystem::path& result,
+                                                     Models models);
 
 /// Reads RESULT/state.bin. Throws InputError where it holds none, or is of a model whose units cannot be followed.
 FollowedResult followed_result(const std::filesystem::path& result, Models models);

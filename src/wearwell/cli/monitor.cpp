@@ -7,11 +7,11 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/sha1.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/cli/carried.h"
+#include "wearwell/cli/followed_result.h"
 #include "wearwell/monitor/export_readings.h"
 #include "wearwell/monitor/fleet_json.h"
 #include "wearwell/monitor/fleet_text.h"
@@ -38,19 +38,8 @@ ReadConfig read_config(const std::filesystem::path& file, Models models) {
   const TomlReader root = TomlReader::parse_file(file);
   const std::filesystem::path result = monitor::read_result_path(root);
   const prognosis::CarriedState state = read_carried(result);
-  const auto model = std::find_if(models.begin(), models.end(),
-                                  [&](const Model& each) { return each.key == state.model; });
-  if (model == models.end())
-    root.fail("result", fmt::format("{} is of the model '{}', which is not known here",
-                                    result.string(), printable(state.model)));
-  if (!model->track)
-    root.fail(
-        "result",
-        fmt::format(
-            "{} is of the model '{}'; units of that are not followed on line, those of \"law\" are",
-            result.string(), state.model));
   ReadConfig read;
-  read.tracker = model->track(state);
+  read.tracker = tracker_of(state, result, models);
   read.fingerprint = sha1_of(prognosis::state_bytes(state));
   read.trusted = state.trusted;
   read.config = monitor::read_monitor_config(root, *read.tracker);
@@ -108,8 +97,9 @@ void run_monitor(const ReadConfig& read, const MonitorCommand& command) {
 void run(const MonitorCommand& command, Models models) {
   const ReadConfig read = read_config(command.config, models);
   if (command.check) {
-    fmt::print("{} is whole: {} sources, store {}\n", command.config.string(),
-               read.config.sources.size(), monitor::shown_store(read.config.store));
+    const std::size_t sources = read.config.sources.size();
+    fmt::print("{} is whole: {} source{}, store {}\n", command.config.string(), sources,
+               sources == 1 ? "" : "s", monitor::shown_store(read.config.store));
   } else if (!command.exported.empty()) {
     try {
       export_readings(read, command);

@@ -3,26 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-// Some text that is no TOML ("[.=") breaks an assertion of toml++, and without its assertions the
-// behaviour is undefined. So they are on here, and throw: in the headers, because Debian's library
-// is built without.
-// Longer than others: one class, a function for each kind of value.
-namespace wearwell {
-namespace {
-struct NoToml {};
-[[noreturn]] void assertion_failed() {
-  throw NoToml();
-}
-}  // namespace
-}  // namespace wearwell
-#undef NDEBUG
-#undef TOML_SHARED_LIB
-#undef TOML_HEADER_ONLY
-#define TOML_HEADER_ONLY 1
-#define TOML_ASSERT(expr) ((expr) ? static_cast<void>(0) : wearwell::assertion_failed())
-#define TOML_MAX_NESTED_VALUES 32
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,7 +12,10 @@ struct NoToml {};
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/guarded_toml.h"
 #include "wearwell/input/toml_text.h"
+
+// Longer than others: one class, a function for each kind of value.
 
 namespace wearwell {
 namespace {

@@ -13,7 +13,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/unit_system.h"
-#include "wearwell/prognosis/asked_study.h"
+#include "wearwell/input/toml_edit.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/life_levels.h"
 

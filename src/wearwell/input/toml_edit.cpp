@@ -1,14 +1,15 @@
-#include "wearwell/prognosis/asked_study.h"
+#include "wearwell/input/toml_edit.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <functional>
 
 #include "wearwell/base/error.h"
+#include "wearwell/input/guarded_toml.h"
+#include "wearwell/input/toml_reader.h"
 
-namespace wearwell::prognosis {
+namespace wearwell {
 namespace {
 
 // Where a place of toml++ lies in the text; columns count characters.
@@ -33,12 +34,8 @@ TextFile with_predict(const TextFile& study,
   std::string lines;
   for (const auto& [key, value] : keys) lines += fmt::format("{} = {}\n", key, value);
   TextFile changed = study;
-  toml::table root;
-  try {
-    root = toml::parse(study.text);
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}: {}", study.path.string(), error.description()));
-  }
+  static_cast<void>(TomlReader::parse(study));  // says what is no TOML
+  const toml::table root = toml::parse(study.text);
   if (!root.contains("predict")) {
     changed.text += "\n[predict]\n" + lines;
     return changed;
@@ -62,4 +59,4 @@ TextFile with_predict(const TextFile& study,
   return changed;
 }
 
-}  // namespace wearwell::prognosis
+}  // namespace wearwell
