@@ -7,12 +7,15 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <fstream>
+#include <string>
 #include <thread>
 
 #include "support/disk_content.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/lock_file.h"
+#include "wearwell/base/scratch_folder.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/base/staged_folder.h"
 
@@ -47,6 +50,47 @@ class EndingTest : public ScratchTest {
     return WIFSIGNALED(status) ? WTERMSIG(status) : -WEXITSTATUS(status);
   }
 };
+
+// More files than one look at a folder lists, and folders in it.
+void fill_scratch(const fs::path& folder) {
+  fs::create_directories(folder / "spill" / "deep");
+  for (int i = 0; i < 300; ++i)
+    std::ofstream(folder / "spill" / ("a rather long name of a file " + std::to_string(i))) << i;
+  std::ofstream(folder / "spill" / "deep" / "block") << "block";
+  std::ofstream(folder / "sums") << "sums";
+}
+
+TEST_F(EndingTest, AScratchFolderGoesWithAllThatIsInIt) {
+  {
+    const ScratchFolder scratch(folder());
+    EXPECT_EQ(scratch.path().parent_path().parent_path(), folder());
+    fill_scratch(scratch.path());
+  }
+  EXPECT_THAT(files_in(folder()), IsEmpty());
+  EXPECT_EQ(end(SIGINT,
+                [&](const auto& ready) {
+                  const ScratchFolder scratch(folder());
+                  fill_scratch(scratch.path());
+                  ready();
+                  pause();
+                }),
+            SIGINT);
+  EXPECT_THAT(files_in(folder()), IsEmpty());
+}
+
+TEST_F(EndingTest, TheNextStartRemovesAScratchFolderThatAKillLeft) {
+  EXPECT_EQ(end(SIGKILL,
+                [&](const auto& ready) {
+                  const ScratchFolder scratch(folder());
+                  fill_scratch(scratch.path());
+                  ready();
+                  pause();
+                }),
+            SIGKILL);
+  EXPECT_FALSE(files_in(folder()).empty());
+  const ScratchFolder next(folder());
+  EXPECT_EQ(files_in(folder()).size(), 1U);
+}
 
 TEST_F(EndingTest, LeavesNothingBehind) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {

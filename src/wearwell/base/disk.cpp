@@ -169,6 +169,27 @@ bool lock_staging(const Descriptor& opened, const fs::path& path, const fs::path
          is_same(mine, there);
 }
 
+StagingFolder make_staging_folder(const fs::path& place, const fs::path& target) {
+  for (;;) {
+    const fs::path path = staging_name(place);
+    Uninterrupted now;
+    if (mkdir(path.c_str(), 0700) != 0) {
+      if (errno == EEXIST) continue;
+      fail_to_write(target, errno);
+    }
+    Descriptor opened(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    if (!opened) {
+      const int error = errno;
+      if (error == ENOENT) continue;  // somebody took it for abandoned and removed it
+      rmdir(path.c_str());
+      fail_to_write(target, error);
+    }
+    if (!lock_staging(opened, path, target)) continue;  // likewise
+    now.note(path, true);
+    return {path, std::move(opened)};
+  }
+}
+
 void for_each_abandoned(const fs::path& folder,
                         const std::function<void(const fs::path& path, bool is_folder)>& heal) {
   std::vector<fs::path> found;

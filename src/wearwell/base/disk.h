@@ -57,6 +57,17 @@ bool is_staging_name(const std::string& name);
 bool lock_staging(const Descriptor& opened, const std::filesystem::path& path,
                   const std::filesystem::path& target);
 
+/// A hidden folder of such a name, and its lock.
+struct StagingFolder {
+  std::filesystem::path path;
+  Descriptor lock;
+};
+
+/// Makes one in `place`; a signal that ends the program removes it when it is empty. Throws as
+/// fail_to_write(target).
+StagingFolder make_staging_folder(const std::filesystem::path& place,
+                                  const std::filesystem::path& target);
+
 /// Calls `heal` with each entry of a folder that has such a name, is of this user and whose owner
 /// has ended without removing it.
 void for_each_abandoned(

@@ -1,10 +1,14 @@
 #include "wearwell/base/ending.h"
 
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wearwell {
@@ -12,9 +16,11 @@ namespace {
 
 constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
+enum class Kind { file, folder, tree };
+
 struct HalfWritten {
   std::string path;
-  bool is_folder;
+  Kind kind;
 };
 
 // Whoever holds the lock has the signals blocked, so that the handler never waits for the thread
@@ -32,15 +38,44 @@ void take_lock() {
   while (lock.test_and_set()) nanosleep(&moment, nullptr);
 }
 
+// Of <dirent.h> nothing may be called in a handler of signals: it allocates.
+void remove_tree(int above, const char* name) {
+  const int folder = openat(above, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (folder >= 0) {
+    alignas(dirent64) char entries[2048];
+    for (long size; (size = syscall(SYS_getdents64, folder, entries, sizeof entries)) > 0;) {
+      bool removed = false;
+      for (long at = 0; at < size;) {
+        const auto* entry = reinterpret_cast<const dirent64*>(entries + at);
+        at += entry->d_reclen;
+        const std::string_view each = entry->d_name;
+        if (each == "." || each == "..") continue;
+        if (entry->d_type == DT_DIR) remove_tree(folder, entry->d_name);
+        if (unlinkat(folder, entry->d_name, entry->d_type == DT_DIR ? AT_REMOVEDIR : 0) == 0)
+          removed = true;
+      }
+      if (removed) lseek(folder, 0, SEEK_SET);  // what was behind them may have moved
+    }
+    close(folder);
+  }
+  unlinkat(above, name, AT_REMOVEDIR);
+}
+
 extern "C" void end_by(int signal) {
   take_lock();  // for good
   ending = true;
   std::vector<HalfWritten>& list = half_written();
   for (std::size_t i = list.size(); i-- > 0;) {
-    if (list[i].is_folder) {
-      rmdir(list[i].path.c_str());
-    } else {
-      unlink(list[i].path.c_str());
+    switch (list[i].kind) {
+      case Kind::file:
+        unlink(list[i].path.c_str());
+        break;
+      case Kind::folder:
+        rmdir(list[i].path.c_str());
+        break;
+      case Kind::tree:
+        remove_tree(AT_FDCWD, list[i].path.c_str());
+        break;
     }
   }
   struct sigaction standard = {};
@@ -86,7 +121,11 @@ Uninterrupted::~Uninterrupted() {
 }
 
 void Uninterrupted::note(const std::filesystem::path& path, bool is_folder) {
-  half_written().push_back({path.string(), is_folder});
+  half_written().push_back({path.string(), is_folder ? Kind::folder : Kind::file});
+}
+
+void Uninterrupted::note_tree(const std::filesystem::path& path) {
+  half_written().push_back({path.string(), Kind::tree});
 }
 
 void Uninterrupted::forget(const std::filesystem::path& path) {

@@ -24,6 +24,8 @@ class Uninterrupted {
   /// `path` (absolute) goes when the program is ended by a signal; the last one noted goes first.
   /// A folder goes only when it is empty by then.
   void note(const std::filesystem::path& path, bool is_folder);
+  /// Likewise a folder with all that is in it, whoever put it there.
+  void note_tree(const std::filesystem::path& path);
   /// It is whole, or gone; and all that was noted within it.
   void forget(const std::filesystem::path& path);
 

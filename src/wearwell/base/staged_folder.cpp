@@ -228,26 +228,11 @@ StagedFolder::StagedFolder(const fs::path& target, const std::vector<std::string
 }
 
 void StagedFolder::open_area(const fs::path& place) {
-  while (!lock_) {
-    const fs::path area = staging_name(place);
-    Uninterrupted now;
-    if (mkdir(area.c_str(), for_owner) != 0) {
-      if (errno == EEXIST) continue;
-      fail_to_write(target_, errno);
-    }
-    Descriptor opened(::open(area.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
-    if (!opened) {
-      const int error = errno;
-      if (error == ENOENT) continue;  // somebody took it for abandoned and removed it
-      rmdir(area.c_str());
-      fail_to_write(target_, error);
-    }
-    if (!lock_staging(opened, area, target_)) continue;  // likewise
-    now.note(area, true);
-    now.note(area / "journal", false);
-    area_ = area;
-    lock_ = std::move(opened);
-  }
+  StagingFolder made = make_staging_folder(place, target_);
+  area_ = std::move(made.path);
+  lock_ = std::move(made.lock);
+  Uninterrupted now;
+  now.note(area_ / "journal", false);
 }
 
 void StagedFolder::make_folder(const fs::path& folder, unsigned mode) {

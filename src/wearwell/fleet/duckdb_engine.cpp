@@ -6,16 +6,15 @@
 #include <unistd.h>
 
 #include <boost/algorithm/string/predicate.hpp>
-#include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <exception>
 #include <future>
 #include <limits>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/scratch_folder.h"
 #include "wearwell/input/duckdb_message.h"
 #include "wearwell/input/duckdb_session.h"
 
@@ -23,28 +22,6 @@ namespace wearwell::fleet {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder of its own that goes with its object.
-class SpillFolder {
- public:
-  explicit SpillFolder(const fs::path& parent) {
-    std::string name = (fs::absolute(parent) / ".wearwell-fleet-XXXXXX").string();
-    if (!mkdtemp(name.data()))
-      throw InputError(
-          fmt::format("cannot make a folder in {}: {}", parent.string(), std::strerror(errno)));
-    path_ = name;
-  }
-  ~SpillFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  SpillFolder(const SpillFolder&) = delete;
-  SpillFolder& operator=(const SpillFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 long half_of_memory() {
   return sysconf(_SC_PHYS_PAGES) / 2 * (sysconf(_SC_PAGESIZE) / 1024) / 1024;
@@ -89,7 +66,7 @@ class DuckdbEngine : public Engine {
   std::string view_of(const std::vector<std::string>& files, const std::string& unit);
   [[noreturn]] void fail(const std::string& message) const;
 
-  SpillFolder spill_;
+  ScratchFolder spill_;
   long memory_;
   std::string source_;
   bool csv_ = false;
@@ -153,7 +130,7 @@ void DuckdbEngine::fail(const std::string& message) const {
                     printable(duckdb_sentence(message))));
   if (has("No space left"))
     throw MachineError(fmt::format("no space left in {} for what does not fit into memory",
-                                   spill_.path().parent_path().string()));
+                                   spill_.path().parent_path().parent_path().string()));
   throw InputError(fmt::format("{}: {}", source_, printable(duckdb_sentence(message))));
 }
 

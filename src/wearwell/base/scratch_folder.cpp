@@ -1,0 +1,38 @@
+#include "wearwell/base/scratch_folder.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "wearwell/base/ending.h"
+#include "wearwell/base/staged_folder.h"
+
+namespace wearwell {
+
+// Whatever lies in the folder `new` of a hidden one, with nothing beside it that says what is to become of it,
+// goes when the hidden one is healed.
+ScratchFolder::ScratchFolder(const std::filesystem::path& parent) {
+  const std::filesystem::path place = std::filesystem::absolute(parent);
+  heal_folder(place);
+  hidden_ = make_staging_folder(place, parent);
+  path_ = hidden_.path / "new";
+  Uninterrupted now;
+  now.forget(hidden_.path);
+  now.note_tree(hidden_.path);
+  if (mkdir(path_.c_str(), 0700) == 0) return;
+  const int error = errno;
+  rmdir(hidden_.path.c_str());
+  now.forget(hidden_.path);
+  fail_to_write(parent, error);
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(hidden_.path, ignored);
+  Uninterrupted now;
+  now.forget(hidden_.path);
+}
+
+}  // namespace wearwell
