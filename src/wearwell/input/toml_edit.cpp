@@ -48,7 +48,7 @@ TextFile with_predict(const TextFile& study,
   std::vector<std::pair<std::size_t, std::size_t>> gone;
   for (const auto& [key, value] : *predict) {
     if (std::any_of(keys.begin(), keys.end(),
-                    [&](const auto& each) { return each.first == key.str(); }))
+                    [name = key.str()](const auto& each) { return each.first == name; }))
       gone.emplace_back(offset(study.text, key.source().begin),
                         offset(study.text, value.source().end));
   }
