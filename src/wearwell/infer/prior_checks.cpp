@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "wearwell/infer/power_scaling.h"
@@ -273,63 +274,53 @@ Check bounds(const Posterior& posterior, const Fit& fit) {
 
 namespace {
 
-// Do a stronger prior and a stronger likelihood move the mean of `draws` in opposite directions?
-// The derivative of a mean by the logarithm of a power is the covariance with the scaled component.
-bool pulled_apart(const Eigen::VectorXd& draws, const std::vector<double>& log_prior,
-                  const std::vector<double>& log_likelihood) {
-  const Eigen::ArrayXd centered = draws.array() - draws.mean();
-  const auto covariance = [&](const std::vector<double>& component) {
-    return (centered * Eigen::Map<const Eigen::ArrayXd>(component.data(), draws.size())).sum();
-  };
-  return covariance(log_prior) * covariance(log_likelihood) < 0;
-}
-
-// How improbable a law makes what is as far out as x, on its side, twice for either side: to about
-// 1e-12. 1 where the law calls x plausible: where its density is no less than a hundredth of the
-// highest, however long the other tail is (a half-normal law of a scatter excludes no small one).
-double surprise(const Law& law, double x) {
-  constexpr int stations = 400;
-  constexpr double implausible = 0.01;
-  if (!law.proper || !(law.lower < x && x < law.upper)) return 1;
-  double highest = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < stations; ++i) {
-    highest = std::max(highest, log_density(law, quantile(law, (i + 0.5) / stations)).value);
-  }
-  if (!(log_density(law, x).value < highest + std::log(implausible))) return 1;
-  const bool low = x < quantile(law, 0.5);
-  double least = -28, most = 0;  // of the logarithm of the tail's probability
+// The probit of a law's distribution function, to about 1e-12 in either tail: beyond, the nearer of -7 and 7.
+double normal_score(const Law& law, double x) {
+  double low = -7, high = 7;
   for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (least + most), p = std::exp(middle);
-    const double at = quantile(law, low ? p : 1 - p);
-    ((low ? at < x : at > x) ? least : most) = middle;
+    const double middle = 0.5 * (low + high);
+    (quantile(law, 0.5 * std::erfc(-middle / std::numbers::sqrt2)) < x ? low : high) = middle;
   }
-  return std::min(1.0, 2 * std::exp(0.5 * (least + most)));
+  return 0.5 * (low + high);
 }
 
-// The posterior's draw and the data have the joint law of the truth and the data: the quantile of a
-// draw in its prior is uniform. Twice the value that half of the draws have is a p value that holds
-// its level (Meinshausen, Meier, Buhlmann 2009).
-void add_exclusion(const Parameter& parameter, const Eigen::VectorXd& draws, Findings& findings) {
-  constexpr double excluded = 1e-3, far_out = 1e-2;
-  std::vector<double> values(draws.begin(), draws.end());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  const double p = std::min(1.0, 2 * surprise(parameter.prior, *middle));
-  if (!(p < far_out)) return;
-  findings.add(
-      p < excluded ? Verdict::fail : Verdict::warn,
-      fmt::format("the data move {} to {}, which its prior {}: so far out with a probability of {}",
-                  parameter.name, in_unit(parameter, *middle),
-                  p < excluded ? "excludes" : "hardly expects",
-                  p < 1e-11 ? "less than 1e-11" : fmt::format("{:.1g}", p)),
-      fmt::format("Prior and data cannot both be right about {}. Ask whether the prior describes "
-                  "this component and these conditions, and look at its units and the data's.",
-                  parameter.name));
+// Whether a law ends on this side while its density is still high: it says nothing against what lies there, as
+// a half-normal law of a scatter says nothing against a small one.
+bool ends_high(const Law& law, bool lower) {
+  constexpr int stations = 400;
+  constexpr double high = 0.01;
+  if (!std::isfinite(lower ? law.lower : law.upper)) return false;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < stations; ++i)
+    highest = std::max(highest, log_density(law, quantile(law, (i + 0.5) / stations)).value);
+  constexpr double end = 1e-12;
+  return log_density(law, quantile(law, lower ? end : 1 - end)).value >= highest + std::log(high);
+}
+
+// How improbable a prior makes what the data say, either side. On the scale on which the prior is standard
+// normal, the posterior mean m of variance v lies at random with variance 1 - v when the prior is right: the
+// variance of a mean and the mean of a variance add up. So m / sqrt(1 - v) is standard normal where the likelihood
+// is, too, and is the distance of prior and likelihood by their common standard deviation. 1 where the law is
+// improper, or excludes nothing on that side.
+double surprise(const Law& law, std::vector<double> draws) {
+  constexpr double least_learned = 0.01;  // of 1 - v: below, noise of draws would count
+  if (!law.proper) return 1;
+  const auto score = [&](double share) {
+    const auto at = draws.begin() + static_cast<std::ptrdiff_t>(share * double(draws.size()));
+    std::nth_element(draws.begin(), at, draws.end());
+    return normal_score(law, *at);
+  };
+  const double median = score(0.5);
+  if (ends_high(law, median < 0)) return 1;
+  const double sd = 0.5 * (score(0.84134) - score(0.15866));
+  const double distance = std::abs(median) / std::sqrt(std::max(1 - sd * sd, least_learned));
+  return std::erfc(distance / std::numbers::sqrt2);
 }
 
 }  // namespace
 
 Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
+  constexpr double excluded = 1e-3, far_out = 1e-2;
   Findings findings("prior-data-conflict");
   const Eigen::MatrixXd& values = fit.pooled.values;
   std::vector<double> log_prior, log_likelihood;
@@ -342,43 +333,41 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
     const Parameter& parameter = posterior.parameters()[i];
     const Eigen::VectorXd draws = values.col(static_cast<Eigen::Index>(i));
-    add_exclusion(parameter, draws, findings);
     const PowerScaling sensitivity = power_scaling(view(draws), log_prior, log_likelihood);
     const std::string numbers =
         fmt::format("{}: sensitivity to the prior {:.3f}, to the likelihood {:.3f}", parameter.name,
                     sensitivity.prior, sensitivity.likelihood);
-    switch (verdict(sensitivity)) {
-      case PowerScalingVerdict::prior_data_conflict:
-        // A default is nobody's knowledge: data that pull away from it contradict nobody.
-        if (parameter.is_default) {
-          findings.add(Verdict::warn, numbers,
-                       fmt::format("The data are so few that the default prior of {} is of weight: "
-                                   "state what you know of it, or test more.",
-                                   parameter.name));
-          break;
-        }
-        if (pulled_apart(draws, log_prior, log_likelihood)) {
-          findings.add(
-              Verdict::fail, numbers,
-              fmt::format(
-                  "Prior and data disagree about {}: each pulls its own way. Ask whether the prior "
-                  "describes this component and these conditions.",
-                  parameter.name));
-          break;
-        }
-        [[fallthrough]];  // both matter, and agree: few data, or a prior that says much
-      case PowerScalingVerdict::strong_prior_or_weak_likelihood:
-        findings.add(
-            Verdict::warn, numbers,
-            fmt::format("What is said of {} comes from the prior as well as from the data.",
-                        parameter.name));
-        break;
-      case PowerScalingVerdict::unknown:
-        findings.add(Verdict::warn, fmt::format("{}: unknown", parameter.name),
-                     "The draws are not finite or do not vary.");
-        break;
-      case PowerScalingVerdict::none:
-        passed.push_back(numbers);
+    const PowerScalingVerdict scaling = verdict(sensitivity);
+    if (scaling == PowerScalingVerdict::unknown) {
+      findings.add(Verdict::warn, fmt::format("{}: unknown", parameter.name),
+                   "The draws are not finite or do not vary.");
+      continue;
+    }
+    const double p = surprise(parameter.prior, {draws.begin(), draws.end()});
+    const bool matters = scaling != PowerScalingVerdict::none;
+    if (p < far_out) {
+      // A default is nobody's knowledge: data that pull away from it contradict nobody, until they exclude it.
+      const bool fails = p < excluded || (matters && !parameter.is_default);
+      findings.add(
+          fails ? Verdict::fail : Verdict::warn,
+          fmt::format("{}; its prior {} what the data say: so far out with a probability of {}",
+                      numbers, p < excluded ? "excludes" : "hardly expects",
+                      p < 1e-11 ? "less than 1e-11" : fmt::format("{:.1g}", p)),
+          fmt::format(
+              "Prior and data cannot both be right about {}. Ask whether the prior describes "
+              "this component and these conditions, and look at its units and the data's.",
+              parameter.name));
+    } else if (!matters) {
+      passed.push_back(numbers);
+    } else if (parameter.is_default) {
+      findings.add(Verdict::warn, numbers,
+                   fmt::format("The data are so few that the default prior of {} is of weight: "
+                               "state what you know of it, or test more.",
+                               parameter.name));
+    } else {
+      findings.add(Verdict::warn, numbers,
+                   fmt::format("What is said of {} comes from the prior as well as from the data.",
+                               parameter.name));
     }
   }
   return findings.result(fmt::format("{}", fmt::join(passed, "; ")));

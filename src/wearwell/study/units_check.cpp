@@ -67,8 +67,8 @@ void look_at(const DataColumn& column, Findings& findings) {
     add(fmt::format("{} of {} counts are below 1, the smallest is {:.4g}", parts,
                     column.values.size(), *low));
   for (const Sizes& size : sizes) {
-    if (column.endless || size.si != column.si || (largest >= size.least && largest <= size.most))
-      continue;
+    const bool way = column.endless && size.si == "m";
+    if (way || size.si != column.si || (largest >= size.least && largest <= size.most)) continue;
     add(fmt::format("the largest value is {}; no machine has that", in_words(column, largest)));
   }
   if (column.condition && *high >= widest * *low)

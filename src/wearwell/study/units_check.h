@@ -16,7 +16,8 @@ struct DataColumn {
   Unit unit;                   ///< in which it was written
   std::vector<double> values;  ///< SI
   bool condition = false;  ///< of the test, and not what grows with it, so of one size in all rows
-  bool endless = false;    ///< how far something slid, say: no size of a machine bounds it
+  bool endless =
+      false;  ///< a length may be a way, how far something slid: no size of a machine bounds it
 };
 
 /// Whether units were mistaken, by rules that hold for any machine (docs/units.md): a count below

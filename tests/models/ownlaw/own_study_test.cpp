@@ -143,6 +143,37 @@ TEST_F(OwnStudy, LivesOfMachinesThatDiffer) {
 }
 
 // A unit in the heading is that of the column, as in every other trade; a plain column has none.
+// A car's shock absorber lives through 28,000 km, and a wear depth of 28 m is of no machine.
+TEST_F(OwnStudy, ALifeMayBeAWayAndADepthIsASize) {
+  write("lives.csv", "way [km]\n6700\n9120\n28100\n");
+  const std::string life =
+      "[data.columns]\nlife = \"way\"\n[likelihood.life]\nfamily = \"exponential\"\nmean = \"m\"\n";
+  const std::string prior =
+      "[prior]\nm = { law = \"lognormal\", median = \"1e4 km\", log_sd = 1 }\n";
+  const auto units = [](const PosteriorSummary& summary) {
+    return std::any_of(summary.checks.begin(), summary.checks.end(),
+                       [](const Check& check) { return check.name == "units"; });
+  };
+  EXPECT_FALSE(units(run("model = \"law\"\n[data]\nfile = \"lives.csv\"\n" + life + prior)));
+  write("depths.csv", "way [km],depth [m]\n10,9\n20,17\n30,28\n");
+  EXPECT_TRUE(units(run(R"(model = "law"
+[data]
+file = "depths.csv"
+[data.columns]
+way = "way"
+depth = "depth"
+[likelihood.depth]
+family = "normal"
+mean = "k * way"
+sd = "0.2 [m]"
+[prior]
+k = { law = "lognormal", median = 1e-3, log_sd = 1 }
+[predict]
+along = "way"
+at = ["40 km"]
+)")));
+}
+
 TEST_F(OwnStudy, UnitsStandInHeadingsToo) {
   write("wear.csv", "d [um],s [km],corrected [yes]\n1.1,1,1\n1.9,2,1\n3.2,3,2\n");
   const auto study = [](const char* depth, const char* path) {

@@ -118,11 +118,16 @@ void tell_data(const OwnLaw& law, PosteriorStudy& study) {
         std::all_of(column.unit.powers.begin(), column.unit.powers.end(),
                     [](const auto& power) { return power.second.denominator() == 1; });
     if (!whole || !integers) continue;
+    // Of lengths a law does not say which are sizes and which are ways, that of a car's life, say. What is
+    // measured along something else is a size.
+    const bool size =
+        law.along && std::any_of(law.measured.begin(), law.measured.end(),
+                                 [&](const Measured& each) { return each.column == column.name; });
     study.data_columns.push_back({.name = column.name,
                                   .si = law::si_text(column.unit.powers),
                                   .unit = column.unit.unit,
                                   .values = column.values,
-                                  .endless = law.along == column.name});
+                                  .endless = !size});
   }
 }
 
