@@ -14,7 +14,8 @@ namespace wearwell::monitor {
 
 struct Fleet::Unit {
   UnitRecord record;
-  bool lost = false;  ///< the record must be made anew
+  mutable std::mutex moving;  ///< held where `record.state` changes, and by who else reads it
+  bool lost = false;          ///< the record must be made anew
   bool unsaved = false, stale = false, queued = false;
   Alarm alarm = Alarm::ok;  ///< of its risk alone
   Alarm shown = Alarm::ok, logged = Alarm::ok;
@@ -109,9 +110,11 @@ std::size_t Fleet::apply() {
 void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readings) {
   const auto take_one = [&](const StoredReading& each) {
     if (each.place <= unit.record.place) return;
+    const std::lock_guard lock(unit.moving);
     try {
       take(unit.record, each, told_, store_);
     } catch (const StoreError&) {
+      unit.lost = true;  // in the middle of a reading, perhaps
       throw;
     } catch (const std::exception& error) {
       ++unit.record.not_counted;
@@ -123,13 +126,17 @@ void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readin
   try {
     if (unit.lost) {
       const std::int64_t before = readings.empty() ? place_ : readings.front()->place - 1;
-      unit.record = begun_record(unit.record.unit, tracker_);
+      {
+        const std::lock_guard lock(unit.moving);
+        unit.record = begun_record(unit.record.unit, tracker_);
+        unit.lost = false;  // from here on it is whole, if not up to date
+      }
       if (before > 0) store_.of_unit(unit.record.unit, 0, before, take_one);
-      unit.lost = false;
     }
     for (const StoredReading* each : readings) take_one(*each);
   } catch (const StoreError&) {
-    unit.lost = any_lost_ = true;  // in the middle of a reading, perhaps
+    const std::lock_guard lock(unit.moving);
+    unit.lost = any_lost_ = true;
     throw;
   }
 }
@@ -162,9 +169,27 @@ void Fleet::forecast(Unit& unit) {
   seen->moments = unit.seen && unit.seen->moments->size() == record.moments.size()
                       ? unit.seen->moments
                       : std::make_shared<const std::vector<UnitMoment>>(record.moments);
+  seen->ahead = std::make_shared<Seen::Ahead>(unit);
   unit.seen = std::move(seen);
   unit.stale = false;
   unit.forecast_at = Clock::now();
+}
+
+// By who reads: a state stands still meanwhile, and is asked once for each forecast that is shown.
+std::vector<UnitDetail::PathPoint> Fleet::path_ahead(const Seen& seen) const {
+  const std::lock_guard lock(seen.ahead->lock);
+  if (seen.ahead->known) return seen.ahead->path;
+  const Unit& unit = seen.ahead->unit;
+  const std::lock_guard still(unit.moving);
+  if (unit.lost || !unit.record.state) return {};
+  const std::vector<double> places = prognosis::places_ahead(unit.record.state->forecast());
+  for (const prognosis::LevelAhead& each : unit.record.state->ahead(places)) {
+    seen.ahead->path.push_back(
+        {told_.at(each.at),
+         {told_.level(each.level05), told_.level(each.level50), told_.level(each.level95)}});
+  }
+  seen.ahead->known = true;
+  return seen.ahead->path;
 }
 
 Alarm Fleet::shown_alarm(const Unit& unit, Alarm alarm, Clock::time_point now) const {

@@ -62,6 +62,7 @@ class Fleet : public FleetReader {
   Unit& unit_named(const std::string& name);
   void apply_to(Unit& unit, const std::vector<const StoredReading*>& readings);
   void forecast(Unit& unit);
+  std::vector<UnitDetail::PathPoint> path_ahead(const Seen& seen) const;
   void hear(Unit& unit, std::int64_t received_ms);
   Alarm shown_alarm(const Unit& unit, Alarm alarm, Clock::time_point now) const;
   void publish(std::vector<Unit*>& units);
