@@ -231,6 +231,24 @@ TEST_F(Fleets, DoNotKnowOfASilentUnit) {
   EXPECT_EQ(fleet_->units("", 0, 1)[0].alarm, Alarm::unknown);
 }
 
+// A sender's clock that is ahead: its reading counts, is told, and makes nothing younger than it is.
+TEST_F(Fleets, TellOfAReadingFromTheFuture) {
+  open();
+  const std::int64_t now = 1'795'360'000'000, day = 86'400'000;
+  store_->add(
+      {{0, "a", 1, now - 1000, now, {1, 3600}, {}}, {0, "a", 2, now + day, now, {2, 7200}, {}}});
+  catch_up();
+  const UnitView view = fleet_->units("", 0, 1)[0];
+  EXPECT_EQ(view.at, 2);
+  EXPECT_EQ(view.quality.readings, 2U);
+  EXPECT_EQ(view.last_reading_ms, now);
+  EXPECT_THAT(view.quality.last_problem, HasSubstr("more than an hour ahead"));
+  // What lay in the store a moment ago has not waited since then, whatever the machine's clock said.
+  store_->add({{0, "a", 3, now, now - 1000 * day, {3, 10800}, {}}});
+  EXPECT_GT(fleet_->apply(), 0U);
+  EXPECT_LT(fleet_->fleet().lag_ms, 60'000);
+}
+
 TEST(Moments, GrowSlowly) {
   int kept = 0;
   for (std::uint64_t n = 1; n <= 1'000'000; ++n) kept += is_kept_moment(n);

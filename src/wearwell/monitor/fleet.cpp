@@ -75,6 +75,7 @@ void Fleet::hear(Unit& unit, std::int64_t received_ms) {
 
 std::size_t Fleet::apply() {
   constexpr std::size_t most = 10'000;
+  const Clock::time_point asked = Clock::now();
   const std::vector<StoredReading> readings = store_.after(place_, most);
   std::map<std::string, std::vector<const StoredReading*>> of_unit;
   for (const StoredReading& each : readings) of_unit[each.unit].push_back(&each);
@@ -94,6 +95,7 @@ std::size_t Fleet::apply() {
   }
   if (readings.empty()) {
     live_ = true;
+    all_known_ = asked;
     const std::lock_guard lock(lock_);
     lag_ms_ = 0;
     return 0;
@@ -102,8 +104,14 @@ std::size_t Fleet::apply() {
     if (!list->empty()) hear(*unit, list->back()->received_ms);
   }
   place_ = readings.back().place;
+  using std::chrono::milliseconds;
+  std::int64_t lag = std::max<std::int64_t>(0, unix_ms_now() - readings.front().received_ms);
+  // None of them was there when all was known, however far the machine's clock has jumped since.
+  if (live_)
+    lag = std::min<std::int64_t>(
+        lag, std::chrono::duration_cast<milliseconds>(Clock::now() - all_known_).count());
   const std::lock_guard lock(lock_);
-  lag_ms_ = std::max<std::int64_t>(0, unix_ms_now() - readings.front().received_ms);
+  lag_ms_ = lag;
   return readings.size();
 }
 
@@ -150,7 +158,10 @@ void Fleet::forecast(Unit& unit) {
   const UnitRecord& record = unit.record;
   view.unit = record.unit;
   view.at = told_.at(forecast.now);
-  view.last_reading_ms = record.last_time_ms ? record.last_time_ms : record.last_received_ms;
+  // No reading is younger than its message, whatever the clock of its sender says.
+  view.last_reading_ms = record.last_time_ms
+                             ? std::min(record.last_time_ms, record.last_received_ms)
+                             : record.last_received_ms;
   view.level = told_.level(forecast);
   view.remaining = told_.remaining(forecast);
   constexpr double tenth = 0.1;
@@ -169,6 +180,7 @@ void Fleet::forecast(Unit& unit) {
   seen->moments = unit.seen && unit.seen->moments->size() == record.moments.size()
                       ? unit.seen->moments
                       : std::make_shared<const std::vector<UnitMoment>>(record.moments);
+  seen->place = record.place;
   seen->ahead = std::make_shared<Seen::Ahead>(unit);
   unit.seen = std::move(seen);
   unit.stale = false;
@@ -255,7 +267,7 @@ void Fleet::publish(std::vector<Unit*>& units) {
       changes_.emplace(version, name);
     }
     if (alarm == before) continue;
-    const AlarmChange change{name, unix_ms_now(), alarm, seen->view.risk};
+    const AlarmChange change{name, unix_ms_now(), alarm, seen->view.risk, seen->place};
     if (alarm != Alarm::unknown && alarm != unit->logged) {
       unlogged_.push_back(change);
       unit->logged = alarm;

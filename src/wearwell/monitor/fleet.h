@@ -83,7 +83,7 @@ class Fleet : public FleetReader {
   std::atomic<bool> any_lost_ = false;
   bool live_ = false;                ///< what the store held at the beginning has been taken
   std::uint64_t stored_before_ = 0;  ///< this monitor began
-  Clock::time_point silence_checked_ = {};
+  Clock::time_point silence_checked_ = {}, all_known_ = {};
 
   mutable std::mutex lock_;  ///< of what follows
   std::map<std::string, std::shared_ptr<const Seen>> seen_;

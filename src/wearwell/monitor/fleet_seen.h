@@ -14,6 +14,7 @@ struct Fleet::Seen {
   prognosis::Forecast forecast;
   std::shared_ptr<const std::vector<UnitMoment>> moments;
   std::uint64_t held = 0, judged = 0;
+  std::int64_t place = 0;  ///< of the last reading that is in it
 
   /// The path ahead, computed when it is first asked for; of the state as it is then.
   struct Ahead {
