@@ -48,11 +48,14 @@ class MqttSession {
  private:
   static void on_connect(mosquitto* client, void* self, int code);
   static void on_message(mosquitto* client, void* self, const mosquitto_message* message);
+  static void on_log(mosquitto* client, void* self, int level, const char* text);
+  std::string in_words(int code) const;
 
   const BrokerSettings broker_;
   const bool keeps_session_;
   mosquitto* client_ = nullptr;
   std::string filter_, refusal_;
+  std::string tls_;  ///< what went wrong with it last, in the words of its library
   bool accepted_ = false;
   std::vector<Message> arrived_;
   std::size_t arrived_bytes_ = 0;
