@@ -226,7 +226,8 @@ void run_monitor(const MonitorConfig& config, const Population& population,
   Notices notices(stderr);
   Tally tally(config.most_units);
   const auto store =
-      open_store(config.store, config.folder, store_columns(config, population.tracker));
+      open_store(config.store, config.folder, store_columns(config, population.tracker),
+                 Access::write, [&](const std::string& what) { notices.tell("store", what); });
   FleetSettings settings{config.title, population.trusted, population.fingerprint, config.alarm,
                          options.threads
                              ? options.threads

@@ -52,6 +52,8 @@ class MqttSession {
  private:
   static void on_connect(mosquitto* client, void* self, int code);
   static void on_message(mosquitto* client, void* self, const mosquitto_message* message);
+  static void on_log(mosquitto* client, void* self, int level, const char* text);
+  std::string in_words(int code) const;
 
   std::string presence(bool online) const;
 
@@ -60,6 +62,7 @@ class MqttSession {
   mosquitto* client_ = nullptr;
   std::string filter_, refusal_, presence_;
   std::int64_t connected_ms_ = 0;
+  std::string tls_;  ///< what went wrong with it last, in the words of its library
   bool accepted_ = false;
   std::vector<Message> arrived_;
   std::size_t arrived_bytes_ = 0;

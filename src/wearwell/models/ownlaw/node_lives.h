@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,11 @@ class NodeLives {
   /// Of nodes with weights that sum to 1, whose paths stand at `paths` (NodeRows) after their last row.
   prognosis::Forecast forecast(const Nodes& nodes, const std::vector<double>& weight,
                                const UnitReading& last, const std::vector<NodePath>& paths) const;
+  /// Of the same nodes: what is limited at these places, ascending and none before the last row.
+  std::vector<prognosis::LevelAhead> ahead(const Nodes& nodes, const std::vector<double>& weight,
+                                           const UnitReading& last,
+                                           const std::vector<NodePath>& paths,
+                                           std::span<const double> places) const;
 
  private:
   struct Ahead;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "wearwell/base/error.h"
 #include "wearwell/law/kernels.h"
@@ -198,6 +199,16 @@ prognosis::Forecast TrackedUnit::forecast() const {
   normalize(log_weight_, weight);
   return tracked_->lives.forecast(nodes_.nodes, weight,
                                   any_row_ ? last_ : tracked_->lives.before_rows(), paths_);
+}
+
+std::vector<prognosis::LevelAhead> TrackedUnit::ahead(std::span<const double> places) const {
+  const UnitReading last = any_row_ ? last_ : tracked_->lives.before_rows();
+  if (std::any_of(places.begin(), places.end(), [&](double x) { return !(x >= last.place); })) {
+    throw std::invalid_argument("a place that is not ahead");
+  }
+  std::vector<double> weight;
+  normalize(log_weight_, weight);
+  return tracked_->lives.ahead(nodes_.nodes, weight, last, paths_, places);
 }
 
 std::string TrackedUnit::save() const {
