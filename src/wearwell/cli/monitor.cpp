@@ -118,6 +118,7 @@ void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
       "--json", command->json, "At the end print the fleet as one JSON object, and nothing else");
   monitor->add_flag("--quiet", command->quiet, "Print nothing but what goes wrong")->excludes(json);
   monitor->footer(
+      "Sources are standard input, folders of files, MQTT, Sparkplug B and HTTP POST. "
       "It ends when standard input does, unless another source goes on, and on SIGINT or SIGTERM; "
       "what is acknowledged is\n"
       "stored, and a kill loses nothing of that.\n\n"

@@ -12,12 +12,14 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/monitor/message.h"
+#include "wearwell/monitor/time_text.h"
 
 namespace wearwell::monitor {
 namespace {
 
 constexpr int keepalive_s = 30;
 constexpr int most_unacknowledged = 2000;
+constexpr int at_least_once = 1;
 
 struct Library {
   Library() { mosquitto_lib_init(); }
@@ -66,6 +68,11 @@ void MqttSession::on_connect(mosquitto* client, void* self, int code) {
   }
   session.accepted_ = true;
   if (!session.filter_.empty()) mosquitto_subscribe(client, nullptr, session.filter_.c_str(), 1);
+  if (!session.presence_.empty()) session.publish(session.presence_, session.presence(true), true);
+}
+
+std::string MqttSession::presence(bool online) const {
+  return fmt::format("{{\"online\":{},\"timestamp\":{}}}", online, connected_ms_);
 }
 
 void MqttSession::on_message(mosquitto*, void* self, const mosquitto_message* message) {
@@ -105,6 +112,12 @@ std::string MqttSession::connect() {
   arrived_bytes_ = 0;
   accepted_ = false;
   refusal_.clear();
+  if (!presence_.empty()) {
+    connected_ms_ = unix_ms_now();
+    const std::string gone = presence(false);
+    mosquitto_will_set(client_, presence_.c_str(), static_cast<int>(gone.size()), gone.data(),
+                       at_least_once, true);
+  }
   int code = MOSQ_ERR_SUCCESS;
   if (broker_.version5) {
     mosquitto_property* properties = nullptr;
@@ -153,14 +166,15 @@ std::string MqttSession::write() {
   return in_words(mosquitto_loop_misc(client_));
 }
 
-bool MqttSession::publish(const std::string& topic, const std::string& payload, bool retain) {
-  constexpr int at_least_once = 1;
+bool MqttSession::publish(const std::string& topic, const std::string& payload, bool retain,
+                          int quality) {
   return accepted_ &&
          mosquitto_publish(client_, nullptr, topic.c_str(), static_cast<int>(payload.size()),
-                           payload.data(), at_least_once, retain) == MOSQ_ERR_SUCCESS;
+                           payload.data(), quality, retain) == MOSQ_ERR_SUCCESS;
 }
 
 void MqttSession::disconnect() {
+  if (!presence_.empty() && publish(presence_, presence(false), true)) static_cast<void>(write());
   mosquitto_disconnect(client_);
   static_cast<void>(write());
 }

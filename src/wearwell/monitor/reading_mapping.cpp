@@ -46,6 +46,11 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
     plain(table, "unit");
     return chosen;
   }
+  if (*unit == "{engUnit}") {
+    chosen.unit_of_message = true;
+    chosen.unit = Unit{column.unit.text, 1, 0};
+    return chosen;
+  }
   try {
     chosen.unit = read_unit(*unit, column.unit.text);
   } catch (const InputError& error) {

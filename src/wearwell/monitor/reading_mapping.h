@@ -20,6 +20,7 @@ struct ColumnField {
   std::string field;               ///< of the message
   Unit unit;                       ///< that its number has there
   std::optional<double> constant;  ///< SI: of every reading, instead of a field
+  bool unit_of_message = false;    ///< its metric says the unit (Sparkplug B); `unit` is SI then
 };
 
 /// How the fields of a message become a reading: [reading] of a configuration.
