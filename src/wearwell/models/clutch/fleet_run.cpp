@@ -80,29 +80,52 @@ struct Shard {
   double rows = 0;
 };
 
-/// Everything up to the sums of its units.
-void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
+/// Everything up to the sums of its units, once.
+void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
                const Monitor& monitor) {
   fleet::Engine& engine = shard.engine;
   SqlSource source;
   source.table = engine.table();
   source.first = request.first;
   source.prefix = request.prefix;
+  source.staged = engine.dialect() == fleet::Dialect::clickhouse;
   engine.begin();
   read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
+  engine.refuse_torn_units(source.unit.name);
   shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
   const FleetCheck check = check_rows(engine, shard.sql);
   shard.rows = check.rows;
   engine.run(shard.sql.setup, {}, "", 0);
   if (!request.first) refuse_late(engine, shard.sql);
+  if (source.staged)
+    source.portions = static_cast<int>(std::ceil(shard.rows / request.portion_rows));
   try {
-    engine.run(shard.sql.query, monitor, "cycles", static_cast<long long>(shard.rows));
+    for (; source.portion < source.portions; ++source.portion) {
+      const std::string query =
+          source.portions == 1
+              ? shard.sql.query
+              : clutch_sql(model.model, model.id, engine.dialect(), source, full).query;
+      engine.run(query, monitor, "cycles", static_cast<long long>(shard.rows));
+    }
   } catch (const InputError& error) {
     if (std::string_view(error.what()).find("out of range") == std::string_view::npos) throw;
     throw InputError(fmt::format(
         "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
         "They are: {} ({})",
         engine.source(), check.ranges, error.what()));
+  }
+}
+
+/// The same, by a replica where a server is lost.
+void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
+               const Monitor& monitor) {
+  constexpr int tries = 3;
+  for (int i = 1;; ++i) {
+    try {
+      return try_shard(shard, model, request, full, monitor);
+    } catch (const fleet::Lost&) {
+      if (i == tries) throw;
+    }
   }
 }
 
@@ -176,6 +199,9 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   refuse_torn(found.units);
   worst_first(found.units);
   Result result = fleet_result(model.model, counts, found);
+  for (const Shard& shard : shards) {
+    if (!shard.sql.keep.empty()) shard.engine.run(shard.sql.keep, {}, "", 0);
+  }
   for (const Shard& shard : shards) shard.engine.commit();
   return result;
 }
