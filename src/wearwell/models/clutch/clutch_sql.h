@@ -24,6 +24,10 @@ struct SqlSource {
   SqlColumn energy;
   std::string prefix = "wearwell";  ///< of the tables that the statements make
   bool first = false;               ///< nothing was counted before: all rows are new
+  /// ClickHouse has no transactions: new sums go to a temporary table until `keep`.
+  bool staged = false;
+  int portion = 0,
+      portions = 1;  ///< of the units, by a hash: what is sorted as arrays is held in memory
 };
 
 /// Units of the fixed point, powers of two: of the sums of 64 bits and of those of 128.
@@ -56,6 +60,7 @@ struct ClutchSql {
   /// SELECT: units whose rows up to the last cycle that was counted are not as many as were
   /// counted, and how many of both.
   std::string late;
+  std::string keep;   ///< what is new stays; empty where a transaction does that
   std::string check;  ///< SELECT: rows, rows without a value that can be, range of each input
   /// For FixedSum. SELECT: unit, cycle and inputs in SI of all rows, in their order; the same by unit
   /// and cycle; of each unit the last cycle that was counted, and its energy so far, halves of

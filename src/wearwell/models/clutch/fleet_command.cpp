@@ -9,6 +9,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
+#include "wearwell/fleet/clickhouse_engine.h"
 #include "wearwell/fleet/duckdb_engine.h"
 #include "wearwell/fleet/postgres_engine.h"
 #include "wearwell/input/option_value.h"
@@ -54,9 +55,12 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
                                               .memory = options.memory}));
     } else if (name.starts_with("postgresql://") || name.starts_with("postgres://")) {
       engines.push_back(fleet::postgres_engine(name, options.table));
+    } else if (fleet::is_clickhouse(name)) {
+      engines.push_back(fleet::clickhouse_engine(name, options.table));
     } else {
-      throw InputError(fmt::format("--engine: '{}' is neither 'duckdb' nor 'postgresql://...'",
-                                   printable(shortened(name))));
+      throw InputError(
+          fmt::format("--engine: '{}' is none of 'duckdb', 'postgresql://...', 'clickhouse://...'",
+                      printable(shortened(name.substr(0, name.find("://"))))));
     }
   }
   return engines;
@@ -112,8 +116,9 @@ void add_fleet_command(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--engine", options->engines,
-          "that computes: duckdb, or a database, postgresql://USER@HOST/DATABASE; several, "
-          "one after the other, where units are distributed over them")
+          "that computes: duckdb, or a database, postgresql://USER@HOST/DATABASE or "
+          "clickhouse://USER@HOST:8123/DATABASE (clickhouses:// by TLS; HOST,HOST are replicas); "
+          "several, one after the other, where units are distributed over them")
       ->allow_extra_args(false)
       ->capture_default_str();
   command->add_option("--table", options->table, "of cycles in a database: SCHEMA.TABLE");

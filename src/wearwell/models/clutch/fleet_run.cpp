@@ -106,10 +106,10 @@ void refuse_other_option(fleet::Engine& engine, const ClutchSql& sql, const Flee
   });
 }
 
-/// Where a summand does not fit its column.
+/// Where a summand does not fit its column; anything else is thrown on. While `error` is being handled.
 [[noreturn]] void explain(Shard& shard, const InputError& error) {
   const std::string_view said = error.what();
-  if (said.find("out of range") == std::string_view::npos) throw error;
+  if (said.find("out of range") == std::string_view::npos) throw;
   if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql).ranges;
   throw InputError(fmt::format(
       "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
@@ -129,16 +129,18 @@ void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const Identif
   }
 }
 
-/// Everything up to the sums of its units.
-void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
+/// Everything up to the sums of its units, once.
+void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
                const Monitor& monitor) {
   fleet::Engine& engine = shard.engine;
   SqlSource source;
   source.table = engine.table();
   source.first = request.first;
   source.prefix = request.prefix;
+  source.staged = engine.dialect() == fleet::Dialect::clickhouse;
   engine.begin();
   read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
+  engine.refuse_torn_units(source.unit.name);
   shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
   auto* const columns = dynamic_cast<fleet::ColumnEngine*>(&engine);
   const bool by_loop = columns && !request.statements;
@@ -147,18 +149,36 @@ void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
     shard.rows = check.rows;
     shard.ranges = check.ranges;
   }
+  if (source.staged)
+    source.portions = static_cast<int>(std::ceil(shard.rows / request.portion_rows));
   try {
     engine.run(shard.sql.setup, {}, "", 0);
     if (!request.first && columns) refuse_others(engine, shard.sql, model.id);
     if (!request.first) refuse_other_option(engine, shard.sql, request, full);
     if (!request.first) refuse_late(engine, shard.sql);
-    if (by_loop) {
-      sum_shard_by_loop(shard, *columns, model, request, full, monitor);
-    } else {
-      engine.run(shard.sql.query, monitor, "cycles", static_cast<long long>(shard.rows));
+    if (by_loop) sum_shard_by_loop(shard, *columns, model, request, full, monitor);
+    for (; !by_loop && source.portion < source.portions; ++source.portion) {
+      const std::string query =
+          source.portions == 1
+              ? shard.sql.query
+              : clutch_sql(model.model, model.id, engine.dialect(), source, full).query;
+      engine.run(query, monitor, "cycles", static_cast<long long>(shard.rows));
     }
   } catch (const InputError& error) {
     explain(shard, error);
+  }
+}
+
+/// The same, by a replica where a server is lost.
+void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
+               const Monitor& monitor) {
+  constexpr int tries = 3;
+  for (int i = 1;; ++i) {
+    try {
+      return try_shard(shard, model, request, full, monitor);
+    } catch (const fleet::Lost&) {
+      if (i == tries) throw;
+    }
   }
 }
 
@@ -232,6 +252,9 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   refuse_torn(found.units);
   worst_first(found.units);
   Result result = fleet_result(model.model, counts, found);
+  for (const Shard& shard : shards) {
+    if (!shard.sql.keep.empty()) shard.engine.run(shard.sql.keep, {}, "", 0);
+  }
   for (const Shard& shard : shards) shard.engine.commit();
   return result;
 }
