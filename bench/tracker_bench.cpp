@@ -103,6 +103,13 @@ void forecast(benchmark::State& state) {
 }
 BENCHMARK(forecast)->Unit(benchmark::kMicrosecond);
 
+void path_ahead(benchmark::State& state) {
+  const auto unit = tracker().begin("new");
+  const std::vector<double> places = prognosis::places_ahead(unit->forecast());
+  for (auto _ : state) benchmark::DoNotOptimize(unit->ahead(places));
+}
+BENCHMARK(path_ahead)->Unit(benchmark::kMicrosecond);
+
 void save_and_restore(benchmark::State& state) {
   const std::string bytes = tracker().begin("new")->save();
   for (auto _ : state) benchmark::DoNotOptimize(tracker().restore(bytes)->save());

@@ -27,6 +27,7 @@ if(WEARWELL_BUILD_BENCH)
   find_package(benchmark REQUIRED)
 endif()
 
-# Headers only: ceres/jet.h and Random123, both in the default include path on Debian.
+# Headers only: ceres/jet.h, protozero and Random123, all in the default include path on Debian.
 find_path(CERES_JET_INCLUDE_DIR ceres/jet.h REQUIRED)
+find_path(PROTOZERO_INCLUDE_DIR protozero/pbf_reader.hpp REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)

@@ -126,5 +126,43 @@ TEST_F(Configs, Refused) {
   EXPECT_THAT(refusal("silence", "silent"), HasSubstr("did you mean 'silence'"));
 }
 
+TEST_F(Configs, OfSparkplug) {
+  std::string text = good;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("unit = \"machine\"", "unit = \"{edge}/{device}\"");
+  replace("time = \"t\"", "time = \"{timestamp}\"");
+  replace("\"iso 8601\"", "\"unix ms\"");
+  replace("unit = \"um\"", "unit = \"{engUnit}\"");
+  const std::string other = text;
+  replace("kind = \"stdin\"",
+          "kind = \"sparkplug\"\nbroker = \"mqtt://h\"\ngroup = \"Hall 2\"\nhost = \"me\"");
+  const MonitorConfig config = read(text);
+  ASSERT_EQ(config.sources.size(), 1U);
+  const SourceSettings& source = config.sources[0];
+  EXPECT_EQ(source.kind, SourceKind::sparkplug);
+  EXPECT_EQ(source.topic.filter(), "spBv1.0/Hall 2/+/+/#");
+  EXPECT_EQ(source.host, "me");
+  EXPECT_FALSE(source.births_are_readings);
+  EXPECT_TRUE(source.mapping.columns[0].unit_of_message);
+  EXPECT_EQ(source.mapping.columns[0].unit.scale, 1);
+  const auto refusal_of = [&](const std::string& whole, const std::string& from,
+                              const std::string& to) {
+    std::string changed = whole;
+    changed.replace(changed.find(from), from.size(), to);
+    return message_of<InputError>([&] { read(changed); });
+  };
+  EXPECT_THAT(message_of<InputError>([&] { read(other); }),
+              HasSubstr("wear: only metrics of Sparkplug B have an engUnit"));
+  EXPECT_THAT(refusal_of(other, "{engUnit}", "um"),
+              HasSubstr("'{edge}/{device}' is for Sparkplug B alone"));
+  EXPECT_THAT(refusal_of(text, "{edge}/{device}", "{edge}/{devise}"),
+              HasSubstr("holds braces of which none of {group}, {edge}, {device} are made"));
+  EXPECT_THAT(refusal_of(text, "{edge}/{device}", "{group}"), HasSubstr("names no machine"));
+  EXPECT_THAT(refusal_of(text, "unix ms", "unix s"), HasSubstr("of {timestamp} is \"unix ms\""));
+  EXPECT_THAT(refusal_of(text, "Hall 2", "a/b"), HasSubstr("'a/b' is no level of a topic"));
+}
+
 }  // namespace
 }  // namespace wearwell::monitor

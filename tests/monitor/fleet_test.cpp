@@ -48,6 +48,43 @@ TEST_F(Fleets, TellWhatIsKnown) {
   EXPECT_FALSE(fleet_->unit("another"));
 }
 
+TEST_F(Fleets, TellThePathAhead) {
+  open();
+  for (int n = 1; n <= 20; ++n) deliver(message("a", n, 10.0 * n));
+  catch_up();
+  const auto detail = fleet_->unit("a");
+  ASSERT_TRUE(detail);
+  const UnitView& view = detail->view;
+  std::vector<UnitDetail::PathPoint> ahead;
+  for (const auto& each : detail->path)
+    if (each.at > view.at) ahead.push_back(each);
+  ASSERT_GT(ahead.size(), 20U);
+  double before = view.level.q50;
+  for (const auto& each : ahead) {
+    EXPECT_GT(each.level.q50, before);
+    EXPECT_LT(each.level.q05, each.level.q50);
+    EXPECT_LT(each.level.q50, each.level.q95);
+    before = each.level.q50;
+  }
+  // To where nineteen of twenty have reached the limit; the median does half way, of the stations.
+  EXPECT_NEAR(ahead.back().at, view.at + view.remaining.q95, 1e-6);
+  EXPECT_NEAR(ahead.back().level.q05, GrowthUnit::limit, 20);
+  EXPECT_NEAR(ahead[ahead.size() / 2 - 1].at, view.at + view.remaining.q50, 1e-6);
+  EXPECT_NEAR(ahead[ahead.size() / 2 - 1].level.q50, GrowthUnit::limit, 20);
+  // Asked again, and while readings come.
+  EXPECT_EQ(fleet_->unit("a")->path.size(), detail->path.size());
+  std::jthread reader([&](std::stop_token stop) {
+    while (!stop.stop_requested()) fleet_->unit("a");
+  });
+  for (int n = 21; n <= 60; ++n) {
+    deliver(message("a", n, 10.0 * n));
+    catch_up();
+  }
+  reader.request_stop();
+  reader.join();
+  EXPECT_GT(fleet_->unit("a")->path.back().at, 60);
+}
+
 TEST_F(Fleets, TellWhatHasChanged) {
   open();
   deliver(message("a", 1, 1));
@@ -192,6 +229,24 @@ TEST_F(Fleets, DoNotKnowOfASilentUnit) {
   open();
   fleet_->refresh(true);
   EXPECT_EQ(fleet_->units("", 0, 1)[0].alarm, Alarm::unknown);
+}
+
+// A sender's clock that is ahead: its reading counts, is told, and makes nothing younger than it is.
+TEST_F(Fleets, TellOfAReadingFromTheFuture) {
+  open();
+  const std::int64_t now = 1'795'360'000'000, day = 86'400'000;
+  store_->add(
+      {{0, "a", 1, now - 1000, now, {1, 3600}, {}}, {0, "a", 2, now + day, now, {2, 7200}, {}}});
+  catch_up();
+  const UnitView view = fleet_->units("", 0, 1)[0];
+  EXPECT_EQ(view.at, 2);
+  EXPECT_EQ(view.quality.readings, 2U);
+  EXPECT_EQ(view.last_reading_ms, now);
+  EXPECT_THAT(view.quality.last_problem, HasSubstr("more than an hour ahead"));
+  // What lay in the store a moment ago has not waited since then, whatever the machine's clock said.
+  store_->add({{0, "a", 3, now, now - 1000 * day, {3, 10800}, {}}});
+  EXPECT_GT(fleet_->apply(), 0U);
+  EXPECT_LT(fleet_->fleet().lag_ms, 60'000);
 }
 
 TEST(Moments, GrowSlowly) {

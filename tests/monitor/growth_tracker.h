@@ -60,6 +60,14 @@ class GrowthUnit : public prognosis::TrackedUnit {
     if (!lives.empty()) forecast.remaining = prognosis::WeightedLives(lives, weights);
     return forecast;
   }
+  std::vector<prognosis::LevelAhead> ahead(std::span<const double> places) const override {
+    std::vector<prognosis::LevelAhead> path;
+    for (const double each : places) {
+      const double hours = each / 3600, off = 1.6448536269514722 * sd();
+      path.push_back({each, hours * (mean() - off), hours * mean(), hours * (mean() + off)});
+    }
+    return path;
+  }
   std::size_t readings() const override { return readings_; }
 
   std::string save() const override {

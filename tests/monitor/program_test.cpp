@@ -61,6 +61,45 @@ TEST_F(Programs, ReadStandardInputToItsEnd) {
             "1\n");
 }
 
+// `decide` takes the units as the store has them, beside the monitor and without it: the same lives as the monitor tells.
+TEST_F(Programs, AreDecidedUpon) {
+  const auto config = configure("a", folder_source);
+  const auto lines = readings(4, 20);
+  const auto file = config.parent_path() / "incoming" / "a.jsonl";
+  append(file, lines);
+  const std::string decide = "decide '" + config.string() +
+                             "' --failure-cost 12 --replacement-cost 1 --inspection-cost 0.01 "
+                             "--month '10 km' --json";
+  EXPECT_THAT(run_wearwell(decide).err, HasSubstr("is no store yet: no monitor has run"));
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
+  const CommandResult beside = run_wearwell(decide);  // states have not been saved yet
+  EXPECT_LE(beside.exit_code, 1) << beside.err;
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+  const CommandResult after =
+      run_wearwell(decide + " --unit M01 --inspect-after '5 km' --given 'force = 20 N'");
+  EXPECT_LE(after.exit_code, 1) << after.err;
+  const auto told = nlohmann::json::parse(after.out), early = nlohmann::json::parse(beside.out);
+  EXPECT_EQ(told["units"], early["units"]);
+  const CommandResult fleet =
+      run_wearwell("monitor '" + config.string() + "' --once --json < /dev/null");
+  std::map<std::string, nlohmann::json> lives;
+  for (const auto& each : nlohmann::json::parse(fleet.out)["list"])
+    lives[each["unit"]] = each["remaining"];
+  ASSERT_EQ(lives.size(), 4U);
+  ASSERT_EQ(told["units"].size(), 4U);
+  for (const auto& each : told["units"]) {
+    for (const char* p : {"q05", "q50", "q95"}) {
+      const double expected = lives.at(each["unit"])[p];
+      EXPECT_NEAR(each[p].get<double>(), expected, 1e-9 * expected);
+    }
+  }
+  EXPECT_EQ(told["inspection_ahead"]["unit"], "M01");
+  EXPECT_GE(told["inspection_ahead"]["worth"], 0);
+  EXPECT_THAT(run_wearwell(decide + " --unit M9 --inspect-after '5 km'").err,
+              HasSubstr("the fleet has no machine 'M9'"));
+}
+
 TEST_F(Programs, EndOnASignalWithAllThatWasStored) {
   const auto config = configure("a", folder_source);
   const auto lines = readings(4, 20);
@@ -70,6 +109,48 @@ TEST_F(Programs, EndOnASignalWithAllThatWasStored) {
   EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
   EXPECT_THAT(log(config), HasSubstr("80 readings stored"));
   EXPECT_EQ(known(config) == undisturbed(lines), true);
+}
+
+// Hours ahead and hours back, while it runs: nobody falls silent by that, and what is known is the same bits.
+TEST_F(Programs, GoOnWhereTheClockJumps) {
+  const auto config = configure("a", folder_source);
+  write("a/fleet.toml", content(config) + "silence = \"30 min\"\n");
+  const auto file = config.parent_path() / "incoming" / "a.jsonl";
+  const auto lines = readings(6, 36);
+  write("clock", "0");
+  ChildProcess monitor({"/usr/bin/env", fmt::format("LD_PRELOAD={}", JUMPING_CLOCK),
+                        "WEARWELL_TEST_CLOCK=" + (folder() / "clock").string(), WEARWELL_BINARY,
+                        "monitor", config.string(), "--threads", "2"},
+                       config.parent_path() / "log");
+  const int hours[] = {0, 5, -7, 0, 700, -3000};
+  std::size_t sent = 0;
+  for (const int each : hours) {
+    write("clock", std::to_string(3600 * each));
+    sleep_s(0.6);  // by then whoever has fallen silent would have been told
+    const std::size_t end = sent + lines.size() / std::size(hours);
+    append(file, {lines.begin() + static_cast<std::ptrdiff_t>(sent),
+                  lines.begin() + static_cast<std::ptrdiff_t>(end)});
+    sent = end;
+    ASSERT_TRUE(eventually([&] { return stored(config) == sent; })) << log(config);
+  }
+  sleep_s(1.2);
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+  EXPECT_THAT(log(config), testing::Not(HasSubstr("-> unknown")));
+  // The jumps have been there: messages say the time of a clock that was 700 hours ahead, and 3000 behind.
+  std::int64_t least = INT64_MAX, most = 0;
+  for (const StoredReading& each : look(config, "fleet.sqlite")->after(0, 1000)) {
+    least = std::min(least, each.received_ms);
+    most = std::max(most, each.received_ms);
+  }
+  EXPECT_GT(most - least, 3600'000LL * 3600);
+  EXPECT_TRUE(known(config) == undisturbed(lines));
+  // Begun anew it counts by the machine's clock: what came 3000 hours ago by that is old, what comes from ahead is not.
+  const std::size_t told_before = log(config).size();
+  monitor = start(config);
+  EXPECT_TRUE(eventually([&] {
+    return log(config).find("monitoring", told_before) != std::string::npos;
+  })) << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0);
 }
 
 TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
@@ -197,6 +278,62 @@ TEST_F(BrokerPrograms, StoreWhatIsSentAndTellTheStates) {
   ASSERT_TRUE(eventually([&] {
     send(21, 25);
     return stored(config) == 25 * machines;
+  })) << log(config);
+  EXPECT_EQ(monitor.end(SIGTERM), 0);
+}
+
+// A broker with a certificate of its own: read where its authority is named, and a clear word where another one is.
+TEST_F(BrokerPrograms, AreSureOfWhomTheyTalkTo) {
+  const auto made = run_command(fmt::format(
+      "cd '{}' && for each in authority other; do openssl req -x509 -newkey ec -pkeyopt "
+      "ec_paramgen_curve:P-256 -nodes -days 2 -subj /CN=$each -keyout $each.key -out $each.pem; "
+      "done && openssl req -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -subj /CN=broker "
+      "-keyout server.key -out server.csr && printf 'subjectAltName=IP:127.0.0.1' > names && "
+      "openssl x509 -req -in server.csr -CA authority.pem -CAkey authority.key -CAcreateserial "
+      "-days 2 -extfile names -out server.pem",
+      folder().string()));
+  if (made.exit_code != 0) GTEST_SKIP() << "no openssl: " << made.err;
+  broker_ = nullptr;
+  broker_ = std::make_unique<Broker>(folder() / "secure", folder());
+  const auto named = [&](const std::string& authority) {
+    return configure_mqtt(authority.empty() ? std::string()
+                                            : fmt::format("authority = \"{}/{}.pem\"\n",
+                                                          folder().string(), authority));
+  };
+  for (const std::string authority : {"other", ""}) {
+    const auto config = named(authority);
+    std::filesystem::remove(config.parent_path() / "log");
+    ChildProcess monitor = start(config);
+    EXPECT_TRUE(eventually([&] {
+      return log(config).find("TLS: certificate verify failed: ") != std::string::npos;
+    })) << log(config);
+    EXPECT_THAT(log(config), HasSubstr(authority.empty() ? "the system's authorities do not vouch"
+                                                         : "/other.pem does not vouch for it"));
+    EXPECT_THAT(log(config), testing::Not(HasSubstr("follows")));
+    EXPECT_EQ(monitor.end(SIGTERM), 0);
+  }
+  const auto config = named("authority");
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return log(config).find("follows") != std::string::npos; }))
+      << log(config);
+  const auto lines = readings(machines, 200, false);
+  for (int i = 0; i < machines; ++i) {
+    for (int n = 0; n < 200; ++n)
+      append(folder() / fmt::format("M{}", i), {lines[n * machines + i]});
+    const CommandResult sent = run_command(fmt::format(
+        "mosquitto_pub --cafile '{0}/authority.pem' -h 127.0.0.1 -p {1} -q 1 -t plant/M{2:02}/wear "
+        "-l < '{0}/M{2}'",
+        folder().string(), broker_->port(), i));
+    ASSERT_EQ(sent.exit_code, 0) << sent.err;
+  }
+  EXPECT_TRUE(eventually([&] { return stored(config) == lines.size(); }))
+      << stored(config) << log(config);
+  // The broker goes and comes back.
+  broker_->kill();
+  broker_->start();
+  const std::size_t told_before = log(config).size();
+  EXPECT_TRUE(eventually([&] {
+    return log(config).find("trying again", told_before / 2) != std::string::npos;
   })) << log(config);
   EXPECT_EQ(monitor.end(SIGTERM), 0);
 }

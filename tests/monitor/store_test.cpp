@@ -133,6 +133,111 @@ TEST_P(Stores, KeepManyWithRepeatsAmongThem) {
   EXPECT_EQ(store->count(), expected.size());
 }
 
+// A store as version 1 had it: the tables, a reading, a state and an alarm.
+class OldStores : public Stores {
+ protected:
+  // What both databases understand, with their words for some types.
+  std::string old_tables() const {
+    const bool server = server_ != nullptr;
+    const std::string prefix = server ? "wearwell_" : "", bytes = server ? "bytea" : "BLOB",
+                      number = server ? "bigserial" : "INTEGER",
+                      value = server ? "'\\x6f6c64'" : "x'6f6c64'";
+    return fmt::format(R"(
+      CREATE TABLE wearwell (name text PRIMARY KEY, value text NOT NULL);
+      CREATE TABLE {0}reading (
+        place {3} PRIMARY KEY, unit text NOT NULL, key bigint NOT NULL, time_ms bigint NOT NULL,
+        received_ms bigint NOT NULL, numbers text NOT NULL, labels text NOT NULL, UNIQUE (unit, key));
+      CREATE TABLE {0}state (
+        unit text PRIMARY KEY, population text NOT NULL, place bigint NOT NULL, bytes {1} NOT NULL);
+      CREATE TABLE {0}alarm (
+        number {2} PRIMARY KEY, unit text NOT NULL, time_ms bigint NOT NULL, alarm text NOT NULL, risk double precision NOT NULL);
+      CREATE INDEX {0}alarm_of_unit ON {0}alarm (unit, number);
+      CREATE TABLE {0}file (name text PRIMARY KEY, bytes bigint NOT NULL);
+      INSERT INTO wearwell VALUES ('version', '1'), ('numbers', '["wear","time"]'),
+        ('labels', '["site"]'), ('keys', 'sequence'), ('population', 'p'), ('all_up_to', '7');
+      INSERT INTO {0}reading VALUES (7, 'a', 3, 3000, 1, '[0.25,null]', '["x"]');
+      INSERT INTO {0}state VALUES ('a', 'p', 7, {4});
+      INSERT INTO {0}alarm (unit, time_ms, alarm, risk) VALUES ('a', 5, 'watch', 0.125);)",
+                       prefix, bytes, number, server ? "bigint" : "INTEGER", value);
+  }
+  void run(const std::string& sql) const {
+    write("old.sql", sql);
+    const std::string file = (folder() / "old.sql").string();
+    const CommandResult done = run_command(
+        server_ ? fmt::format("psql -q -v ON_ERROR_STOP=1 '{}' -f '{}'", server_->url(), file)
+                : fmt::format("sqlite3 '{}' < '{}'", (folder() / url()).string(), file));
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+  }
+  bool tools() const {
+    return run_command(server_ ? "command -v psql" : "command -v sqlite3").exit_code == 0;
+  }
+};
+
+TEST_P(OldStores, AreBroughtUpToDateOnce) {
+  if (!tools()) GTEST_SKIP() << "psql or sqlite3 is not installed";
+  run(old_tables());
+  const StoreColumns columns{{"wear", "time"}, {"site"}, true};
+  // Who only reads changes nothing, and another result's columns neither.
+  EXPECT_THAT(message_of<InputError>([&] { open(columns, Access::read); }),
+              HasSubstr("is a store of version 1, and this wearwell reads version 2"));
+  EXPECT_THAT(message_of<InputError>([&] {
+                open({{"wear"}, {"site"}, true});
+              }),
+              HasSubstr("begin another store"));
+  std::vector<std::string> told;
+  const auto tell = [&](const std::string& what) { told.push_back(what); };
+  auto store = open_store(url(), folder(), columns, Access::write, tell);
+  EXPECT_THAT(told,
+              ElementsAre(HasSubstr("was of version 1, and has been brought up to version 2")));
+  EXPECT_EQ(shown(store->after(0, 10)), "a 3 0.25 true x;");
+  ASSERT_EQ(store->states("p").size(), 1U);
+  EXPECT_EQ(store->states("p")[0].bytes, "old");
+  EXPECT_EQ(store->all_up_to("p"), 7);
+  ASSERT_EQ(store->alarms().size(), 1U);
+  EXPECT_EQ(store->alarms()[0].risk, 0.125);
+  EXPECT_EQ(store->alarms()[0].place, 0);
+  // And goes on as one that was begun anew.
+  store->log({{"a", 9, Alarm::act, 0.5, 8}});
+  EXPECT_EQ(store->alarms()[0].place, 8);
+  EXPECT_THAT(store->add({reading("a", 4, 1)}), ElementsAre(Kept::stored));
+  EXPECT_GT(store->after(7, 1)[0].place, 7);
+  store = nullptr;
+  store = open_store(url(), folder(), columns, Access::write, tell);
+  EXPECT_EQ(told.size(), 1U);
+  EXPECT_EQ(open(columns, Access::read)->count(), 2U);
+}
+
+// What cannot be brought up to date whole stays as it was.
+TEST_P(OldStores, StayAsTheyWereWhereAStepFails) {
+  if (!tools()) GTEST_SKIP() << "psql or sqlite3 is not installed";
+  run(old_tables());
+  run(server_ ? "ALTER TABLE wearwell_alarm RENAME TO elsewhere;"
+              : "ALTER TABLE alarm RENAME TO elsewhere;");
+  EXPECT_THROW(open(), StoreError);
+  run(server_ ? "ALTER TABLE elsewhere RENAME TO wearwell_alarm;"
+              : "ALTER TABLE elsewhere RENAME TO alarm;");
+  EXPECT_THAT(message_of<InputError>([&] {
+                open({{"wear", "time"}, {"site"}, true}, Access::read);
+              }),
+              HasSubstr("is a store of version 1"));
+  EXPECT_EQ(open()->alarms().size(), 1U);
+}
+
+TEST_P(OldStores, OfLaterVersionsAreRefused) {
+  if (!tools()) GTEST_SKIP() << "psql or sqlite3 is not installed";
+  run(old_tables());
+  for (const char* version : {"3", "0", "-1", "2.5", "", "two"}) {
+    run(fmt::format("UPDATE wearwell SET value = '{}' WHERE name = 'version';", version));
+    if (server_ && !*version) continue;  // no store at all
+    EXPECT_THAT(message_of<InputError>([&] { open(); }),
+                HasSubstr(fmt::format("is a store of version '{}'; this wearwell knows versions 1 "
+                                      "to 2",
+                                      version)));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, OldStores, testing::Values("sqlite", "postgres"),
+                         [](const auto& each) { return std::string(each.param); });
 INSTANTIATE_TEST_SUITE_P(, Stores, testing::Values("sqlite", "postgres"),
                          [](const auto& each) { return std::string(each.param); });
 

@@ -95,5 +95,24 @@ TEST(PredictionsCsv, WithoutStagesOfAllRows) {
                                     "101.5", ""));
 }
 
+// A study of lives has no measurements at points: its predictions are lives, B-lives and what the next under
+// each test's conditions does.
+TEST(PredictionsCsv, OfLivesWhatWasAskedThenEachTest) {
+  PosteriorSummary result = sample_result();
+  result.predictions.clear();
+  for (StageSummary& stage : result.stages) stage.predictions.clear();
+  result.quantities = {
+      {"life", "new type A", "at 5, 6 MPa", "cycles", true, {1, 2, 3, 0.5, 1.5, 2}, {}},
+      {"B10 life", "type A", "", "cycles", false, {4, 5, 6}, {}}};
+  result.quantities[1].drawn.predictive = 4.5;
+  result.quantities[1].drawn.bound = 4.25;
+  result.coverage = CoverageTable{"cycles", {{7, "A", "runout", 2.5, {}, 0.6, 1, 3, 1.5}}, 1};
+  EXPECT_EQ(predictions_csv(result),
+            "rows,quantity,of,at,unit,q05,q50,q95,bound,predictive,b1,b10,measured,outcome\n"
+            "2,life,new type A,\"at 5, 6 MPa\",cycles,1,2,3,,,0.5,1.5,,\n"
+            "2,B10 life,type A,,cycles,4,5,6,4.25,4.5,,,,\n"
+            "2,life,test of type A,row 7,cycles,1,,3,,,,1.5,2.5,runout\n");
+}
+
 }  // namespace
 }  // namespace wearwell

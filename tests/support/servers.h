@@ -122,13 +122,20 @@ class Broker {
  public:
   static bool installed() { return std::filesystem::exists("/usr/sbin/mosquitto"); }
 
-  explicit Broker(const std::filesystem::path& folder) : folder_(folder), port_(free_port()) {
+  /// `certificate`: a folder with authority.pem, server.pem and server.key, for TLS.
+  explicit Broker(const std::filesystem::path& folder,
+                  const std::filesystem::path& certificate = {})
+      : folder_(folder), port_(free_port()), tls_(!certificate.empty()) {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "mosquitto.conf")
         << "listener " << port_ << " 127.0.0.1\nallow_anonymous true\npersistence true\n"
         << "persistence_location " << folder_.string() << "/\nautosave_on_changes true\n"
         << "autosave_interval 1\nmax_queued_messages 0\nmax_inflight_messages 0\n"
         << (geteuid() == 0 ? "user root\n" : "");
+    if (tls_)
+      std::ofstream(folder_ / "mosquitto.conf", std::ios::app)
+          << "certfile " << (certificate / "server.pem").string() << "\nkeyfile "
+          << (certificate / "server.key").string() << "\n";
     start();
   }
   void start() {
@@ -141,11 +148,14 @@ class Broker {
   /// As a service is stopped: with what it holds on the disk.
   void stop() { process_.end(SIGTERM); }
   int port() const { return port_; }
-  std::string url() const { return "mqtt://127.0.0.1:" + std::to_string(port_); }
+  std::string url() const {
+    return (tls_ ? "mqtts://127.0.0.1:" : "mqtt://127.0.0.1:") + std::to_string(port_);
+  }
 
  private:
   std::filesystem::path folder_;
   int port_;
+  bool tls_;
   ChildProcess process_;
 };
 

@@ -11,10 +11,13 @@
 #include <exception>
 #include <future>
 #include <limits>
+#include <system_error>
+#include <thread>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/scratch_folder.h"
+#include "wearwell/fleet/duckdb_columns.h"
 #include "wearwell/input/duckdb_message.h"
 #include "wearwell/input/duckdb_session.h"
 
@@ -36,7 +39,7 @@ class Answer {
   duckdb_result result{};
 };
 
-class DuckdbEngine : public Engine {
+class DuckdbEngine : public Engine, public ColumnEngine {
  public:
   explicit DuckdbEngine(const DuckdbSettings& settings);
   ~DuckdbEngine() override { close(); }
@@ -55,6 +58,13 @@ class DuckdbEngine : public Engine {
   void rows(const std::string& query, std::size_t texts,
             const std::function<void(const Row&)>& take) override;
 
+  long long known_rows() override;
+  long memory() const override { return memory_; }
+  std::unique_ptr<ColumnScan> scan(const std::string& query) override;
+  std::unique_ptr<Appender> append(const std::string& table) override {
+    return duckdb_append(connection_, table, [this](const std::string& error) { fail(error); });
+  }
+
  private:
   void close();
   void execute(const std::string& statements, Answer& answer);
@@ -68,10 +78,11 @@ class DuckdbEngine : public Engine {
 
   ScratchFolder spill_;
   long memory_;
-  std::string source_;
+  std::string source_, view_;
   bool csv_ = false;
   duckdb_database database_ = nullptr;
-  duckdb_connection connection_ = nullptr;
+  /// The second one scans, while the first keeps what was found.
+  duckdb_connection connection_ = nullptr, scanning_ = nullptr;
 };
 
 DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
@@ -97,18 +108,20 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
     if (settings.threads > 0) execute(fmt::format("set threads = {}", settings.threads));
     execute(
         fmt::format("set memory_limit = '{}MiB'; set temp_directory = {}; set "
-                    "preserve_insertion_order = false; "
+                    "preserve_insertion_order = true; "
                     "set enable_progress_bar = true; set enable_progress_bar_print = false; set "
                     "allowed_paths = "
                     "[{}]; set allowed_directories = [{}]; set enable_external_access = false; set "
                     "lock_configuration = true",
                     memory_, quoted((spill_.path() / "spill").string(), '\''),
                     fmt::join(allowed, ", "), quoted(spill_.path().string() + "/", '\'')));
-    execute("create temp view cycles as select * from " + view_of(files, ""));
+    view_ = "create or replace temp view cycles as select * from " + view_of(files, "");
+    execute(view_);
     for (const EngineColumn& each : columns()) {
-      if (each.name == settings.unit && each.is_number && csv_)
-        execute("create or replace temp view cycles as select * from " +
-                view_of(files, settings.unit));
+      if (each.name != settings.unit || !each.is_number || !csv_) continue;
+      view_ =
+          "create or replace temp view cycles as select * from " + view_of(files, settings.unit);
+      execute(view_);
     }
   } catch (...) {
     close();
@@ -116,9 +129,24 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
   }
 }
 
+/// On a thread without an exception on its way: DuckDB would not wait for those that still scan
+/// (DuckdbSession::close).
 void DuckdbEngine::close() {
-  if (connection_) duckdb_disconnect(&connection_);
-  if (database_) duckdb_close(&database_);
+  if (scanning_) duckdb_interrupt(scanning_);
+  const auto disconnect = [this] {
+    if (scanning_) duckdb_disconnect(&scanning_);
+    if (connection_) duckdb_disconnect(&connection_);
+    if (database_) duckdb_close(&database_);
+  };
+  if (std::uncaught_exceptions() == 0) {
+    disconnect();
+    return;
+  }
+  try {
+    std::thread(disconnect).join();
+  } catch (const std::system_error&) {
+    // No thread to be had: the database stays open, and what works for it has its memory.
+  }
 }
 
 void DuckdbEngine::fail(const std::string& message) const {
@@ -175,6 +203,7 @@ std::string DuckdbEngine::view_of(const std::vector<std::string>& files, const s
   if (!parquet && !csv)
     throw InputError(fmt::format(
         "{}: a fleet's cycles are Parquet files or CSV files, all of one kind", source_));
+  csv_ = csv;
   if (parquet)
     return fmt::format("read_parquet([{}], hive_partitioning = false)", fmt::join(names, ", "));
   // Without BIGINT: where the first thousands of cells are whole numbers, 2.5 would be read as 3.
@@ -253,6 +282,26 @@ void DuckdbEngine::rows(const std::string& query, std::size_t texts,
   }
   const char* error = duckdb_result_error(&answer.result);
   if (error && *error) fail(error);
+}
+
+long long DuckdbEngine::known_rows() {
+  double count = 0;
+  if (!csv_)
+    rows("select cast(count(*) as double) from cycles", 0,
+         [&](const Row& row) { count = row.numbers[0]; });
+  return static_cast<long long>(count);
+}
+
+std::unique_ptr<ColumnScan> DuckdbEngine::scan(const std::string& query) {
+  const auto refuse = [this](const std::string& error) { fail(error); };
+  if (!scanning_) {
+    if (duckdb_connect(database_, &scanning_) != DuckDBSuccess)
+      throw MachineError("cannot start DuckDB");
+    Answer answer;
+    if (duckdb_query(scanning_, view_.c_str(), &answer.result) != DuckDBSuccess)
+      fail(duckdb_result_error(&answer.result));
+  }
+  return duckdb_scan(scanning_, query, refuse);
 }
 
 }  // namespace

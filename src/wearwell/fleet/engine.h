@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/monitor.h"
 #include "wearwell/fleet/dialect.h"
 
@@ -22,6 +23,12 @@ struct EngineColumn {
   bool is_real = false;  ///< a number with a fraction, perhaps
 };
 
+/// A server, or one behind it, went away in the middle of the work. After another `begin` all may be done anew, by a
+/// replica perhaps.
+struct Lost : InputError {
+  using InputError::InputError;
+};
+
 /// A database with a fleet's cycles in it. Everything throws InputError with what the engine says, as
 /// far as it is for people, and MachineError where memory or disk is at fault; an answer is whole or there is none.
 class Engine {
@@ -35,9 +42,12 @@ class Engine {
   virtual std::string source() const = 0;
   virtual std::vector<EngineColumn> columns() = 0;
   /// What follows is done whole or not at all, and sees the table as it is now; undone without `commit`.
-  /// ClickHouse has nothing of the kind.
+  /// ClickHouse has nothing of the kind: what is not to be kept belongs into temporary tables there, which the next `begin`
+  /// leaves behind.
   virtual void begin() = 0;
   virtual void commit() = 0;
+  /// Throws where the table lies in parts that hold some of the rows of one unit each. `unit`: the column that names units.
+  virtual void refuse_torn_units(const std::string& /*unit*/) {}
   /// Statements, one after the other, without an answer. `what`: the steps that progress is told in,
   /// of which there are `total`. Throws Cancelled.
   virtual void run(const std::string& statements, const Monitor& monitor, const std::string& what,

@@ -22,12 +22,16 @@ constexpr int d = 4, outer = 3;
 using Index = std::array<std::int16_t, outer>;
 using Z = std::array<double, d>;
 
-constexpr double log_negligible = -22;     // of the highest density
 constexpr double negligible_share = 1e-9;  // nodes with less of the mass are left out
 constexpr double good_enough = 1e-3;       // where evaluations end before the tolerance is met
 constexpr long most_nodes = 6'000'000;
-constexpr int farthest = 3000;   // steps along an axis: beyond, the mass has no end
+constexpr int farthest = 3000;  // steps along an axis: beyond, the mass has no end
+// Steps finer than the tolerance asks for, where it asks for little: cells as wide as those that sum well are told as
+// curves with errors of a hundredth of a standard deviation.
+constexpr double widest_told = 0.7;
 constexpr int most_across = 80;  // steps along a line on either side of its mode
+// Of the step between lines that along them: half the lines are a lattice of finer dual than every second node of a line.
+constexpr double line_share = 0.7;
 
 std::uint64_t key(const Index& index) {
   std::uint64_t packed = 0;
@@ -44,12 +48,57 @@ class Chart {
   virtual double log_scale() const = 0;
 };
 
+// Of a parameter between two bounds the density on the real line falls no faster than exp(-|z|), so that a lattice has to
+// go 22 units out: z = w sqrt(1 + (w/5)^2) is nearly the normal quantile of its uniform share, scaled to slope 1, and makes
+// of that tail a normal one. Others stay as they are.
+class Bending {
+ public:
+  explicit Bending(const Posterior& posterior) {
+    for (std::size_t i = 0; i < d; ++i) {
+      const Law& prior = posterior.parameters()[i].prior;
+      bent_[i] = std::isfinite(prior.lower) && std::isfinite(prior.upper);
+    }
+  }
+
+  double from_real(std::size_t i, double z) const {
+    if (!bent_[i]) return z;
+    const double square = 2 * z * z / (1 + std::sqrt(1 + 4 * z * z / (far * far)));
+    return std::copysign(std::sqrt(square), z);
+  }
+  double slope(std::size_t i, double w) const {
+    return bent_[i] ? (1 + 2 * square_of(w)) / std::sqrt(1 + square_of(w)) : 1;
+  }
+  // Makes z of w; returns the log of the product of the slopes.
+  double to_real(Z& w) const {
+    double slopes = 1;
+    for (std::size_t i = 0; i < d; ++i) {
+      if (!bent_[i]) continue;
+      const double square = square_of(w[i]), root = std::sqrt(1 + square);
+      slopes *= (1 + 2 * square) / root;
+      w[i] *= root;
+    }
+    return std::log(slopes);
+  }
+
+ private:
+  static constexpr double far = 5;
+  static double square_of(double w) { return (w / far) * (w / far); }
+  std::array<bool, d> bent_{};
+};
+
 // Lines along the parameter that the others hold closest, so that they follow a narrow ridge in it
 // that bends; the others by their covariance.
 class Straight final : public Chart {
  public:
-  explicit Straight(const Whitening& whitening) {
-    const Eigen::Matrix4d covariance = whitening.scale * whitening.scale.transpose();
+  Straight(const Posterior& posterior, const Whitening& whitening) : bending_(posterior) {
+    Eigen::Vector4d center, slopes;
+    for (int i = 0; i < d; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      center[i] = bending_.from_real(at, whitening.center[i]);
+      slopes[i] = bending_.slope(at, center[i]);
+    }
+    const Eigen::Matrix4d scale = slopes.cwiseInverse().asDiagonal() * whitening.scale;
+    const Eigen::Matrix4d covariance = scale * scale.transpose();
     const Eigen::Matrix4d precision = covariance.inverse();
     // The smallest share of its variance that is left when the others are known.
     double least = INFINITY;
@@ -65,14 +114,14 @@ class Straight final : public Chart {
     }
     Eigen::Matrix3d block;
     for (int i = 0; i < outer; ++i) {
-      center_[i] = whitening.center[rest_[static_cast<std::size_t>(i)]];
+      center_[i] = center[rest_[static_cast<std::size_t>(i)]];
       for (int j = 0; j < outer; ++j)
         block(i, j) =
             covariance(rest_[static_cast<std::size_t>(i)], rest_[static_cast<std::size_t>(j)]);
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(block);
     scale_ = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().asDiagonal();
-    line_center_ = whitening.center[line_];
+    line_center_ = center[line_];
     line_scale_ = 1 / std::sqrt(precision(line_, line_));
   }
 
@@ -81,13 +130,14 @@ class Straight final : public Chart {
     for (int i = 0; i < outer; ++i)
       z[static_cast<std::size_t>(rest_[static_cast<std::size_t>(i)])] = three[i];
     z[static_cast<std::size_t>(line_)] = line_center_ + line_scale_ * u[outer];
-    return 0;
+    return bending_.to_real(z);
   }
   double log_scale() const override {
     return std::log(std::abs(scale_.determinant()) * line_scale_);
   }
 
  private:
+  Bending bending_;
   int line_ = 0;
   std::array<int, outer> rest_{};
   Eigen::Vector3d center_;
@@ -128,43 +178,66 @@ struct Line {
   double highest = -INFINITY;
 };
 
-// What lies in a cell: the parabola through the masses of its node and of the neighbours along each
-// axis, in cell lengths.
+// What lies in a cell: along each axis the logarithm of the mass is the parabola through that of its node and of both
+// neighbours, in cell lengths.
 class CellShape {
  public:
   explicit CellShape(double node) : node_(node) {}
 
   void along(int axis, double below, double above) {
-    tilt_[static_cast<std::size_t>(axis)] = 0.5 * (above - below);
-    bend_[static_cast<std::size_t>(axis)] = above - 2 * node_ + below;
+    auto& [mass, mean, square] = along_[static_cast<std::size_t>(axis)];
+    // Beside nothing, at an edge, and where mass lies on both sides rather than here, the cell is filled evenly.
+    if (!(below > 1e-12 * node_ && above > 1e-12 * node_)) return;
+    const double tilt = 0.5 * std::log(above / below),
+                 bend = std::log(above / node_) + std::log(below / node_);
+    if (!(bend < 3 && std::abs(tilt) < 12)) return;
+    double sums[3] = {};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double t = places[i], here = weights[i] * std::exp(t * (tilt + 0.5 * bend * t));
+      sums[0] += here;
+      sums[1] += t * here;
+      sums[2] += t * t * here;
+    }
+    mass = sums[0];
+    mean = sums[1] / sums[0];
+    square = sums[2] / sums[0];
   }
 
   void write(Eigen::Index row, WeightedDraws::Cells& cells) const {
     double mass = node_;
-    for (const double bend : bend_) mass += bend / 24;
-    // Where a parabola would be negative somewhere, at an edge, the cell is filled evenly.
-    const bool even = !(mass > 0.5 * node_);
-    cells.mass[row] = even ? node_ : mass;
     for (int axis = 0; axis < d; ++axis) {
-      const double tilt = tilt_[static_cast<std::size_t>(axis)],
-                   bend = bend_[static_cast<std::size_t>(axis)];
-      constexpr double steepest = 1.0 / 6;  // of a straight line without negative density
-      const double mean = even ? 0 : std::clamp(tilt / (12 * mass), -steepest, steepest);
-      const double square = even ? 1.0 / 12 : 1.0 / 12 + bend / (360 * mass);
-      cells.mean(row, axis) = mean;
-      cells.square(row, axis) = std::clamp(square, 1.0 / 24, 1.0 / 6);
+      const Along& along = along_[static_cast<std::size_t>(axis)];
+      mass *= along.mass;
+      cells.mean(row, axis) = along.mean;
+      cells.square(row, axis) = along.square;
     }
+    cells.mass[row] = mass;
   }
 
  private:
+  // Gauss and Legendre's rule of five nodes on -1/2..1/2.
+  static constexpr std::array<double, 5> places = {-0.4530899229693320, -0.2692346550528415, 0,
+                                                   0.2692346550528415, 0.4530899229693320};
+  static constexpr std::array<double, 5> weights = {0.1184634425280945, 0.2393143352496832,
+                                                    0.2844444444444444, 0.2393143352496832,
+                                                    0.1184634425280945};
+  struct Along {
+    double mass = 1, mean = 0, square = 1.0 / 12;
+  };
   double node_;
-  std::array<double, d> tilt_{}, bend_{};
+  std::array<Along, d> along_{};
 };
 
 class Lattice {
  public:
-  Lattice(const Posterior& posterior, const Chart& chart, double step, double line_step)
-      : posterior_(posterior), chart_(chart), step_(step), line_step_(line_step) {
+  /// Filled down to `log_negligible` of the highest density.
+  Lattice(const Posterior& posterior, const Chart& chart, double step, double line_step,
+          double log_negligible)
+      : posterior_(posterior),
+        chart_(chart),
+        step_(step),
+        line_step_(line_step),
+        log_negligible_(log_negligible) {
     reference_ = density(place({}, -1, 0, 0));
   }
 
@@ -186,7 +259,7 @@ class Lattice {
       if (highest_ > 300 && !set_reference()) return "the density grows without bound";
       for (std::size_t i = before; i < lines_.size(); ++i) {
         const Line& line = lines_[i];
-        if (line.highest < highest_ + log_negligible) continue;
+        if (line.highest < highest_ + log_negligible_) continue;
         for (int a = 0; a < outer; ++a) {
           for (const int way : {-1, 1}) {
             Line next;
@@ -418,7 +491,7 @@ class Lattice {
         const double v = value(line.middle + way * t * line_step_ * line.width);
         side.push_back(v);
         line.highest = std::max(line.highest, v);
-        if (!(v > std::max(line.highest, highest_) + log_negligible)) break;
+        if (!(v > std::max(line.highest, highest_) + log_negligible_)) break;
       }
     }
     line.first = -static_cast<int>(below.size());
@@ -427,7 +500,7 @@ class Lattice {
 
   const Posterior& posterior_;
   const Chart& chart_;
-  double step_, line_step_;
+  double step_, line_step_, log_negligible_;
   double reference_;
   double highest_ = -INFINITY;
   long nodes_ = 0;
@@ -435,6 +508,11 @@ class Lattice {
   std::vector<Line> lines_;
   std::unordered_map<std::uint64_t, std::size_t> known_;
 };
+
+// Of the highest density, where the lattice ends: what is left out goes with the tolerance.
+double log_negligible(double tolerance) {
+  return std::max(-22.0, -22 + std::log(tolerance / 1e-5));
+}
 
 // A lattice that is filled, or why it could not be.
 struct Filled {
@@ -444,18 +522,21 @@ struct Filled {
 
   Filled(const Posterior& posterior, const Chart& chart, double step, long most,
          const ExactSettings& settings)
-      : lattice(std::make_unique<Lattice>(posterior, chart, step, std::min(step, 0.8))),
+      : lattice(std::make_unique<Lattice>(posterior, chart, step, line_share * step,
+                                          log_negligible(settings.tolerance))),
         failure(lattice->fill(most)) {
     if (failure.empty()) error = lattice->error(settings.second_moments);
   }
 };
 
-// The next step, by how far the error is from the tolerance: it falls at least as fast as exp(-c/step)
-// where the density is smooth.
+// The next step, by how far the error is from the tolerance: it falls between exp(-c/step) and exp(-c/step^2) where the
+// density is smooth.
 double next_step(double step, double error, double tolerance, long nodes, long left) {
   const double a_little = step / std::sqrt(2.0);
-  const bool enough = std::pow(error, std::sqrt(2.0)) <= tolerance || error >= 1;
-  return enough || 16 * nodes > left ? a_little : 0.5 * step;
+  if (error >= 1) return a_little;
+  const double next =
+      step * std::clamp(std::pow(std::log(error) / std::log(tolerance), 0.67), 0.5, 0.95);
+  return next < a_little && 16 * nodes > left ? a_little : next;
 }
 
 }  // namespace
@@ -463,7 +544,7 @@ double next_step(double step, double error, double tolerance, long nodes, long l
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
                                     const ExactSettings& settings) {
   const RidgeMap map(posterior, whitening);
-  const Straight straight(whitening);
+  const Straight straight(posterior, whitening);
   const AlongRidge along(map);
   // Each chart is round where the other is not; lattices of middling steps tell. Where one is dear, the one that ends
   // soon.
@@ -483,6 +564,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     }
   }
   ExactPosterior exact;
+  std::optional<Filled> best;
   long evaluations = 0;
   double before = INFINITY, step_before = coarsest;
   for (double step = coarsest; evaluations < settings.max_evaluations;) {
@@ -495,11 +577,9 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
       break;
     }
     const double error = filled->error;
-    if (error <= std::max(settings.tolerance, good_enough)) {
-      exact = filled->lattice->result(settings.second_moments);
-      exact.error = error;
-    }
-    if (error <= settings.tolerance) break;
+    const double widest = settings.tolerance < good_enough ? widest_told : coarsest;
+    if (error <= std::max(settings.tolerance, good_enough)) best = std::move(filled);
+    if (error <= settings.tolerance && step <= widest) break;
     // Across a kink or a jump errors fall by a power of the step: what the evaluations will not suffice
     // for is not begun.
     const double power = std::log(before / error) / std::log(step_before / step);
@@ -511,11 +591,14 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     step_before = step;
     if (hopeless && error <= good_enough) break;
     exact.failure = fmt::format("no convergence in {} evaluations", evaluations);
-    step =
-        next_step(step, error, settings.tolerance, nodes, settings.max_evaluations - evaluations);
+    step = std::min(widest, next_step(step, error, settings.tolerance, nodes,
+                                      settings.max_evaluations - evaluations));
     filled.reset();
   }
-  if (exact.error <= good_enough && exact.nodes.values.rows() > 0) exact.failure.clear();
+  if (best) {
+    exact = best->lattice->result(settings.second_moments);
+    exact.error = best->error;
+  }
   exact.evaluations = evaluations;
   return exact;
 }

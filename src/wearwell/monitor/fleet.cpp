@@ -14,7 +14,8 @@ namespace wearwell::monitor {
 
 struct Fleet::Unit {
   UnitRecord record;
-  bool lost = false;  ///< the record must be made anew
+  mutable std::mutex moving;  ///< held where `record.state` changes, and by who else reads it
+  bool lost = false;          ///< the record must be made anew
   bool unsaved = false, stale = false, queued = false;
   Alarm alarm = Alarm::ok;  ///< of its risk alone
   Alarm shown = Alarm::ok, logged = Alarm::ok;
@@ -74,6 +75,7 @@ void Fleet::hear(Unit& unit, std::int64_t received_ms) {
 
 std::size_t Fleet::apply() {
   constexpr std::size_t most = 10'000;
+  const Clock::time_point asked = Clock::now();
   const std::vector<StoredReading> readings = store_.after(place_, most);
   std::map<std::string, std::vector<const StoredReading*>> of_unit;
   for (const StoredReading& each : readings) of_unit[each.unit].push_back(&each);
@@ -93,6 +95,7 @@ std::size_t Fleet::apply() {
   }
   if (readings.empty()) {
     live_ = true;
+    all_known_ = asked;
     const std::lock_guard lock(lock_);
     lag_ms_ = 0;
     return 0;
@@ -101,17 +104,25 @@ std::size_t Fleet::apply() {
     if (!list->empty()) hear(*unit, list->back()->received_ms);
   }
   place_ = readings.back().place;
+  using std::chrono::milliseconds;
+  std::int64_t lag = std::max<std::int64_t>(0, unix_ms_now() - readings.front().received_ms);
+  // None of them was there when all was known, however far the machine's clock has jumped since.
+  if (live_)
+    lag = std::min<std::int64_t>(
+        lag, std::chrono::duration_cast<milliseconds>(Clock::now() - all_known_).count());
   const std::lock_guard lock(lock_);
-  lag_ms_ = std::max<std::int64_t>(0, unix_ms_now() - readings.front().received_ms);
+  lag_ms_ = lag;
   return readings.size();
 }
 
 void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readings) {
   const auto take_one = [&](const StoredReading& each) {
     if (each.place <= unit.record.place) return;
+    const std::lock_guard lock(unit.moving);
     try {
       take(unit.record, each, told_, store_);
     } catch (const StoreError&) {
+      unit.lost = true;  // in the middle of a reading, perhaps
       throw;
     } catch (const std::exception& error) {
       ++unit.record.not_counted;
@@ -123,13 +134,17 @@ void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readin
   try {
     if (unit.lost) {
       const std::int64_t before = readings.empty() ? place_ : readings.front()->place - 1;
-      unit.record = begun_record(unit.record.unit, tracker_);
+      {
+        const std::lock_guard lock(unit.moving);
+        unit.record = begun_record(unit.record.unit, tracker_);
+        unit.lost = false;  // from here on it is whole, if not up to date
+      }
       if (before > 0) store_.of_unit(unit.record.unit, 0, before, take_one);
-      unit.lost = false;
     }
     for (const StoredReading* each : readings) take_one(*each);
   } catch (const StoreError&) {
-    unit.lost = any_lost_ = true;  // in the middle of a reading, perhaps
+    const std::lock_guard lock(unit.moving);
+    unit.lost = any_lost_ = true;
     throw;
   }
 }
@@ -143,7 +158,10 @@ void Fleet::forecast(Unit& unit) {
   const UnitRecord& record = unit.record;
   view.unit = record.unit;
   view.at = told_.at(forecast.now);
-  view.last_reading_ms = record.last_time_ms ? record.last_time_ms : record.last_received_ms;
+  // No reading is younger than its message, whatever the clock of its sender says.
+  view.last_reading_ms = record.last_time_ms
+                             ? std::min(record.last_time_ms, record.last_received_ms)
+                             : record.last_received_ms;
   view.level = told_.level(forecast);
   view.remaining = told_.remaining(forecast);
   constexpr double tenth = 0.1;
@@ -162,9 +180,28 @@ void Fleet::forecast(Unit& unit) {
   seen->moments = unit.seen && unit.seen->moments->size() == record.moments.size()
                       ? unit.seen->moments
                       : std::make_shared<const std::vector<UnitMoment>>(record.moments);
+  seen->place = record.place;
+  seen->ahead = std::make_shared<Seen::Ahead>(unit);
   unit.seen = std::move(seen);
   unit.stale = false;
   unit.forecast_at = Clock::now();
+}
+
+// By who reads: a state stands still meanwhile, and is asked once for each forecast that is shown.
+std::vector<UnitDetail::PathPoint> Fleet::path_ahead(const Seen& seen) const {
+  const std::lock_guard lock(seen.ahead->lock);
+  if (seen.ahead->known) return seen.ahead->path;
+  const Unit& unit = seen.ahead->unit;
+  const std::lock_guard still(unit.moving);
+  if (unit.lost || !unit.record.state) return {};
+  const std::vector<double> places = prognosis::places_ahead(unit.record.state->forecast());
+  for (const prognosis::LevelAhead& each : unit.record.state->ahead(places)) {
+    seen.ahead->path.push_back(
+        {told_.at(each.at),
+         {told_.level(each.level05), told_.level(each.level50), told_.level(each.level95)}});
+  }
+  seen.ahead->known = true;
+  return seen.ahead->path;
 }
 
 Alarm Fleet::shown_alarm(const Unit& unit, Alarm alarm, Clock::time_point now) const {
@@ -230,7 +267,7 @@ void Fleet::publish(std::vector<Unit*>& units) {
       changes_.emplace(version, name);
     }
     if (alarm == before) continue;
-    const AlarmChange change{name, unix_ms_now(), alarm, seen->view.risk};
+    const AlarmChange change{name, unix_ms_now(), alarm, seen->view.risk, seen->place};
     if (alarm != Alarm::unknown && alarm != unit->logged) {
       unlogged_.push_back(change);
       unit->logged = alarm;

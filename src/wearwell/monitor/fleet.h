@@ -62,6 +62,7 @@ class Fleet : public FleetReader {
   Unit& unit_named(const std::string& name);
   void apply_to(Unit& unit, const std::vector<const StoredReading*>& readings);
   void forecast(Unit& unit);
+  std::vector<UnitDetail::PathPoint> path_ahead(const Seen& seen) const;
   void hear(Unit& unit, std::int64_t received_ms);
   Alarm shown_alarm(const Unit& unit, Alarm alarm, Clock::time_point now) const;
   void publish(std::vector<Unit*>& units);
@@ -82,7 +83,7 @@ class Fleet : public FleetReader {
   std::atomic<bool> any_lost_ = false;
   bool live_ = false;                ///< what the store held at the beginning has been taken
   std::uint64_t stored_before_ = 0;  ///< this monitor began
-  Clock::time_point silence_checked_ = {};
+  Clock::time_point silence_checked_ = {}, all_known_ = {};
 
   mutable std::mutex lock_;  ///< of what follows
   std::map<std::string, std::shared_ptr<const Seen>> seen_;

@@ -28,11 +28,13 @@
                                             high: finite(view.remaining.q95) ? view.at + view.remaining.q95 : null};
     const far = life ? Math.min(life.high ?? Infinity, view.at + 3 * (view.remaining.q50 ?? view.remaining.q05 ?? 0)) : 0;
     const x = domain([...points.map((each) => each.x), ...read.map((each) => each.x), view.at]);
-    x[1] = Math.max(view.at, finite(far) ? 1.04 * far : 0, ...points.map((each) => each.x).filter(finite), ...read.map((each) => each.x));
+    // Of a path ahead as much as the life needs; a limit that is never reached needs all of it.
+    const reach = finite(far) && far > view.at ? 1.04 * far : Infinity;
+    x[1] = Math.max(view.at, finite(reach) && ahead.length < 3 ? reach : 0, ...points.map((each) => each.x).filter((each) => finite(each) && each <= Math.max(reach, view.at)), ...read.map((each) => each.x));
     const wedge = life && ahead.length < 3 && finite(life.low);
     const y = domain([1.15 * fleet.limit, ...behind.flatMap((each) => [each.low, each.high]), ...ahead.map((each) => each.low),
                       ...ahead.filter((each) => each.y < 1.3 * fleet.limit).map((each) => each.y), ...read.map((each) => each.y)]);
-    const stops = points.filter((each) => finite(each.x));
+    const stops = points.filter((each) => finite(each.x) && each.x <= x[1]);
     return {
       id: 'path', title: `${wearwell.capital(fleet.limited)}, behind and ahead`,
       description: `${wearwell.capital(fleet.limited)} along ${fleet.axis}: now ${range(view.level.q05, view.level.q95, fleet.level_unit)} (90 %), limit ${given(fleet.limit, fleet.level_unit)}. ${read.length} readings.`,
@@ -49,7 +51,7 @@
       at: stops.map((each) => each.x), start: Math.max(0, split - 1),
       read: (i) => `At ${quantity(stops[i].x, fleet.axis_unit)}: ${fleet.limited} ${quantity(stops[i].y, fleet.level_unit)}, 90 % within ${range(stops[i].low, stops[i].high, fleet.level_unit)}`,
       hint: 'Point at it, or use the arrow keys, to read values.',
-      legend: [['reading', 'readings'], ['behind', 'median and 90 %, behind'], ...(life ? [['life', 'when the limit is reached, 90 %']] : []), ...(ahead.length < 3 ? [] : [['ahead', 'ahead']])],
+      legend: [['reading', 'readings'], ['behind', 'median and 90 %, behind'], ...(life ? [['life', 'when the limit is reached, 90 %']] : []), ...(ahead.length < 3 ? [] : [['ahead', 'median and 90 %, ahead']])],
     };
   }
 

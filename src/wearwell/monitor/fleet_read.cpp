@@ -108,6 +108,9 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
   for (const UnitMoment& each : detail.moments) detail.path.push_back({each.at, each.level});
   std::stable_sort(detail.path.begin(), detail.path.end(),
                    [](const auto& a, const auto& b) { return a.at < b.at; });
+  for (const UnitDetail::PathPoint& each : path_ahead(*seen)) {
+    if (each.at > view.at) detail.path.push_back(each);
+  }
   const prognosis::WeightedLives& lives = seen->forecast.remaining;
   if (lives.points().empty()) return detail;
   constexpr double last = 0.995;

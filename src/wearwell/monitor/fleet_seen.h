@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "wearwell/monitor/fleet.h"
@@ -13,6 +14,16 @@ struct Fleet::Seen {
   prognosis::Forecast forecast;
   std::shared_ptr<const std::vector<UnitMoment>> moments;
   std::uint64_t held = 0, judged = 0;
+  std::int64_t place = 0;  ///< of the last reading that is in it
+
+  /// The path ahead, computed when it is first asked for; of the state as it is then.
+  struct Ahead {
+    const Unit& unit;
+    std::mutex lock = {};
+    bool known = false;
+    std::vector<UnitDetail::PathPoint> path = {};
+  };
+  std::shared_ptr<Ahead> ahead;
 };
 
 }  // namespace wearwell::monitor

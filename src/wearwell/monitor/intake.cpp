@@ -9,9 +9,27 @@
 namespace wearwell::monitor {
 
 Delivery Intake::deliver(const SourceSettings& source, std::span<const Message> messages) {
-  Delivery delivery;
   Batch batch;
   for (const Message& message : messages) read(source, message, batch);
+  return deliver(source, batch);
+}
+
+Delivery Intake::deliver(const SourceSettings& source, std::span<const Row> rows) {
+  const std::int64_t now = unix_ms_now();
+  Batch batch;
+  for (const Row& row : rows) {
+    if (row.problem.empty()) {
+      read_row(source, row.fields, row.unit, now, batch);
+    } else {
+      ++batch.rows;
+      batch.refusals.push_back({row.unit, row.problem});
+    }
+  }
+  return deliver(source, batch);
+}
+
+Delivery Intake::deliver(const SourceSettings& source, Batch& batch) {
+  Delivery delivery;
   if (!batch.readings.empty()) commit(batch);
   if (!batch.trouble.empty()) {
     delivery.problem = batch.trouble;
@@ -73,20 +91,23 @@ void Intake::read(const SourceSettings& source, const Message& message, Batch& b
     if (!named) return refuse_message("names no unit");
     unit = *named;
   }
-  const auto row = [&](const Fields& fields) {
-    try {
-      StoredReading reading = reading_of(fields, unit, source.mapping, now);
-      if (!tally_.admit(reading.unit))
-        throw InputError(fmt::format(
-            "'{}' is a new unit, and there are as many as limits.units lets in", reading.unit));
-      batch.readings.push_back(std::move(reading));
-      ++batch.rows;
-    } catch (const InputError& error) {
-      const Field* named = unit.empty() ? find_field(fields, source.mapping.unit) : nullptr;
-      refuse_row(named ? named->text : unit, error.what());
-    }
-  };
+  const auto row = [&](const Fields& fields) { read_row(source, fields, unit, now, batch); };
   for_each_row(message.payload, row, refuse_message, message.form);
+}
+
+void Intake::read_row(const SourceSettings& source, const Fields& fields, const std::string& unit,
+                      std::int64_t now_ms, Batch& batch) {
+  ++batch.rows;
+  try {
+    StoredReading reading = reading_of(fields, unit, source.mapping, now_ms);
+    if (!tally_.admit(reading.unit))
+      throw InputError(fmt::format(
+          "'{}' is a new unit, and there are as many as limits.units lets in", reading.unit));
+    batch.readings.push_back(std::move(reading));
+  } catch (const InputError& error) {
+    const Field* named = unit.empty() ? find_field(fields, source.mapping.unit) : nullptr;
+    batch.refusals.push_back({named ? named->text : unit, error.what()});
+  }
 }
 
 void Intake::commit(Batch& batch) {

@@ -20,6 +20,13 @@ struct Message {
   Form form = Form::any;
 };
 
+/// A reading's fields, where a source reads its messages itself, or why there is none.
+struct Row {
+  std::string unit;  ///< where it is known without the fields
+  Fields fields;
+  std::string problem = {};
+};
+
 /// Takes messages of all sources, makes readings of them and stores these; those that wait at the same time are stored in one
 /// transaction. Any thread may call.
 class Intake {
@@ -31,6 +38,7 @@ class Intake {
   /// Returns when all that can be read of them is stored, or cannot be now: then nothing of them is, or all, and they may
   /// be delivered again. What cannot be read is refused and counted; it does not keep the others from being stored.
   Delivery deliver(const SourceSettings& source, std::span<const Message> messages);
+  Delivery deliver(const SourceSettings& source, std::span<const Row> rows);
 
   /// Counts what is no message at all.
   void refuse(const SourceSettings& source, const std::string& problem);
@@ -48,6 +56,9 @@ class Intake {
     bool done = false;
   };
   void read(const SourceSettings& source, const Message& message, Batch& batch);
+  void read_row(const SourceSettings& source, const Fields& fields, const std::string& unit,
+                std::int64_t now_ms, Batch& batch);
+  Delivery deliver(const SourceSettings& source, Batch& batch);
   void refuse(const SourceSettings& source, const Refusal& refusal, Delivery& delivery);
   void commit(Batch& batch);
   void store_waiting(std::unique_lock<std::mutex>& lock);

@@ -7,6 +7,8 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/text_file.h"
+#include "wearwell/monitor/sparkplug_metrics.h"
+#include "wearwell/monitor/sparkplug_topic.h"
 #include "wearwell/monitor/store.h"
 
 namespace wearwell::monitor {
@@ -86,12 +88,68 @@ BrokerSettings read_broker(const TomlReader& table, const std::string& usual_cli
   return broker;
 }
 
+/// A level of a topic, all where nothing is said.
+std::string read_level(const TomlReader& table, const char* key, const char* usual) {
+  const std::string level = table.text(key).value_or(usual);
+  const bool any = level == usual;
+  if (level.empty() ? !any : !any && level.find_first_of("/+#{}") != level.npos)
+    table.fail(key, fmt::format("'{}' is no level of a topic", level));
+  return level;
+}
+
+void read_sparkplug_source(const TomlReader& table, const std::string& name,
+                           SourceSettings& source) {
+  source.kind = SourceKind::sparkplug;
+  source.broker = read_broker(table, "wearwell-" + name);
+  source.topic = TopicPattern(fmt::format("spBv1.0/{}/+/{}/#", read_level(table, "group", "+"),
+                                          read_level(table, "edge", "+")));
+  source.host = read_level(table, "host", "");
+  source.births_are_readings =
+      table.choice("births", {"values", "readings"}).value_or("values") == "readings";
+}
+
+/// What is made of topics and properties, and may stand for a source of Sparkplug B alone.
+void check_braces(const TomlReader& reading, const SourceSettings& source) {
+  const bool sparkplug = source.kind == SourceKind::sparkplug;
+  for (const ColumnField& column : source.mapping.columns) {
+    if (column.unit_of_message && !sparkplug)
+      reading.fail("columns", fmt::format("{}: only metrics of Sparkplug B have an engUnit; say in "
+                                          "which unit it comes",
+                                          column.column));
+  }
+  const ReadingMapping& mapping = source.mapping;
+  const auto check = [&](const char* key, const std::string& field) {
+    bool by_topic = field == timestamp_field;
+    std::string fault;
+    try {
+      by_topic = by_topic || names_by_topic(field);
+    } catch (const InputError& error) {
+      fault = error.what();
+    }
+    if (by_topic && !sparkplug)
+      fault = fmt::format(
+          "'{}' is for Sparkplug B alone; its source may have a [reading] of its own", field);
+    if (!fault.empty() && (sparkplug || by_topic)) reading.fail(key, fault);
+    return by_topic;
+  };
+  if (check("unit", mapping.unit) && mapping.unit.find("{edge}") == mapping.unit.npos &&
+      mapping.unit.find("{device}") == mapping.unit.npos)
+    reading.fail("unit", "names no machine: {device} or {edge} does");
+  if (mapping.time == timestamp_field) {
+    check("time", sparkplug ? std::string() : mapping.time);
+    if (mapping.format != TimeFormat::unix_ms)
+      reading.fail("time_format", "of {timestamp} is \"unix ms\"");
+  }
+  for (const std::string& label : mapping.labels) check("columns", label);
+}
+
 SourceSettings read_source(const TomlReader& root, const TomlReader& table, const std::string& name,
                            const prognosis::Tracker& tracker) {
   SourceSettings source;
   source.name = name;
-  const auto kind = table.choice("kind", {"stdin", "folder", "mqtt", "http"});
-  if (!kind) table.fail("kind", "is missing: \"stdin\", \"folder\", \"mqtt\" or \"http\"");
+  const auto kind = table.choice("kind", {"stdin", "folder", "mqtt", "sparkplug", "http"});
+  if (!kind)
+    table.fail("kind", "is missing: \"stdin\", \"folder\", \"mqtt\", \"sparkplug\" or \"http\"");
   if (*kind == "folder") {
     source.kind = SourceKind::folder;
     source.folder = existing(table, "folder");
@@ -106,12 +164,15 @@ SourceSettings read_source(const TomlReader& root, const TomlReader& table, cons
     } catch (const InputError& error) {
       table.fail("topic", error.what());
     }
+  } else if (*kind == "sparkplug") {
+    read_sparkplug_source(table, name, source);
   } else if (*kind == "http") {
     source.kind = SourceKind::http;
   }
   const auto own = table.table("reading");
-  source.mapping =
-      read_mapping(own ? *own : root.required_table("reading"), tracker, source.topic.names_unit());
+  const TomlReader reading = own ? *own : root.required_table("reading");
+  source.mapping = read_mapping(reading, tracker, source.topic.names_unit());
+  check_braces(reading, source);
   return source;
 }
 

@@ -26,7 +26,7 @@ struct BrokerSettings {
   bool version5 = true;  ///< else MQTT 3.1.1
 };
 
-enum class SourceKind { stdin, folder, mqtt, http };
+enum class SourceKind { stdin, folder, mqtt, sparkplug, http };
 
 /// Where readings come from: [source.NAME].
 struct SourceSettings {
@@ -36,6 +36,10 @@ struct SourceSettings {
   std::filesystem::path folder = {};
   BrokerSettings broker = {};
   TopicPattern topic = {};
+  std::string host =
+      {};  ///< of Sparkplug B: as whom it tells edge nodes that it is there; "": it does not
+  bool births_are_readings =
+      false;  ///< of Sparkplug B: what birth certificates say is measured then
 };
 
 /// Where states are told: [publish].

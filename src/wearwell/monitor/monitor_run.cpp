@@ -104,6 +104,9 @@ void Sources::run(SourceContext& context, std::stop_token stop) {
       case SourceKind::mqtt:
         read_mqtt(context, stop);
         break;
+      case SourceKind::sparkplug:
+        read_sparkplug_source(context, stop);
+        break;
       case SourceKind::http:
         break;
     }
@@ -198,7 +201,7 @@ class Outlets {
 
 void refuse_endless_sources(const MonitorConfig& config) {
   for (const SourceSettings& source : config.sources) {
-    if (source.kind == SourceKind::mqtt || source.kind == SourceKind::http)
+    if (source.kind != SourceKind::stdin && source.kind != SourceKind::folder)
       throw InputError(fmt::format(
           "--once: source.{} has no end; only files and standard input have", source.name));
   }
@@ -223,7 +226,8 @@ void run_monitor(const MonitorConfig& config, const Population& population,
   Notices notices(stderr);
   Tally tally(config.most_units);
   const auto store =
-      open_store(config.store, config.folder, store_columns(config, population.tracker));
+      open_store(config.store, config.folder, store_columns(config, population.tracker),
+                 Access::write, [&](const std::string& what) { notices.tell("store", what); });
   FleetSettings settings{config.title, population.trusted, population.fingerprint, config.alarm,
                          options.threads
                              ? options.threads

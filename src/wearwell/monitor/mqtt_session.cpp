@@ -10,18 +10,16 @@
 #include <utility>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/monitor/message.h"
+#include "wearwell/monitor/time_text.h"
 
 namespace wearwell::monitor {
 namespace {
 
 constexpr int keepalive_s = 30;
 constexpr int most_unacknowledged = 2000;
-
-std::string in_words(int code) {
-  if (code == MOSQ_ERR_SUCCESS) return {};
-  return code == MOSQ_ERR_ERRNO ? std::strerror(errno) : mosquitto_strerror(code);
-}
+constexpr int at_least_once = 1;
 
 struct Library {
   Library() { mosquitto_lib_init(); }
@@ -42,6 +40,7 @@ MqttSession::MqttSession(const BrokerSettings& broker, bool keeps_session)
   mosquitto_threaded_set(client_, true);
   mosquitto_connect_callback_set(client_, on_connect);
   mosquitto_message_callback_set(client_, on_message);
+  if (broker.tls) mosquitto_log_callback_set(client_, on_log);
   if (!broker.user.empty())
     mosquitto_username_pw_set(client_, broker.user.c_str(),
                               broker.password.empty() ? nullptr : broker.password.c_str());
@@ -69,6 +68,11 @@ void MqttSession::on_connect(mosquitto* client, void* self, int code) {
   }
   session.accepted_ = true;
   if (!session.filter_.empty()) mosquitto_subscribe(client, nullptr, session.filter_.c_str(), 1);
+  if (!session.presence_.empty()) session.publish(session.presence_, session.presence(true), true);
+}
+
+std::string MqttSession::presence(bool online) const {
+  return fmt::format("{{\"online\":{},\"timestamp\":{}}}", online, connected_ms_);
 }
 
 void MqttSession::on_message(mosquitto*, void* self, const mosquitto_message* message) {
@@ -80,11 +84,40 @@ void MqttSession::on_message(mosquitto*, void* self, const mosquitto_message* me
   session.arrived_bytes_ += size;
 }
 
+// "OpenSSL Error[0]: error:0A000086:SSL routines::certificate verify failed".
+void MqttSession::on_log(mosquitto*, void* self, int level, const char* text) {
+  const std::string_view said = text;
+  if (level != MOSQ_LOG_ERR || said.find("SSL") == said.npos) return;
+  const std::size_t colon = said.rfind(':');
+  static_cast<MqttSession*>(self)->tls_ = said.substr(colon == said.npos ? 0 : colon + 1);
+}
+
+std::string MqttSession::in_words(int code) const {
+  if (code == MOSQ_ERR_SUCCESS) return {};
+  if (code == MOSQ_ERR_ERRNO) return std::strerror(errno);
+  if (code != MOSQ_ERR_TLS || tls_.empty()) return mosquitto_strerror(code);
+  const bool doubted = tls_.find("certificate verify failed") != tls_.npos;
+  return fmt::format(
+      "TLS: {}{}", printable(valid_utf8(tls_)),
+      !doubted ? ""
+      : broker_.authority.empty()
+          ? ": the system's authorities do not vouch for it; say authority = \"ca.pem\""
+          : fmt::format(": {} does not vouch for it, or it is of another host",
+                        broker_.authority.string()));
+}
+
 std::string MqttSession::connect() {
+  tls_.clear();
   arrived_.clear();
   arrived_bytes_ = 0;
   accepted_ = false;
   refusal_.clear();
+  if (!presence_.empty()) {
+    connected_ms_ = unix_ms_now();
+    const std::string gone = presence(false);
+    mosquitto_will_set(client_, presence_.c_str(), static_cast<int>(gone.size()), gone.data(),
+                       at_least_once, true);
+  }
   int code = MOSQ_ERR_SUCCESS;
   if (broker_.version5) {
     mosquitto_property* properties = nullptr;
@@ -133,14 +166,15 @@ std::string MqttSession::write() {
   return in_words(mosquitto_loop_misc(client_));
 }
 
-bool MqttSession::publish(const std::string& topic, const std::string& payload, bool retain) {
-  constexpr int at_least_once = 1;
+bool MqttSession::publish(const std::string& topic, const std::string& payload, bool retain,
+                          int quality) {
   return accepted_ &&
          mosquitto_publish(client_, nullptr, topic.c_str(), static_cast<int>(payload.size()),
-                           payload.data(), at_least_once, retain) == MOSQ_ERR_SUCCESS;
+                           payload.data(), quality, retain) == MOSQ_ERR_SUCCESS;
 }
 
 void MqttSession::disconnect() {
+  if (!presence_.empty() && publish(presence_, presence(false), true)) static_cast<void>(write());
   mosquitto_disconnect(client_);
   static_cast<void>(write());
 }

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "wearwell/monitor/monitor_config.h"
 
@@ -30,6 +32,8 @@ class MqttSession {
   std::string connect();
   /// Subscribes once the broker has said yes.
   void subscribe(const std::string& filter);
+  /// From the next connection on, a retained message tells under this topic whether it is there (STATE of Sparkplug B).
+  void tell_presence(const std::string& topic) { presence_ = topic; }
   bool accepted() const { return accepted_; }
   /// What the broker refused, "" for nothing.
   const std::string& refusal() const { return refusal_; }
@@ -41,18 +45,24 @@ class MqttSession {
   std::vector<Message>& arrived() { return arrived_; }
   /// Sends acknowledgements and all else, and what keeps the connection alive. Likewise.
   std::string write();
-  /// Queues a message; false where there is no connection.
-  bool publish(const std::string& topic, const std::string& payload, bool retain);
+  /// Queues a message; false where there is no connection. `quality`: of service, 0 or 1.
+  bool publish(const std::string& topic, const std::string& payload, bool retain, int quality = 1);
   void disconnect();
 
  private:
   static void on_connect(mosquitto* client, void* self, int code);
   static void on_message(mosquitto* client, void* self, const mosquitto_message* message);
+  static void on_log(mosquitto* client, void* self, int level, const char* text);
+  std::string in_words(int code) const;
+
+  std::string presence(bool online) const;
 
   const BrokerSettings broker_;
   const bool keeps_session_;
   mosquitto* client_ = nullptr;
-  std::string filter_, refusal_;
+  std::string filter_, refusal_, presence_;
+  std::int64_t connected_ms_ = 0;
+  std::string tls_;  ///< what went wrong with it last, in the words of its library
   bool accepted_ = false;
   std::vector<Message> arrived_;
   std::size_t arrived_bytes_ = 0;

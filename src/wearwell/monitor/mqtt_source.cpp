@@ -38,17 +38,16 @@ std::string follow(MqttSession& session, SourceContext& context, std::stop_token
 
 }  // namespace
 
-void read_mqtt(SourceContext& context, std::stop_token stop) {
+void stay_connected(SourceContext& context, MqttSession& session, std::stop_token stop,
+                    const std::function<std::string()>& follow) {
   const BrokerSettings& broker = context.settings.broker;
   constexpr auto shortest = std::chrono::milliseconds(200),
                  longest = std::chrono::milliseconds(10'000);
   auto wait = shortest;
-  MqttSession session(broker, true);
-  session.subscribe(context.settings.topic.filter());
   while (!stop.stop_requested()) {
     std::string problem = session.connect();
     if (problem.empty()) {
-      problem = follow(session, context, stop);
+      problem = follow();
       if (session.accepted()) wait = shortest;
     }
     if (stop.stop_requested()) break;
@@ -58,6 +57,12 @@ void read_mqtt(SourceContext& context, std::stop_token stop) {
     if (!pause(wait, stop)) break;
     wait = std::min(2 * wait, longest);
   }
+}
+
+void read_mqtt(SourceContext& context, std::stop_token stop) {
+  MqttSession session(context.settings.broker, true);
+  session.subscribe(context.settings.topic.filter());
+  stay_connected(context, session, stop, [&] { return follow(session, context, stop); });
 }
 
 }  // namespace wearwell::monitor

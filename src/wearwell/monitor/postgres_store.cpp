@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <iterator>
 #include <map>
 #include <thread>
 
@@ -23,9 +24,15 @@ constexpr const char* tables = R"(
   CREATE TABLE wearwell_state (
     unit text PRIMARY KEY, population text NOT NULL, place bigint NOT NULL, bytes bytea NOT NULL);
   CREATE TABLE wearwell_alarm (
-    number bigserial PRIMARY KEY, unit text NOT NULL, time_ms bigint NOT NULL, alarm text NOT NULL, risk double precision NOT NULL);
+    number bigserial PRIMARY KEY, unit text NOT NULL, time_ms bigint NOT NULL, alarm text NOT NULL, risk double precision NOT NULL,
+    place bigint NOT NULL DEFAULT 0);
   CREATE INDEX wearwell_alarm_of_unit ON wearwell_alarm (unit, number);
   CREATE TABLE wearwell_file (name text PRIMARY KEY, bytes bigint NOT NULL))";
+
+// What makes of each version the next, from 1 on. A step once written stays as it is: stores of its version are out there.
+constexpr const char* steps[] = {
+    "ALTER TABLE wearwell_alarm ADD COLUMN place bigint NOT NULL DEFAULT 0"};
+static_assert(std::size(steps) == store_version - 1);
 
 constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
 
@@ -53,7 +60,8 @@ void put(pqxx::work& work, const char* name, const std::string& value) {
 
 class PostgresStore : public Store {
  public:
-  PostgresStore(const std::string& url, const StoreColumns& columns, Access access);
+  PostgresStore(const std::string& url, const StoreColumns& columns, Access access,
+                const ToldOfStore& told);
 
   std::vector<Kept> add(const std::vector<StoredReading>& readings) override;
   std::vector<StoredReading> after(std::int64_t place, std::size_t count) override;
@@ -71,6 +79,7 @@ class PostgresStore : public Store {
 
  private:
   void begin_writing(pqxx::connection& connection);
+  void migrate(int from);
   void add_piece(pqxx::work& work, std::span<const StoredReading> readings,
                  std::vector<Kept>& kept);
   void compare(pqxx::work& work, std::span<const StoredReading> readings, std::span<Kept> kept);
@@ -81,7 +90,8 @@ class PostgresStore : public Store {
   PostgresSession write_, read_;
 };
 
-PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns, Access access)
+PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns, Access access,
+                             const ToldOfStore& told)
     : name_(shown_url(url)),
       write_(url, [this](pqxx::connection& connection) { begin_writing(connection); }),
       read_(url, [](pqxx::connection&) {}) {
@@ -115,7 +125,18 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
   }
   if (version.empty())
     throw InputError(fmt::format("{} holds no store yet: no monitor has run", name_));
-  check_store(name_, version, there, columns);
+  const int number = check_store(name_, version, there, columns, access);
+  if (number == store_version) return;
+  migrate(number);
+  if (told) told(migrated_in_words(name_, number));
+}
+
+// All steps, or none.
+void PostgresStore::migrate(int from) {
+  write_.run([&](pqxx::work& work) {
+    for (int version = from; version < store_version; ++version) work.exec(steps[version - 1]);
+    put(work, "version", fmt::format("{}", store_version));
+  });
 }
 
 void PostgresStore::begin_writing(pqxx::connection& connection) {
@@ -254,19 +275,20 @@ void PostgresStore::log(const std::vector<AlarmChange>& changes) {
   write_.run([&](pqxx::work& work) {
     for (const AlarmChange& each : changes)
       work.exec_params(
-          "INSERT INTO wearwell_alarm (unit, time_ms, alarm, risk) VALUES ($1, $2, $3, $4)",
-          each.unit, each.time_ms, name(each.alarm), each.risk);
+          "INSERT INTO wearwell_alarm (unit, time_ms, alarm, risk, place) VALUES ($1, $2, $3, $4, "
+          "$5)",
+          each.unit, each.time_ms, name(each.alarm), each.risk, each.place);
   });
 }
 
 std::vector<AlarmChange> PostgresStore::alarms() {
   std::vector<AlarmChange> changes;
   read_.run([&](pqxx::work& work) {
-    for (const auto& row :
-         work.exec("SELECT DISTINCT ON (unit) unit, time_ms, alarm, risk FROM wearwell_alarm ORDER "
-                   "BY unit, number DESC"))
+    for (const auto& row : work.exec("SELECT DISTINCT ON (unit) unit, time_ms, alarm, risk, place "
+                                     "FROM wearwell_alarm ORDER "
+                                     "BY unit, number DESC"))
       changes.push_back({row[0].c_str(), row[1].as<std::int64_t>(), alarm_named(row[2].c_str()),
-                         row[3].as<double>()});
+                         row[3].as<double>(), row[4].as<std::int64_t>()});
   });
   return changes;
 }
@@ -292,8 +314,8 @@ std::map<std::string, std::int64_t> PostgresStore::files() {
 }  // namespace
 
 std::unique_ptr<Store> open_postgres_store(const std::string& url, const StoreColumns& columns,
-                                           Access access) {
-  return std::make_unique<PostgresStore>(url, columns, access);
+                                           Access access, const ToldOfStore& told) {
+  return std::make_unique<PostgresStore>(url, columns, access, told);
 }
 
 }  // namespace wearwell::monitor

@@ -46,6 +46,11 @@ ColumnField read_column_field(const TomlReader& columns, const prognosis::Readin
     plain(table, "unit");
     return chosen;
   }
+  if (*unit == "{engUnit}") {
+    chosen.unit_of_message = true;
+    chosen.unit = Unit{column.unit.text, 1, 0};
+    return chosen;
+  }
   try {
     chosen.unit = read_unit(*unit, column.unit.text);
   } catch (const InputError& error) {
@@ -187,6 +192,18 @@ ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker&
                              fmt::join(missing, ", ")));
   }
   return mapping;
+}
+
+std::vector<std::string> needed_fields(const ReadingMapping& mapping) {
+  std::vector<std::string> fields;
+  for (const std::string* each : {&mapping.unit, &mapping.sequence, &mapping.time}) {
+    if (!each->empty()) fields.push_back(*each);
+  }
+  for (const ColumnField& each : mapping.columns) {
+    if (!each.constant && !each.measured) fields.push_back(each.field);
+  }
+  fields.insert(fields.end(), mapping.labels.begin(), mapping.labels.end());
+  return fields;
 }
 
 StoredReading reading_of(const Fields& fields, const std::string& unit,

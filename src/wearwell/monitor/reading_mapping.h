@@ -20,6 +20,7 @@ struct ColumnField {
   std::string field;               ///< of the message
   Unit unit;                       ///< that its number has there
   std::optional<double> constant;  ///< SI: of every reading, instead of a field
+  bool unit_of_message = false;    ///< its metric says the unit (Sparkplug B); `unit` is SI then
 };
 
 /// How the fields of a message become a reading: [reading] of a configuration.
@@ -41,6 +42,9 @@ inline constexpr std::size_t longest_name = 200;  ///< bytes of a unit's name, o
 /// neither time nor sequence, ...
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit);
+
+/// The fields without which no row is a reading: what tells it apart, conditions and labels.
+std::vector<std::string> needed_fields(const ReadingMapping& mapping);
 
 /// The reading that a row of a message is. `unit`: of the topic, or empty. Throws InputError that names the field and its value.
 StoredReading reading_of(const Fields& fields, const std::string& unit,

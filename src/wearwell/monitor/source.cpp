@@ -14,15 +14,28 @@ bool pause(std::chrono::milliseconds time, std::stop_token stop) {
   return !stop.stop_requested();
 }
 
-bool deliver_until_stored(SourceContext& context, std::span<const Message> messages,
-                          std::stop_token stop) {
+namespace {
+
+template <class Delivered>
+bool deliver_all(SourceContext& context, std::span<const Delivered> all, std::stop_token stop) {
   constexpr auto longest = std::chrono::milliseconds(5000);
   auto wait = std::chrono::milliseconds(50);
-  while (!context.intake.deliver(context.settings, messages).stored) {
+  while (!context.intake.deliver(context.settings, all).stored) {
     if (!pause(wait, stop)) return false;
     wait = std::min(2 * wait, longest);
   }
   return true;
+}
+
+}  // namespace
+
+bool deliver_until_stored(SourceContext& context, std::span<const Message> messages,
+                          std::stop_token stop) {
+  return deliver_all(context, messages, std::move(stop));
+}
+
+bool deliver_until_stored(SourceContext& context, std::span<const Row> rows, std::stop_token stop) {
+  return deliver_all(context, rows, std::move(stop));
 }
 
 }  // namespace wearwell::monitor

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -22,6 +23,7 @@ struct SourceContext {
 /// Delivers until it is stored, with growing pauses where the store cannot take it now. False when it was asked to stop before that.
 bool deliver_until_stored(SourceContext& context, std::span<const Message> messages,
                           std::stop_token stop);
+bool deliver_until_stored(SourceContext& context, std::span<const Row> rows, std::stop_token stop);
 
 /// Waits; false when it was asked to stop.
 bool pause(std::chrono::milliseconds time, std::stop_token stop);
@@ -35,5 +37,13 @@ void read_folder(SourceContext& context, std::stop_token stop);
 
 /// Messages of a broker. It is told that a message has arrived when that is stored.
 void read_mqtt(SourceContext& context, std::stop_token stop);
+
+/// Messages of Sparkplug B of a broker.
+void read_sparkplug_source(SourceContext& context, std::stop_token stop);
+
+class MqttSession;
+/// Connects, calls `follow` until that is lost, and again after a pause. `follow` returns why.
+void stay_connected(SourceContext& context, MqttSession& session, std::stop_token stop,
+                    const std::function<std::string()>& follow);
 
 }  // namespace wearwell::monitor

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <mutex>
 #include <optional>
 
@@ -21,9 +22,14 @@ constexpr const char* tables = R"(
   CREATE TABLE state (
     unit TEXT PRIMARY KEY, population TEXT NOT NULL, place INTEGER NOT NULL, bytes BLOB NOT NULL);
   CREATE TABLE alarm (
-    number INTEGER PRIMARY KEY, unit TEXT NOT NULL, time_ms INTEGER NOT NULL, alarm TEXT NOT NULL, risk REAL NOT NULL);
+    number INTEGER PRIMARY KEY, unit TEXT NOT NULL, time_ms INTEGER NOT NULL, alarm TEXT NOT NULL, risk REAL NOT NULL,
+    place INTEGER NOT NULL DEFAULT 0);
   CREATE INDEX alarm_of_unit ON alarm (unit, number);
   CREATE TABLE file (name TEXT PRIMARY KEY, bytes INTEGER NOT NULL) WITHOUT ROWID;)";
+
+// What makes of each version the next, from 1 on. A step once written stays as it is: stores of its version are out there.
+constexpr const char* steps[] = {"ALTER TABLE alarm ADD COLUMN place INTEGER NOT NULL DEFAULT 0"};
+static_assert(std::size(steps) == store_version - 1);
 
 constexpr const char* reading_columns = "place, unit, key, time_ms, received_ms, numbers, labels";
 
@@ -35,7 +41,8 @@ StoredReading reading_in(const SqliteStatement& row) {
 
 class SqliteStore : public Store {
  public:
-  SqliteStore(const std::filesystem::path& file, const StoreColumns& columns, Access access);
+  SqliteStore(const std::filesystem::path& file, const StoreColumns& columns, Access access,
+              const ToldOfStore& told);
 
   std::vector<Kept> add(const std::vector<StoredReading>& readings) override;
   std::vector<StoredReading> after(std::int64_t place, std::size_t count) override;
@@ -53,7 +60,8 @@ class SqliteStore : public Store {
 
  private:
   void begin_tables(const StoreColumns& columns);
-  void check(const StoreColumns& columns);
+  int check(const StoreColumns& columns, Access access);
+  void migrate(int from);
   std::string value(const char* name);
   void put(const char* name, const std::string& value);
 
@@ -79,7 +87,7 @@ std::optional<LockFile> locked(const std::filesystem::path& file, Access access)
 }
 
 SqliteStore::SqliteStore(const std::filesystem::path& file, const StoreColumns& columns,
-                         Access access)
+                         Access access, const ToldOfStore& told)
     : name_(file.string()), lock_(locked(file, access)), write_(file), read_(file) {
   try {
     write_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
@@ -94,7 +102,11 @@ SqliteStore::SqliteStore(const std::filesystem::path& file, const StoreColumns& 
       throw InputError(fmt::format("store.url: {}", error.what()));
     throw;
   }
-  check(columns);
+  const int version = check(columns, access);
+  if (version < store_version) {
+    migrate(version);
+    if (told) told(migrated_in_words(name_, version));
+  }
   insert_ = std::make_unique<SqliteStatement>(
       write_,
       "INSERT INTO reading (unit, key, time_ms, received_ms, numbers, labels) VALUES (?, ?, ?, ?, "
@@ -118,17 +130,25 @@ void SqliteStore::begin_tables(const StoreColumns& columns) {
   transaction.commit();
 }
 
-// Later versions bring an older store up to date here, one step a version, each in a transaction.
-void SqliteStore::check(const StoreColumns& columns) {
+// All steps, or none.
+void SqliteStore::migrate(int from) {
+  SqliteTransaction transaction(write_);
+  for (int version = from; version < store_version; ++version) write_.run(steps[version - 1]);
+  put("version", fmt::format("{}", store_version));
+  transaction.commit();
+}
+
+int SqliteStore::check(const StoreColumns& columns, Access access) {
   std::string version;
   try {
     version = value("version");
   } catch (const StoreError&) {
     throw InputError(fmt::format("{} is a database, but no store of wearwell", name_));
   }
-  check_store(name_, version,
-              {texts_of(value("numbers")), texts_of(value("labels")), value("keys") == "sequence"},
-              columns);
+  return check_store(
+      name_, version,
+      {texts_of(value("numbers")), texts_of(value("labels")), value("keys") == "sequence"}, columns,
+      access);
 }
 
 std::string SqliteStore::value(const char* name) {
@@ -228,24 +248,25 @@ void SqliteStore::log(const std::vector<AlarmChange>& changes) {
   if (changes.empty()) return;
   const std::lock_guard lock(write_lock_);
   SqliteTransaction transaction(write_);
-  SqliteStatement insert(write_,
-                         "INSERT INTO alarm (unit, time_ms, alarm, risk) VALUES (?, ?, ?, ?)");
+  SqliteStatement insert(
+      write_, "INSERT INTO alarm (unit, time_ms, alarm, risk, place) VALUES (?, ?, ?, ?, ?)");
   for (const AlarmChange& each : changes) {
     insert.bind(1, std::string_view(each.unit)).bind(2, each.time_ms);
-    insert.bind(3, std::string_view(name(each.alarm))).bind(4, each.risk).run();
+    insert.bind(3, std::string_view(name(each.alarm))).bind(4, each.risk).bind(5, each.place).run();
   }
   transaction.commit();
 }
 
 std::vector<AlarmChange> SqliteStore::alarms() {
   const std::lock_guard lock(read_lock_);
-  SqliteStatement select(read_,
-                         "SELECT unit, time_ms, alarm, risk FROM alarm WHERE number IN (SELECT "
-                         "max(number) FROM alarm GROUP BY unit)");
+  SqliteStatement select(
+      read_,
+      "SELECT unit, time_ms, alarm, risk, place FROM alarm WHERE number IN (SELECT "
+      "max(number) FROM alarm GROUP BY unit)");
   std::vector<AlarmChange> changes;
   while (select.next())
-    changes.push_back(
-        {select.text(0), select.integer(1), alarm_named(select.text(2)), select.number(3)});
+    changes.push_back({select.text(0), select.integer(1), alarm_named(select.text(2)),
+                       select.number(3), select.integer(4)});
   return changes;
 }
 
@@ -266,8 +287,9 @@ std::map<std::string, std::int64_t> SqliteStore::files() {
 }  // namespace
 
 std::unique_ptr<Store> open_sqlite_store(const std::filesystem::path& file,
-                                         const StoreColumns& columns, Access access) {
-  return std::make_unique<SqliteStore>(file, columns, access);
+                                         const StoreColumns& columns, Access access,
+                                         const ToldOfStore& told) {
+  return std::make_unique<SqliteStore>(file, columns, access, told);
 }
 
 }  // namespace wearwell::monitor

@@ -23,16 +23,24 @@ std::string shown_store(const std::string& url) {
 }
 
 std::unique_ptr<Store> open_store(const std::string& url, const std::filesystem::path& folder,
-                                  const StoreColumns& columns, Access access) {
-  if (is_postgres(url)) return open_postgres_store(url, columns, access);
-  return open_sqlite_store(folder / url, columns, access);
+                                  const StoreColumns& columns, Access access,
+                                  const ToldOfStore& told) {
+  if (is_postgres(url)) return open_postgres_store(url, columns, access, told);
+  return open_sqlite_store(folder / url, columns, access, told);
 }
 
-void check_store(const std::string& name, const std::string& version, const StoreColumns& there,
-                 const StoreColumns& wanted) {
-  if (version != fmt::format("{}", store_version))
-    throw InputError(fmt::format("{} is a store of version '{}'; this wearwell knows version {}",
-                                 name, printable(shortened(version)), store_version));
+int check_store(const std::string& name, const std::string& version, const StoreColumns& there,
+                const StoreColumns& wanted, Access access) {
+  int number = 0;
+  const auto [rest, error] =
+      std::from_chars(version.data(), version.data() + version.size(), number);
+  const bool known = error == std::errc() && rest == version.data() + version.size() &&
+                     number >= 1 && number <= store_version;
+  if (!known)
+    throw InputError(fmt::format(
+        "{} is a store of version '{}'; this wearwell knows versions 1 to {}: it was written by a "
+        "later one, or is damaged",
+        name, printable(shortened(version)), store_version));
   const auto differ = [&](const char* what, const auto& kept, const auto& asked) {
     if (kept == asked) return;
     throw InputError(
@@ -49,6 +57,17 @@ void check_store(const std::string& name, const std::string& version, const Stor
                     "another store",
                     name, there.sequence ? "sequence numbers" : "times",
                     wanted.sequence ? "sequence numbers" : "times"));
+  if (number < store_version && access == Access::read)
+    throw InputError(
+        fmt::format("{} is a store of version {}, and this wearwell reads version {}; wearwell "
+                    "monitor brings it up to date when it starts",
+                    name, number, store_version));
+  return number;
+}
+
+std::string migrated_in_words(const std::string& name, int from) {
+  return fmt::format("{} was of version {}, and has been brought up to version {}", name, from,
+                     store_version);
 }
 
 std::string json_of(const std::vector<double>& numbers) {

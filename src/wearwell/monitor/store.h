@@ -43,6 +43,8 @@ struct AlarmChange {
   std::int64_t time_ms = 0;
   Alarm alarm = Alarm::ok;  ///< never unknown: silence is not kept
   double risk = 0;
+  /// Of the unit's last reading that the risk knew, whatever clocks said; 0 of a change from before version 2.
+  std::int64_t place = 0;
 };
 
 /// The store could not do it now: the disk is full, the server away. What was asked was not done, or is found when it is asked
@@ -92,10 +94,15 @@ struct StoreColumns {
 /// `read`: beside a monitor that may be at work; there must be a store.
 enum class Access { write, read };
 
-/// Opens or begins a store: a URL "postgresql://...", or else a file of SQLite, found beside `folder`. Brings an older one up to
-/// date. Throws InputError: of a later version, of other columns, no store at all, or in use by another monitor; StoreError.
+/// Takes what happened to a store when it was opened, in words.
+using ToldOfStore = std::function<void(const std::string& what)>;
+
+/// Opens or begins a store: a URL "postgresql://...", or else a file of SQLite, found beside `folder`. Who writes brings an older
+/// one up to date, in one transaction, and tells. Throws InputError: of a later version, of an older one that is only to be read, of
+/// other columns, no store at all, or in use by another monitor; StoreError.
 std::unique_ptr<Store> open_store(const std::string& url, const std::filesystem::path& folder,
-                                  const StoreColumns& columns, Access access = Access::write);
+                                  const StoreColumns& columns, Access access = Access::write,
+                                  const ToldOfStore& told = {});
 bool is_postgres(const std::string& url);
 /// As messages name it: without who logs in.
 std::string shown_store(const std::string& url);
@@ -103,12 +110,13 @@ std::string shown_store(const std::string& url);
 /// A URL of PostgreSQL without user and password.
 std::string shown_url(const std::string& url);
 
-/// The version of the tables that this program writes.
-inline constexpr int store_version = 1;
+/// The version of the tables that this program writes. 2: alarms have a place.
+inline constexpr int store_version = 2;
 
-/// Whether a store `name` that says this of itself can be gone on with. Throws InputError.
-void check_store(const std::string& name, const std::string& version, const StoreColumns& there,
-                 const StoreColumns& wanted);
+/// The version of a store `name` that says this of itself, if it can be gone on with: 1 to `store_version`. Throws InputError.
+int check_store(const std::string& name, const std::string& version, const StoreColumns& there,
+                const StoreColumns& wanted, Access access);
+std::string migrated_in_words(const std::string& name, int from);
 
 /// Lists as the store's tables have them, JSON: "[1.5,null]", numbers in the shortest form that reads back to the same.
 std::string json_of(const std::vector<double>& numbers);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
+#include "wearwell/monitor/time_text.h"
 
 namespace wearwell::monitor {
 namespace {
@@ -113,6 +114,12 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
   };
   const prognosis::Taken taken = record.state->take({reading.numbers, reading.labels}, history);
   if (!taken.problem.empty()) record.last_problem = taken.problem;
+  constexpr std::int64_t hour_ms = 3'600'000;  // clocks differ
+  if (taken.problem.empty() && reading.time_ms > reading.received_ms + hour_ms)
+    record.last_problem = fmt::format(
+        "a reading says that it is of {}, which was more than an hour ahead when it "
+        "came: one of two clocks is wrong",
+        iso_of_unix_ms(reading.time_ms));
   if (!taken.counted) {
     ++record.not_counted;
     return;

@@ -44,6 +44,19 @@ struct Forecast {
   double effective = 0;                          ///< nodes that carry this: 1 / sum of squares
 };
 
+/// What the limit is of at a place ahead, SI: quantiles over all that is not known of the unit, and over
+/// the chance to come where increments are random. NaN where too much of it is no number there.
+struct LevelAhead {
+  double at = 0;  ///< along the axis
+  double level05 = 0, level50 = 0, level95 = 0;
+};
+
+/// Places that show how a unit goes on: from `now` to the median of its remaining life and on to the 95 %
+/// quantile, in even steps each. Where the limit is reached by fewer, to the farthest quantile that there is;
+/// where it never is, as far again as the unit has come. Empty where the limit certainly is behind, or nothing
+/// says how far to look.
+std::vector<double> places_ahead(const Forecast& forecast, std::size_t count = 24);
+
 /// All readings of a unit that were counted so far, in the order in which they were taken: asked for where
 /// nodes are laid anew. Calls back once a reading.
 using History = std::function<void(const std::function<void(const Reading&)>& visit)>;
@@ -52,7 +65,7 @@ using History = std::function<void(const std::function<void(const Reading&)>& vi
 /// arrival does not matter. A sequence of readings gives the same bits whenever and wherever it is taken, and
 /// from a saved state on.
 ///
-/// One thread at a time; different units on as many as there are.
+/// One thread at a time, but for functions that are const; different units on as many as there are.
 class TrackedUnit {
  public:
   virtual ~TrackedUnit() = default;
@@ -60,6 +73,9 @@ class TrackedUnit {
   /// readings taken before this one.
   virtual Taken take(const Reading& reading, const History& history) = 0;
   virtual Forecast forecast() const = 0;
+  /// The path ahead at these places, ascending, none before where the unit is now: whatever becomes of it, so
+  /// a path that has passed the limit goes on. Dearer than a forecast.
+  virtual std::vector<LevelAhead> ahead(std::span<const double> places) const = 0;
   virtual std::size_t readings() const = 0;
   virtual std::string save() const = 0;  ///< bytes for `Tracker::restore`
 };

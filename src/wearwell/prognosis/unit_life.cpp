@@ -14,6 +14,7 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/toml_edit.h"
+#include "wearwell/input/toml_reader.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/life_levels.h"
 
@@ -144,51 +145,93 @@ Source with_wishes(const Source& source,
   return asked;
 }
 
+bool to_a_limit(const Source& source) {
+  const TomlReader root = TomlReader::parse(source.study);
+  const auto predict = root.table("predict");
+  return predict && predict->has("limit");
+}
+
 std::string list_of(const std::vector<double>& percents) {
   return fmt::format("[{}]", fmt::join(percents, ", "));
 }
 
+std::vector<QuantityRequest> lives_asked(const PosteriorStudy& study) {
+  std::vector<QuantityRequest> lives;
+  for (const QuantityGroup& group : study.quantity_groups) {
+    for (const QuantityRequest& each : group.requests) {
+      if (each.is_life) lives.push_back(each);
+    }
+  }
+  return lives;
+}
+
+bool is_new(const QuantityRequest& life) {
+  return life.of.starts_with("new ");
+}
+
+// "7" of "machine 7".
+std::string label_of(const QuantityRequest& life) {
+  return life.of.substr(std::min(life.of.find(' ') + 1, life.of.size()));
+}
+
 // The one that is meant.
-const Found& chosen(const std::vector<Found>& all, const LifeQuestion& question) {
-  std::vector<std::string> names;
-  std::vector<const Found*> fitting;
-  for (const Found& each : all) {
-    const std::string& of = each.request.of;
-    const std::string bare = without_new(of);
-    const bool is_new = of.starts_with("new ");
-    const std::string last = bare.substr(std::min(bare.find(' ') + 1, bare.size()));
-    const bool fits = question.unit.empty()
-                          ? is_new
-                          : bare == question.unit || (!is_new && last == question.unit);
-    names.push_back(is_new ? bare : last);
+const QuantityRequest& chosen(const std::vector<QuantityRequest>& all,
+                              const LifeQuestion& question) {
+  std::vector<std::string> names, fresh;
+  std::vector<const QuantityRequest*> fitting;
+  for (const QuantityRequest& each : all) {
+    const std::string bare = without_new(each.of);
+    const bool fits =
+        question.unit.empty()
+            ? is_new(each)
+            : bare == question.unit || (!is_new(each) && label_of(each) == question.unit);
+    is_new(each) ? fresh.push_back(bare) : names.push_back(label_of(each));
     if (fits) fitting.push_back(&each);
   }
   // Of a new one both its life and what remains where it has survived so far.
-  if (fitting.size() == 2 && fitting[0]->request.of == fitting[1]->request.of) return *fitting[1];
+  if (fitting.size() == 2 && fitting[0]->of == fitting[1]->of) return *fitting[1];
   if (fitting.size() == 1) return *fitting[0];
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  const std::string known = fmt::format("{}", fmt::join(names, ", "));
   if (all.empty())
     throw InputError(
         "the study asks for no life: [predict] needs a limit (or, of S-N tests, a stress)");
+  const auto once = [](std::vector<std::string>& each) {
+    std::sort(each.begin(), each.end());
+    each.erase(std::unique(each.begin(), each.end()), each.end());
+  };
+  once(names);
+  once(fresh);
+  // Where there is but one kind of new ones nobody has to name it.
+  const bool unnamed = fresh.size() == 1;
+  std::string known = fmt::format("{}", fmt::join(names, ", "));
+  if (!unnamed && !fresh.empty())
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", fmt::join(fresh, ", "));
+  if (!known.empty()) known = fmt::format("known: {}", known);
+  if (unnamed)
+    known += fmt::format("{}without --unit a new {}", known.empty() ? "" : "; ", fresh.front());
   if (question.unit.empty())
-    throw InputError(fmt::format("--unit is missing: whose life? (known: {})", known));
-  throw InputError(fmt::format("--unit: no '{}' is known{} (known: {})", question.unit,
+    throw InputError(fmt::format("--unit is missing: whose life? ({})", known));
+  if (!unnamed) names.insert(names.end(), fresh.begin(), fresh.end());
+  throw InputError(fmt::format("--unit: no '{}' is known{} ({})", question.unit,
                                did_you_mean(question.unit, names), known));
 }
 
 // A unit that was read later than what it is said to have come to counts from its last reading.
-void require_ahead(const Found& mine, const std::vector<Found>& all, const std::string& survived) {
-  for (const Found& each : all) {
-    const bool from_there =
-        each.request.of.starts_with("new ") && each.request.name == "remaining life";
-    if (!from_there || each.request.at == mine.request.at) continue;
+void require_ahead(const QuantityRequest& mine, const std::vector<QuantityRequest>& all,
+                   const std::string& survived) {
+  for (const QuantityRequest& each : all) {
+    if (!is_new(each) || each.name != "remaining life" || each.at == mine.at) continue;
     throw InputError(fmt::format(
-        "--survived: {} was read beyond {} already: leave it out, what remains counts {}",
-        mine.request.of, survived,
-        mine.request.at.substr(std::min(mine.request.at.rfind("from "), mine.request.at.size()))));
+        "--survived: {} was read beyond {} already: leave it out, what remains counts {}", mine.of,
+        survived, mine.at.substr(std::min(mine.at.rfind("from "), mine.at.size()))));
   }
+}
+
+// What is known of that one.
+const Found& found_of(const QuantityRequest& mine, const std::vector<Found>& all) {
+  return *std::find_if(all.begin(), all.end(), [&](const Found& each) {
+    return each.request.of == mine.of && each.request.name == mine.name &&
+           each.request.at == mine.at;
+  });
 }
 
 UnitLife described(const Found& found) {
@@ -223,7 +266,8 @@ UnitLife of_tests(const Source& source, const ReadAsked& read, const WeightedDra
   }
   const auto asked = read(with_wishes(source, {{"b_lives", list_of(levels)}}));
   const std::vector<Found> all = lives_of(require_posterior_study(*asked), posterior, levels);
-  const UnitLife again = described(chosen(all, question));
+  const UnitLife again =
+      described(found_of(chosen(lives_asked(require_posterior_study(*asked)), question), all));
   life.name = "remaining life";
   life.from = from;
   life.passed = before;
@@ -281,11 +325,18 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
   std::vector<std::pair<std::string, std::string>> keys = {{"b_lives", list_of(levels)}};
   if (law && question.survived)
     keys.emplace_back("survived", nlohmann::json(*question.survived).dump());
-  const auto asked = read(with_wishes(source, keys));
+  auto asked = read(with_wishes(source, keys));
+  const std::vector<QuantityRequest> requests = lives_asked(require_posterior_study(*asked));
+  const QuantityRequest mine = chosen(requests, question);
+  if (law && question.survived) require_ahead(mine, requests, *question.survived);
+  if (law && to_a_limit(source) && (is_new(mine) || mine.of.find(' ') != std::string::npos)) {
+    const nlohmann::json only =
+        is_new(mine) ? nlohmann::json::array() : nlohmann::json{label_of(mine)};
+    keys.emplace_back("lives_of", only.dump());
+    asked = read(with_wishes(source, keys));
+  }
   const std::vector<Found> all = lives_of(require_posterior_study(*asked), posterior, levels);
-  const Found& mine = chosen(all, question);
-  if (law && question.survived) require_ahead(mine, all, *question.survived);
-  UnitLife life = described(mine);
+  UnitLife life = described(found_of(mine, all));
   if (!law) life = of_tests(source, read, posterior, question, std::move(life));
   finish(question, life);
   return life;

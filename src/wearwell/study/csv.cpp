@@ -22,6 +22,33 @@ void add_predictions(std::string& out, std::size_t rows,
   }
 }
 
+// Of studies that predict lives and what follows from them: what was asked, then each test.
+std::string lives_csv(const PosteriorSummary& result) {
+  std::string out =
+      "rows,quantity,of,at,unit,q05,q50,q95,bound,predictive,b1,b10,measured,outcome\n";
+  auto end = std::back_inserter(out);
+  const auto cell = [](const std::optional<double>& x) { return x ? fmt::format("{}", *x) : ""; };
+  for (const QuantitySummary& q : result.quantities) {
+    const QuantityQuantiles& b = q.best();
+    std::optional<double> b1, b10;
+    if (q.is_life) {
+      b1 = b.b1;
+      b10 = b.b10;
+    }
+    fmt::format_to(end, "{},{},{},{},{},{},{},{},{},{},{},{},,\n", result.data_rows,
+                   csv_cell(q.name), csv_cell(q.of), csv_cell(q.at), csv_cell(q.unit), b.q05, b.q50,
+                   b.q95, cell(b.bound), cell(b.predictive), cell(b1), cell(b10));
+  }
+  if (!result.coverage) return out;
+  for (const CoverageRow& row : result.coverage->rows) {
+    const std::string of = row.label.empty() ? "test" : "test of type " + row.label;
+    fmt::format_to(end, "{},life,{},row {},{},{},,{},,,,{},{},{}\n", result.data_rows, csv_cell(of),
+                   row.row, csv_cell(result.coverage->unit), row.q05, row.q95, row.b10, row.life,
+                   row.outcome);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string draws_csv(const PosteriorSummary& result, std::size_t index) {
@@ -58,6 +85,11 @@ std::string draws_csv(const PosteriorSummary& result, std::size_t index) {
 }
 
 std::string predictions_csv(const PosteriorSummary& result) {
+  const bool at_points =
+      !result.predictions.empty() ||
+      std::any_of(result.stages.begin(), result.stages.end(),
+                  [](const StageSummary& stage) { return !stage.predictions.empty(); });
+  if (!at_points && (!result.quantities.empty() || result.coverage)) return lives_csv(result);
   std::string at = "cycles";
   if (!result.predictions.empty()) {
     const PredictionSummary& first = result.predictions.front();

@@ -11,7 +11,8 @@ namespace wearwell {
 std::string draws_csv(const PosteriorSummary& result, std::size_t chain);
 
 /// One row a prediction, those of stages first; `rows` is the number of data sets that the
-/// posterior knew.
+/// posterior knew. Of a study that predicts no measurements but lives and what follows from them one row a
+/// quantity, as QuantityQuantiles has it, then one a test: the life of the next under its conditions beside its own.
 std::string predictions_csv(const PosteriorSummary& result);
 
 }  // namespace wearwell

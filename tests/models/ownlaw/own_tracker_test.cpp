@@ -9,6 +9,7 @@
 #include "models/ownlaw/watched.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
+#include "wearwell/models/ownlaw/own_first_passage.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -77,6 +78,103 @@ TEST(OwnTracker, ASmallCaseByBruteForce) {
       }
     }
   }
+}
+
+// b of the unit is all that is not known of a straight path: level(t) = b t.
+TEST(OwnTracker, ThePathAheadByBruteForce) {
+  const std::vector<double> x = {1 * um / h, 0.3, 0.3 * um};
+  const Watched watched(straight, lines(rates, 5, 0.3),
+                        points(std::vector<std::vector<double>>(40, x)));
+  Followed unit(*watched.tracker, "new");
+  const std::vector<std::pair<double, double>> readings = {{1.9 * um, 1 * h}, {3.4 * um, 2 * h}};
+  for (const auto& [depth, time] : readings) unit.take({depth, time});
+  std::vector<std::pair<double, double>> rate;
+  double sum = 0;
+  for (double z = -8; z <= 8; z += 0.001) {
+    const double b = x[0] * std::exp(x[1] * z);
+    double log_f = -0.5 * z * z;
+    for (const auto& [depth, time] : readings) {
+      const double off = (depth - b * time) / x[2];
+      log_f -= 0.5 * off * off;
+    }
+    rate.emplace_back(b, std::exp(log_f));
+    sum += std::exp(log_f);
+  }
+  const double places[] = {2 * h, 3 * h, 7 * h, 20 * h};
+  for (const prognosis::LevelAhead& each : unit.unit->ahead(places)) {
+    double below = 0;
+    for (const auto& [b, weight] : rate) {
+      const double before = below;
+      below += weight / sum;
+      for (const auto& [p, level] :
+           {std::pair(0.05, each.level05), {0.5, each.level50}, {0.95, each.level95}}) {
+        if (before < p && below >= p) {
+          EXPECT_NEAR(level, b * each.at, 2e-3 * b * each.at) << p;
+        }
+      }
+    }
+  }
+  const double behind[] = {1.9 * h};
+  EXPECT_THROW(unit.unit->ahead(behind), std::invalid_argument);
+  expect_path_ahead(*watched.tracker, *unit.unit, false);
+}
+
+// Nothing but the chance of the increments to come: normal about b t, gamma with mean b t; variance s b t.
+TEST(OwnTracker, ThePathAheadOfAProcess) {
+  for (const std::string family : {"wiener", "gamma"}) {
+    SCOPED_TRACE(family);
+    std::string study = straight;
+    const auto change = [&](const std::string& from, const std::string& to) {
+      study.replace(study.find(from), from.size(), to);
+    };
+    change("[law]\nwear = \"b * time\"\n", "");
+    change("\"normal\"", "\"" + family + "-process\"");
+    change("mean = \"wear\"\nsd", "mean = \"b * time\"\nscale");
+    change("limit = { wear", "limit = { depth");
+    const double b = 1 * um / h, s = 0.2 * um;
+    const Watched watched(study, lines(rates, 5, 0.1),
+                          points(std::vector<std::vector<double>>(200, {b, 1e-6, s})));
+    Followed unit(*watched.tracker, "new");
+    ASSERT_TRUE(unit.take({3 * um, 3 * h}).counted);
+    const double places[] = {3 * h, 4 * h, 9 * h};
+    const std::vector<prognosis::LevelAhead> path = unit.unit->ahead(places);
+    EXPECT_NEAR(path[0].level05, 3 * um, 1e-9 * um);
+    EXPECT_NEAR(path[0].level95, 3 * um, 1e-9 * um);
+    for (const int i : {1, 2}) {
+      const double grown = b * (places[i] - 3 * h), sd = std::sqrt(s * grown);
+      const auto expected = [&](double p) {
+        return 3 * um + increment_quantile(family == "gamma" ? Process::gamma : Process::wiener,
+                                           grown, s, p);
+      };
+      EXPECT_NEAR(path[i].level05, expected(0.05), 0.02 * sd);
+      EXPECT_NEAR(path[i].level50, expected(0.5), 0.02 * sd);
+      EXPECT_NEAR(path[i].level95, expected(0.95), 0.02 * sd);
+    }
+    expect_path_ahead(*watched.tracker, *unit.unit, family == "wiener");
+  }
+}
+
+// Of units of the population, each read three times, nine of ten are within the bands later on.
+TEST(OwnTracker, BandsAheadHold) {
+  const double b = 1 * um / h, scatter = 0.3, sigma = 0.3 * um;
+  const Watched watched(straight, lines(rates, 5, 0.3),
+                        points(std::vector<std::vector<double>>(40, {b, scatter, sigma})));
+  Rng rng(29, 0);
+  constexpr int units = 1000;
+  int held[2] = {};
+  for (int u = 0; u < units; ++u) {
+    const double own = b * std::exp(scatter * rng.normal());
+    Followed unit(*watched.tracker, "new");
+    for (int i = 1; i <= 3; ++i) {
+      ASSERT_TRUE(unit.take({own * i * 0.5 * h + sigma * rng.normal(), i * 0.5 * h}).counted);
+    }
+    const double places[] = {3 * h, 10 * h};
+    const std::vector<prognosis::LevelAhead> path = unit.unit->ahead(places);
+    for (int k = 0; k < 2; ++k) {
+      held[k] += path[k].level05 <= own * places[k] && own * places[k] <= path[k].level95;
+    }
+  }
+  for (const int each : held) EXPECT_NEAR(each, 0.9 * units, 3 * std::sqrt(units * 0.09));
 }
 
 TEST(OwnTracker, UnitsThatTheStudyHasSeenAreAsTheFitSaysOfThem) {
@@ -183,6 +281,7 @@ TEST(OwnTracker, WhatCannotBeTaken) {
   EXPECT_EQ(unit.take({1 * um, NAN}).problem, "time is missing");
   EXPECT_EQ(unit.take({INFINITY, 1 * h}).problem, "depth is not finite");
   EXPECT_THROW(unit.take({1 * um}), InputError);
+  EXPECT_EQ(unit.take({1 * um, -0.5 * h}).problem, "time = -0.5 h lies before 0, where paths begin");
   EXPECT_TRUE(unit.take({1 * um, 1 * h}).counted);
   const Taken far = unit.take({40 * um, 2 * h});
   EXPECT_TRUE(far.counted);

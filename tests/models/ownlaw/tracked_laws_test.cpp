@@ -123,6 +123,8 @@ void expect_followed(const Kind& kind) {
       EXPECT_EQ(bytes, followed.unit->save());
     }
     expect_alike(followed.unit->forecast(), fit.remaining[last], fit.passed[last], kind.tolerance);
+    const bool both_ways = kind.study.find("wiener") != std::string::npos;
+    expect_path_ahead(*part.tracker, *followed.unit, both_ways, 0.03 + kind.tolerance);
   }
 }
 

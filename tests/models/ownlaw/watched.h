@@ -103,6 +103,53 @@ inline LimitedLives lives_of_fit(const Watched& watched, const WeightedDraws& po
   return limited_lives(*rows, path, posterior);
 }
 
+// The path ahead of the same nodes crosses the limit where lives end: of paths that only rise (or fall). Where
+// increments go both ways it has been there before.
+inline void expect_path_ahead(const prognosis::Tracker& tracker, const prognosis::TrackedUnit& unit,
+                              bool both_ways, double tolerance = 0.03) {
+  const prognosis::Forecast forecast = unit.forecast();
+  const double limit = tracker.limit().si(), sign = tracker.rising() ? 1 : -1;
+  for (const double share : {0.05, 0.5, 0.95}) {
+    const double p = (share - forecast.passed) / (1 - forecast.passed);
+    if (!(p > 0.01) || forecast.remaining.points().empty()) continue;
+    const double life = forecast.remaining.quantile(p);
+    if (!std::isfinite(life)) continue;
+    const double place[] = {forecast.now + life};
+    const prognosis::LevelAhead at = unit.ahead(place).front();
+    const double level = share == 0.5                  ? at.level50
+                         : (share < 0.5) == (sign > 0) ? at.level95
+                                                       : at.level05;
+    const double width = at.level95 - at.level05;
+    EXPECT_GT(width, 0);
+    if (both_ways) {
+      EXPECT_LT(sign * (level - limit), tolerance * width) << share;
+    } else {
+      EXPECT_NEAR(level, limit, tolerance * width) << share;
+    }
+  }
+  const std::vector<double> places = prognosis::places_ahead(forecast);
+  if (places.empty()) return;
+  EXPECT_EQ(places.front(), forecast.now);
+  const std::vector<prognosis::LevelAhead> path = unit.ahead(places);
+  ASSERT_EQ(path.size(), places.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    EXPECT_EQ(path[i].at, places[i]);
+    EXPECT_LE(path[i].level05, path[i].level50);
+    EXPECT_LE(path[i].level50, path[i].level95);
+    if (i == 0) continue;
+    EXPECT_GT(places[i], places[i - 1]);
+    const double slack = 1e-3 * (path[i].level95 - path[i].level05);
+    EXPECT_GE(sign * (path[i].level50 - path[i - 1].level50), -slack) << i;
+    const double behind =
+        sign > 0 ? path[i].level95 - path[i - 1].level95 : path[i - 1].level05 - path[i].level05;
+    EXPECT_GE(behind, -slack) << i;
+  }
+  const double wide = std::max(forecast.level95 - forecast.level05, 1e-9 * std::abs(limit));
+  EXPECT_NEAR(path.front().level05, forecast.level05, 1e-6 * wide);
+  EXPECT_NEAR(path.front().level50, forecast.level50, 1e-6 * wide);
+  EXPECT_NEAR(path.front().level95, forecast.level95, 1e-6 * wide);
+}
+
 // Where the fit's quantiles lie in the forecast.
 inline void expect_alike(const prognosis::Forecast& forecast, const CellMixture& fit, double passed,
                          double tolerance) {

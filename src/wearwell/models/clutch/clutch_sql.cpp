@@ -23,7 +23,8 @@ SqlWriter::SqlWriter(const WearModel& model, const std::string& id, fleet::Diale
       types_(fleet::types(dialect)),
       replicates_(replicates ? model.replicates.size() : 0),
       model_table_(fleet::table_identifier(dialect, source.prefix + "_model")),
-      sums_table_(fleet::table_identifier(dialect, source.prefix + "_sums")) {}
+      sums_table_(fleet::table_identifier(dialect, source.prefix + "_sums")),
+      fresh_table_(source.staged ? "wearwell_fresh_sums" : sums_table_) {}
 
 /// What is summed for each unit, after the counts.
 std::vector<std::string> SqlWriter::sum_names() const {
@@ -32,6 +33,17 @@ std::vector<std::string> SqlWriter::sum_names() const {
   for (std::size_t b = 1; b <= replicates_; ++b) names.push_back(fmt::format("v{}", b));
   for (std::size_t b = 1; b <= replicates_; ++b) names.push_back(fmt::format("s{}", b));
   return names;
+}
+
+std::vector<std::string> SqlWriter::sums_columns() const {
+  std::vector<std::string> names = {"model", "unit", "after_cycle", "last_cycle"};
+  names.insert(names.end(), std::begin(count_names), std::end(count_names));
+  for (const std::string& each : sum_names()) names.push_back(each);
+  return names;
+}
+
+std::string SqlWriter::kept_names() const {
+  return fmt::format("{}", fmt::join(sums_columns(), ", "));
 }
 
 std::string SqlWriter::count_if(const std::string& condition) const {
@@ -62,11 +74,9 @@ std::string SqlWriter::setup() const {
       "create table if not exists {0} (\n  model {1} not null, replicate integer not null, name "
       "{1} "
       "not null, value {2} not null,\n  primary key (model, replicate, name));\n"
-      "-- One row a unit and run of statement 2. The key refuses a run that counts what another "
-      "has "
-      "counted.\n"
+      "-- One row a unit.\n"
       "create table if not exists {3} (\n  model {1} not null, unit {1} not null, after_cycle {4} "
-      "not null, last_cycle {4} not null{5},\n  primary key (model, unit, after_cycle));\n"
+      "not null, last_cycle {4} not null{5},\n  primary key (model, unit));\n"
       "delete from {0} where model = {6};\ninsert into {0} (model, replicate, name, value) "
       "values\n{7};\n",
       model_table_, types_.text, types_.real, sums_table_, types_.whole, sums, id_,
@@ -78,10 +88,10 @@ std::string SqlWriter::parameters() const {
   // Of ClickHouse a value that is missing would be 0, not nothing.
   const char* value = clickhouse() ? "maxIf(value, replicate = {} and name = {})"
                                    : "max(case when replicate = {} and name = {} then value end)";
-  const std::string all =
-      clickhouse() ? fmt::format("\nhaving throwIf(uniqExact(replicate, name) != {}) = 0",
-                                 parameters_.all.size())
-                   : "";
+  const std::string all = clickhouse()
+                              ? fmt::format("\nhaving throwIf(uniqExact(replicate, name) < {}) = 0",
+                                            parameters_.all.size())
+                              : "";
   SqlColumns columns;
   for (const SqlParameter& each : parameters_.all)
     columns.add(
@@ -93,6 +103,7 @@ std::string SqlWriter::parameters() const {
 
 std::string SqlWriter::in_si(const SqlColumn& column) const {
   std::string text = fleet::real(dialect_, "t." + fleet::identifier(dialect_, column.name));
+  if (clickhouse()) text = fmt::format("ifNull({}, nan)", text);
   if (column.scale != 1) text += " * " + number(column.scale);
   if (column.offset != 0) text += " + " + number(column.offset);
   return text;
@@ -118,8 +129,10 @@ std::string SqlWriter::si(bool fresh) const {
   const std::string unit = this->unit();
   const std::string cycle = "t." + fleet::identifier(dialect_, source_.cycle.name);
   SqlColumns columns;
-  columns.add(unit, "unit");
-  columns.add(cycle, "cycle");
+  // In ClickHouse nothing is a value of its own, which arrays leave out.
+  columns.add(clickhouse() ? fmt::format("ifNull(toString({}), '')", unit) : unit,
+              clickhouse() && fresh && !source_.first ? "wearwell_unit" : "unit");
+  columns.add(clickhouse() ? fmt::format("ifNull({}, 0)", cycle) : cycle, "cycle");
   for (std::size_t i = 0; i < 4; ++i)
     columns.add(in_si(source_.inputs[i]), std::string("raw_") + input_columns[i]);
   columns.add(in_si(source_.energy), "raw_energy");
@@ -127,21 +140,21 @@ std::string SqlWriter::si(bool fresh) const {
     columns.add("0", "after_cycle");
     columns.add("0", "energy_before");
   }
+  const std::string portion = fresh && source_.portions > 1
+                                  ? fmt::format("cityHash64(toString({})) % {} = {}", unit,
+                                                source_.portions, source_.portion)
+                                  : "";
   if (!fresh || source_.first)
-    return fmt::format("select\n  {}\nfrom {} as t{}", columns.text(), source_.table, fence());
-  columns.add(clickhouse() ? "last.after_cycle" : "coalesce(last.after_cycle, 0)", "after_cycle");
-  columns.add(clickhouse() ? "last.energy" : "coalesce(last.energy, 0)", "energy_before");
-  // ClickHouse has 0 where a join finds nothing.
-  const std::string fresh_rows =
-      clickhouse()
-          ? fmt::format("{} > last.after_cycle", cycle)
-          : fmt::format("last.after_cycle is null or {0} is null or {0} > last.after_cycle", cycle);
+    return fmt::format("select\n  {}\nfrom {} as t{}{}{}", columns.text(), source_.table,
+                       portion.empty() ? "" : "\nwhere ", portion, fence());
+  if (clickhouse()) return fresh_of_clickhouse(columns, cycle, portion);
+  columns.add("coalesce(last.after_cycle, 0)", "after_cycle");
+  columns.add("coalesce(last.energy, 0)", "energy_before");
   return fmt::format(
-      "select\n  {}\nfrom {} as t\nleft join (\n  select unit, max(last_cycle) as after_cycle, "
-      "sum(energy) as energy from {} where model = {} group by unit\n) as last on last.unit = "
-      "{}\nwhere {}{}",
-      columns.text(), source_.table, sums_table_, id_, fleet::text(dialect_, unit), fresh_rows,
-      fence());
+      "select\n  {0}\nfrom {1} as t\nleft join (\n  select unit, max(last_cycle) as after_cycle, "
+      "sum(energy) as energy from {2} where model = {3} group by unit\n) as last on last.unit = "
+      "{4}\nwhere last.after_cycle is null or {5} is null or {5} > last.after_cycle{6}",
+      columns.text(), source_.table, sums_table_, id_, fleet::text(dialect_, unit), cycle, fence());
 }
 
 std::string SqlWriter::checked() const {
@@ -246,10 +259,23 @@ std::string SqlWriter::worn() const {
       columns.text(), rates(), fence());
 }
 
+/// Adds to a unit's row where it has one; not where another run counted in between.
+std::string SqlWriter::adding() const {
+  if (clickhouse()) return "";
+  std::vector<std::string> sets;
+  for (const std::string& each : sums_columns()) {
+    if (each == "model" || each == "unit") continue;
+    const bool place = each == "after_cycle" || each == "last_cycle";
+    sets.push_back(place ? fmt::format("{0} = excluded.{0}", each)
+                         : fmt::format("{0} = kept.{0} + excluded.{0}", each));
+  }
+  return fmt::format(
+      "\non conflict (model, unit) do update set\n  {}\nwhere kept.last_cycle = "
+      "excluded.after_cycle",
+      fmt::join(sets, ",\n  "));
+}
+
 std::string SqlWriter::query() const {
-  std::vector<std::string> names = {"model", "unit", "after_cycle", "last_cycle"};
-  names.insert(names.end(), std::begin(count_names), std::end(count_names));
-  for (const std::string& each : sum_names()) names.push_back(each);
   SqlColumns columns;
   columns.keep(id_);
   columns.keep(fleet::text(dialect_, "unit"));
@@ -291,18 +317,26 @@ std::string SqlWriter::query() const {
       "-- Whole numbers, so that no order of rows changes a bit. Units: energy 2^{} J, volume and "
       "settled 2^{} m^3, variance 2^{} m^6,\n-- replicates v1 .. (with run-in) and s1 .. (without) "
       "2^{} m^3.\n"
-      "insert into {} ({})\nselect\n  {}\nfrom (\n-- volumes of a plate that is run in, and "
+      "insert into {}{} ({})\nselect\n  {}\nfrom (\n-- volumes of a plate that is run in, and "
       "scatter\n{}\n) "
-      "as worn\ngroup by unit;\n",
+      "as worn\ngroup by unit{};\n",
       std::ilogb(units_.energy), std::ilogb(units_.fine), std::ilogb(units_.variance),
-      std::ilogb(units_.volume), sums_table_, fmt::join(names, ", "), columns.text(), worn());
+      std::ilogb(units_.volume), fresh_table_, clickhouse() ? "" : " as kept", kept_names(),
+      columns.text(), worn(), adding());
 }
 
 ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Dialect dialect,
                      const SqlSource& source, bool replicates) {
   const SqlWriter writer(model, id, dialect, source, replicates);
-  return {writer.setup(), writer.query(), writer.combine(), writer.totals(),
-          writer.size(),  writer.late(),  writer.check()};
+  const std::string stream = writer.stream();
+  return {writer.setup(),   writer.query(),
+          writer.combine(), writer.totals(),
+          writer.size(),    writer.late(),
+          writer.keep(),    writer.check(),
+          stream,           stream + "\norder by unit, cycle",
+          writer.known(),   writer.fresh(),
+          writer.gather(),  writer.kept(),
+          writer.others()};
 }
 
 }  // namespace wearwell::clutch

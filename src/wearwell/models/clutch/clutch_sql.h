@@ -24,6 +24,10 @@ struct SqlSource {
   SqlColumn energy;
   std::string prefix = "wearwell";  ///< of the tables that the statements make
   bool first = false;               ///< nothing was counted before: all rows are new
+  /// ClickHouse has no transactions: new sums go to a temporary table until `keep`.
+  bool staged = false;
+  int portion = 0,
+      portions = 1;  ///< of the units, by a hash: what is sorted as arrays is held in memory
 };
 
 /// Units of the fixed point, powers of two: of the sums of 64 bits and of those of 128.
@@ -56,8 +60,18 @@ struct ClutchSql {
   /// SELECT: units whose rows up to the last cycle that was counted are not as many as were
   /// counted, and how many of both.
   std::string late;
+  std::string keep;   ///< what is new stays; empty where a transaction does that
   std::string check;  ///< SELECT: rows, rows without a value that can be, range of each input
+  /// For FixedSum. SELECT: unit, cycle and inputs in SI of all rows, in their order; the same by unit
+  /// and cycle; of each unit the last cycle that was counted, and its energy so far, halves of
+  /// 32 bits each; a temporary table that takes sums, and the statement that adds them to those kept.
+  std::string stream, sorted, known, fresh, gather;
+  /// SELECT: units of this model of which sums are kept, and those whose replicates are. Not of ClickHouse.
+  std::string kept;
+  std::string
+      others;  ///< SELECT: another model of which sums are kept, where there are none of this
 };
+inline constexpr const char* fresh_table = "wearwell_fresh";
 /// `id`: of the model, the SHA-1 of model.json. Without `replicates` there is only the interval by
 /// scatter and plate. Throws InputError for names that the dialect cannot hold.
 ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Dialect dialect,

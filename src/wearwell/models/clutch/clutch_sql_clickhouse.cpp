@@ -20,12 +20,42 @@ std::string SqlWriter::setup_of_clickhouse(const std::string& rows) const {
       "here refuses the second.\n"
       "create table if not exists {1} (\n  model String, unit String, after_cycle Int64, "
       "last_cycle "
-      "Int64{2}) engine = MergeTree order by (model, unit, after_cycle);\n"
+      "Int64{2}) engine = MergeTree order by (model, unit, after_cycle);\n{4}"
       "insert into {0} (model, replicate, name, value) values{3};\n",
-      model_table_, sums_table_, sums, rows);
+      model_table_, sums_table_, sums, rows,
+      source_.staged
+          ? fmt::format("create temporary table {} (model String, unit String, after_cycle Int64, "
+                        "last_cycle Int64{});\n",
+                        fresh_table_, sums)
+          : "");
 }
 
-/// ClickHouse of 2018 has no window functions: the cycles of a unit as an array, in order.
+/// In one block, which is there whole or not at all.
+std::string SqlWriter::keep() const {
+  if (!source_.staged) return "";
+  return fmt::format(
+      "set min_insert_block_size_rows = 1000000000, min_insert_block_size_bytes = 1000000000000, "
+      "max_threads = 1;\ninsert into {0} ({1}) select {1} from {2};\n",
+      sums_table_, kept_names(), fresh_table_);
+}
+
+/// Where the table lies in shards, the sums are here alone and go to all of them (global); and 18.16 knows a joined table there only by
+/// names that nothing else has. Where a join finds nothing there is 0.
+std::string SqlWriter::fresh_of_clickhouse(SqlColumns columns, const std::string& cycle,
+                                           const std::string& portion) const {
+  columns.add("wearwell_unit", "unit");
+  columns.add("wearwell_after", "after_cycle");
+  columns.add("wearwell_energy", "energy_before");
+  return fmt::format(
+      "select\n  {}\nfrom {} as t\nglobal all left join (\n  select unit as wearwell_unit, "
+      "max(last_cycle) as wearwell_after, sum(energy) as wearwell_energy from {} where model = {} "
+      "group by unit\n) using wearwell_unit\nwhere {} > wearwell_after{}",
+      columns.text(), source_.table, sums_table_, id_, cycle,
+      portion.empty() ? "" : " and " + portion);
+}
+
+/// ClickHouse of 2018 has no window functions: the cycles of a unit as an array, in order. Sorted rows come in blocks of a bounded size, those
+/// of arrays would come all at once, and each number of a row is a column of the block.
 std::string SqlWriter::ordered_by_arrays() const {
   const std::string row =
       "cycle, valid, slip_speed, torque, temperature, closing_time, fixed_energy";
@@ -38,7 +68,8 @@ std::string SqlWriter::ordered_by_arrays() const {
       "cycle, "
       "r.2 as valid, r.3 as slip_speed, r.4 as torque, r.5 as temperature, r.6 as closing_time,\n"
       "  r.7 as fixed_energy, arrayMap((c, x) -> c - x, arrayCumSum(r.7), r.7) as passed,\n"
-      "  arrayPopBack(arrayPushFront(r.1, toInt64(0))) as cycle_before",
+      "  arrayPopBack(arrayPushFront(arrayMap(x -> toInt64(x), r.1), toInt64(0))) as cycle_before\n"
+      "order by unit",
       row, checked());
 }
 

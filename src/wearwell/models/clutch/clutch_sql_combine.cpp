@@ -40,7 +40,13 @@ std::string SqlWriter::unit_sums() const {
   }
   return fmt::format(
       "select\n  {}\nfrom (\nselect\n  {}\nfrom {} where model = {} group by unit\n) as totals",
-      outer.text(), inner.text(), sums_table_, id_);
+      outer.text(), inner.text(), known_sums(), id_);
+}
+
+std::string SqlWriter::known_sums() const {
+  if (!source_.staged) return sums_table_;
+  return fmt::format("(select {0} from {1} union all select {0} from {2}) as known", kept_names(),
+                     sums_table_, fresh_table_);
 }
 
 std::string SqlWriter::totals() const {
@@ -172,32 +178,98 @@ std::string SqlWriter::size() const {
       "select {}, {} from (select unit, sum(cycles) as cycles from {} where model = {} group by "
       "unit) "
       "as sums",
-      fleet::real(dialect_, "count(*)"), fleet::real(dialect_, "sum(cycles)"), sums_table_, id_);
+      fleet::real(dialect_, "count(*)"), fleet::real(dialect_, "sum(cycles)"), known_sums(), id_);
 }
 
 std::string SqlWriter::late() const {
-  const std::string unit = fleet::text(dialect_, this->unit());
+  std::string table = source_.table, unit = fleet::text(dialect_, this->unit());
+  std::string cycle = "t." + fleet::identifier(dialect_, source_.cycle.name);
+  const char* join = "inner";
+  if (clickhouse()) {
+    // Its 18.16 loses a joined table's name where shards answer, and fails where the right side of an inner join is empty; a left join has
+    // 0 there, and no cycle is.
+    table = fmt::format("(select {} as unit, {} as cycle from {} as t)", unit, cycle, table);
+    unit = "t.unit";
+    cycle = "t.cycle";
+    join = "left";
+  }
   return fmt::format(
       "select unit, found, counted from (\nselect last.unit as unit, {} as found, {} as counted\n"
-      "from {} as t inner join (\n  select unit, max(last_cycle) as after_cycle, sum(cycles) as "
-      "counted "
-      "from {} where model = {} group by unit\n) as last on last.unit = {}\nwhere t.{} <= "
+      "from {} as t {} join (\n  select unit, max(last_cycle) as after_cycle, sum(cycles) as "
+      "counted from {} where model = {} group by unit\n) as last on last.unit = {}\nwhere {} <= "
       "last.after_cycle group by last.unit\n) as late where found <> counted order by unit limit 3",
-      fleet::real(dialect_, "count(*)"), fleet::real(dialect_, "max(last.counted)"), source_.table,
-      sums_table_, id_, unit, fleet::identifier(dialect_, source_.cycle.name));
+      fleet::real(dialect_, "count(*)"), fleet::real(dialect_, "max(last.counted)"), table, join,
+      sums_table_, id_, unit, cycle);
 }
 
 std::string SqlWriter::check() const {
   SqlColumns columns;
   columns.keep(fleet::real(dialect_, "count(*)"));
-  columns.keep(fleet::real(dialect_, count_if(fmt::format("not coalesce({}, false)", valid()))));
-  columns.keep(fleet::real(dialect_, count_if("unit is null")));
+  const char* refused = clickhouse() ? "not ({})" : "not coalesce({}, false)";
+  columns.keep(fleet::real(dialect_, count_if(fmt::format(fmt::runtime(refused), valid()))));
+  columns.keep(fleet::real(dialect_, count_if(clickhouse() ? "unit = ''" : "unit is null")));
   for (const char* each : input_columns) {
     columns.keep(fmt::format("min(raw_{})", each));
     columns.keep(fmt::format("max(raw_{})", each));
   }
   columns.keep("max(raw_energy)");
   return fmt::format("select\n  {}\nfrom (\n{}\n) as si", columns.text(), si(false));
+}
+
+std::string SqlWriter::stream() const {
+  SqlColumns columns;
+  columns.add(unit(), "unit");
+  columns.add(fleet::real(dialect_, "t." + fleet::identifier(dialect_, source_.cycle.name)),
+              "cycle");
+  for (std::size_t i = 0; i < 4; ++i) columns.add(in_si(source_.inputs[i]), input_columns[i]);
+  columns.add(in_si(source_.energy), "energy");
+  return fmt::format("select\n  {}\nfrom {} as t", columns.text(), source_.table);
+}
+
+std::string SqlWriter::known() const {
+  constexpr const char* half = "4294967296";
+  return fmt::format("select unit, {}, {}, {} from {} where model = {}",
+                     fleet::real(dialect_, "last_cycle"),
+                     fleet::real(dialect_, fmt::format("energy // {}", half)),
+                     fleet::real(dialect_, fmt::format("energy % {}", half)), sums_table_, id_);
+}
+
+std::string SqlWriter::fresh() const {
+  std::string columns;
+  for (const char* each : count_names) columns += fmt::format(", {} {}", each, types_.whole);
+  for (const std::string& each : sum_names()) columns += fmt::format(", {} {}", each, types_.sum);
+  return fmt::format(
+      "create or replace temp table {} (unit {}, after_cycle {}, last_cycle {}{});\n", fresh_table,
+      types_.text, types_.whole, types_.whole, columns);
+}
+
+std::string SqlWriter::gather() const {
+  SqlColumns columns;
+  columns.keep(id_);
+  columns.keep("unit");
+  columns.keep("min(after_cycle)");
+  columns.keep("max(last_cycle)");
+  for (const char* each : count_names) columns.keep(fmt::format("sum({})", each));
+  for (const std::string& each : sum_names()) columns.keep(fmt::format("sum({})", each));
+  return fmt::format("insert into {} as kept ({})\nselect\n  {}\nfrom {}\ngroup by unit{};\n",
+                     sums_table_, fmt::join(sums_columns(), ", "), columns.text(), fresh_table,
+                     adding());
+}
+
+/// Where the table has no column v1 the name is that of the row outside, which is nothing.
+std::string SqlWriter::kept() const {
+  const std::string count = fmt::format("(select {} from {} where model = {}",
+                                        fleet::real(dialect_, "count(*)"), sums_table_, id_);
+  return fmt::format(
+      "select {0}), {0} and v1 is not null) from (select cast(null as {1}) as v1) as outside",
+      count, types_.whole);
+}
+
+std::string SqlWriter::others() const {
+  return fmt::format(
+      "select max(model) as model, {} as models from {} having count(*) > 0 and "
+      "max(case when model = {} then 1 else 0 end) = 0",
+      fleet::real(dialect_, "count(distinct model)"), sums_table_, id_);
 }
 
 }  // namespace wearwell::clutch

@@ -9,6 +9,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
+#include "wearwell/fleet/clickhouse_engine.h"
 #include "wearwell/fleet/duckdb_engine.h"
 #include "wearwell/fleet/postgres_engine.h"
 #include "wearwell/input/option_value.h"
@@ -29,7 +30,7 @@ struct FleetOptions {
   std::vector<double> levels = {25, 50, 75, 100}, horizons;
   int threads = 0;
   long memory = 0;
-  bool scatter_only = false, json = false, quiet = false;
+  bool scatter_only = false, statements = false, json = false, quiet = false;
 };
 
 std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& options,
@@ -54,9 +55,12 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
                                               .memory = options.memory}));
     } else if (name.starts_with("postgresql://") || name.starts_with("postgres://")) {
       engines.push_back(fleet::postgres_engine(name, options.table));
+    } else if (fleet::is_clickhouse(name)) {
+      engines.push_back(fleet::clickhouse_engine(name, options.table));
     } else {
-      throw InputError(fmt::format("--engine: '{}' is neither 'duckdb' nor 'postgresql://...'",
-                                   printable(shortened(name))));
+      throw InputError(
+          fmt::format("--engine: '{}' is none of 'duckdb', 'postgresql://...', 'clickhouse://...'",
+                      printable(shortened(name.substr(0, name.find("://"))))));
     }
   }
   return engines;
@@ -82,6 +86,7 @@ void run_fleet(const FleetOptions& options, int& exit_code) {
                        .prefix = options.prefix,
                        .first = first,
                        .replicates = !options.scatter_only,
+                       .statements = options.statements,
                        .levels = options.levels,
                        .horizons = options.horizons},
                       monitor);
@@ -111,8 +116,9 @@ void add_fleet_command(CLI::App& app, int& exit_code) {
   command
       ->add_option(
           "--engine", options->engines,
-          "that computes: duckdb, or a database, postgresql://USER@HOST/DATABASE; several, "
-          "one after the other, where units are distributed over them")
+          "that computes: duckdb, or a database, postgresql://USER@HOST/DATABASE or "
+          "clickhouse://USER@HOST:8123/DATABASE (clickhouses:// by TLS; HOST,HOST are replicas); "
+          "several, one after the other, where units are distributed over them")
       ->allow_extra_args(false)
       ->capture_default_str();
   command->add_option("--table", options->table, "of cycles in a database: SCHEMA.TABLE");
@@ -142,6 +148,9 @@ void add_fleet_command(CLI::App& app, int& exit_code) {
       ->check(number_between(0, 1e15));
   command->add_flag("--scatter-only", options->scatter_only,
                     "without what is not known of map and run-in; much faster");
+  command->add_flag("--statements", options->statements,
+                    "have DuckDB run the statements of wearwell sql, as other engines do, "
+                    "instead of a loop of our own: the same numbers, much slower");
   command->add_option("--memory", options->memory, "MB that DuckDB may take (default: half)")
       ->check(CLI::Range(100L, 100'000'000L));
   command

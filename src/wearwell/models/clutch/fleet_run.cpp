@@ -12,6 +12,7 @@
 #include "wearwell/base/workers.h"
 #include "wearwell/models/clutch/clutch_sql.h"
 #include "wearwell/models/clutch/fleet_columns.h"
+#include "wearwell/models/clutch/fleet_loop.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -56,6 +57,17 @@ void refuse_late(fleet::Engine& engine, const ClutchSql& sql) {
   });
 }
 
+/// Files hold what is new, as a rule: to begin anew beside another model's sums would lose what that has
+/// counted.
+void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::string& model) {
+  engine.rows(sql.others, 1, [&](const fleet::Row& row) {
+    throw InputError(
+        fmt::format("{}: --state holds the sums of another model ({}; this is {}), which cannot go "
+                    "on: sum all cycles anew, into another file",
+                    engine.source(), printable(row.texts.front()), model));
+  });
+}
+
 void refuse_repeated(const fleet::Engine& engine, const UnitSums& sums) {
   if (sums.repeated > 0)
     throw InputError(fmt::format("{}: unit {} has {:.0f} cycles whose number stands there twice",
@@ -78,31 +90,95 @@ struct Shard {
   fleet::Engine& engine;
   ClutchSql sql = {};
   double rows = 0;
+  std::string ranges = {};
 };
 
-/// Everything up to the sums of its units.
-void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
+/// The sums of a run with another option lack what this one adds to, or would stay behind.
+void refuse_other_option(fleet::Engine& engine, const ClutchSql& sql, const FleetRequest& request,
+                         bool full) {
+  if (engine.dialect() == fleet::Dialect::clickhouse) return;
+  engine.rows(sql.kept, 0, [&](const fleet::Row& row) {
+    if (row.numbers[0] > 0 && (row.numbers[1] > 0) != full)
+      throw InputError(fmt::format(
+          "{}: the sums kept in {}_sums were made {} --scatter-only: go on with the same option, "
+          "or elsewhere",
+          engine.source(), request.prefix, full ? "with" : "without"));
+  });
+}
+
+/// Where a summand does not fit its column; anything else is thrown on. While `error` is being handled.
+[[noreturn]] void explain(Shard& shard, const InputError& error) {
+  const std::string_view said = error.what();
+  if (said.find("out of range") == std::string_view::npos) throw;
+  if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql).ranges;
+  throw InputError(fmt::format(
+      "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
+      "They are: {} ({})",
+      shard.engine.source(), shard.ranges, said));
+}
+
+/// By a loop of our own: it looks at all rows while it sums.
+void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const IdentifiedModel& model,
+                       const FleetRequest& request, bool full, const Monitor& monitor) {
+  const LoopFindings found = sum_by_loop(shard.engine, columns, shard.sql, model.model, full,
+                                         request.first, request.units_in_memory, monitor);
+  shard.rows = found.rows;
+  if (found.rows == 0 || found.refused + found.nameless > 0) {
+    check_rows(shard.engine, shard.sql);
+    throw InputError(fmt::format("{} changed while it was read", shard.engine.source()));
+  }
+}
+
+/// Everything up to the sums of its units, once.
+void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
                const Monitor& monitor) {
   fleet::Engine& engine = shard.engine;
   SqlSource source;
   source.table = engine.table();
   source.first = request.first;
   source.prefix = request.prefix;
+  source.staged = engine.dialect() == fleet::Dialect::clickhouse;
   engine.begin();
   read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
+  engine.refuse_torn_units(source.unit.name);
   shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
-  const FleetCheck check = check_rows(engine, shard.sql);
-  shard.rows = check.rows;
-  engine.run(shard.sql.setup, {}, "", 0);
-  if (!request.first) refuse_late(engine, shard.sql);
+  auto* const columns = dynamic_cast<fleet::ColumnEngine*>(&engine);
+  const bool by_loop = columns && !request.statements;
+  if (!by_loop) {
+    const FleetCheck check = check_rows(engine, shard.sql);
+    shard.rows = check.rows;
+    shard.ranges = check.ranges;
+  }
+  if (source.staged)
+    source.portions = static_cast<int>(std::ceil(shard.rows / request.portion_rows));
   try {
-    engine.run(shard.sql.query, monitor, "cycles", static_cast<long long>(shard.rows));
+    engine.run(shard.sql.setup, {}, "", 0);
+    if (!request.first && columns) refuse_others(engine, shard.sql, model.id);
+    if (!request.first) refuse_other_option(engine, shard.sql, request, full);
+    if (!request.first) refuse_late(engine, shard.sql);
+    if (by_loop) sum_shard_by_loop(shard, *columns, model, request, full, monitor);
+    for (; !by_loop && source.portion < source.portions; ++source.portion) {
+      const std::string query =
+          source.portions == 1
+              ? shard.sql.query
+              : clutch_sql(model.model, model.id, engine.dialect(), source, full).query;
+      engine.run(query, monitor, "cycles", static_cast<long long>(shard.rows));
+    }
   } catch (const InputError& error) {
-    if (std::string_view(error.what()).find("out of range") == std::string_view::npos) throw;
-    throw InputError(fmt::format(
-        "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
-        "They are: {} ({})",
-        engine.source(), check.ranges, error.what()));
+    explain(shard, error);
+  }
+}
+
+/// The same, by a replica where a server is lost.
+void sum_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
+               const Monitor& monitor) {
+  constexpr int tries = 3;
+  for (int i = 1;; ++i) {
+    try {
+      return try_shard(shard, model, request, full, monitor);
+    } catch (const fleet::Lost&) {
+      if (i == tries) throw;
+    }
   }
 }
 
@@ -176,6 +252,9 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   refuse_torn(found.units);
   worst_first(found.units);
   Result result = fleet_result(model.model, counts, found);
+  for (const Shard& shard : shards) {
+    if (!shard.sql.keep.empty()) shard.engine.run(shard.sql.keep, {}, "", 0);
+  }
   for (const Shard& shard : shards) shard.engine.commit();
   return result;
 }

@@ -48,7 +48,14 @@ class SqlWriter {
   std::string totals() const;
   std::string size() const;
   std::string late() const;
+  std::string keep() const;
   std::string check() const;
+  std::string stream() const;
+  std::string known() const;
+  std::string fresh() const;
+  std::string gather() const;
+  std::string kept() const;
+  std::string others() const;
 
  private:
   std::string k(std::size_t replicate, const std::string& name) const {
@@ -63,6 +70,9 @@ class SqlWriter {
   /// PostgreSQL would put expressions into each other, and compute them as often as they are used.
   const char* fence() const { return dialect_ == fleet::Dialect::postgresql ? "\noffset 0" : ""; }
   std::vector<std::string> sum_names() const;
+  std::vector<std::string> sums_columns() const;
+  std::string kept_names() const;
+  std::string adding() const;
   std::string parameters() const;
   std::string in_si(const SqlColumn& column) const;
   std::string unit() const;
@@ -73,6 +83,10 @@ class SqlWriter {
   std::string ordered() const;
   std::string ordered_by_arrays() const;
   std::string setup_of_clickhouse(const std::string& rows) const;
+  /// All sums of the model: what was kept and what is new.
+  std::string known_sums() const;
+  std::string fresh_of_clickhouse(SqlColumns columns, const std::string& cycle,
+                                  const std::string& portion) const;
   std::string powers() const;
   std::string rates() const;
   std::string worn() const;
@@ -90,7 +104,7 @@ class SqlWriter {
   FixedUnits units_;
   fleet::Types types_;
   std::size_t replicates_;
-  std::string model_table_, sums_table_;
+  std::string model_table_, sums_table_, fresh_table_;
 };
 
 }  // namespace wearwell::clutch

@@ -7,11 +7,14 @@
 namespace wearwell::fatigue {
 
 void add_commands(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "fatigue", "Load histories: count their cycles, sum their damage, with its distribution");
+  CLI::App* command =
+      app.add_subcommand("fatigue",
+                         "Load histories: count their cycles, sum their damage, with its "
+                         "distribution; design curves averaged over models");
   command->require_subcommand(1);
   add_rainflow_command(*command);
   add_life_command(*command, exit_code);
+  add_design_command(*command, exit_code);
 }
 
 }  // namespace wearwell::fatigue

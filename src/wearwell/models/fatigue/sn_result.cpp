@@ -111,8 +111,7 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
   const std::filesystem::path file = summary_file(folder);
   if (saved.header.model != "sn")
     throw InputError(
-        fmt::format("{}: its model is \"{}\"; a life under a load history needs an "
-                    "S-N curve, model \"sn\"",
+        fmt::format("{}: its model is \"{}\"; what is asked needs an S-N curve, model \"sn\"",
                     folder.string(), saved.header.model));
   const Json summary = read_json(file);
   const JsonReader root(summary, file);
@@ -138,8 +137,8 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
   std::tie(span.alternating_low, span.alternating_high) =
       read_span(tested.at("alternating"), result.stress_unit);
   std::tie(span.mean_low, span.mean_high) = read_span(tested.at("mean"), result.stress_unit);
-  std::tie(span.life_low, span.life_high) =
-      read_span(tested.at("life"), life_unit(read_unit(json->at("life_unit").text(), "cycle")));
+  result.life_unit = life_unit(read_unit(json->at("life_unit").text(), "cycle"));
+  std::tie(span.life_low, span.life_high) = read_span(tested.at("life"), result.life_unit);
   span.tests = static_cast<int>(tested.at("tests").integer(1, 1 << 30));
   span.failures = static_cast<int>(tested.at("failures").integer(0, span.tests));
 
@@ -158,8 +157,9 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
   for (Eigen::Index c = 0; c < columns; ++c) {
     const ParameterSummary& parameter = saved.parameters[static_cast<std::size_t>(c)];
     result.parameters.push_back(parameter.name);
-    if (result.law.family == LifeFamily::normal) continue;  // of no use here
-    const Unit unit = read_unit(parameter.unit, si_of(parameter.name, result.stress_si));
+    const bool cycles = result.law.family == LifeFamily::normal && parameter.name == "sigma";
+    const Unit unit =
+        read_unit(parameter.unit, cycles ? "cycle" : si_of(parameter.name, result.stress_si));
     for (double& value : result.draws.col(c)) value = to_si(unit, value);
   }
   return result;

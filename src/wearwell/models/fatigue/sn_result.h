@@ -29,6 +29,7 @@ struct SnResult {
   std::vector<std::string> parameters;  ///< names, as SnLaw counts them
   Points draws;                         ///< of the posterior, SI
   std::string stress_si = "Pa";         ///< of the stress, or of what stands for it
+  Unit life_unit = {"cycles", 1, 0};    ///< in which the study tells lives
 };
 
 /// What `fit` writes as "fatigue" into summary.json: the law's choices and what was tested.

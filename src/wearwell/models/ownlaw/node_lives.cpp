@@ -1,78 +1,17 @@
 #include "wearwell/models/ownlaw/node_lives.h"
 
-#include <boost/math/special_functions/erf.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "wearwell/bayes/normal_score.h"
-#include "wearwell/models/ownlaw/crossing_search.h"
+#include "wearwell/models/ownlaw/node_points.h"
+#include "wearwell/models/ownlaw/nodes_ahead.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
 #include "wearwell/models/ownlaw/own_limit.h"
 
 namespace wearwell::ownlaw {
-namespace {
-
-constexpr std::size_t points_of_node = 4;  // of the law of a first passage
-
-double normal_quantile(double p) {
-  return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
-}
-
-double fraction(std::size_t i, double of) {
-  const double x = (static_cast<double>(i) + 0.5) * of;
-  return x - std::floor(x);
-}
-
-// On the logarithms of neighbours in a table of normal scores -4, -3.6 .. 4, by the cubic through four of them.
-double at_score(const double* values, double score) {
-  const double x = std::clamp((score + 4) / 0.4, 0.0, 20.0);
-  const auto i = static_cast<std::size_t>(std::clamp(std::floor(x), 1.0, 18.0));
-  const double t = x - static_cast<double>(i);
-  const double weight[] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
-                           -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
-  double sum = 0;
-  for (std::size_t j = 0; j < 4; ++j) sum += weight[j] * std::log(values[i + j - 1]);
-  return std::exp(sum);
-}
-
-constexpr int parts = 4;             // of a node's place on its line
-constexpr double negligible = 1e-8;  // nodes with less are left out
-
-// What nodes of one line have, drawn out between them: a parabola through each and its neighbours, of the logarithm
-// of the weight and of the number. The sum of the weights is that of the trapezoidal rule with a step so much finer.
-template <class Put>
-void draw_out(std::span<const double> weight, std::span<const double> number, const Put& put) {
-  const std::size_t n = weight.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    if (!(weight[k] > negligible)) continue;
-    const bool inner = k > 0 && k + 1 < n && weight[k - 1] > 0 && weight[k + 1] > 0 &&
-                       std::isfinite(number[k - 1] + number[k] + number[k + 1]);
-    if (!inner) {
-      put(weight[k], number[k]);
-      continue;
-    }
-    const double before = std::log(weight[k - 1] / weight[k]);
-    const double behind = std::log(weight[k + 1] / weight[k]);
-    const double below = number[k - 1] - number[k], above = number[k + 1] - number[k];
-    for (int part = 0; part < parts; ++part) {
-      const double t = (part + 0.5) / parts - 0.5;
-      const double bend = 0.5 * t * t, slope = 0.5 * t;
-      put(weight[k] / parts * std::exp(slope * (behind - before) + bend * (behind + before)),
-          number[k] + slope * (above - below) + bend * (above + below));
-    }
-  }
-}
-
-double output(const NodeProgram& program, const NodeProgram::Scratch& scratch, std::size_t o,
-              std::size_t i) {
-  const std::span<const double> values = program.values(o, scratch);
-  return values[values.size() == 1 ? 0 : i];
-}
-
-}  // namespace
-
 NodeLives::NodeLives(const TomlReader& root, std::shared_ptr<const OwnLaw> law)
     : law_(std::move(law)), limit_() {
   const auto predict = root.table("predict");
@@ -110,6 +49,13 @@ NodeLives::NodeLives(const TomlReader& root, std::shared_ptr<const OwnLaw> law)
   program_ = std::make_unique<const NodeProgram>(*law_, wanted_, true);
 }
 
+std::string NodeLives::before_begin(double place, bool follows) const {
+  if (!(place < path_.begin) || (path_.begin < 0 && !follows)) return {};
+  const Unit& unit = law_->data.number(*law_->along)->unit.unit;
+  return fmt::format("{} = {:.6g} {} lies before {:.6g}, where paths begin", *law_->along,
+                     from_si(unit, place), unit.text, from_si(unit, path_.begin));
+}
+
 UnitReading NodeLives::before_rows() const {
   UnitReading row;
   for (const law::ColumnSymbol& each : law_->row_symbols.columns) {
@@ -136,80 +82,6 @@ NodeRow NodeLives::conditions(const NodeRow& last) const {
   }
   return ahead;
 }
-
-// Nodes of one pass on their way.
-struct NodeLives::Ahead {
-  const NodeLives& lives;
-  const Nodes& nodes;
-  const UnitReading& last;
-  const NodePath* path;  // of what is limited, where it runs
-  NodeRow own, ahead;
-  bool runs, changes = false;
-  NodeProgram::Scratch scratch;
-  std::size_t begin = 0, count = 0;
-  double passed_by[most_crossings] = {};
-
-  Ahead(const NodeLives& of, const Nodes& at, const UnitReading& row, const NodePath& limited)
-      : lives(of),
-        nodes(at),
-        last(row),
-        path(&limited),
-        own(row.row),
-        ahead(of.conditions(row.row)),
-        runs(of.program_->running() > 0),
-        scratch(*of.program_) {
-    for (std::size_t c = 0; c < own.numbers.size(); ++c) {
-      const bool differs = own.numbers[c] != ahead.numbers[c];
-      changes |= of.program_->uses_column(c) && differs;
-    }
-    for (std::size_t l = 0; l < own.labels.size(); ++l) {
-      changes |= of.program_->uses_label(l) && own.labels[l] != ahead.labels[l];
-    }
-    changes &= !runs;
-  }
-
-  // Where paths are looked at from.
-  double from() const { return runs && path->begun ? path->place : lives.path_.begin; }
-
-  void evaluate(const NodeRow& row, const double* place) {
-    NodeProgram::GoesOn on;
-    if (runs) {
-      on = {from(), path->begun ? &path->carried : nullptr, &lives.steps_, lives.row_length_};
-    }
-    lives.program_->evaluate(nodes, begin, count, row, place, on, scratch);
-  }
-  double at(std::size_t o, std::size_t i) const { return output(*lives.program_, scratch, o, i); }
-
-  // Output o of all nodes where the unit is now, under its own conditions.
-  void now(std::size_t o, double* value) {
-    double place[most_crossings];
-    std::fill_n(place, count, last.place);
-    evaluate(runs ? ahead : own, place);
-    for (std::size_t i = 0; i < count; ++i) value[i] = at(o, i);
-  }
-
-  // Makes of places what remains: negative where the limit is behind. A path that goes on knows no place before
-  // its last row: there as far as it has passed the limit, at the pace of the fastest of its neighbours.
-  void count_from(const double* start, double* place) const {
-    double pace = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      place[i] -= start[i];
-      if (!(passed_by[i] < 0 && std::isfinite(place[i]))) continue;
-      const double own_pace = place[i] / -passed_by[i];
-      pace = pace > 0 ? std::min(pace, own_pace) : own_pace;
-    }
-    for (std::size_t i = 0; runs && i < count; ++i) {
-      if (passed_by[i] >= 0) place[i] = -passed_by[i] * (pace > 0 ? pace : 1);
-    }
-  }
-
-  void cross(const double* level, double* place) {
-    search_crossings(
-        lives.path_.rising, from(), lives.path_.scale, count, level,
-        [&](const double* trial) { evaluate(ahead, trial); },
-        [&](std::size_t i) { return at(0, i); }, place, passed_by);
-  }
-};
 
 prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<double>& weight,
                                         const UnitReading& last,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,12 +29,21 @@ class NodeLives {
   double begin() const { return path_.begin; }        ///< of paths, along the axis, SI
   double scale() const { return path_.scale; }        ///< of the axis, SI
 
+  /// Why there can be no reading at this place, if it lies before the beginning; `follows`: NodeRows. Where the axis of
+  /// the study begins below 0 its 0 means nothing, and a law whose rows stand alone is as good a little before.
+  std::string before_begin(double place, bool follows) const;
+
   /// A unit without rows: where paths begin.
   UnitReading before_rows() const;
 
   /// Of nodes with weights that sum to 1, whose paths stand at `paths` (NodeRows) after their last row.
   prognosis::Forecast forecast(const Nodes& nodes, const std::vector<double>& weight,
                                const UnitReading& last, const std::vector<NodePath>& paths) const;
+  /// Of the same nodes: what is limited at these places, ascending and none before the last row.
+  std::vector<prognosis::LevelAhead> ahead(const Nodes& nodes, const std::vector<double>& weight,
+                                           const UnitReading& last,
+                                           const std::vector<NodePath>& paths,
+                                           std::span<const double> places) const;
 
  private:
   struct Ahead;

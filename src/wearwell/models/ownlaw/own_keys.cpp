@@ -73,6 +73,8 @@ StudyKeys law_keys() {
        {"predict.given.*", "\"20 N\"",
         "a condition; what is not named must be the same in all rows"},
        {"predict.limit.*", "\"100 um\"", "when this expression reaches it: lives"},
+       {"predict.lives_of", "[\"3\", \"7\"]",
+        "lives to the limit of these units alone; [] of a new one alone"},
        {"predict.b_lives", "[1, 10]",
         "percentages that have failed, of a likelihood of a life or of lives to the limit"},
        {"predict.survived", "\"1000 h\"", "lives given that so much was reached, from there on"},

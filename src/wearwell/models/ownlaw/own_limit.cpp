@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "wearwell/base/nearest.h"
 #include "wearwell/models/ownlaw/own_process_lives.h"
 #include "wearwell/study/life_levels.h"
 
@@ -43,6 +44,25 @@ void require_monotone(const Asked& asked, const TomlReader& table, const std::st
     table.fail(name, fmt::format("{} does not change with {}: it never reaches a limit", name,
                                  *asked.law->along));
   }
+}
+
+// Each unit that was seen, and a new one; of predict.lives_of those alone, of none the new one alone.
+void add_units(const Asked& asked, const TomlReader& table, const std::string& name,
+               const std::vector<law::Wanted>& wanted, LimitedPath& path) {
+  const std::vector<std::string>& units = asked.law->units;
+  const bool only = asked.predict.has("lives_of");
+  const std::vector<std::string> told = asked.predict.texts("lives_of");
+  for (const std::string& each : told) {
+    if (std::find(units.begin(), units.end(), each) == units.end()) {
+      asked.predict.fail("lives_of", fmt::format("the data have no {} '{}'{}", asked.noun, each,
+                                                 did_you_mean(each, units)));
+    }
+  }
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    if (only && std::find(told.begin(), told.end(), units[u]) == told.end()) continue;
+    path.seen.push_back(seen_unit(asked, table, name, wanted, u));
+  }
+  if (!told.empty()) path.next.reset();
 }
 
 using Lives = std::function<LimitedLives(const WeightedDraws&)>;
@@ -103,7 +123,7 @@ class LimitGroup {
       add_life("remaining life", "new " + asked.noun, from(path_->survived), unit);
     }
     for (std::size_t u = 0; u < path_->seen.size(); ++u) {
-      add_life("remaining life", asked.unit(u), from(begin_of(u)), unit);
+      add_life("remaining life", asked.unit(path_->seen[u].unit), from(begin_of(u)), unit);
     }
     const std::size_t lives = group.requests.size();
     if (told_.survived) {
@@ -112,7 +132,7 @@ class LimitGroup {
         group.requests.push_back(request(survival, of, at, Unit{"%", 0.01, 0}));
       };
       if (path_->next) add("new " + asked.noun);
-      for (std::size_t u = 0; u < path_->seen.size(); ++u) add(asked.unit(u));
+      for (std::size_t u = 0; u < path_->seen.size(); ++u) add(asked.unit(path_->seen[u].unit));
     }
     for (std::size_t i = path_->next && told_.survived ? 1 : 0; i < lives; ++i) {
       for (const double percent : told_.levels.percents) {
@@ -240,10 +260,9 @@ void read_process_limit(const Asked& asked, const TomlReader& limits, const std:
                             path.rising ? "above" : "below", path.rising ? "grows" : "falls"));
   }
   if (measured.process->by_sd) require_proportion(asked, limits, name, path);
-  for (std::size_t u = 0; u < asked.law->units.size(); ++u) {
-    path.seen.push_back(seen_unit(asked, limits, name, wanted, u));
-    path.seen.back().behind.reset();  // it goes on from where its mean stands
-  }
+  add_units(asked, limits, name, wanted, path);
+  // Each goes on from where its mean stands.
+  for (LimitedPath::Seen& each : path.seen) each.behind.reset();
   const Told told = read_told(asked, path);
   const std::shared_ptr<const ProcessLimit> known = asked_for;
   request_lives(
@@ -292,6 +311,7 @@ LimitedPath::Seen seen_unit(const Asked& asked, const TomlReader& table, const s
     seen.behind = make_path(asked.law, table, key, wanted, true, own, unit);
   }
   seen.now = asked.last_place(unit);
+  seen.unit = unit;
   return seen;
 }
 
@@ -312,11 +332,7 @@ void read_limit(const Asked& asked, PosteriorStudy& study) {
   path->limit = limit.si();
   set_reach(asked, *path);
   require_monotone(asked, limits, name, *path);
-  if (asked.law->label || path->next->goes_on()) {
-    for (std::size_t u = 0; u < asked.law->units.size(); ++u) {
-      path->seen.push_back(seen_unit(asked, limits, name, wanted, u));
-    }
-  }
+  if (asked.law->label || path->next->goes_on()) add_units(asked, limits, name, wanted, *path);
   const Told told = read_told(asked, *path);
   const std::shared_ptr<const LimitedPath> known = path;
   request_lives(

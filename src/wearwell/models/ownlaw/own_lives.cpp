@@ -79,7 +79,7 @@ class Part {
     const std::size_t d = effects(), units = path_.seen.size();
     const latent::UnitIntegrals* integrals = d > 0 ? &rows_.integrate(x) : nullptr;
     for (std::size_t u = 0; u < units; ++u) {
-      if (d > 0) lines_of_seen_unit(*integrals, u, d, lines_);
+      if (d > 0) lines_of_seen_unit(*integrals, path_.seen[u].unit, d, lines_);
       const EffectLines& lines = d > 0 ? lines_ : fresh_;
       if (lines.count() == 0) continue;
       ahead_[u].at().move_to(x);

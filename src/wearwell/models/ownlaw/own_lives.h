@@ -17,10 +17,11 @@ struct LimitedPath {
   /// null).
   struct Seen {
     std::shared_ptr<const Path> ahead, behind;
-    double now = 0;  ///< where its last row lies along the axis, SI
+    double now = 0;        ///< where its last row lies along the axis, SI
+    std::size_t unit = 0;  ///< among OwnLaw::units
   };
-  std::vector<Seen> seen;
-  double limit = 0;  ///< SI
+  std::vector<Seen> seen;  ///< of those that were asked for
+  double limit = 0;        ///< SI
   bool rising = true;
   double begin = 0;  ///< where the axis begins, SI
   double scale = 1;  ///< of the axis, SI

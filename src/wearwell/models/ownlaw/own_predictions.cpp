@@ -51,7 +51,7 @@ class Predictions {
     } else if (!law_->along) {
       read_life_law();
     } else {
-      for (const char* key : {"b_lives", "credible_level", "survived"}) {
+      for (const char* key : {"b_lives", "credible_level", "survived", "lives_of"}) {
         if (predict_.has(key)) {
           predict_.fail(key, "needs predict.limit: what is reached at the end of a life");
         }

@@ -105,17 +105,21 @@ class Part {
     units.move_to(x);
     if (effects_ == 0) {
       const std::vector<Standing> all = units.standings({}, limit_.column);
-      for (std::size_t u = 0; u < ahead_.size(); ++u) add_unit(u, nullptr, all[u], weight);
+      for (std::size_t u = 0; u < ahead_.size(); ++u)
+        add_unit(u, nullptr, all[limit_.path.seen[u].unit], weight);
       return;
     }
     for (const latent::Sweep& sweep : rows_.integrate(x).sweeps) {
-      const bool any = std::any_of(sweep.weight.begin(), sweep.weight.end(),
-                                   [](double w) { return w > least_share; });
+      const auto& seen = limit_.path.seen;
+      const bool any = std::any_of(seen.begin(), seen.end(), [&](const LimitedPath::Seen& each) {
+        return sweep.weight[each.unit] > least_share;
+      });
       if (!any) continue;
       const std::vector<Standing> all = units.standings(sweep.z, limit_.column);
       for (std::size_t u = 0; u < ahead_.size(); ++u) {
-        if (!(sweep.weight[u] > least_share)) continue;
-        add_unit(u, &sweep.z[u * effects_], all[u], weight * sweep.weight[u]);
+        const std::size_t unit = seen[u].unit;
+        if (!(sweep.weight[unit] > least_share)) continue;
+        add_unit(u, &sweep.z[unit * effects_], all[unit], weight * sweep.weight[unit]);
       }
     }
   }

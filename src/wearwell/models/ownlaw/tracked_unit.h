@@ -40,6 +40,7 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   prognosis::Taken take(const prognosis::Reading& reading,
                         const prognosis::History& history) override;
   prognosis::Forecast forecast() const override;
+  std::vector<prognosis::LevelAhead> ahead(std::span<const double> places) const override;
   std::size_t readings() const override { return readings_; }
   std::string save() const override;
 

@@ -1,0 +1,184 @@
+#include "wearwell/models/fatigue/averaged_design.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/fatigue/life.h"
+#include "wearwell/study/saved_result.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+// So many draws of each model; a random limit makes an integral of each.
+constexpr Eigen::Index most_draws = 4000, most_draws_with_limit = 1000;
+constexpr double slack = 1e-6;
+
+bool alike(double a, double b) {
+  return std::abs(a - b) <= slack * std::max(std::abs(a), std::abs(b));
+}
+
+Eigen::Index draws_of(const SnResult& result) {
+  return std::min(result.draws.rows(),
+                  result.law.integrated() ? most_draws_with_limit : most_draws);
+}
+
+// log10 of the life that a share outlasts, of every draw.
+std::vector<double> log10_lives(const SnResult& result, const Stress& stress, double reliability) {
+  const Eigen::Index n = draws_of(result);
+  std::vector<double> lives;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double* x = result.draws.row(i * result.draws.rows() / n).data();
+    const double at = life_quantile(result.law, x, stress, 1 - reliability);
+    lives.push_back(result.law.logarithmic() ? at : std::log10(std::max(at, 0.0)));
+  }
+  return lives;
+}
+
+std::string span_in_words(const SnResult& result, double low, double high) {
+  return fmt::format("{:.6g} to {:.6g} {}", from_si(result.stress_unit, low),
+                     from_si(result.stress_unit, high), result.stress_unit.text);
+}
+
+// The comparison knows what was seen, not under which stresses.
+void require_same_stresses(const WeightedModel& a, const WeightedModel& b) {
+  const TestedSpan &x = a.result.tested, &y = b.result.tested;
+  if (a.result.stress_si != b.result.stress_si)
+    throw InputError(fmt::format("{} and {} are driven by different things: {} and {}", a.name,
+                                 b.name, a.result.stress_unit.text, b.result.stress_unit.text));
+  if (!alike(x.alternating_low, y.alternating_low) ||
+      !alike(x.alternating_high, y.alternating_high))
+    throw InputError(
+        fmt::format("{} and {} were tested under different alternating stresses: {} and {}", a.name,
+                    b.name, span_in_words(a.result, x.alternating_low, x.alternating_high),
+                    span_in_words(b.result, y.alternating_low, y.alternating_high)));
+  const bool both =
+      a.result.law.correction != MeanStress::none && b.result.law.correction != MeanStress::none;
+  const double size = slack * x.alternating_high;
+  if (both &&
+      !(std::abs(x.mean_low - y.mean_low) <= size && std::abs(x.mean_high - y.mean_high) <= size))
+    throw InputError(fmt::format("{} and {} were tested under different mean stresses: {} and {}",
+                                 a.name, b.name, span_in_words(a.result, x.mean_low, x.mean_high),
+                                 span_in_words(b.result, y.mean_low, y.mean_high)));
+}
+
+}  // namespace
+
+double weighted_quantile(std::vector<std::pair<double, double>> values, double p) {
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  double total = 0;
+  for (const auto& [value, weight] : values) total += weight;
+  const double wanted = p * (total - values.back().second);
+  double before = 0;
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    const auto [value, weight] = values[i];
+    if (before + weight > wanted) {
+      const double next = values[i + 1].first;
+      // Towards a life without end there is nothing between.
+      if (!std::isfinite(next) || !std::isfinite(value)) return value;
+      return value + (next - value) * std::max(0.0, wanted - before) / weight;
+    }
+    before += weight;
+  }
+  return values.back().first;
+}
+
+std::vector<DesignPoint> averaged_design(const std::vector<WeightedModel>& models,
+                                         const DesignQuestion& question) {
+  std::vector<DesignPoint> points(question.alternating.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+    DesignPoint& point = points[i];
+    point.stress = question.line.at(question.alternating[i]);
+    point.models.resize(models.size());
+    // The life at one level: of the mixture, and told to `each` of every model.
+    const auto at_level = [&](double reliability, double confidence, const auto& each) {
+      std::vector<std::pair<double, double>> mixture;
+      for (std::size_t m = 0; m < models.size(); ++m) {
+        std::vector<std::pair<double, double>> own;
+        const std::vector<double> lives = log10_lives(models[m].result, point.stress, reliability);
+        for (const double life : lives) own.emplace_back(life, 1.0 / std::size(lives));
+        each(m, std::pow(10, weighted_quantile(own, 1 - confidence)));
+        for (auto& [life, weight] : own) weight *= models[m].weight;
+        if (models[m].weight > 0) mixture.insert(mixture.end(), own.begin(), own.end());
+      }
+      return std::pow(10, weighted_quantile(std::move(mixture), 1 - confidence));
+    };
+    point.median = at_level(0.5, 0.5, [](std::size_t, double) {});
+    for (const DesignLevel& level : question.levels) {
+      double least = INFINITY;
+      point.averaged.push_back(
+          at_level(level.reliability, level.confidence, [&](std::size_t m, double life) {
+            point.models[m].push_back(life);
+            if (models[m].weight >= least_weight) least = std::min(least, life);
+          }));
+      point.cautious.push_back(least);
+    }
+  });
+  return points;
+}
+
+ModelsToAverage models_to_average(const std::vector<std::filesystem::path>& folders) {
+  std::vector<std::pair<std::string, SavedResult>> saved;
+  std::vector<std::pair<std::string, SnResult>> results;
+  for (const auto& folder : folders) {
+    const std::string name = folder.string();
+    if (std::any_of(saved.begin(), saved.end(),
+                    [&](const auto& each) { return each.first == name; }))
+      throw InputError(fmt::format("{} is given twice", name));
+    results.emplace_back(name, read_sn_result(folder));
+    saved.emplace_back(name, read_saved_result(folder));
+  }
+  const Comparison comparison = compare(std::move(saved));
+  if (!comparison.comparable)
+    throw InputError("no design number is averaged over these: " + comparison.obstacle);
+  ModelsToAverage all;
+  for (const Comparison::Entry& entry : comparison.studies) {
+    const auto found = std::find_if(results.begin(), results.end(),
+                                    [&](const auto& each) { return each.first == entry.name; });
+    all.models.push_back({entry.name, entry.weight, std::move(found->second)});
+    require_same_stresses(all.models.front(), all.models.back());
+  }
+  // AIC and BIC have no part in this.
+  for (const std::string& caution : comparison.cautions)
+    if (!caution.starts_with("AIC")) all.cautions.push_back(caution);
+  return all;
+}
+
+std::vector<double> design_stresses(const std::vector<WeightedModel>& models) {
+  const TestedSpan& tested = models.front().result.tested;
+  const double low = tested.alternating_low, high = tested.alternating_high;
+  if (!(high > low)) return {high};
+  const bool dear = std::any_of(models.begin(), models.end(),
+                                [](const auto& each) { return each.result.law.integrated(); });
+  const int count = dear ? 9 : 21;
+  std::vector<double> stresses;
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / (count - 1);
+    stresses.push_back(i + 1 == count ? low : high * std::pow(low / high, share));
+  }
+  return stresses;
+}
+
+StressLine design_line(const std::vector<WeightedModel>& models) {
+  for (const auto& [name, weight, result] : models) {
+    if (result.law.correction == MeanStress::none) continue;
+    const TestedSpan& tested = result.tested;
+    const double size = slack * tested.alternating_high;
+    if (tested.mean_high - tested.mean_low <= size) return {tested.mean_low, {}};
+    const double low = tested.mean_low / tested.alternating_low,
+                 high = tested.mean_high / tested.alternating_high;
+    if (alike(low, high)) return {0, (low - 1) / (low + 1)};
+    throw InputError(
+        fmt::format("the tests of {} had mean stresses of {} and no one stress ratio: say which "
+                    "the design is for, --mean-stress "
+                    "or --stress-ratio",
+                    name, span_in_words(result, tested.mean_low, tested.mean_high)));
+  }
+  return {};
+}
+
+}  // namespace wearwell::fatigue
