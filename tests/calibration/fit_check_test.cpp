@@ -77,7 +77,7 @@ Shares simulate(const std::string& what, int replications, int parameters,
   EXPECT_LE(shares.failed, bound(fit_fails_below)) << what;
   EXPECT_LE(shares.beyond, bound(fit_warns_below)) << what;
   EXPECT_LE(shares.far_beyond, bound(fit_fails_below)) << what;
-  EXPECT_LE(shares.excluded, bound(1e-3)) << what;
+  EXPECT_LE(shares.excluded, bound(2.7e-3 * parameters)) << what;
   return shares;
 }
 

@@ -320,7 +320,7 @@ double surprise(const Law& law, std::vector<double> draws) {
 }  // namespace
 
 Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
-  constexpr double excluded = 1e-3, far_out = 1e-2;
+  constexpr double excluded = 2.7e-3, far_out = 1e-2;  // three standard deviations, and 2.6
   Findings findings("prior-data-conflict");
   const Eigen::MatrixXd& values = fit.pooled.values;
   std::vector<double> log_prior, log_likelihood;
@@ -346,10 +346,8 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
     const double p = surprise(parameter.prior, {draws.begin(), draws.end()});
     const bool matters = scaling != PowerScalingVerdict::none;
     if (p < far_out) {
-      // A default is nobody's knowledge: data that pull away from it contradict nobody, until they exclude it.
-      const bool fails = p < excluded || (matters && !parameter.is_default);
       findings.add(
-          fails ? Verdict::fail : Verdict::warn,
+          p < excluded ? Verdict::fail : Verdict::warn,
           fmt::format("{}; its prior {} what the data say: so far out with a probability of {}",
                       numbers, p < excluded ? "excludes" : "hardly expects",
                       p < 1e-11 ? "less than 1e-11" : fmt::format("{:.1g}", p)),
