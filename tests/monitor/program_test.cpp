@@ -84,8 +84,8 @@ TEST_F(Programs, AreDecidedUpon) {
   const CommandResult fleet =
       run_wearwell("monitor '" + config.string() + "' --once --json < /dev/null");
   std::map<std::string, nlohmann::json> lives;
-  for (const auto& each : nlohmann::json::parse(fleet.out)["list"])
-    lives[each["unit"]] = each["remaining"];
+  const auto shown = nlohmann::json::parse(fleet.out);
+  for (const auto& each : shown["list"]) lives[each["unit"]] = each["remaining"];
   ASSERT_EQ(lives.size(), 4U);
   ASSERT_EQ(told["units"].size(), 4U);
   for (const auto& each : told["units"]) {
