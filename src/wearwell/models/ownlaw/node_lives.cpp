@@ -81,6 +81,8 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
   forecast.now = last.place;
   const double sign = path_.rising ? 1 : -1;
   std::vector<double> levels, level_weight, lives, life_weight;
+  for (auto* each : {&levels, &level_weight, &lives, &life_weight})
+    each->reserve(parts * nodes.count());
   Ahead ahead(*this, nodes, last, paths.back());
   double square = 0, left_over = 0, all = 0;
   for (const double each : weight) square += each * each;
@@ -101,11 +103,12 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
       ahead.cross(limit, place);
       ahead.count_from(start, place);
       for (std::size_t i = 0; i < ahead.count; i += line) {
-        draw_out(own.subspan(i, line), {level + i, line}, [&](double w, double value) {
+        const DrawnLine drawn(own.subspan(i, line));
+        drawn.put({level + i, line}, [&](double w, double value) {
           levels.push_back(value);
           level_weight.push_back(w);
         });
-        draw_out(own.subspan(i, line), {place + i, line}, [&](double w, double life) {
+        drawn.put({place + i, line}, [&](double w, double life) {
           all += w;
           if (!(life > 0)) return;
           lives.push_back(life);

@@ -87,8 +87,9 @@ std::vector<prognosis::LevelAhead> NodeLives::ahead(const Nodes& nodes,
       for (std::size_t i = 0; i < ahead.count; ++i) level[i] = ahead.at(0, i);
       if (!process_) {
         for (std::size_t i = 0; i < ahead.count; i += line) {
-          draw_out(own.subspan(i, line), {level + i, line},
-                   [&](double w, double value) { levels[k].add(w, value); });
+          DrawnLine(own.subspan(i, line)).put({level + i, line}, [&](double w, double value) {
+            levels[k].add(w, value);
+          });
         }
         continue;
       }

@@ -30,11 +30,15 @@ struct AtPoint {
 void look_at_line(const latent::UnitIntegrals& integrals, AtPoint& at) {
   static thread_local std::vector<std::pair<double, double>> nodes;
   nodes.clear();
-  for (const latent::Sweep& sweep : integrals.sweeps) {
+  // From the middle they mostly go to both sides in turn.
+  const std::vector<latent::Sweep>& sweeps = integrals.sweeps;
+  const auto note = [&](const latent::Sweep& sweep) {
     if (sweep.weight[0] > 0) nodes.emplace_back(sweep.z[0], sweep.weight[0]);
-  }
+  };
+  for (std::size_t i = (sweeps.size() + 1) / 2; i-- > 0;) note(sweeps[2 * i]);
+  for (std::size_t i = 1; i < sweeps.size(); i += 2) note(sweeps[i]);
   if (nodes.empty()) return;
-  std::sort(nodes.begin(), nodes.end());
+  if (!std::is_sorted(nodes.begin(), nodes.end())) std::sort(nodes.begin(), nodes.end());
   double below = 0, above = 0;
   for (const auto& [z, weight] : nodes) {
     at.mean[0] += weight * z;
@@ -99,6 +103,16 @@ class UnitAt {
     return at;
   }
 
+  // The same number alone, at less cost where it has a formula.
+  double log_likelihood(const double* x) const {
+    OwnRows::Scratch* const mine = rows_ && effects_ > 0 ? &rows_->mine() : nullptr;
+    if (!mine || !mine->linear) return (*this)(x).log_likelihood;
+    mine->rows.move_to(x);
+    mine->linear->move();
+    if (!mine->linear->each(mine->value)) return (*this)(x).log_likelihood;
+    return mine->value[0] < infinity ? mine->value[0] : -infinity;
+  }
+
  private:
   std::size_t effects_;
   std::unique_ptr<OwnRows> rows_;
@@ -120,6 +134,19 @@ Looked look_at(const PopulationPoints& points, const UnitAt& seen, const UnitAt&
     looked.log_weight.push_back(std::isnan(weight) ? -infinity : weight);
   }
   return looked;
+}
+
+// Their weights alone.
+std::vector<double> weights_of(const PopulationPoints& points, const UnitAt& seen,
+                               const UnitAt& all) {
+  std::vector<double> log_weight;
+  for (Eigen::Index j = 0; j < points.values->rows(); ++j) {
+    const double* x = points.values->row(j).data();
+    const double weight = points.log_weight[static_cast<std::size_t>(j)] + all.log_likelihood(x) -
+                          seen.log_likelihood(x);
+    log_weight.push_back(std::isnan(weight) ? -infinity : weight);
+  }
+  return log_weight;
 }
 
 // Low numbers of a shift that lie evenly: the fractions of multiples of the golden ratio.
@@ -148,11 +175,12 @@ void shape_of(const AtPoint& at, std::size_t effects, std::size_t line, double* 
 }
 
 // The points of few lines when the unit itself says where parameters are.
-PopulationPoints choose(const PopulationPoints& many, const Looked& looked, std::size_t most) {
+PopulationPoints choose(const PopulationPoints& many, const std::vector<double>& log_weight,
+                        std::size_t most) {
   WeightedDraws draws;
   draws.values = *many.values;
   std::vector<double> weight;
-  normalize(looked.log_weight, weight);
+  normalize(log_weight, weight);
   draws.weights =
       Eigen::Map<const Eigen::VectorXd>(weight.data(), static_cast<Eigen::Index>(weight.size()));
   return PopulationPoints(FewPoints(draws, most));
@@ -227,8 +255,8 @@ UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitRead
   const double least = least_few * effective_number(population.few.log_weight);
   const bool more = population.many.log_weight.size() > population.few.log_weight.size();
   if (more && effective_number(looked.log_weight) < least) {
-    const Looked of_many = look_at(population.many, at_seen, at_all);
-    if (effective_number(of_many.log_weight) > 0) {
+    const std::vector<double> of_many = weights_of(population.many, at_seen, at_all);
+    if (effective_number(of_many) > 0) {
       laid.own = true;
       points = choose(population.many, of_many, population.few.log_weight.size());
       looked = look_at(points, at_seen, at_all);
