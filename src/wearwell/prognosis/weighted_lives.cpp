@@ -1,12 +1,13 @@
 #include "wearwell/prognosis/weighted_lives.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 #include <utility>
+
+#include "wearwell/prognosis/float_order.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -16,13 +17,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Point {
   double life, weight;
 };
-
-// Numbers whose order is that of lives: of the bits of a double those of negative ones are turned round.
-std::uint64_t order_of(double life) {
-  const auto bits = std::bit_cast<std::uint64_t>(life + 0.0);  // no -0
-  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
-  return bits & sign ? ~bits : bits | sign;
-}
 
 // By the leading bits of what differs between lives at all, two digits of twelve, and then the few that share
 // these by comparison: half of what a monitor computed was comparisons.

@@ -35,32 +35,13 @@ inline double at_score(const double* values, double score) {
 inline constexpr std::size_t parts = 4;     ///< of a node's place on its line
 inline constexpr double negligible = 1e-8;  ///< nodes with less are left out
 
-/// What nodes of one line have, drawn out between them: a parabola through each and its neighbours, of the logarithm
+/// What nodes of lines have, drawn out between those of a line: a parabola through each and its neighbours, of the logarithm
 /// of the weight and of the number. The sum of the weights is that of the trapezoidal rule with a step so much finer.
-class DrawnLine {
+class DrawnLines {
  public:
   static constexpr std::size_t most = 128;  ///< nodes
-  /// `weight` outlives it.
-  explicit DrawnLine(std::span<const double> weight) : weight_(weight) {
-    double before = 0;  // logarithms of the weight of one by that of the one before
-    for (std::size_t k = 0; k < weight.size(); ++k) {
-      const bool next = k + 1 < weight.size() && weight[k] > 0 && weight[k + 1] > 0;
-      const double behind = next ? std::log(weight[k + 1] / weight[k]) : 0;
-      inner_[k] = next && k > 0 && weight[k - 1] > 0;
-      if (inner_[k] && weight[k] > negligible) {
-        // exp(t/2 (behind + before) + t^2/2 (behind - before)) at t = -3/8, -1/8, 1/8, 3/8.
-        const double one = std::exp((behind + before) / 16);
-        const double bend = std::exp((behind - before) / 128), bend3 = bend * bend * bend;
-        const double three = one * one * one, bend9 = bend3 * bend3 * bend3;
-        const double part = weight[k] / parts;
-        share_[k][0] = part * bend9 / three;
-        share_[k][1] = part * bend / one;
-        share_[k][2] = part * bend * one;
-        share_[k][3] = part * bend9 * three;
-      }
-      before = behind;
-    }
-  }
+  /// Whole lines of so many nodes. `weight` outlives it.
+  DrawnLines(std::span<const double> weight, std::size_t line);
 
   /// Of one number of each node.
   template <class Put>

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wearwell/law/kernels.h"
+#include "wearwell/models/ownlaw/lanes.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
 namespace wearwell::ownlaw {
@@ -299,13 +301,19 @@ double effective_number(std::span<const double> log_weight) {
 }
 
 void normalize(std::span<const double> log_weight, std::vector<double>& weight) {
-  double top = -infinity, sum = 0;
-  for (const double each : log_weight) top = std::max(top, each);
+  static const law::Forward exp = law::kernels_of(law::Op::exp, 0).forward;
+  constexpr double none = -40;
+  const double top = highest_of(log_weight);
   weight.resize(log_weight.size());
+  static thread_local std::vector<double> exponent;
+  exponent.resize(log_weight.size());
+  for (std::size_t i = 0; i < weight.size(); ++i)
+    exponent[i] = log_weight[i] > top + none ? log_weight[i] - top : none;
+  exp(exponent.data(), nullptr, nullptr, weight.data(), weight.size(), 0);
   for (std::size_t i = 0; i < weight.size(); ++i) {
-    weight[i] = log_weight[i] > top - 40 ? std::exp(log_weight[i] - top) : 0;
-    sum += weight[i];
+    if (!(exponent[i] > none)) weight[i] = 0;
   }
+  const double sum = sums_of(weight).sum;
   for (double& each : weight) each /= sum;
 }
 
