@@ -93,6 +93,12 @@ try {
   const arrived = () => [...document.querySelectorAll('.row')].length === 12 && document.querySelector('.row[id="row-0"]').dataset.unit === 'L00';
   await page.waitForFunction(arrived, null, {timeout: 60000}).catch(() => faults.push('twelve lasers do not show'));
   await page.goto(`${address}#unit=L00`);
+  const known = await fetch(`${address}api/units/L00`).then((answer) => answer.json());
+  const ahead = known.path.filter((each) => each.at > known.at);
+  check(ahead.length > 20 && ahead.every((each, i) => each.level.q05 <= each.level.q50 && each.level.q50 <= each.level.q95 &&
+                                                      (i === 0 || each.level.q50 >= ahead[i - 1].level.q50)), 'the path ahead is none');
+  await page.waitForFunction(() => document.querySelector('#figure-path path.band.ahead')?.getAttribute('d').length > 100, null, {timeout: 60000})
+      .catch(() => faults.push('no band ahead shows'));
   await page.waitForFunction(() => /^10\D/.test(document.querySelector('.facts dd')?.textContent + ' '), null, {timeout: 60000})
       .catch(() => faults.push('ten readings do not show'));
   check(await page.evaluate(() => document.querySelectorAll('#detail figure').length) === 3, 'not all of three plots are drawn');

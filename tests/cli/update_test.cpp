@@ -198,6 +198,27 @@ limit = { depth = "100 um" }
     if (each["of"] != "machine M5" || each["name"] != "remaining life") continue;
     EXPECT_NEAR(fitted["q50"], each["exact"]["q50"], 2e-3 * each["exact"]["q50"].get<double>());
   }
+  // The path ahead is at the limit where half of its lives end.
+  const CommandResult with_path = run("life both --unit M5 --path path.csv");
+  EXPECT_LE(with_path.exit_code, 1) << with_path.err;
+  EXPECT_THAT(with_path.out, HasSubstr("The path ahead is in path.csv"));
+  std::istringstream path(slurp(folder() / "path.csv"));
+  std::string row;
+  std::getline(path, row);
+  EXPECT_EQ(row, "time [h],depth 5 % [um],depth 50 % [um],depth 95 % [um]\r");
+  double nearest = 1e9, at_limit = 0;
+  int rows = 0;
+  for (; std::getline(path, row); ++rows) {
+    double at = 0, low = 0, middle = 0, high = 0;
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf", &at, &low, &middle, &high), 4) << row;
+    EXPECT_TRUE(low <= middle && middle <= high) << row;
+    if (std::abs(middle - 100) < nearest) {
+      nearest = std::abs(middle - 100);
+      at_limit = at;
+    }
+  }
+  EXPECT_EQ(rows, 25);
+  EXPECT_NEAR(at_limit - 400, fitted["q50"], 0.02 * fitted["q50"].get<double>());
   const CommandResult before = run("life both --unit M5 --survived '300 h'");
   EXPECT_EQ(before.exit_code, 2);
   EXPECT_THAT(before.err, HasSubstr("was read beyond 300 h already"));

@@ -1,6 +1,8 @@
 // Every seed of the corpus, every case that was once a finding, and a few mutations of each: read or refused, nothing else.
+// WEARWELL_FUZZ_MUTATIONS says how many, instead of 20.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -37,6 +39,11 @@ std::string mutated(std::string bytes, Rng& rng) {
   return bytes;
 }
 
+int mutations() {
+  const char* many = std::getenv("WEARWELL_FUZZ_MUTATIONS");
+  return many ? std::atoi(many) : 20;
+}
+
 TEST_P(Replay, ReadsOrRefuses) {
   const fs::path corpus = fs::path(PROJECT_SOURCE_DIR "/tests/fuzz/corpus") / GetParam().name;
   int seeds = 0;
@@ -45,7 +52,7 @@ TEST_P(Replay, ReadsOrRefuses) {
     const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
     ASSERT_NO_THROW(GetParam().run(bytes)) << entry.path();
     Rng rng(1, static_cast<std::uint64_t>(++seeds));
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < mutations(); ++i) {
       const std::string other = mutated(bytes, rng);
       ASSERT_NO_THROW(GetParam().run(other)) << entry.path() << " mutated to:\n" << other;
     }

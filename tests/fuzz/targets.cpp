@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/state_targets.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
 #include "wearwell/input/labelled.h"
@@ -236,7 +237,7 @@ void laws(std::string_view bytes) {
 constexpr Target all[] = {{"unit", unit},   {"heading", heading}, {"toml", toml},
                           {"table", table}, {"study", study},     {"model", model},
                           {"state", state}, {"summary", summary}, {"report", report},
-                          {"law", laws}};
+                          {"law", laws},    {"carried", carried}, {"tracked", tracked}};
 
 }  // namespace
 

@@ -30,7 +30,7 @@ TEST(LineFeed, AHalfLineCostsItselfWhereverItStands) {
     for (int place = 0; place < 3; ++place) {
       std::vector<std::string> lines = {"{\"a\": 1}", "{\"a\": 2}"};
       lines.insert(lines.begin() + place, bad);
-      LineFeed feed;
+      LineFeed feed({"a"});
       feed.push("{\"a\": 0}\n");
       const auto begin = feed.next(false);
       ASSERT_TRUE(begin);
@@ -130,7 +130,7 @@ TEST(Topics, NameUnits) {
 TEST(Lines, ComeWholeWhereverTheyAreCut) {
   const std::string text = "a,b\n1,2\n3,4\n\n5,6\n";
   for (std::size_t step = 1; step <= text.size(); ++step) {
-    LineFeed feed;
+    LineFeed feed({"a"});
     std::string rows;
     for (std::size_t at = 0; at < text.size(); at += step) {
       feed.push(std::string_view(text).substr(at, step));
@@ -147,20 +147,58 @@ TEST(Lines, ComeWholeWhereverTheyAreCut) {
   }
 }
 
+// Half a line, a banner, a line that was cut: whatever comes before the heading, or before JSON, costs itself alone.
+TEST(Lines, OfGarbageBeforeTheHeadingAreRefused) {
+  std::vector<std::string> refused;
+  const auto read = [&](const std::string& text) {
+    std::string rows;
+    for (std::size_t step = 1; step <= text.size(); step += 3) {
+      LineFeed feed({"n", "t"});
+      rows.clear();
+      refused.clear();
+      for (std::size_t at = 0; at < text.size(); at += step) {
+        feed.push(std::string_view(text).substr(at, step));
+        while (const auto piece = feed.next(at + step >= text.size())) {
+          refused.insert(refused.end(), piece->refused.begin(), piece->refused.end());
+          if (!piece->payload.empty())
+            for_each_row(
+                piece->payload, [&](const Fields& each) { rows += find_field(each, "n")->text; },
+                [&](const std::string& problem) { refused.push_back(problem); }, piece->form);
+          feed.taken(*piece);
+        }
+      }
+    }
+    return rows;
+  };
+  EXPECT_EQ(read("7,12\nlogger v1 \"up\n\nwear, n ,t\n3,1,5\n4,2,6\n"), "12");
+  EXPECT_THAT(refused,
+              testing::ElementsAre("'7,12' is neither JSON nor a heading with n, t",
+                                   "'logger v1 \"up' is neither JSON nor a heading with n, t"));
+  EXPECT_EQ(read("ready\n{\"n\": \"1\"}\n{\"n\": \"2\"}\n"), "12");
+  EXPECT_EQ(refused.size(), 1U);
+  EXPECT_EQ(read("3,1\n4,2"), "");
+  EXPECT_EQ(refused.size(), 2U);
+  // A stream that goes on has its heading from its beginning.
+  LineFeed feed({"n", "t"});
+  feed.set_heading("garbage\nn,t,wear\n1,2,3\n");
+  feed.push("4,5,6\n");
+  EXPECT_EQ(feed.next(false)->payload, "n,t,wear\n4,5,6\n");
+}
+
 TEST(Lines, OneWithoutEndIsSkipped) {
-  LineFeed feed;
-  int too_long = 0;
+  LineFeed feed({"a"});
+  std::size_t too_long = 0;
   std::string rows;
   const std::string text = "{\"a\":1}\n" + std::string(200'000, 'x') + "\n{\"a\":2}\n";
   for (std::size_t at = 0; at < text.size(); at += 10'000) {
     feed.push(std::string_view(text).substr(at, 10'000));
     while (const auto piece = feed.next(false)) {
-      too_long += piece->too_long;
+      too_long += piece->refused.size();
       rows += piece->payload;
       feed.taken(*piece);
     }
   }
-  EXPECT_EQ(too_long, 1);
+  EXPECT_EQ(too_long, 1U);
   EXPECT_EQ(rows, "{\"a\":1}\n{\"a\":2}\n");
 }
 

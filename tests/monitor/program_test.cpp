@@ -61,6 +61,45 @@ TEST_F(Programs, ReadStandardInputToItsEnd) {
             "1\n");
 }
 
+// `decide` takes the units as the store has them, beside the monitor and without it: the same lives as the monitor tells.
+TEST_F(Programs, AreDecidedUpon) {
+  const auto config = configure("a", folder_source);
+  const auto lines = readings(4, 20);
+  const auto file = config.parent_path() / "incoming" / "a.jsonl";
+  append(file, lines);
+  const std::string decide = "decide '" + config.string() +
+                             "' --failure-cost 12 --replacement-cost 1 --inspection-cost 0.01 "
+                             "--month '10 km' --json";
+  EXPECT_THAT(run_wearwell(decide).err, HasSubstr("is no store yet: no monitor has run"));
+  ChildProcess monitor = start(config);
+  ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
+  const CommandResult beside = run_wearwell(decide);  // states have not been saved yet
+  EXPECT_LE(beside.exit_code, 1) << beside.err;
+  EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
+  const CommandResult after =
+      run_wearwell(decide + " --unit M01 --inspect-after '5 km' --given 'force = 20 N'");
+  EXPECT_LE(after.exit_code, 1) << after.err;
+  const auto told = nlohmann::json::parse(after.out), early = nlohmann::json::parse(beside.out);
+  EXPECT_EQ(told["units"], early["units"]);
+  const CommandResult fleet =
+      run_wearwell("monitor '" + config.string() + "' --once --json < /dev/null");
+  std::map<std::string, nlohmann::json> lives;
+  const auto shown = nlohmann::json::parse(fleet.out);
+  for (const auto& each : shown["list"]) lives[each["unit"]] = each["remaining"];
+  ASSERT_EQ(lives.size(), 4U);
+  ASSERT_EQ(told["units"].size(), 4U);
+  for (const auto& each : told["units"]) {
+    for (const char* p : {"q05", "q50", "q95"}) {
+      const double expected = lives.at(each["unit"])[p];
+      EXPECT_NEAR(each[p].get<double>(), expected, 1e-9 * expected);
+    }
+  }
+  EXPECT_EQ(told["inspection_ahead"]["unit"], "M01");
+  EXPECT_GE(told["inspection_ahead"]["worth"], 0);
+  EXPECT_THAT(run_wearwell(decide + " --unit M9 --inspect-after '5 km'").err,
+              HasSubstr("the fleet has no machine 'M9'"));
+}
+
 TEST_F(Programs, EndOnASignalWithAllThatWasStored) {
   const auto config = configure("a", folder_source);
   const auto lines = readings(4, 20);

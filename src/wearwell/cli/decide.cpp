@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,7 +18,9 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/followed_result.h"
+#include "wearwell/cli/monitored.h"
 #include "wearwell/input/option_value.h"
+#include "wearwell/monitor/stored_units.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
 #include "wearwell/prognosis/decisions_report.h"
@@ -118,10 +122,52 @@ Question question_of(const DecideOptions& options, const Unit& axis) {
 struct Read {
   KnownLives lives;
   std::unique_ptr<const Tracker> tracker;  ///< of a result
+  std::unique_ptr<monitor::Store> store;   ///< of a fleet on line
+  std::map<std::string, monitor::UnitRecord> stored = {};
+
+  // A unit as it is now, and all that it has read since the study.
+  std::unique_ptr<TrackedUnit> unit(const std::string& name) const {
+    const auto at = stored.find(name);
+    return at == stored.end() ? tracker->begin(name) : tracker->restore(at->second.state->save());
+  }
+  History history(const std::string& name) const {
+    return [this, name](const std::function<void(const Reading&)>& visit) {
+      const auto at = stored.find(name);
+      if (at == stored.end()) return;
+      store->of_unit(name, 0, at->second.place, [&](const monitor::StoredReading& each) {
+        visit({each.numbers, each.labels});
+      });
+    };
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> all(tracker->seen().begin(), tracker->seen().end());
+    for (const auto& [name, record] : stored) all.push_back(name);
+    return all;
+  }
 };
+
+// Units of a fleet on line, as its store knows them.
+void read_fleet(const DecideOptions& options, Models models, Read& read) {
+  MonitoredFleet fleet = monitored_fleet(options.lives, models);
+  try {
+    read.store = store_to_read(fleet);
+    read.stored =
+        monitor::stored_units(*read.store, {*fleet.tracker, fleet.fingerprint, fleet.trusted});
+  } catch (const monitor::StoreError& error) {
+    throw MachineError(error.what());
+  }
+  read.lives = lives_of_new(*fleet.tracker, options.lives.string(), fleet.trusted);
+  for (const auto& [name, record] : read.stored)
+    read.lives.units.push_back(known_unit(name, *record.state));
+  read.tracker = std::move(fleet.tracker);
+}
 
 Read read_lives(const DecideOptions& options, Models models) {
   Read read;
+  if (options.lives.extension() == ".toml") {
+    read_fleet(options, models, read);
+    return read;
+  }
   if (!std::filesystem::is_directory(options.lives)) {
     read.lives = lives_of_table(read_table(options.lives));
     return read;
@@ -169,12 +215,12 @@ WorthReport worth_of(const DecideOptions& options, const Read& read, const Quest
     throw InputError("--inspect-after: a table of lives does not say what a reading would show");
   if (!question.inspected) throw InputError("--inspect-after: needs --inspection-cost");
   const Tracker& tracker = *read.tracker;
-  const auto seen = tracker.seen();
-  if (std::find(seen.begin(), seen.end(), options.unit) == seen.end())
-    throw InputError(fmt::format(
-        "--unit: the study has no {} '{}'{}", tracker.noun(), printable(options.unit),
-        did_you_mean(options.unit, std::vector<std::string>(seen.begin(), seen.end()))));
-  const auto unit = tracker.begin(options.unit);
+  const std::vector<std::string> known = read.names();
+  if (std::find(known.begin(), known.end(), options.unit) == known.end())
+    throw InputError(fmt::format("--unit: the {} has no {} '{}'{}", read.store ? "fleet" : "study",
+                                 tracker.noun(), printable(options.unit),
+                                 did_you_mean(options.unit, known)));
+  const auto unit = read.unit(options.unit);
   const Forecast now = unit->forecast();
   WorthReport report;
   report.unit = options.unit;
@@ -190,8 +236,8 @@ WorthReport worth_of(const DecideOptions& options, const Read& read, const Quest
     if (columns[i].measured) measured = i;
   report.column = columns[measured].name;
   report.reading_unit = columns[measured].unit;
-  const History none = [](const auto&) {};
-  report.outcomes = possible_outcomes(tracker, *unit, reading, measured, none);
+  report.outcomes =
+      possible_outcomes(tracker, *unit, reading, measured, read.history(options.unit));
   report.worth = inspection_worth(now.remaining, now.passed, report.outcomes, report.after,
                                   question.costs, rate);
   return report;
@@ -239,8 +285,9 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
   command
       ->add_option(
           "LIVES", options->lives,
-          "Folder that wearwell fit wrote of a model \"law\" with a limit; or a table of lives: "
-          "column 'life [h]', and weight, unit, population where there are such")
+          "Folder that wearwell fit wrote of a model \"law\" with a limit; configuration of a "
+          "monitor (.toml): the units of its store; or a table of lives: column 'life [h]', and "
+          "weight, unit, population where there are such")
       ->required();
   command
       ->add_option("--failure-cost", options->failure,
@@ -279,6 +326,7 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell decide lives.csv --failure-cost '12000 EUR' --replacement-cost '900 EUR'\n"
       "  wearwell decide lives.csv --failure-cost 12 --replacement-cost 1 --inspection-cost 0.1 "
       "--month '600 h'\n"
+      "  wearwell decide fleet.toml --failure-cost 12 --replacement-cost 1 --month '600 h'\n"
       "  wearwell decide study-results --failure-cost 12 --replacement-cost 1 --inspection-cost "
       "0.1 \\\n"
       "    --unit 7 --inspect-after '5 km' --given 'force = 20 N'\n\n"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -11,9 +12,11 @@
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/cli/carried.h"
+#include "wearwell/cli/followed_result.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/table.h"
+#include "wearwell/prognosis/known_lives.h"
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/reweighted.h"
 #include "wearwell/prognosis/unit_life.h"
@@ -28,7 +31,7 @@ using nlohmann::ordered_json;
 using prognosis::UnitLife;
 
 struct LifeOptions {
-  std::filesystem::path result, output, readings;
+  std::filesystem::path result, output, readings, path;
   std::string unit, survived, horizon, risk;
   bool json = false;
 };
@@ -127,6 +130,35 @@ present::Table table_of(const UnitLife& life) {
   return table;
 }
 
+// What the limit is of, ahead: of the unit's nodes on line, which go on from where it stands.
+present::Table path_ahead(const LifeOptions& options, Models models,
+                          const prognosis::CarriedState& state) {
+  if (!options.survived.empty())
+    throw InputError("--path: goes on from the last reading; leave out --survived");
+  const auto tracker = tracker_of(state, options.result, models);
+  const auto seen = tracker->seen();
+  const auto is_known = [&](const std::string& name) {
+    return std::find(seen.begin(), seen.end(), name) != seen.end();
+  };
+  const std::string named = tracker->noun() + " ";
+  const std::string bare = options.unit.starts_with(named) && !is_known(options.unit)
+                               ? options.unit.substr(named.size())
+                               : options.unit;
+  const auto unit = tracker->begin(is_known(bare) ? bare : prognosis::new_name(*tracker));
+  const Unit &along = tracker->axis().unit, &level = tracker->limit().unit;
+  present::Table table{"path",
+                       "Path ahead",
+                       {{tracker->axis().name, along.text},
+                        {tracker->limited() + " 5 %", level.text},
+                        {tracker->limited() + " 50 %", level.text},
+                        {tracker->limited() + " 95 %", level.text}}};
+  for (const prognosis::LevelAhead& each : unit->ahead(prognosis::places_ahead(unit->forecast()))) {
+    table.rows.push_back({from_si(along, each.at), from_si(level, each.level05),
+                          from_si(level, each.level50), from_si(level, each.level95)});
+  }
+  return table;
+}
+
 void print(const UnitLife& life, const Moved& moved, bool trusted) {
   const auto shown = [&](double value) {
     return std::isfinite(value) ? plain_number(value) : std::string("never");
@@ -157,7 +189,7 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
 
 int run_life(const LifeOptions& options, Models models) {
   refuse_overwriting({{"the result", options.result}, {"the readings", options.readings}},
-                     {{"--output", options.output}});
+                     {{"--output", options.output}, {"--path", options.path}});
   prognosis::LifeQuestion question;
   question.unit = options.unit;
   if (!options.survived.empty()) question.survived = options.survived;
@@ -169,13 +201,17 @@ int run_life(const LifeOptions& options, Models models) {
   const UnitLife life = prognosis::unit_life(
       state.source, [&](const Source& source) { return read_study(source, models); },
       state.posterior, question);
+  std::string path;
+  if (!options.path.empty()) path = present::csv(path_ahead(options, models, state));
   if (!options.output.empty()) write_file(options.output, present::csv(table_of(life)));
+  if (!options.path.empty()) write_file(options.path, path);
   if (options.json) {
     fmt::print("{}\n", json_of(life, moved, state.trusted).dump(2));
   } else {
     print(life, moved, state.trusted);
     if (!options.output.empty())
       fmt::print("The survival curve is in {}\n", options.output.string());
+    if (!options.path.empty()) fmt::print("The path ahead is in {}\n", options.path.string());
   }
   return state.trusted ? 0 : 1;
 }
@@ -200,6 +236,10 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
   life->add_option("--risk", options->risk,
                    "Tolerated until the next inspection (default: as the study says, or 1 %)");
   life->add_option("-o,--output", options->output, "Write the survival curve as CSV")
+      ->type_name("FILE");
+  life->add_option("--path", options->path,
+                   "Write the path ahead as CSV: what the limit is of, 5, 50 and 95 % (model "
+                   "\"law\")")
       ->type_name("FILE");
   life->add_flag("--json", options->json, "Print one JSON object and nothing else");
   life->footer(

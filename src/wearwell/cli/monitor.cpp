@@ -8,10 +8,8 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/same_file.h"
-#include "wearwell/base/sha1.h"
 #include "wearwell/base/staged_file.h"
-#include "wearwell/cli/carried.h"
-#include "wearwell/cli/followed_result.h"
+#include "wearwell/cli/monitored.h"
 #include "wearwell/monitor/export_readings.h"
 #include "wearwell/monitor/fleet_json.h"
 #include "wearwell/monitor/fleet_text.h"
@@ -26,35 +24,13 @@ struct MonitorCommand {
   bool check = false, json = false, quiet = false;
 };
 
-/// What a configuration says, with what it follows its units with.
-struct ReadConfig {
-  std::unique_ptr<const prognosis::Tracker> tracker;
-  std::string fingerprint;
-  bool trusted = true;
-  monitor::MonitorConfig config;
-};
-
-ReadConfig read_config(const std::filesystem::path& file, Models models) {
-  const TomlReader root = TomlReader::parse_file(file);
-  const std::filesystem::path result = monitor::read_result_path(root);
-  const prognosis::CarriedState state = read_carried(result);
-  ReadConfig read;
-  read.tracker = tracker_of(state, result, models);
-  read.fingerprint = sha1_of(prognosis::state_bytes(state));
-  read.trusted = state.trusted;
-  read.config = monitor::read_monitor_config(root, *read.tracker);
-  return read;
-}
-
-void export_readings(const ReadConfig& read, const MonitorCommand& command) {
+void export_readings(const MonitoredFleet& read, const MonitorCommand& command) {
   refuse_overwriting({{"the configuration", command.config}}, {{"--export", command.exported}});
   const std::string ending = command.exported.extension().string();
   if (ending != ".parquet" && ending != ".csv")
     throw InputError(fmt::format("--export: {} ends neither in .parquet nor in .csv",
                                  command.exported.string()));
-  const auto store = monitor::open_store(read.config.store, read.config.folder,
-                                         monitor::store_columns(read.config, *read.tracker),
-                                         monitor::Access::read);
+  const auto store = store_to_read(read);
   std::uint64_t count = 0;
   write_file(command.exported, ending == ".csv"
                                    ? monitor::readings_as_csv(*store, *read.tracker, count)
@@ -71,7 +47,7 @@ std::string in_json(const monitor::FleetReader& fleet) {
   return monitor::text_of(json);
 }
 
-void run_monitor(const ReadConfig& read, const MonitorCommand& command) {
+void run_monitor(const MonitoredFleet& read, const MonitorCommand& command) {
   const auto started = [&](const monitor::Fleet& fleet, const std::string& address) {
     if (command.quiet || command.json || command.run.once) return;
     fmt::print("monitoring {} units, {} readings stored{}\n", fleet.fleet().units,
@@ -95,7 +71,7 @@ void run_monitor(const ReadConfig& read, const MonitorCommand& command) {
 }
 
 void run(const MonitorCommand& command, Models models) {
-  const ReadConfig read = read_config(command.config, models);
+  const MonitoredFleet read = monitored_fleet(command.config, models);
   if (command.check) {
     const std::size_t sources = read.config.sources.size();
     fmt::print("{} is whole: {} source{}, store {}\n", command.config.string(), sources,

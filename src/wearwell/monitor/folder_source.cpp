@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 /// One file and how far it has been read.
 struct GrowingFile {
+  explicit GrowingFile(const ReadingMapping& mapping) : feed(needed_fields(mapping)) {}
   LineFeed feed;
   std::int64_t offset = 0;  ///< of what is stored
   std::int64_t noted = 0;   ///< of that, what the store was told
@@ -87,7 +88,7 @@ void FolderReader::read_file(const fs::path& path) {
   const std::string key = fmt::format("{}/{}#{}", context_.settings.name,
                                       valid_utf8(path.filename().string()), about.st_ino);
   seen_.insert(key);
-  auto [at, fresh] = files_.try_emplace(key);
+  auto [at, fresh] = files_.try_emplace(key, context_.settings.mapping);
   GrowingFile& state = at->second;
   if (fresh) {
     if (const auto noted = noted_.find(key); noted != noted_.end()) {
@@ -99,7 +100,7 @@ void FolderReader::read_file(const fs::path& path) {
     context_.notices.tell(
         "source." + context_.settings.name,
         fmt::format("{} has become shorter; it is read from its beginning", path.string()));
-    state = GrowingFile();
+    state = GrowingFile(context_.settings.mapping);
   }
   while (state.offset < about.st_size && read_on(path, file, state, about.st_size)) {
   }
@@ -110,10 +111,7 @@ void FolderReader::resume(const Descriptor& file, GrowingFile& state) {
   std::string begin(longest_row, '\0');
   const ssize_t count = pread(file.get(), begin.data(), begin.size(), 0);
   begin.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
-  if (LineFeed::is_json(begin)) return;
-  const std::size_t first = std::min(begin.find_first_not_of("\r\n"), begin.size());
-  state.feed.set_heading(std::string_view(begin).substr(
-      first, std::min(begin.find('\n', first), begin.size()) - first));
+  state.feed.set_heading(begin);
 }
 
 // One piece; whether there may be more.
@@ -130,10 +128,9 @@ bool FolderReader::read_on(const fs::path& path, const Descriptor& file, Growing
   const bool last = context_.once && state.offset + count >= size;
   const auto piece = feed.next(last);
   if (!piece) return false;
-  if (piece->too_long) {
-    context_.intake.refuse(context_.settings, fmt::format("{}: a line of more than {} bytes",
-                                                          path.string(), longest_row));
-  } else if (!piece->payload.empty()) {
+  for (const std::string& each : piece->refused)
+    context_.intake.refuse(context_.settings, fmt::format("{}: {}", path.string(), each));
+  if (!piece->payload.empty()) {
     const Message message{"", piece->payload, piece->form};
     if (!deliver_until_stored(context_, std::span(&message, 1), stop_)) return false;
   }

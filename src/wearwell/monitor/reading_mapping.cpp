@@ -194,6 +194,18 @@ ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker&
   return mapping;
 }
 
+std::vector<std::string> needed_fields(const ReadingMapping& mapping) {
+  std::vector<std::string> fields;
+  for (const std::string* each : {&mapping.unit, &mapping.sequence, &mapping.time}) {
+    if (!each->empty()) fields.push_back(*each);
+  }
+  for (const ColumnField& each : mapping.columns) {
+    if (!each.constant && !each.measured) fields.push_back(each.field);
+  }
+  fields.insert(fields.end(), mapping.labels.begin(), mapping.labels.end());
+  return fields;
+}
+
 StoredReading reading_of(const Fields& fields, const std::string& unit,
                          const ReadingMapping& mapping, std::int64_t received_ms) {
   StoredReading reading;

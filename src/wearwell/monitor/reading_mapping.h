@@ -43,6 +43,9 @@ inline constexpr std::size_t longest_name = 200;  ///< bytes of a unit's name, o
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit);
 
+/// The fields without which no row is a reading: what tells it apart, conditions and labels.
+std::vector<std::string> needed_fields(const ReadingMapping& mapping);
+
 /// The reading that a row of a message is. `unit`: of the topic, or empty. Throws InputError that names the field and its value.
 StoredReading reading_of(const Fields& fields, const std::string& unit,
                          const ReadingMapping& mapping, std::int64_t received_ms);

@@ -14,10 +14,8 @@ namespace {
 /// False where the store could not take it before the end.
 bool hand_over(SourceContext& context, LineFeed& feed, bool ended, std::stop_token stop) {
   while (const auto piece = feed.next(ended)) {
-    if (piece->too_long) {
-      context.intake.refuse(context.settings,
-                            fmt::format("a line of more than {} bytes", longest_row));
-    } else if (!piece->payload.empty()) {
+    for (const std::string& each : piece->refused) context.intake.refuse(context.settings, each);
+    if (!piece->payload.empty()) {
       const Message message{"", piece->payload, piece->form};
       if (!deliver_until_stored(context, std::span(&message, 1), stop)) return false;
     }
@@ -29,7 +27,7 @@ bool hand_over(SourceContext& context, LineFeed& feed, bool ended, std::stop_tok
 }  // namespace
 
 void read_stream(SourceContext& context, int descriptor, std::stop_token stop) {
-  LineFeed feed;
+  LineFeed feed(needed_fields(context.settings.mapping));
   std::vector<char> buffer(LineFeed::piece_size);
   while (!stop.stop_requested()) {
     constexpr int patience_ms = 100;

@@ -123,7 +123,7 @@ std::string new_name(const Tracker& tracker) {
   return name;
 }
 
-KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bool trusted) {
+KnownLives lives_of_new(const Tracker& tracker, const std::string& title, bool trusted) {
   KnownLives known;
   known.title = title;
   known.noun = tracker.noun();
@@ -131,10 +131,18 @@ KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bo
   known.unit = tracker.axis().unit;
   known.trusted = trusted;
   known.fresh = PopulationLives(tracker.begin(new_name(tracker))->forecast().remaining);
-  for (const std::string& each : tracker.seen()) {
-    Forecast forecast = tracker.begin(each)->forecast();
-    known.units.push_back({each, forecast.now, forecast.passed, std::move(forecast.remaining)});
-  }
+  return known;
+}
+
+KnownUnit known_unit(const std::string& name, const TrackedUnit& unit) {
+  Forecast forecast = unit.forecast();
+  return {name, forecast.now, forecast.passed, std::move(forecast.remaining)};
+}
+
+KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bool trusted) {
+  KnownLives known = lives_of_new(tracker, title, trusted);
+  for (const std::string& each : tracker.seen())
+    known.units.push_back(known_unit(each, *tracker.begin(each)));
   return known;
 }
 

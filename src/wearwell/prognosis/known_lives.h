@@ -38,6 +38,10 @@ KnownLives lives_of_table(const Table& table);
 /// Lives of the units that a study has seen, and of a new one, averaged over what is not known of the population.
 KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bool trusted);
 
+/// A new unit's lives alone, to which units can be added.
+KnownLives lives_of_new(const Tracker& tracker, const std::string& title, bool trusted);
+KnownUnit known_unit(const std::string& name, const TrackedUnit& unit);
+
 /// A name that none of the study's units has.
 std::string new_name(const Tracker& tracker);
 

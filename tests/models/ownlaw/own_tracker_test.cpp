@@ -281,6 +281,8 @@ TEST(OwnTracker, WhatCannotBeTaken) {
   EXPECT_EQ(unit.take({1 * um, NAN}).problem, "time is missing");
   EXPECT_EQ(unit.take({INFINITY, 1 * h}).problem, "depth is not finite");
   EXPECT_THROW(unit.take({1 * um}), InputError);
+  EXPECT_EQ(unit.take({1 * um, -0.5 * h}).problem,
+            "time = -0.5 h lies before 0, where paths begin");
   EXPECT_TRUE(unit.take({1 * um, 1 * h}).counted);
   const Taken far = unit.take({40 * um, 2 * h});
   EXPECT_TRUE(far.counted);

@@ -1,5 +1,7 @@
 #include "wearwell/models/ownlaw/node_lives.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,6 +49,13 @@ NodeLives::NodeLives(const TomlReader& root, std::shared_ptr<const OwnLaw> law)
     row_length_ = path_.next->running->row_length;
   }
   program_ = std::make_unique<const NodeProgram>(*law_, wanted_, true);
+}
+
+std::string NodeLives::before_begin(double place, bool follows) const {
+  if (!(place < path_.begin) || (path_.begin < 0 && !follows)) return {};
+  const Unit& unit = law_->data.number(*law_->along)->unit.unit;
+  return fmt::format("{} = {:.6g} {} lies before {:.6g}, where paths begin", *law_->along,
+                     from_si(unit, place), unit.text, from_si(unit, path_.begin));
 }
 
 UnitReading NodeLives::before_rows() const {

@@ -29,6 +29,10 @@ class NodeLives {
   double begin() const { return path_.begin; }        ///< of paths, along the axis, SI
   double scale() const { return path_.scale; }        ///< of the axis, SI
 
+  /// Why there can be no reading at this place, if it lies before the beginning; `follows`: NodeRows. Where the axis of
+  /// the study begins below 0 its 0 means nothing, and a law whose rows stand alone is as good a little before.
+  std::string before_begin(double place, bool follows) const;
+
   /// A unit without rows: where paths begin.
   UnitReading before_rows() const;
 

@@ -67,6 +67,28 @@ NodeRows::NodeRows(std::shared_ptr<const OwnLaw> law, const std::vector<law::Wan
   for (const NodeProgram& each : programs_) follows_ |= each.running() > 0;
 }
 
+bool NodeRows::fit(const std::vector<NodePath>& paths, std::size_t nodes) const {
+  const auto all = [&](const std::vector<double>& values) { return values.size() == nodes; };
+  if (paths.size() != programs_.size()) return false;
+  for (std::size_t m = 0; m < paths.size(); ++m) {
+    const NodePath& path = paths[m];
+    const std::size_t running = path.begun ? programs_[m].running() : 0;
+    if (path.carried.size() != running || !std::isfinite(path.place)) return false;
+    if (!std::all_of(path.carried.begin(), path.carried.end(), all)) return false;
+    if (!std::isfinite(path.reading)) return false;
+    const Measured* measured = m < law_->measured.size() ? &law_->measured[m] : nullptr;
+    const bool process = measured && measured->process && path.measured;
+    const bool noisy = process && measured->wanted.size() > 2;
+    for (const auto* each : {&path.mean, &path.spread}) {
+      if (process ? !all(*each) : !each->empty() && !all(*each)) return false;
+    }
+    for (const auto* each : {&path.at, &path.variance}) {
+      if (noisy ? !all(*each) : !each->empty() && !all(*each)) return false;
+    }
+  }
+  return true;
+}
+
 void NodeRows::plain_block(const Block& block, const Measured& measured, const Response& y,
                            int count, const ResponseColumn& column, double* to) const {
   if (is_plain_normal(measured, y)) {

@@ -48,6 +48,8 @@ class NodeRows {
   /// Whether a reading's likelihood depends on those before: then rows are taken along the axis.
   bool follows() const { return follows_; }
   std::vector<NodePath> paths() const { return std::vector<NodePath>(programs_.size()); }
+  /// Whether these are paths of so many nodes of this law: of bytes that came from elsewhere.
+  bool fit(const std::vector<NodePath>& paths, std::size_t nodes) const;
 
   /// Some nodes with their weights, ascending: over which a prediction is summed.
   struct Sample {

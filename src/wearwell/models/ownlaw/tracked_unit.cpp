@@ -27,6 +27,22 @@ bool has_noiseless_process(const OwnLaw& law) {
                      [](const Measured& m) { return m.process && m.wanted.size() < 3; });
 }
 
+constexpr std::size_t most_carried = 1000;  // far more than any law has
+
+bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool are_log_weights(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return x < infinity; });
+}
+
+double one_number(StateReader& from) {
+  const std::vector<double> values = from.numbers();
+  from.demand(values.size() == 1 && std::isfinite(values[0]));
+  return values[0];
+}
+
 }  // namespace
 
 Tracked::Tracked(const TomlReader& root, std::shared_ptr<const OwnLaw> own_law,
@@ -145,6 +161,8 @@ prognosis::Taken TrackedUnit::take(const prognosis::Reading& reading,
   prognosis::Taken taken;
   UnitReading y;
   taken.problem = tracked_->reader.read(reading, y);
+  if (taken.problem.empty())
+    taken.problem = tracked_->lives.before_begin(y.place, tracked_->rows.follows());
   if (!taken.problem.empty()) return taken;
   const bool late = any_row_ && tracked_->rows.follows() && y.place <= last_.place;
   taken.surprise = 1;
@@ -263,7 +281,8 @@ std::unique_ptr<TrackedUnit> TrackedUnit::restore(
     const std::size_t rows = from.number();
     const std::vector<double> values = from.numbers();
     const auto columns = static_cast<Eigen::Index>(tracked->law->parameters.size());
-    from.demand(rows * static_cast<std::size_t>(columns) == values.size() && rows > 0);
+    from.demand(rows > 0 && values.size() / rows == static_cast<std::size_t>(columns) &&
+                values.size() % rows == 0 && all_finite(values));
     nodes.nodes.parameters = std::make_shared<const Points>(
         Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(rows), columns));
   }
@@ -275,12 +294,15 @@ std::unique_ptr<TrackedUnit> TrackedUnit::restore(
   from.demand(nodes.log_point.size() == nodes.nodes.lines() &&
               nodes.log_seen.size() == nodes.nodes.lines() &&
               nodes.shape.size() == nodes.nodes.lines() * UnitNodes::shape_size(effects));
+  from.demand(all_finite(nodes.shape) && are_log_weights(nodes.log_point) &&
+              are_log_weights(nodes.log_seen));
   nodes.fill(*tracked->law);
   nodes.log_before.clear();
   nodes.log_before.shrink_to_fit();
   unit->log_weight_ = from.short_numbers();
-  from.demand(unit->log_weight_.size() == nodes.nodes.count());
-  unit->laid_effective_ = from.numbers().at(0);
+  from.demand(unit->log_weight_.size() == nodes.nodes.count() &&
+              are_log_weights(unit->log_weight_));
+  unit->laid_effective_ = one_number(from);
   unit->paths_ = tracked->rows.paths();
   for (NodePath& each : unit->paths_) {
     const std::size_t state = from.number();
@@ -290,23 +312,29 @@ std::unique_ptr<TrackedUnit> TrackedUnit::restore(
     from.demand(place.size() == 2);
     each.place = place[0];
     each.reading = place[1];
-    each.carried.resize(from.number());
+    const std::size_t carried = from.number();
+    from.demand(carried <= most_carried);
+    each.carried.resize(carried);
     for (auto& values : each.carried) values = from.numbers();
     for (auto* values : {&each.mean, &each.spread, &each.at, &each.variance}) {
       *values = from.numbers();
     }
   }
+  from.demand(tracked->rows.fit(unit->paths_, nodes.nodes.count()));
   unit->any_row_ = from.number() == 1;
   if (unit->any_row_) {
     unit->last_.row.numbers = from.numbers();
-    unit->last_.place = from.numbers().at(0);
+    unit->last_.place = one_number(from);
     from.demand(unit->last_.row.numbers.size() == tracked->law->row_symbols.columns.size());
-    for (std::size_t l = 0; l < tracked->law->row_symbols.labels.size(); ++l) {
-      unit->last_.row.labels.push_back(static_cast<int>(from.number()));
+    for (const law::LabelSymbol& label : tracked->law->row_symbols.labels) {
+      const std::size_t level = from.number();
+      from.demand(level < label.levels.size());
+      unit->last_.row.labels.push_back(static_cast<int>(level));
     }
   }
   from.end();
   unit->weigh();
+  from.demand(unit->effective_ > 0);
   return unit;
 }
 

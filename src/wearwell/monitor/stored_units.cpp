@@ -1,0 +1,38 @@
+#include "wearwell/monitor/stored_units.h"
+
+#include <vector>
+
+#include "wearwell/base/error.h"
+
+namespace wearwell::monitor {
+
+std::map<std::string, UnitRecord> stored_units(Store& store, const Population& population) {
+  const TrackerUnits told(population.tracker);
+  std::map<std::string, UnitRecord> units;
+  // First how far the states go at least: should a monitor save others meanwhile, these go farther.
+  std::int64_t place = store.all_up_to(population.fingerprint);
+  for (const Checkpoint& each : store.states(population.fingerprint)) {
+    try {
+      units[each.unit] = restored_record(each, population.tracker);
+    } catch (const InputError&) {  // damaged: from its readings
+      UnitRecord fresh = begun_record(each.unit, population.tracker);
+      store.of_unit(each.unit, 0, place,
+                    [&](const StoredReading& reading) { take(fresh, reading, told, store); });
+      units[each.unit] = std::move(fresh);
+    }
+  }
+  constexpr std::size_t at_once = 10'000;
+  for (;;) {
+    const std::vector<StoredReading> readings = store.after(place, at_once);
+    if (readings.empty()) return units;
+    for (const StoredReading& each : readings) {
+      auto at = units.find(each.unit);
+      if (at == units.end())
+        at = units.emplace(each.unit, begun_record(each.unit, population.tracker)).first;
+      if (each.place > at->second.place) take(at->second, each, told, store);
+    }
+    place = readings.back().place;
+  }
+}
+
+}  // namespace wearwell::monitor
