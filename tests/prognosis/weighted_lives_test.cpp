@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "wearwell/base/rng.h"
+#include "wearwell/prognosis/weighted_quantiles.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -70,6 +74,56 @@ TEST(WeightedLives, WhatRemainsToThoseThatLive) {
   EXPECT_TRUE(some.beyond(60).points().empty());
   EXPECT_TRUE(std::isnan(some.beyond(60).quantile(0.5)));
   EXPECT_TRUE(std::isnan(WeightedLives().quantile(0.5)));
+}
+
+// Lives of every size and closeness, of both signs, equal, infinite: sorted as by comparison.
+TEST(WeightedLives, OfAnySizeAreSorted) {
+  Rng rng(31, 1);
+  for (int kind = 0; kind < 7; ++kind) {
+    for (const std::size_t count : {1U, 7U, 300U, 10'000U}) {
+      std::vector<double> life, weight;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double z = rng.normal();
+        const double each[] = {std::exp(z),
+                               z,
+                               std::exp(200 * z),
+                               1 + 1e-15 * std::floor(10 * z),
+                               i == 0 ? 1e-300 : 1e3 + 1e-9 * z,
+                               std::floor(z),
+                               i % 3 == 0 ? infinity : z};
+        life.push_back(each[kind]);
+        weight.push_back(i % 5 == 0 ? 0.0 : rng.uniform(0, 1));
+      }
+      const WeightedLives sorted = lives(life, weight);
+      std::vector<std::pair<double, double>> expected;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (weight[i] > 0) expected.emplace_back(life[i], weight[i]);
+      }
+      std::stable_sort(expected.begin(), expected.end(),
+                       [](const auto& a, const auto& b) { return a.first < b.first; });
+      std::vector<double> points;
+      for (const auto& [each, own] : expected) {
+        if (points.empty() || points.back() != each) points.push_back(each);
+      }
+      EXPECT_TRUE(
+          std::equal(points.begin(), points.end(), sorted.points().begin(), sorted.points().end()))
+          << kind << " " << count;
+      const std::vector<double> at = {0.001, 0.05, 0.1, 0.5, 0.77, 0.95, 0.999};
+      const std::vector<double> quantiles = weighted_quantiles(life, weight, at);
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const double wanted = sorted.quantile(at[k]);
+        if (std::isfinite(wanted)) {
+          // Where two points lie far apart, what rounding does to p is as much of their distance.
+          EXPECT_NEAR(quantiles[k], wanted, 1e-9 * std::abs(wanted)) << kind << " " << count;
+        } else {
+          EXPECT_EQ(std::isnan(quantiles[k]), std::isnan(wanted)) << kind << " " << count;
+          EXPECT_EQ(std::isinf(quantiles[k]), std::isinf(wanted)) << kind << " " << count;
+        }
+      }
+    }
+  }
+  EXPECT_TRUE(std::isnan(weighted_quantiles(std::vector<double>{1.0}, std::vector<double>{0.0},
+                                            std::vector<double>{0.5})[0]));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "wearwell/base/error.h"
@@ -22,6 +23,27 @@ struct Fleet::Unit {
   Clock::time_point heard = {}, forecast_at = {};
   std::shared_ptr<const Seen> seen;
 };
+
+namespace {
+
+/// The curve that people see: a forecast itself is a hundred times as large, and there is one of every unit.
+std::shared_ptr<const std::vector<UnitDetail::CurvePoint>> survival_of(
+    const prognosis::WeightedLives& lives, const TrackerUnits& told) {
+  auto curve = std::make_shared<std::vector<UnitDetail::CurvePoint>>();
+  if (lives.points().empty()) return curve;
+  constexpr double last = 0.995;
+  double end = lives.quantile(last);
+  for (double p = last; !std::isfinite(end) && p > 0.01; p -= 0.05) end = lives.quantile(p);
+  if (!std::isfinite(end) || !(end > 0)) return curve;
+  constexpr int points = 120;
+  for (int i = 0; i <= points; ++i) {
+    const double x = end * i / points;
+    curve->push_back({told.along(x), 1 - lives.cdf(x)});
+  }
+  return curve;
+}
+
+}  // namespace
 
 Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Notices& notices,
              FleetSettings settings)
@@ -174,7 +196,7 @@ void Fleet::forecast(Unit& unit) {
   view.quality.contradicting = record.contradicting;
   view.quality.refused = record.not_counted;
   view.quality.last_problem = record.last_problem;
-  seen->forecast = forecast;
+  seen->survival = survival_of(forecast.remaining, told_);
   seen->held = record.held;
   seen->judged = record.judged;
   seen->moments = unit.seen && unit.seen->moments->size() == record.moments.size()
@@ -212,8 +234,13 @@ Alarm Fleet::shown_alarm(const Unit& unit, Alarm alarm, Clock::time_point now) c
 }
 
 bool Fleet::refresh(bool all) {
-  constexpr auto between = std::chrono::seconds(1);
   constexpr auto slice = std::chrono::milliseconds(100);
+  // Where so many change that forecasting all of them each second would take more than a tenth of the threads, nobody looks at
+  // all of them: they take turns.
+  constexpr double most_of_threads = 0.1;
+  const std::chrono::duration<double> between(std::max(
+      1.0,
+      forecast_s_ * static_cast<double>(stale_.size()) / (most_of_threads * settings_.threads)));
   const Clock::time_point begin = Clock::now();
   std::vector<Unit*> due;
   for (Unit* unit : stale_) {
@@ -231,8 +258,13 @@ bool Fleet::refresh(bool all) {
     std::vector<Unit*> some(
         due.begin() + static_cast<std::ptrdiff_t>(from),
         due.begin() + static_cast<std::ptrdiff_t>(std::min(from + at_once, due.size())));
+    const Clock::time_point started = Clock::now();
     run_tasks(static_cast<int>(some.size()), settings_.threads,
               [&](int i) { forecast(*some[static_cast<std::size_t>(i)]); });
+    const double took = std::chrono::duration<double>(Clock::now() - started).count();
+    const auto together = std::min<std::size_t>(some.size(), std::max(1, settings_.threads));
+    forecast_s_ += 0.1 * (took * static_cast<double>(together) / static_cast<double>(some.size()) -
+                          forecast_s_);
     publish(some);
     if (!all && Clock::now() - begin > slice && from + at_once < due.size()) {
       none_left = false;

@@ -40,8 +40,8 @@ class Fleet : public FleetReader {
 
   /// Takes the next readings of the store; how many. Throws StoreError: then it goes on from there when it is called again.
   std::size_t apply();
-  /// Forecasts of units that have changed, each once a second at most, for about a tenth of a second; `all`: of every one now. Returns whether
-  /// none is left that is due. Throws StoreError where a change of alarm cannot be kept; it is told again.
+  /// Forecasts of units that have changed, each once a second at most, and together in a tenth of the threads' time where that is
+  /// less often; for about a tenth of a second; `all`: of every one now. Returns whether none is left that is due. Throws StoreError where a change of alarm cannot be kept; it is told again.
   bool refresh(bool all = false);
   /// States into the store, of the units that have changed since. Throws StoreError.
   void save();
@@ -81,6 +81,7 @@ class Fleet : public FleetReader {
   std::int64_t place_ = 0;
   std::vector<Unit*> stale_;  ///< whose forecast is older than their readings, each once
   std::atomic<bool> any_lost_ = false;
+  double forecast_s_ = 0;            ///< of one thread, on the average of the last
   bool live_ = false;                ///< what the store held at the beginning has been taken
   std::uint64_t stored_before_ = 0;  ///< this monitor began
   Clock::time_point silence_checked_ = {}, all_known_ = {};

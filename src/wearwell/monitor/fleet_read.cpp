@@ -111,17 +111,7 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
   for (const UnitDetail::PathPoint& each : path_ahead(*seen)) {
     if (each.at > view.at) detail.path.push_back(each);
   }
-  const prognosis::WeightedLives& lives = seen->forecast.remaining;
-  if (lives.points().empty()) return detail;
-  constexpr double last = 0.995;
-  double end = lives.quantile(last);
-  for (double p = last; !std::isfinite(end) && p > 0.01; p -= 0.05) end = lives.quantile(p);
-  if (!std::isfinite(end) || !(end > 0)) return detail;
-  constexpr int points = 120;
-  for (int i = 0; i <= points; ++i) {
-    const double x = end * i / points;
-    detail.survival.push_back({told_.along(x), 1 - lives.cdf(x)});
-  }
+  detail.survival = *seen->survival;
   return detail;
 }
 

@@ -11,7 +11,7 @@ namespace wearwell::monitor {
 /// What readers see of a unit: made whole, never changed.
 struct Fleet::Seen {
   UnitView view;
-  prognosis::Forecast forecast;
+  std::shared_ptr<const std::vector<UnitDetail::CurvePoint>> survival;
   std::shared_ptr<const std::vector<UnitMoment>> moments;
   std::uint64_t held = 0, judged = 0;
   std::int64_t place = 0;  ///< of the last reading that is in it

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "wearwell/bayes/normal_score.h"
@@ -10,6 +11,7 @@
 #include "wearwell/models/ownlaw/nodes_ahead.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
 #include "wearwell/models/ownlaw/own_limit.h"
+#include "wearwell/prognosis/weighted_quantiles.h"
 
 namespace wearwell::ownlaw {
 NodeLives::NodeLives(const TomlReader& root, std::shared_ptr<const OwnLaw> law)
@@ -90,6 +92,8 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
   forecast.now = last.place;
   const double sign = path_.rising ? 1 : -1;
   std::vector<double> levels, level_weight, lives, life_weight;
+  for (auto* each : {&levels, &level_weight, &lives, &life_weight})
+    each->reserve(parts * nodes.count());
   Ahead ahead(*this, nodes, last, paths.back());
   double square = 0, left_over = 0, all = 0;
   for (const double each : weight) square += each * each;
@@ -109,19 +113,18 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
       std::fill_n(limit, ahead.count, path_.limit);
       ahead.cross(limit, place);
       ahead.count_from(start, place);
-      for (std::size_t i = 0; i < ahead.count; i += line) {
-        draw_out(own.subspan(i, line), {level + i, line}, [&](double w, double value) {
-          levels.push_back(value);
-          level_weight.push_back(w);
-        });
-        draw_out(own.subspan(i, line), {place + i, line}, [&](double w, double life) {
-          all += w;
-          if (!(life > 0)) return;
-          lives.push_back(life);
-          life_weight.push_back(w);
-          left_over += w;
-        });
-      }
+      const DrawnLines drawn(own, line);
+      drawn.put({level, ahead.count}, [&](double w, double value) {
+        levels.push_back(value);
+        level_weight.push_back(w);
+      });
+      drawn.put({place, ahead.count}, [&](double w, double life) {
+        all += w;
+        if (!(life > 0)) return;
+        lives.push_back(life);
+        life_weight.push_back(w);
+        left_over += w;
+      });
       continue;
     }
     // A path whose increments are random: where it stands, and the law of its first passage from there.
@@ -170,10 +173,11 @@ prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<do
       }
     }
   }
-  const prognosis::WeightedLives level(levels, level_weight);
-  forecast.level05 = level.quantile(0.05);
-  forecast.level50 = level.quantile(0.5);
-  forecast.level95 = level.quantile(0.95);
+  const std::vector<double> level =
+      prognosis::weighted_quantiles(levels, level_weight, std::array{0.05, 0.5, 0.95});
+  forecast.level05 = level[0];
+  forecast.level50 = level[1];
+  forecast.level95 = level[2];
   forecast.passed = all > 0 ? std::clamp(1 - left_over / all, 0.0, 1.0) : std::nan("");
   forecast.remaining = prognosis::WeightedLives(lives, life_weight);
   forecast.effective = square > 0 ? 1 / square : 0;

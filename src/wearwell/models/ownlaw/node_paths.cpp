@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "wearwell/models/ownlaw/node_points.h"
 #include "wearwell/models/ownlaw/nodes_ahead.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
+#include "wearwell/prognosis/weighted_quantiles.h"
 
 // How units go on, as their lives are found: from the same nodes, at places instead of at a limit.
 namespace wearwell::ownlaw {
@@ -31,8 +34,9 @@ struct Levels {
     if (lost > unknown * all || value.empty()) {
       return {place, std::nan(""), std::nan(""), std::nan("")};
     }
-    const prognosis::WeightedLives sorted(value, weight);
-    return {place, sorted.quantile(0.05), sorted.quantile(0.5), sorted.quantile(0.95)};
+    const std::vector<double> level =
+        prognosis::weighted_quantiles(value, weight, std::array{0.05, 0.5, 0.95});
+    return {place, level[0], level[1], level[2]};
   }
 };
 
@@ -81,15 +85,14 @@ std::vector<prognosis::LevelAhead> NodeLives::ahead(const Nodes& nodes,
       ahead.now(0, level);
       ahead.cross(level, start);
     }
+    std::optional<DrawnLines> drawn;
+    if (!process_) drawn.emplace(own, line);
     for (std::size_t k = 0; k < places.size(); ++k) {
       for (std::size_t i = 0; i < ahead.count; ++i) place[i] = start[i] + (places[k] - last.place);
       ahead.evaluate(ahead.ahead, place);
       for (std::size_t i = 0; i < ahead.count; ++i) level[i] = ahead.at(0, i);
       if (!process_) {
-        for (std::size_t i = 0; i < ahead.count; i += line) {
-          draw_out(own.subspan(i, line), {level + i, line},
-                   [&](double w, double value) { levels[k].add(w, value); });
-        }
+        drawn->put({level, ahead.count}, [&](double w, double value) { levels[k].add(w, value); });
         continue;
       }
       for (std::size_t i = 0; i < ahead.count; ++i) {

@@ -32,32 +32,38 @@ inline double at_score(const double* values, double score) {
   return std::exp(sum);
 }
 
-inline constexpr int parts = 4;             ///< of a node's place on its line
+inline constexpr std::size_t parts = 4;     ///< of a node's place on its line
 inline constexpr double negligible = 1e-8;  ///< nodes with less are left out
 
-/// What nodes of one line have, drawn out between them: a parabola through each and its neighbours, of the logarithm
+/// What nodes of lines have, drawn out between those of a line: a parabola through each and its neighbours, of the logarithm
 /// of the weight and of the number. The sum of the weights is that of the trapezoidal rule with a step so much finer.
-template <class Put>
-void draw_out(std::span<const double> weight, std::span<const double> number, const Put& put) {
-  const std::size_t n = weight.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    if (!(weight[k] > negligible)) continue;
-    const bool inner = k > 0 && k + 1 < n && weight[k - 1] > 0 && weight[k + 1] > 0 &&
-                       std::isfinite(number[k - 1] + number[k] + number[k + 1]);
-    if (!inner) {
-      put(weight[k], number[k]);
-      continue;
-    }
-    const double before = std::log(weight[k - 1] / weight[k]);
-    const double behind = std::log(weight[k + 1] / weight[k]);
-    const double below = number[k - 1] - number[k], above = number[k + 1] - number[k];
-    for (int part = 0; part < parts; ++part) {
-      const double t = (part + 0.5) / parts - 0.5;
-      const double bend = 0.5 * t * t, slope = 0.5 * t;
-      put(weight[k] / parts * std::exp(slope * (behind - before) + bend * (behind + before)),
-          number[k] + slope * (above - below) + bend * (above + below));
+class DrawnLines {
+ public:
+  static constexpr std::size_t most = 128;  ///< nodes
+  /// Whole lines of so many nodes. `weight` outlives it.
+  DrawnLines(std::span<const double> weight, std::size_t line);
+
+  /// Of one number of each node.
+  template <class Put>
+  void put(std::span<const double> number, const Put& put) const {
+    for (std::size_t k = 0; k < weight_.size(); ++k) {
+      if (!(weight_[k] > negligible)) continue;
+      if (!inner_[k] || !std::isfinite(number[k - 1] + number[k] + number[k + 1])) {
+        put(weight_[k], number[k]);
+        continue;
+      }
+      const double below = number[k - 1] - number[k], above = number[k + 1] - number[k];
+      for (std::size_t part = 0; part < parts; ++part) {
+        const double t = (static_cast<double>(part) + 0.5) / parts - 0.5;
+        put(share_[k][part], number[k] + 0.5 * t * ((above - below) + t * (above + below)));
+      }
     }
   }
-}
+
+ private:
+  std::span<const double> weight_;
+  bool inner_[most];
+  double share_[most][parts];
+};
 
 }  // namespace wearwell::ownlaw

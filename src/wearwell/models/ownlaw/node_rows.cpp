@@ -92,17 +92,19 @@ bool NodeRows::fit(const std::vector<NodePath>& paths, std::size_t nodes) const 
 void NodeRows::plain_block(const Block& block, const Measured& measured, const Response& y,
                            int count, const ResponseColumn& column, double* to) const {
   if (is_plain_normal(measured, y)) {
-    // Nodes of a line share what does not vary: its logarithm is taken once.
-    double sd_before = 0, log_sd = 0;
-    for (std::size_t i = 0; i < block.count; ++i) {
-      const double mean = block.slots[0][i], sd = block.slots[1][i];
-      if (sd != sd_before) {
-        sd_before = sd;
-        log_sd = std::log(sd) + half_log_two_pi;
+    // Nodes of a line share what does not vary: what depends on that alone is computed once.
+    for (std::size_t begin = 0; begin < block.count;) {
+      const double sd = block.slots[1][begin];
+      std::size_t end = begin + 1;
+      while (end < block.count && block.slots[1][end] == sd) ++end;
+      const double by_sd = 1 / sd, log_sd = std::log(sd) + half_log_two_pi;
+      const bool possible = sd > 0 && std::isfinite(by_sd + log_sd);
+      for (std::size_t i = begin; i < end; ++i) {
+        const double z = (y.at - block.slots[0][i]) * by_sd;
+        const double value = count * (-0.5 * z * z - log_sd);
+        to[i] += possible && value > -infinity ? value : -infinity;
       }
-      const double z = (y.at - mean) / sd;
-      const double value = -0.5 * z * z - log_sd;
-      to[i] += sd > 0 && std::isfinite(value) ? count * value : -infinity;
+      begin = end;
     }
     return;
   }
@@ -242,7 +244,7 @@ void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
     const bool noisy = measured.process && measured.wanted.size() > 2;
     NodePath* const moved = after && (runs || measured.process) ? &(*after)[m] : nullptr;
     if (moved) prepare(program, measured.process, nodes.count(), noisy, before[m], *moved);
-    const ResponseColumn column(y && !measured.process
+    const ResponseColumn column(y && !measured.process && !is_plain_normal(measured, *y)
                                     ? std::vector<Response>(NodeProgram::most, *y)
                                     : std::vector<Response>());
     const NodeProgram::GoesOn on = runs ? from(before[m]) : NodeProgram::GoesOn();

@@ -59,7 +59,8 @@ struct NodeLives::Ahead {
     double place[most_crossings];
     std::fill_n(place, count, last.place);
     evaluate(runs ? ahead : own, place);
-    for (std::size_t i = 0; i < count; ++i) value[i] = at(o, i);
+    const std::span<const double> values = lives.program_->values(o, scratch);
+    for (std::size_t i = 0; i < count; ++i) value[i] = values[values.size() == 1 ? 0 : i];
   }
 
   // Makes of places what remains: negative where the limit is behind. A path that goes on knows no place before
@@ -78,10 +79,14 @@ struct NodeLives::Ahead {
   }
 
   void cross(const double* level, double* place) {
+    std::span<const double> values;
     search_crossings(
         lives.path_.rising, from(), lives.path_.scale, count, level,
-        [&](const double* trial) { evaluate(ahead, trial); },
-        [&](std::size_t i) { return at(0, i); }, place, passed_by);
+        [&](const double* trial) {
+          evaluate(ahead, trial);
+          values = lives.program_->values(0, scratch);
+        },
+        [&](std::size_t i) { return values[values.size() == 1 ? 0 : i]; }, place, passed_by);
   }
 };
 

@@ -9,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/law/kernels.h"
+#include "wearwell/models/ownlaw/lanes.h"
 #include "wearwell/models/ownlaw/state_bytes.h"
 
 namespace wearwell::ownlaw {
@@ -84,11 +85,10 @@ void TrackedUnit::lay(std::vector<UnitReading> all) {
 
 // Sums of the weights as they are now: how many nodes carry them, and which stand for all.
 void TrackedUnit::weigh() {
-  double top = -infinity, sum = 0, square = 0;
-  for (const double each : log_weight_) top = std::max(top, each);
   sample_.node.clear();
   sample_.weight.clear();
   effective_ = 0;
+  const double top = highest_of(log_weight_);
   if (!(top > -infinity)) return;
   static thread_local std::vector<double> weight, exponent;
   weight.resize(log_weight_.size());
@@ -99,10 +99,7 @@ void TrackedUnit::weigh() {
   }
   static const law::Kernels exponential = law::kernels_of(law::Op::exp, 0);
   exponential.forward(exponent.data(), nullptr, nullptr, weight.data(), weight.size(), 0);
-  for (const double each : weight) {
-    sum += each;
-    square += each * each;
-  }
+  const auto [sum, square] = sums_of(weight);
   effective_ = sum * sum / square;
   const double share = sum / most_sampled;
   double before = 0;

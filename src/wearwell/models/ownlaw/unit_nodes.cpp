@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "wearwell/law/kernels.h"
+#include "wearwell/models/ownlaw/lanes.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
 namespace wearwell::ownlaw {
@@ -30,11 +32,15 @@ struct AtPoint {
 void look_at_line(const latent::UnitIntegrals& integrals, AtPoint& at) {
   static thread_local std::vector<std::pair<double, double>> nodes;
   nodes.clear();
-  for (const latent::Sweep& sweep : integrals.sweeps) {
+  // From the middle they mostly go to both sides in turn.
+  const std::vector<latent::Sweep>& sweeps = integrals.sweeps;
+  const auto note = [&](const latent::Sweep& sweep) {
     if (sweep.weight[0] > 0) nodes.emplace_back(sweep.z[0], sweep.weight[0]);
-  }
+  };
+  for (std::size_t i = (sweeps.size() + 1) / 2; i-- > 0;) note(sweeps[2 * i]);
+  for (std::size_t i = 1; i < sweeps.size(); i += 2) note(sweeps[i]);
   if (nodes.empty()) return;
-  std::sort(nodes.begin(), nodes.end());
+  if (!std::is_sorted(nodes.begin(), nodes.end())) std::sort(nodes.begin(), nodes.end());
   double below = 0, above = 0;
   for (const auto& [z, weight] : nodes) {
     at.mean[0] += weight * z;
@@ -99,6 +105,16 @@ class UnitAt {
     return at;
   }
 
+  // The same number alone, at less cost where it has a formula.
+  double log_likelihood(const double* x) const {
+    OwnRows::Scratch* const mine = rows_ && effects_ > 0 ? &rows_->mine() : nullptr;
+    if (!mine || !mine->linear) return (*this)(x).log_likelihood;
+    mine->rows.move_to(x);
+    mine->linear->move();
+    if (!mine->linear->each(mine->value)) return (*this)(x).log_likelihood;
+    return mine->value[0] < infinity ? mine->value[0] : -infinity;
+  }
+
  private:
   std::size_t effects_;
   std::unique_ptr<OwnRows> rows_;
@@ -120,6 +136,19 @@ Looked look_at(const PopulationPoints& points, const UnitAt& seen, const UnitAt&
     looked.log_weight.push_back(std::isnan(weight) ? -infinity : weight);
   }
   return looked;
+}
+
+// Their weights alone.
+std::vector<double> weights_of(const PopulationPoints& points, const UnitAt& seen,
+                               const UnitAt& all) {
+  std::vector<double> log_weight;
+  for (Eigen::Index j = 0; j < points.values->rows(); ++j) {
+    const double* x = points.values->row(j).data();
+    const double weight = points.log_weight[static_cast<std::size_t>(j)] + all.log_likelihood(x) -
+                          seen.log_likelihood(x);
+    log_weight.push_back(std::isnan(weight) ? -infinity : weight);
+  }
+  return log_weight;
 }
 
 // Low numbers of a shift that lie evenly: the fractions of multiples of the golden ratio.
@@ -148,11 +177,12 @@ void shape_of(const AtPoint& at, std::size_t effects, std::size_t line, double* 
 }
 
 // The points of few lines when the unit itself says where parameters are.
-PopulationPoints choose(const PopulationPoints& many, const Looked& looked, std::size_t most) {
+PopulationPoints choose(const PopulationPoints& many, const std::vector<double>& log_weight,
+                        std::size_t most) {
   WeightedDraws draws;
   draws.values = *many.values;
   std::vector<double> weight;
-  normalize(looked.log_weight, weight);
+  normalize(log_weight, weight);
   draws.weights =
       Eigen::Map<const Eigen::VectorXd>(weight.data(), static_cast<Eigen::Index>(weight.size()));
   return PopulationPoints(FewPoints(draws, most));
@@ -227,8 +257,8 @@ UnitNodes lay_nodes(const NodePopulation& population, const std::vector<UnitRead
   const double least = least_few * effective_number(population.few.log_weight);
   const bool more = population.many.log_weight.size() > population.few.log_weight.size();
   if (more && effective_number(looked.log_weight) < least) {
-    const Looked of_many = look_at(population.many, at_seen, at_all);
-    if (effective_number(of_many.log_weight) > 0) {
+    const std::vector<double> of_many = weights_of(population.many, at_seen, at_all);
+    if (effective_number(of_many) > 0) {
       laid.own = true;
       points = choose(population.many, of_many, population.few.log_weight.size());
       looked = look_at(points, at_seen, at_all);
@@ -271,13 +301,19 @@ double effective_number(std::span<const double> log_weight) {
 }
 
 void normalize(std::span<const double> log_weight, std::vector<double>& weight) {
-  double top = -infinity, sum = 0;
-  for (const double each : log_weight) top = std::max(top, each);
+  static const law::Forward exp = law::kernels_of(law::Op::exp, 0).forward;
+  constexpr double none = -40;
+  const double top = highest_of(log_weight);
   weight.resize(log_weight.size());
+  static thread_local std::vector<double> exponent;
+  exponent.resize(log_weight.size());
+  for (std::size_t i = 0; i < weight.size(); ++i)
+    exponent[i] = log_weight[i] > top + none ? log_weight[i] - top : none;
+  exp(exponent.data(), nullptr, nullptr, weight.data(), weight.size(), 0);
   for (std::size_t i = 0; i < weight.size(); ++i) {
-    weight[i] = log_weight[i] > top - 40 ? std::exp(log_weight[i] - top) : 0;
-    sum += weight[i];
+    if (!(exponent[i] > none)) weight[i] = 0;
   }
+  const double sum = sums_of(weight).sum;
   for (double& each : weight) each /= sum;
 }
 

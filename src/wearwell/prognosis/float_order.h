@@ -1,0 +1,15 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace wearwell::prognosis {
+
+/// Whole numbers in the order of the numbers whose bits they are made of; not of NaN.
+inline std::uint64_t order_of(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value + 0.0);  // no -0
+  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
+  return bits & sign ? ~bits : bits | sign;
+}
+
+}  // namespace wearwell::prognosis
