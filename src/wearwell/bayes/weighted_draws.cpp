@@ -88,10 +88,6 @@ Distribution::Distribution(const WeightedDraws& draws,
   // Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
   constexpr double negligible = 1e-8;
   const double least = cells_ ? negligible / static_cast<double>(draws.values.rows()) : 0;
-  // Cells of a lattice, whose nodes all stand in their middle, are wide: where their density falls along the axis along
-  // which the number moves most, their halves have a share each, so that mean and variance stay.
-  const bool lattice = draws.has_cells() && draws.cells.node.isZero(0);
-  constexpr double upright = 0.02;
   std::vector<Point> points;
   double total = 0, undefined = 0;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
@@ -109,15 +105,6 @@ Distribution::Distribution(const WeightedDraws& draws,
       half_width = 0;
     }
     total += weight;
-    double tilt = lattice && half_width > 0 ? spread.off / half_width : 0;
-    tilt = std::clamp(tilt / std::sqrt(1 + 3 * tilt * tilt), -0.45, 0.45);
-    if (std::abs(tilt) > upright) {
-      const double half = half_width / std::sqrt(1 - 3 * tilt * tilt),
-                   middle = center - tilt * half;
-      points.push_back({middle - 0.5 * half, 0.5 * half, weight * (0.5 - tilt)});
-      points.push_back({middle + 0.5 * half, 0.5 * half, weight * (0.5 + tilt)});
-      continue;
-    }
     points.push_back({center, half_width, weight});
   }
   if (undefined > negligible * (total + undefined)) points.clear();  // it has no distribution
