@@ -232,6 +232,47 @@ TEST_F(FatigueLife, RefusesWhatMayBeMisread) {
   EXPECT_THAT(refused("life nothing bare.csv"), HasSubstr("no such folder"));
 }
 
+// Two corrections of the mean stress of the same tests: each draw counts with its model's weight.
+TEST_F(FatigueLife, DesignIsAveragedOverModels) {
+  const std::string fit = " && '" WEARWELL_BINARY "' fit gerber.toml --method exact --quiet";
+  const auto fitted = [&](const std::string& edit, const std::string& to) {
+    return run_command("cd '" + folder().string() + "' && cp '" + example +
+                       "tests.csv' . && sed '" + edit + "' '" + example +
+                       "study.toml' > gerber.toml" + fit + " -o " + to);
+  };
+  ASSERT_EQ(fitted("s/\"goodman\"/\"gerber\"/", "gerber").exit_code, 0);
+  const std::string two = "design res gerber --stress '300 MPa' --stress '400 MPa'";
+  const json averaged = result(two + " --stress-ratio -1 -o out");
+  double weights = 0;
+  for (const json& model : averaged["models"]) weights += model["weight"].get<double>();
+  EXPECT_NEAR(weights, 1, 1e-6);
+  ASSERT_EQ(averaged["curves"].size(), 4u);
+  for (const json& curve : averaged["curves"]) {
+    ASSERT_EQ(curve["points"].size(), 2u);
+    EXPECT_EQ(curve["points"][0]["stress"], 400);
+    EXPECT_LT(curve["points"][0]["life"], curve["points"][1]["life"]);
+    for (const json& point : curve["points"]) {
+      const auto [least, most] =
+          std::minmax(point["models"][0].get<double>(), point["models"][1].get<double>());
+      EXPECT_GE(point["life"], least * (1 - 1e-9));
+      EXPECT_LE(point["life"], most * (1 + 1e-9));
+    }
+  }
+  for (const char* file :
+       {"design.json", "report.html", "tables/averaged-design.csv", "tables/weights.csv"})
+    EXPECT_TRUE(fs::exists(folder() / "out" / file)) << file;
+  EXPECT_THAT(run("design res gerber --stress-ratio -1 --stress '5000 MPa'").out,
+              HasSubstr("WARN  extrapolation"));
+  EXPECT_THAT(refused("design res res"), HasSubstr("given twice"));
+  EXPECT_THAT(refused(two + " --stress-ratio 2"), HasSubstr("less than 1"));
+  EXPECT_THAT(refused("design res gerber --stress '300 mm' --stress-ratio -1"),
+              HasSubstr("--stress"));
+  EXPECT_THAT(refused("design res nothing"), HasSubstr("no such folder"));
+  ASSERT_LE(fitted("s/^file = .*/&\\nsql = \"select * from data limit 20\"/", "fewer").exit_code,
+            1);
+  EXPECT_THAT(refused("design res fewer --stress-ratio -1"), HasSubstr("different data"));
+}
+
 // tests/golden/staircase.R: the same posterior on a grid in R.
 TEST_F(FatigueHistory, StaircaseAsInR) {
   const CommandResult fit = run_command("cd '" + folder().string() +

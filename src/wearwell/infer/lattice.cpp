@@ -26,12 +26,12 @@ constexpr double negligible_share = 1e-9;  // nodes with less of the mass are le
 constexpr double good_enough = 1e-3;       // where evaluations end before the tolerance is met
 constexpr long most_nodes = 6'000'000;
 constexpr int farthest = 3000;  // steps along an axis: beyond, the mass has no end
-// Steps finer than the tolerance asks for, where it asks for little: cells as wide as those that sum well are told as
-// curves with errors of a hundredth of a standard deviation.
-constexpr double widest_told = 0.7;
+// Finer than sums ask for: quantiles of a posterior whose cells are as wide as those that sum well are wrong by some
+// hundredths of a standard deviation, which falls with the fourth power of the step.
+constexpr double widest_told = 0.55;
 constexpr int most_across = 80;  // steps along a line on either side of its mode
 // Of the step between lines that along them: half the lines are a lattice of finer dual than every second node of a line.
-constexpr double line_share = 0.7;
+constexpr double line_share = 0.8, longest_on_line = 0.7;
 
 std::uint64_t key(const Index& index) {
   std::uint64_t packed = 0;
@@ -522,7 +522,8 @@ struct Filled {
 
   Filled(const Posterior& posterior, const Chart& chart, double step, long most,
          const ExactSettings& settings)
-      : lattice(std::make_unique<Lattice>(posterior, chart, step, line_share * step,
+      : lattice(std::make_unique<Lattice>(posterior, chart, step,
+                                          std::min(line_share * step, longest_on_line),
                                           log_negligible(settings.tolerance))),
         failure(lattice->fill(most)) {
     if (failure.empty()) error = lattice->error(settings.second_moments);

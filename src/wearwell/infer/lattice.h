@@ -8,14 +8,15 @@ namespace wearwell {
 /// exponentially for a smooth density that falls off on the whole space (Trefethen and Weideman
 /// 2014). It stands in the coordinates of a RidgeMap, in which a funnel is round, but askew: no layer
 /// of cells shares the value of a parameter; or in those of the covariance, with lines along the
-/// parameter that the others hold closest: whichever a coarse lattice finds rounder. One direction is
+/// parameter that the others hold closest: whichever a coarse lattice finds rounder. There parameters between two bounds
+/// are bent, so that tails as exp(-|z|) become normal ones. One direction is
 /// integrated out along lines about their own modes; the lattice of the other three is filled
 /// outward from the mode as long as there is density, and refined until its two half lattices agree to `tolerance`. Cells hold the
-/// parabola through their neighbours.
+/// parabola through the log density of their neighbours.
 ///
-/// Limits: density and moments converge exponentially, cells by a power of the step, so that
+/// Limits: density and moments converge exponentially, cells by the fourth power of the step, so that
 /// quantiles keep an error of some thousandths of a standard deviation (two hundredths on a bent
-/// ridge). A parameter that is cut by two bounds has long tails on the real line; with four of them
+/// ridge): a tolerance below 1e-3, of which curves are told, has steps finer than its sums ask for. A parameter that is cut by two bounds has long tails on the real line; with four of them
 /// the evaluations end at an estimated error of up to 1e-3, which is then accepted (`error` says
 /// so).
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
