@@ -49,6 +49,7 @@ class SqlWriter {
   std::string size() const;
   std::string late() const;
   std::string check() const;
+  std::string offender() const;
   std::string stream() const;
   std::string known() const;
   std::string fresh() const;
