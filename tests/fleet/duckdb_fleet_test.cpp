@@ -221,7 +221,10 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   };
   auto changed = cycles;
   changed[50].torque = -1;
-  refused(changed, "1 rows of 200 have no value, or one that cannot be");
+  refused(changed,
+          fmt::format("1 rows of 200 have no value, or one that cannot be (unit {}, cycle {}: "
+                      "torque is -1, in SI and degC)",
+                      changed[50].unit, changed[50].number));
   changed = cycles;
   changed[50].temperature = -300;
   refused(changed, "cannot be");
@@ -235,6 +238,7 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   changed = cycles;
   changed[50].unit = "";
   refused(changed, "1 rows name no unit");
+  refused({}, "bad.csv has no rows");
   // Beyond what the sums hold.
   changed = cycles;
   changed[50].temperature = 1e12;

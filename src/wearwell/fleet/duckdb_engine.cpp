@@ -117,6 +117,9 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
                     fmt::join(allowed, ", "), quoted(spill_.path().string() + "/", '\'')));
     view_ = "create or replace temp view cycles as select * from " + view_of(files, "");
     execute(view_);
+    bool has_rows = false;
+    rows("select 1e0 from cycles limit 1", 0, [&](const Row&) { has_rows = true; });
+    if (!has_rows) throw InputError(fmt::format("{} has no rows", source_));
     for (const EngineColumn& each : columns()) {
       if (each.name != settings.unit || !each.is_number || !csv_) continue;
       view_ =

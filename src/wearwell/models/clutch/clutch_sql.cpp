@@ -328,15 +328,24 @@ std::string SqlWriter::query() const {
 ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Dialect dialect,
                      const SqlSource& source, bool replicates) {
   const SqlWriter writer(model, id, dialect, source, replicates);
-  const std::string stream = writer.stream();
-  return {writer.setup(),   writer.query(),
-          writer.combine(), writer.totals(),
-          writer.size(),    writer.late(),
-          writer.keep(),    writer.check(),
-          stream,           stream + "\norder by unit, cycle",
-          writer.known(),   writer.fresh(),
-          writer.gather(),  writer.kept(),
-          writer.others()};
+  ClutchSql sql;
+  sql.setup = writer.setup();
+  sql.query = writer.query();
+  sql.combine = writer.combine();
+  sql.totals = writer.totals();
+  sql.size = writer.size();
+  sql.late = writer.late();
+  sql.keep = writer.keep();
+  sql.check = writer.check();
+  sql.offender = writer.offender();
+  sql.stream = writer.stream();
+  sql.sorted = sql.stream + "\norder by unit, cycle";
+  sql.known = writer.known();
+  sql.fresh = writer.fresh();
+  sql.gather = writer.gather();
+  sql.kept = writer.kept();
+  sql.others = writer.others();
+  return sql;
 }
 
 }  // namespace wearwell::clutch

@@ -62,6 +62,8 @@ struct ClutchSql {
   std::string late;
   std::string keep;   ///< what is new stays; empty where a transaction does that
   std::string check;  ///< SELECT: rows, rows without a value that can be, range of each input
+  /// SELECT: of a row that has no value that can be: unit, cycle, the four inputs, energy.
+  std::string offender;
   /// For FixedSum. SELECT: unit, cycle and inputs in SI of all rows, in their order; the same by unit
   /// and cycle; of each unit the last cycle that was counted, and its energy so far, halves of
   /// 32 bits each; a temporary table that takes sums, and the statement that adds them to those kept.

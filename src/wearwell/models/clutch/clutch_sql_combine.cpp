@@ -216,6 +216,18 @@ std::string SqlWriter::check() const {
   return fmt::format("select\n  {}\nfrom (\n{}\n) as si", columns.text(), si(false));
 }
 
+std::string SqlWriter::offender() const {
+  SqlColumns columns;
+  columns.keep(fleet::text(dialect_, "unit"));
+  columns.keep(fleet::real(dialect_, "cycle"));
+  for (const char* each : input_columns) columns.keep(std::string("raw_") + each);
+  columns.keep("raw_energy");
+  return fmt::format(
+      "select\n  {}\nfrom (\n{}\n) as si where not coalesce({}, false) order by unit, cycle limit "
+      "1",
+      columns.text(), si(false), valid());
+}
+
 std::string SqlWriter::stream() const {
   SqlColumns columns;
   columns.add(unit(), "unit");

@@ -170,8 +170,8 @@ WEARWELL_LANES void add_rows(const Plan& plan, const double* c, std::size_t from
       settleds += (lanes::bits(w + lanes::to_whole) - lanes::to_whole_bits) & mine;
     }
     if (b == 0) continue;
-    lanes::add(work.volumes[b], volumes);
-    lanes::add(work.settleds[b], settleds);
+    lanes::add(work.volumes[b].x, volumes);
+    lanes::add(work.settleds[b].x, settleds);
   }
 }
 
@@ -186,12 +186,8 @@ WEARWELL_LANES void add_row(const Plan& plan, const double* c, std::size_t row, 
     for (std::size_t p = degree - 1; p-- > 0;) g = g * at + lanes::load(c + p * plan.stride + b);
     if (b == 0) work.g[row] = g[0];
     const Reals w = lanes::load(settled + b);
-    const Wholes volume = lanes::bits(w * g + lanes::to_whole) - lanes::to_whole_bits;
-    const Wholes plain = lanes::bits(w + lanes::to_whole) - lanes::to_whole_bits;
-    for (int i = 0; i < lanes::count; ++i) {
-      work.volumes[b + static_cast<std::size_t>(i)].x[0] += volume[i];
-      work.settleds[b + static_cast<std::size_t>(i)].x[0] += plain[i];
-    }
+    lanes::add(&work.row_volumes[b], lanes::bits(w * g + lanes::to_whole) - lanes::to_whole_bits);
+    lanes::add(&work.row_settleds[b], lanes::bits(w + lanes::to_whole) - lanes::to_whole_bits);
   }
 }
 
@@ -209,16 +205,11 @@ void Workspace::prepare(const Plan& plan) {
   settled.resize(plan.models * (block_vectors + 1));
   volumes.assign(plan.stride, {});
   settleds.assign(plan.stride, {});
+  row_volumes.assign(plan.stride, 0);
+  row_settleds.assign(plan.stride, 0);
   one_row.assign(plan.stride, 0);
   cells.resize(cached_cells);
   for (Cell& each : cells) each.c.resize((degree + 3) * plan.stride);
-}
-
-void Workspace::take_sums(std::size_t model, long long& with_run_in, long long& without) {
-  with_run_in = without = 0;
-  for (const long long x : volumes[model].x) with_run_in += x;
-  for (const long long x : settleds[model].x) without += x;
-  volumes[model] = settleds[model] = {};
 }
 
 const Cell& Workspace::cell(const Plan& plan, std::int64_t number) {
@@ -263,6 +254,7 @@ bool find_rates(const Plan& plan, const FixedCycles& cycles, std::size_t first, 
 void add_run(const Plan& plan, const Cell& cell, std::size_t from, std::size_t to,
              Workspace& work) {
   if (to - from >= short_run) {
+    work.has_runs = true;
     add_rows(plan, cell.c.data(), from, to, work);
     return;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -70,9 +71,28 @@ struct Workspace {
   std::vector<lanes::Line> settled;      ///< by model, each with a vector to spare
   /// Of the block's rows: rate and variance of the model, its run-in, the place in the cell.
   alignas(64) std::array<double, block + lanes::count> w{}, variance{}, g{}, at{};
-  std::vector<lanes::WholeLine> volumes, settleds;  ///< sums by model, in parts
-  /// And leaves zeros.
-  void take_sums(std::size_t model, long long& with_run_in, long long& without);
+  /// Sums by model: of rows that were added one by one, and in parts of those that were added in runs.
+  std::vector<long long> row_volumes, row_settleds;
+  std::vector<lanes::WholeLine> volumes, settleds;
+  bool has_runs = false;  ///< the parts are not all zero
+  /// Of all: adds them to `with_run_in` and `without`, from the first replicate on, and leaves zeros.
+  template <class Sum>
+  void take_sums(std::size_t replicates, Sum* with_run_in, Sum* without) {
+    for (std::size_t b = 1; b <= replicates; ++b) {
+      with_run_in[b - 1] += row_volumes[b];
+      without[b - 1] += row_settleds[b];
+      if (!has_runs) continue;
+      long long with = 0, plain = 0;
+      for (const long long x : volumes[b].x) with += x;
+      for (const long long x : settleds[b].x) plain += x;
+      with_run_in[b - 1] += with;
+      without[b - 1] += plain;
+      volumes[b] = settleds[b] = {};
+    }
+    std::fill(row_volumes.begin(), row_volumes.end(), 0);
+    std::fill(row_settleds.begin(), row_settleds.end(), 0);
+    has_runs = false;
+  }
   std::vector<Cell> cells;
   std::vector<double> one_row;
 };

@@ -216,12 +216,8 @@ void FixedSum::add(const FixedCycles& cycles, Workspace& workspace,
       for (std::size_t r = i; r < end; ++r) totals.counts[negative] += workspace.w[r] < 0;
       i = end;
       if (first + i < cycles.ends[segment]) continue;
-      for (std::size_t b = 1; b <= replicates_; ++b) {
-        long long volume = 0, settled = 0;
-        workspace.take_sums(b, volume, settled);
-        totals.sums[replicate_sums + b - 1] += volume;
-        totals.sums[replicate_sums + replicates_ + b - 1] += settled;
-      }
+      Wide* const replicates = totals.sums.data() + replicate_sums;
+      workspace.take_sums(replicates_, replicates, replicates + replicates_);
       take(segment++, totals);
       totals.counts = {};
       std::fill(totals.sums.begin(), totals.sums.end(), 0);

@@ -23,12 +23,35 @@ struct FleetCheck {
   std::string ranges;  ///< least and most of each input, in words
 };
 
+/// "unit 7, cycle 4: torque is -1", of one row that no sum can take.
+std::string offender(fleet::Engine& engine, const ClutchSql& sql) {
+  std::string found;
+  engine.rows(sql.offender, 1, [&](const fleet::Row& row) {
+    constexpr const char* names[] = {"cycle",       "slip_speed",   "torque",
+                                     "temperature", "closing_time", "energy"};
+    found = fmt::format("unit {}, cycle {}:", printable(row.texts.front()), row.numbers[0]);
+    for (std::size_t i = 0; i < std::size(names); ++i) {
+      const double x = row.numbers[i];
+      const bool temperature = std::string_view(names[i]) == "temperature";
+      const bool good = i == 0 ? x >= 1 && x <= 9e15 && x == std::floor(x)
+                               : (temperature ? x >= -273.15 : x > 0) && x < 1e300;
+      if (good) continue;
+      found += fmt::format(" {} is {},", names[i],
+                           std::isnan(x) ? "no number" : fmt::format("{:.6g}", x));
+    }
+    found.pop_back();
+  });
+  return found;
+}
+
 /// Throws InputError for rows that no sum can take.
 FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
   FleetCheck check;
+  double refused = 0;
   engine.rows(sql.check, 0, [&](const fleet::Row& row) {
     check.rows = row.numbers[0];
-    const double refused = row.numbers[1], nameless = row.numbers[2];
+    refused = row.numbers[1];
+    const double nameless = row.numbers[2];
     if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
     check.ranges = fmt::format(
         "slip_speed {:.6g} .. {:.6g} rad/s, torque {:.6g} .. {:.6g} N m, temperature {:.6g} .. "
@@ -37,13 +60,14 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
         row.numbers[8], row.numbers[9], row.numbers[10], row.numbers[11]);
     if (nameless > 0)
       throw InputError(fmt::format("{}: {:.0f} rows name no unit", engine.source(), nameless));
-    if (refused > 0)
-      throw InputError(fmt::format(
-          "{}: {:.0f} rows of {:.0f} have no value, or one that cannot be: cycles are whole "
-          "numbers of at least 1, temperatures above absolute zero, all else positive (these are: "
-          "{})",
-          engine.source(), refused, check.rows, check.ranges));
   });
+  if (refused > 0)
+    throw InputError(fmt::format(
+        "{}: {:.0f} rows of {:.0f} have no value, or one that cannot be ({}, in SI and degC): "
+        "cycles are whole numbers of at least 1, temperatures above absolute zero, all else "
+        "positive "
+        "(these are: {})",
+        engine.source(), refused, check.rows, offender(engine, sql), check.ranges));
   return check;
 }
 

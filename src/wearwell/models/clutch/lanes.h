@@ -59,8 +59,8 @@ WEARWELL_INLINE Wholes bits(const Reals& x) {
 WEARWELL_INLINE Reals absolute(const Reals& x) {
   return reinterpret_cast<Reals>(bits(x) & 0x7fff'ffff'ffff'ffffLL);
 }
-WEARWELL_INLINE void add(WholeLine& to, const Wholes& x) {
-  *reinterpret_cast<LooseWholes*>(to.x) += x;
+WEARWELL_INLINE void add(long long* to, const Wholes& x) {
+  *reinterpret_cast<LooseWholes*>(to) += x;
 }
 
 /// Added to a number of less than 2^51 it leaves the nearest whole number (the even one of two) in the

@@ -50,6 +50,7 @@ class SqlWriter {
   std::string late() const;
   std::string keep() const;
   std::string check() const;
+  std::string offender() const;
   std::string stream() const;
   std::string known() const;
   std::string fresh() const;
