@@ -6,6 +6,7 @@
 
 #include "fleet/clickhouse_server.h"
 #include "fleet/sample_fleet.h"
+#include "fleet/sample_law.h"
 #include "support/scratch.h"
 #include "wearwell/fleet/clickhouse_engine.h"
 #include "wearwell/models/clutch/fleet_run.h"
@@ -137,6 +138,18 @@ TEST_F(ClickhouseFleet, HostileNamesAreHarmless) {
   EXPECT_THAT(fleet["worst"][0]["unit"].get<std::string>(),
               HasSubstr("x'; drop table wearwell_sums; --\tunit"));
   EXPECT_EQ(server.sql("select count(*) from wearwell_sums").out, "6\n");
+}
+
+TEST_F(ClickhouseFleet, ALawHasTheNumbersOfTheLibrary) {
+  const ClickhouseServer server(folder());
+  must(server,
+       "create table liners (id Int32, machine String, F Nullable(Float64), s Nullable(Float64)) "
+       "engine = MergeTree order by id;\ninsert into liners values" +
+           ownlaw::law_row_values("\\'") + ";\n");
+  const auto engine = fleet::clickhouse_engine(server.address(), "liners");
+  std::vector<std::string> values = ownlaw::law_values();
+  values.push_back("erf(wear/(10 [um]))");
+  ownlaw::expect_library(ownlaw::law_state(folder()), *engine, "liners", values);
 }
 
 TEST_F(ClickhouseFleet, ACertificateIsHeldAgainstTheName) {

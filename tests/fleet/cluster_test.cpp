@@ -4,7 +4,9 @@
 #include "fleet/clickhouse_server.h"
 #include "fleet/postgres_server.h"
 #include "fleet/sample_fleet.h"
+#include "fleet/sample_law.h"
 #include "support/scratch.h"
+#include "wearwell/fleet/postgres_engine.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -103,6 +105,17 @@ TEST_F(Cluster, PrintedStatementsRunInPsql) {
     }
   }
   EXPECT_EQ(found, expected["plates"].size());
+}
+
+TEST_F(Cluster, ALawInPostgresHasTheNumbersOfTheLibrary) {
+  const PostgresServer server(folder());
+  const CommandResult made = server.sql(
+      "create table liners (id integer, machine text, \"F\" float8, s float8);\ninsert "
+      "into liners values" +
+      ownlaw::law_row_values("''") + ";\n");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto engine = fleet::postgres_engine(server.address(), "liners");
+  ownlaw::expect_library(ownlaw::law_state(folder()), *engine, "liners", ownlaw::law_values());
 }
 
 TEST_F(Cluster, HostileNamesAreHarmlessInPostgres) {

@@ -8,7 +8,9 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/option_value.h"
 #include "wearwell/models/ownlaw/c_export.h"
+#include "wearwell/models/ownlaw/sql_export.h"
 #include "wearwell/present/result_folder.h"
 #include "wearwell/present/text_table.h"
 
@@ -44,11 +46,75 @@ int run_export(const ExportOptions& options) {
   return state.trusted ? 0 : 1;
 }
 
+struct SqlOptions {
+  std::filesystem::path result;
+  std::string dialect, part = "all";
+  SqlExportChoice choice;
+};
+
+int run_export_sql(SqlOptions& options) {
+  const prognosis::CarriedState state = prognosis::read_state(options.result);
+  if (state.model != "law")
+    throw InputError(fmt::format("{}: a study of model \"{}\" is not printed as SQL; \"law\" is",
+                                 options.result.string(), printable(state.model)));
+  options.choice.dialect = fleet::read_dialect(options.dialect);
+  const SqlExport made = sql_export(state, options.choice);
+  fmt::print("{}", fleet::comment(fmt::format("wearwell {}: {} [{}] of each row of {}, for {}",
+                                              WEARWELL_VERSION, made.expression, made.unit,
+                                              options.choice.table, options.dialect)));
+  if (options.part != "query") {
+    const bool whole = options.choice.dialect != fleet::Dialect::clickhouse;
+    fmt::print("{}{}{}", whole ? "begin;\n" : "", made.setup, whole ? "commit;\n" : "");
+  }
+  if (options.part != "setup")
+    fmt::print(
+        "-- 2. Query: quantiles over the draws at 5, 50 and 95 %, each the mean of two order "
+        "statistics; without the scatter of readings.\n{};\n",
+        made.query);
+  return state.trusted ? 0 : 1;
+}
+
+void add_sql(CLI::App& command, int& exit_code) {
+  CLI::App* sql = command.add_subcommand(
+      "sql", "As SQL: a value of the law with its interval, for every row of a table");
+  const auto options = std::make_shared<SqlOptions>();
+  sql->add_option("RESULT", options->result, "folder that wearwell fit wrote of a model \"law\"")
+      ->required();
+  sql->add_option("--dialect", options->dialect, "of the database")
+      ->required()
+      ->check(one_of(fleet::dialect_names()));
+  sql->add_option("--table", options->choice.table,
+                  "SCHEMA.TABLE; a part in double quotes may hold dots")
+      ->required();
+  sql->add_option("--value", options->choice.value,
+                  "an expression of the law (default: what its first measured column is about)");
+  sql->add_option("--unit", options->choice.unit, "of the answer");
+  sql->add_option("--columns", options->choice.columns,
+                  "of the table, where it calls them otherwise than the study's file, or has them "
+                  "in other units: NAME=COLUMN:UNIT")
+      ->type_name("NAME=COLUMN:UNIT");
+  sql->add_option("--keep", options->choice.keep, "further columns of the table, for the answer")
+      ->delimiter(',');
+  sql->add_option("--prefix", options->choice.prefix, "of the table of draws that is made")
+      ->capture_default_str();
+  sql->add_option("--draws", options->choice.draws, "a multiple of 20; more are finer")
+      ->capture_default_str();
+  sql->add_option("--part", options->part, "one of the two statements alone")
+      ->check(one_of({"all", "setup", "query"}))
+      ->capture_default_str();
+  sql->footer(
+      "A unit that the study has seen has draws given its readings; any other those of a new "
+      "one.\n\nExample:\n  wearwell export sql study-results --dialect postgresql --table "
+      "fleet.liners --columns force=F:kN > wear.sql\n\n"
+      "Exit codes: 0 done; 1 the study is not trusted; 2 the request is wrong.");
+  sql->callback([options, &exit_code] { exit_code = run_export_sql(*options); });
+}
+
 }  // namespace
 
 void add_export_command(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("export", "Write a unit on line as source of another language");
+  CLI::App* command = app.add_subcommand(
+      "export", "Write a fitted law, or a unit on line, as source of another language");
   command->require_subcommand(1);
   CLI::App* c = command->add_subcommand(
       "c", "As C99 without allocation: readings in, wear and remaining life with quantiles out");
@@ -70,6 +136,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
       "their\nrate are refused.\n\nExample:\n  wearwell export c study-results -o pump --name "
       "pump\n\n"
       "Exit codes: 0 done; 1 the study is not trusted; 2 the request is wrong, nothing written.");
+  add_sql(*command, exit_code);
   c->callback([options, &exit_code] { exit_code = run_export(*options); });
 }
 
