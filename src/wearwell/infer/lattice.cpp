@@ -553,7 +553,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   constexpr long few_nodes = 140'000, enough_nodes = 400'000;
   const Chart* chart = &straight;
   std::optional<Filled> filled(std::in_place, posterior, straight, coarsest, most_nodes, settings);
-  if (!map.affine()) {
+  if (!map.affine() && !(filled->error <= settings.tolerance)) {
     const bool dear = !filled->failure.empty() || filled->lattice->nodes() > few_nodes;
     const auto error = [&](const Chart& of) {
       return Filled(posterior, of, telling, enough_nodes, settings).error;

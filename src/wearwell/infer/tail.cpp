@@ -25,7 +25,7 @@ constexpr int steps = 20;
 constexpr int most_failures = 6;
 
 // A density that has fallen by so much (log), and falls like so high a power, has no tail.
-constexpr double fallen = 300, steep = 50;
+constexpr double fallen = 200, steep = 50;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -157,7 +157,9 @@ void UnitRows::run(const Chunk& chunk, std::span<const double> z) {
     double value = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t u = column.unit[chunk.begin + i];
-      if (u != last) value = held_ ? held_[e] : population_.value(law_, e, &z[u * d]);
+      if (u != last) {
+        value = held_ ? held_[held_by_unit_ ? u : e] : population_.value(law_, e, &z[u * d]);
+      }
       last = u;
       effect_[e][i] = value;
     }
@@ -373,6 +375,19 @@ void UnitRows::means_at(const double* effects, std::size_t c, std::span<double> 
   held_ = nullptr;
 }
 
+void UnitRows::means_of_units(std::span<const double> effects, std::size_t c,
+                              std::span<double> mean) {
+  held_ = effects.data();
+  held_by_unit_ = true;
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    if (chunk.index != c) return;
+    run(chunk, {});
+    for (std::size_t i = chunk.begin; i < chunk.end; ++i) mean[i] = slots_[0][i - chunk.begin];
+  });
+  held_ = nullptr;
+  held_by_unit_ = false;
+}
+
 void UnitRows::add_mean_gradient(const double* effects, std::size_t c,
                                  std::span<const double> by_mean, std::span<const double> by_sd,
                                  std::span<double> gradient) {
@@ -451,6 +466,11 @@ class OwnLikelihood final : public LogDensity {
         scratch.linear->move();
         if (const auto sum = scratch.linear->sum()) return number(*sum);
       }
+      if (scratch.tabled) {
+        scratch.rows.move_to(x.data());
+        scratch.tabled->move();
+        if (const auto sum = scratch.tabled->sum()) return number(*sum);
+      }
       return number(rows_->integrate(x.data()).sum());
     }
     scratch.rows.move_to(x.data());
@@ -468,6 +488,11 @@ class OwnLikelihood final : public LogDensity {
       scratch.rows.move_to(x.data());
       scratch.linear->move();
       if (const auto all = scratch.linear->sum(gradient)) return number(*all);
+    }
+    if (scratch.tabled) {
+      scratch.rows.move_to(x.data());
+      scratch.tabled->move();
+      if (const auto all = scratch.tabled->sum(gradient)) return number(*all);
     }
     const double sum = law_->varies() ? number(rows_->integrate(x.data()).sum()) : value(x);
     if (!(sum > -infinity)) return sum;
@@ -503,6 +528,11 @@ class OwnLikelihood final : public LogDensity {
       scratch.rows.move_to(x.data());
       scratch.linear->move();
       if (std::vector<double> each; scratch.linear->each(each)) return each;
+    }
+    if (scratch.tabled) {
+      scratch.rows.move_to(x.data());
+      scratch.tabled->move();
+      if (std::vector<double> each; scratch.tabled->each(each)) return each;
     }
     if (law_->varies()) return rows_->integrate(x.data()).log_likelihood;
     scratch.rows.move_to(x.data());
@@ -547,10 +577,11 @@ class OwnLikelihood final : public LogDensity {
 
 }  // namespace
 
-OwnRows::OwnRows(std::shared_ptr<const OwnLaw> law, std::size_t rows)
+OwnRows::OwnRows(std::shared_ptr<const OwnLaw> law, std::size_t rows, bool again_and_again)
     : law_(std::move(law)), columns_(bind_columns(*law_, rows)) {
   linear_ = is_linear(*law_, columns_);
   proportional_ = is_proportional(*law_, columns_);
+  if (again_and_again && !linear_) tabled_ = tabled_form(*law_, columns_);
 }
 
 const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
@@ -564,6 +595,9 @@ const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
   } else if (scratch.steps) {
     scratch.steps->move();
     latent::integrate(*scratch.steps, scratch.integrals);
+  } else if (scratch.tabled) {
+    scratch.tabled->move();
+    latent::integrate(*scratch.tabled, scratch.integrals);
   } else {
     latent::integrate(scratch.rows, scratch.integrals);
   }
@@ -573,9 +607,13 @@ const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
 OwnRows::Scratch& OwnRows::mine() const {
   std::unique_ptr<Scratch>& scratch = scratch_.local();
   if (!scratch) {
-    scratch.reset(new Scratch{UnitRows(*law_, columns_), {}, {}, {}, {}});
+    scratch.reset(new Scratch{UnitRows(*law_, columns_), {}, {}, {}, {}, {}});
     if (linear_) scratch->linear = std::make_unique<LinearUnits>(scratch->rows);
     if (proportional_) scratch->steps = std::make_unique<StepUnits>(scratch->rows);
+    if (tabled_) {
+      std::call_once(table_made_, [&] { table_ = make_table(scratch->rows, *tabled_); });
+      if (table_) scratch->tabled = std::make_unique<TabledUnits>(scratch->rows, *tabled_, table_);
+    }
   }
   return *scratch;
 }

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "wearwell/models/ownlaw/own_law.h"
 #include "wearwell/models/ownlaw/own_linear.h"
 #include "wearwell/models/ownlaw/own_steps.h"
+#include "wearwell/models/ownlaw/own_tabled.h"
 #include "wearwell/prob/response_block.h"
 
 namespace wearwell::ownlaw {
@@ -39,6 +42,7 @@ class UnitRows final : public latent::UnitTerms {
 
   /// All that follows is at these parameters, which must stay.
   void move_to(const double* x);
+  const double* at() const { return x_; }
   const Population& population() const { return population_; }
 
   std::size_t units() const override { return law_.units.size(); }
@@ -54,6 +58,8 @@ class UnitRows final : public latent::UnitTerms {
   /// Outputs of all rows of column c with every unit's effects at `effects`: the mean and the standard
   /// deviation of a normal law, row by row.
   void means_at(const double* effects, std::size_t c, std::span<double> mean, std::span<double> sd);
+  /// Means of column c alone, with the one effect of each unit at its own of `effects`.
+  void means_of_units(std::span<const double> effects, std::size_t c, std::span<double> mean);
   /// Adds to `gradient` the sum over the rows of column c of adjoint times derivative, of what
   /// `means_at` gives, with the effects held.
   void add_mean_gradient(const double* effects, std::size_t c, std::span<const double> by_mean,
@@ -105,18 +111,21 @@ class UnitRows final : public latent::UnitTerms {
   double* by_effect_at_[2] = {};
   std::vector<SlotValues> slots_;
   double zero_ = 0;
-  const double* held_ = nullptr;  // effects of all units, where they are held
+  const double* held_ = nullptr;  // effects, where they are held: the same of all units, or by unit
+  bool held_by_unit_ = false;
 };
 
 /// The rows of a law, for any thread.
 class OwnRows {
  public:
-  OwnRows(std::shared_ptr<const OwnLaw> law, std::size_t rows);
+  /// `again_and_again`: at so many points that a table of the units (own_tabled.h) is worth its making.
+  OwnRows(std::shared_ptr<const OwnLaw> law, std::size_t rows, bool again_and_again = false);
 
   struct Scratch {
     UnitRows rows;
     std::unique_ptr<LinearUnits> linear;  ///< where means are straight in what differs
     std::unique_ptr<StepUnits> steps;     ///< of a process whose mean is in proportion to it
+    std::unique_ptr<TabledUnits> tabled;  ///< of a curve that differs by one number
     latent::UnitIntegrals integrals;
     std::vector<double> value;
   };
@@ -130,6 +139,9 @@ class OwnRows {
   std::shared_ptr<const OwnLaw> law_;
   std::vector<BoundColumn> columns_;
   bool linear_ = false, proportional_ = false;
+  std::optional<TabledForm> tabled_;
+  mutable std::once_flag table_made_;
+  mutable std::shared_ptr<const MismatchTable> table_;
   mutable tbb::enumerable_thread_specific<std::unique_ptr<Scratch>> scratch_;
 };
 

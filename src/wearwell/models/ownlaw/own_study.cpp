@@ -160,7 +160,7 @@ void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy
         "= \"select ... limit 6\")");
   }
   study.data_rows = law->data.table.rows;
-  const auto rows = std::make_shared<const OwnRows>(law, study.data_rows);
+  const auto rows = std::make_shared<const OwnRows>(law, study.data_rows, true);
   const auto likelihood = ownlaw::own_likelihood(rows);
   ownlaw::find_starts(*likelihood, law->parameters);
   std::vector<double> start;
@@ -179,7 +179,7 @@ void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy
   }
   study.likelihood = [law, rows, likelihood](std::size_t count) {
     if (count == law->data.table.rows) return likelihood;
-    return ownlaw::own_likelihood(std::make_shared<const OwnRows>(law, count));
+    return ownlaw::own_likelihood(std::make_shared<const OwnRows>(law, count, true));
   };
   study.fit_data = ownlaw::fit_data(rows);
   study.checks = [rows](const Fit& fit) {
