@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "wearwell/bayes/normal_score.h"
 #include "wearwell/infer/power_scaling.h"
 #include "wearwell/math/view.h"
 
@@ -275,11 +276,11 @@ Check bounds(const Posterior& posterior, const Fit& fit) {
 namespace {
 
 // The probit of a law's distribution function, to about 1e-12 in either tail: beyond, the nearer of -7 and 7.
-double normal_score(const Law& law, double x) {
+double score_of(const Law& law, double x) {
   double low = -7, high = 7;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    (quantile(law, 0.5 * std::erfc(-middle / std::numbers::sqrt2)) < x ? low : high) = middle;
+    (quantile(law, normal_cdf(middle)) < x ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
@@ -308,7 +309,7 @@ double surprise(const Law& law, std::vector<double> draws) {
   const auto score = [&](double share) {
     const auto at = draws.begin() + static_cast<std::ptrdiff_t>(share * double(draws.size()));
     std::nth_element(draws.begin(), at, draws.end());
-    return normal_score(law, *at);
+    return score_of(law, *at);
   };
   const double median = score(0.5);
   if (ends_high(law, median < 0)) return 1;
