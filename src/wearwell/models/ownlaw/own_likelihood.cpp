@@ -466,11 +466,7 @@ class OwnLikelihood final : public LogDensity {
         scratch.linear->move();
         if (const auto sum = scratch.linear->sum()) return number(*sum);
       }
-      if (scratch.tabled) {
-        scratch.rows.move_to(x.data());
-        scratch.tabled->move();
-        if (const auto sum = scratch.tabled->sum()) return number(*sum);
-      }
+      if (const auto sum = quick_sum(scratch, x, {})) return number(*sum);
       return number(rows_->integrate(x.data()).sum());
     }
     scratch.rows.move_to(x.data());
@@ -489,11 +485,7 @@ class OwnLikelihood final : public LogDensity {
       scratch.linear->move();
       if (const auto all = scratch.linear->sum(gradient)) return number(*all);
     }
-    if (scratch.tabled) {
-      scratch.rows.move_to(x.data());
-      scratch.tabled->move();
-      if (const auto all = scratch.tabled->sum(gradient)) return number(*all);
-    }
+    if (const auto all = quick_sum(scratch, x, gradient)) return number(*all);
     const double sum = law_->varies() ? number(rows_->integrate(x.data()).sum()) : value(x);
     if (!(sum > -infinity)) return sum;
     if (!law_->varies()) {
@@ -529,11 +521,7 @@ class OwnLikelihood final : public LogDensity {
       scratch.linear->move();
       if (std::vector<double> each; scratch.linear->each(each)) return each;
     }
-    if (scratch.tabled) {
-      scratch.rows.move_to(x.data());
-      scratch.tabled->move();
-      if (std::vector<double> each; scratch.tabled->each(each)) return each;
-    }
+    if (std::vector<double> each; quick_each(scratch, x, each)) return each;
     if (law_->varies()) return rows_->integrate(x.data()).log_likelihood;
     scratch.rows.move_to(x.data());
     if (law_->by_unit()) {
@@ -566,6 +554,29 @@ class OwnLikelihood final : public LogDensity {
   using Scratch = OwnRows::Scratch;
 
   static double number(double value) { return value < infinity ? value : -infinity; }
+
+  // By a table or by sums over steps, each unit by a rule of its own.
+  static std::optional<double> quick_sum(Scratch& scratch, std::span<const double> x,
+                                         std::span<double> gradient) {
+    if (!scratch.tabled && !scratch.steps) return {};
+    scratch.rows.move_to(x.data());
+    if (scratch.tabled) {
+      scratch.tabled->move();
+      return scratch.tabled->sum(gradient);
+    }
+    scratch.steps->move();
+    return scratch.steps->sum(gradient);
+  }
+  static bool quick_each(Scratch& scratch, std::span<const double> x, std::vector<double>& each) {
+    if (!scratch.tabled && !scratch.steps) return false;
+    scratch.rows.move_to(x.data());
+    if (scratch.tabled) {
+      scratch.tabled->move();
+      return scratch.tabled->each(each);
+    }
+    scratch.steps->move();
+    return scratch.steps->each(each);
+  }
 
   Scratch& mine() const { return rows_->mine(); }
 

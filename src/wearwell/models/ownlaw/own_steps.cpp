@@ -179,68 +179,74 @@ void StepUnits::evaluate(std::span<const double> z, std::span<const std::uint8_t
   }
 }
 
-void StepUnits::add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient) {
+// What a node says of the slopes of the unit's log likelihood.
+void StepUnits::take(Unit& unit, double z, double weight, Moments& m, Population& by) const {
   const Population& population = rows_.population();
   const bool lognormal = law_.effects[0].lognormal;
+  const double q = population.value(law_, 0, &z) / base_;
+  m.one += weight * q;
+  m.square += weight * q * q;
+  m.inverse += weight / q;
+  double slope = unit.by_log / q - unit.by_inverse / (q * q) + unit.by_one + 2 * unit.by_square * q;
+  for (Alike& each : unit.alike) {
+    const double psi = digamma(q * each.shape);
+    each.slope += weight * q * psi;
+    slope -= each.count * each.shape * psi;
+  }
+  by.middle[0] += weight * slope * (lognormal ? q / population.middle[0] : 1 / base_);
+  by.scatter[0] += weight * slope * z * (lognormal ? q : 1 / base_);
+}
+
+// To the means and spreads of the unit's rows.
+void StepUnits::give(std::size_t u, const Moments& m) {
+  const Unit& unit = unit_[u];
   const ProcessForm& form = *column_.measured->process;
+  std::size_t last = column_.unit.size();  // the row before
+  for (std::size_t i = column_.begin[u]; i < column_.begin[u + 1]; ++i) {
+    if (!(column_.count[i] > 0)) continue;
+    const bool first = last == column_.unit.size();
+    const double w = mean_[i] - (first ? 0 : mean_[last]), s = spread_[i];
+    const double before = first ? 0 : spread_[last];
+    const double dy = column_.responses.rows[i].at - (first ? 0 : column_.responses.rows[last].at);
+    double by_w = 0;
+    if (form.process == Process::wiener && form.by_sd) {
+      const double v = s * s - before * before;
+      by_w = (m.one * dy - m.square * w) / v;
+      const double by_v =
+          -0.5 / v + 0.5 * (dy * dy - 2 * m.one * w * dy + m.square * w * w) / (v * v);
+      by_spread_[i] += 2 * s * by_v;
+      if (!first) by_spread_[last] -= 2 * before * by_v;
+    } else if (form.process == Process::wiener) {
+      const double square = dy * dy * m.inverse / w;
+      by_w = -0.5 / w + 0.5 * (square / w - m.one) / s;
+      by_spread_[i] += -0.5 / s + 0.5 * (square - 2 * dy + m.one * w) / (s * s);
+    } else if (w == 0 && dy == 0) {
+    } else if (form.process == Process::inverse_gaussian) {
+      by_w = 1 / w + m.one / s - m.square * w / (s * dy);
+      by_spread_[i] += -0.5 / s + 0.5 * (dy - 2 * m.one * w + m.square * w * w / dy) / (s * s);
+    } else {
+      const double shape = w / s, log_share = column_.log_growth[i] - std::log(s);
+      const double by_shape = m.one * log_share - unit.alike[alike_of_[i]].slope;
+      by_w = by_shape / s;
+      by_spread_[i] += -shape / s * by_shape + (dy / s - m.one * shape) / s;
+    }
+    by_mean_[i] += by_w;
+    if (!first) by_mean_[last] -= by_w;
+    last = i;
+  }
+}
+
+void StepUnits::add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient) {
   std::fill(by_mean_.begin(), by_mean_.end(), 0.0);
   std::fill(by_spread_.begin(), by_spread_.end(), 0.0);
   Population by;
   for (std::size_t u = 0; u < unit_.size(); ++u) {
-    Unit& unit = unit_[u];
     Moments m;
-    for (Alike& each : unit.alike) each.slope = 0;
+    for (Alike& each : unit_[u].alike) each.slope = 0;
     for (const latent::Sweep& sweep : integrals.sweeps) {
-      const double weight = sweep.weight[u], z = sweep.z[u];
-      if (!(weight > 1e-14)) continue;
-      const double q = population.value(law_, 0, &z) / base_;
-      m.one += weight * q;
-      m.square += weight * q * q;
-      m.inverse += weight / q;
-      double slope =
-          unit.by_log / q - unit.by_inverse / (q * q) + unit.by_one + 2 * unit.by_square * q;
-      for (Alike& each : unit.alike) {
-        const double psi = digamma(q * each.shape);
-        each.slope += weight * q * psi;
-        slope -= each.count * each.shape * psi;
-      }
-      by.middle[0] += weight * slope * (lognormal ? q / population.middle[0] : 1 / base_);
-      by.scatter[0] += weight * slope * z * (lognormal ? q : 1 / base_);
+      if (sweep.weight[u] > 1e-14) take(unit_[u], sweep.z[u], sweep.weight[u], m, by);
     }
-    std::size_t last = column_.unit.size();  // the row before
-    for (std::size_t i = column_.begin[u]; i < column_.begin[u + 1]; ++i) {
-      if (!(column_.count[i] > 0)) continue;
-      const bool first = last == column_.unit.size();
-      const double w = mean_[i] - (first ? 0 : mean_[last]), s = spread_[i];
-      const double before = first ? 0 : spread_[last];
-      const double dy =
-          column_.responses.rows[i].at - (first ? 0 : column_.responses.rows[last].at);
-      double by_w = 0;
-      if (form.process == Process::wiener && form.by_sd) {
-        const double v = s * s - before * before;
-        by_w = (m.one * dy - m.square * w) / v;
-        const double by_v =
-            -0.5 / v + 0.5 * (dy * dy - 2 * m.one * w * dy + m.square * w * w) / (v * v);
-        by_spread_[i] += 2 * s * by_v;
-        if (!first) by_spread_[last] -= 2 * before * by_v;
-      } else if (form.process == Process::wiener) {
-        const double square = dy * dy * m.inverse / w;
-        by_w = -0.5 / w + 0.5 * (square / w - m.one) / s;
-        by_spread_[i] += -0.5 / s + 0.5 * (square - 2 * dy + m.one * w) / (s * s);
-      } else if (w == 0 && dy == 0) {
-      } else if (form.process == Process::inverse_gaussian) {
-        by_w = 1 / w + m.one / s - m.square * w / (s * dy);
-        by_spread_[i] += -0.5 / s + 0.5 * (dy - 2 * m.one * w + m.square * w * w / dy) / (s * s);
-      } else {
-        const double shape = w / s, log_share = column_.log_growth[i] - std::log(s);
-        const double by_shape = m.one * log_share - unit.alike[alike_of_[i]].slope;
-        by_w = by_shape / s;
-        by_spread_[i] += -shape / s * by_shape + (dy / s - m.one * shape) / s;
-      }
-      by_mean_[i] += by_w;
-      if (!first) by_mean_[last] -= by_w;
-      last = i;
-    }
+    give(u, m);
   }
   rows_.add_population_gradient(by, gradient);
   rows_.add_mean_gradient(&base_, 0, by_mean_, by_spread_, gradient);

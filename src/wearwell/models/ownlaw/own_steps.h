@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,6 +33,11 @@ class StepUnits final : public latent::UnitTerms {
   int effects() const override { return 1; }
   void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
                 std::span<double> value, std::span<double> slope) override;
+  /// The sum of the units' log likelihoods by a rule with wider steps than latent::integrate takes; nothing
+  /// where that does not settle. With `gradient` that is added as well.
+  std::optional<double> sum(std::span<double> gradient = {});
+  /// Each unit's instead; false where `sum` gives nothing.
+  bool each(std::vector<double>& log_likelihood);
   /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
   void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);
 
@@ -47,8 +54,24 @@ class StepUnits final : public latent::UnitTerms {
   struct Moments {
     double one = 0, square = 0, inverse = 0;  // of q
   };
+  struct Bell {
+    double center, width;
+  };
+  struct Nodes {
+    static constexpr std::size_t most = 400, together = 8;
+    std::size_t count = 0;
+    std::array<double, most> z, f;  // f: shares of the integral
+    std::array<bool, most> odd;
+  };
   void add_step(std::size_t row, double w, double dy, double spread, double before, Unit& unit);
   double slope_of(const Unit& unit, double q) const;
+  double slope_by_z(const Unit& unit, double z) const;
+  std::optional<Bell> bell(const Unit& unit) const;
+  void log_densities(const Unit& unit, const double* z, double* log_f) const;
+  bool lay(const Unit& unit, const Bell& about, double width, double& highest);
+  std::optional<double> integral(const Unit& unit);
+  void take(Unit& unit, double z, double weight, Moments& moments, Population& by) const;
+  void give(std::size_t u, const Moments& moments);
 
   UnitRows& rows_;
   const OwnLaw& law_;
@@ -57,6 +80,7 @@ class StepUnits final : public latent::UnitTerms {
   std::vector<double> mean_, spread_, by_mean_, by_spread_;
   std::vector<std::size_t> alike_of_;  // of each row
   std::vector<Unit> unit_;
+  Nodes nodes_;
 };
 
 }  // namespace wearwell::ownlaw
