@@ -210,6 +210,9 @@ std::string history_text(const HistoryReport& report) {
                           cycles, counted.closed, with_unit(report, largest_range(counted.classes)),
                           report.unit.empty() ? "; the column says no unit." : "."),
               0, 2);
+  if (!report.unread_times.empty())
+    text += wrapped(fmt::format("Gaps were not looked for: --time '{}' does.", report.unread_times),
+                    0, 2);
   return text + "\n" + present::text(spectrum_table(report));
 }
 

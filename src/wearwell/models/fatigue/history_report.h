@@ -14,7 +14,8 @@ struct HistoryReport {
   std::string source, column, unit;  ///< unit: empty where nobody said
   CountingRule rule;
   LoadHistory::Counted counted;
-  std::size_t most_ranges = 32;  ///< classes of range that are shown
+  std::size_t most_ranges = 32;   ///< classes of range that are shown
+  std::string unread_times = {};  ///< a column of times in which nobody asked for gaps
 };
 
 /// Counted cycles by range and mean, every class that holds any.

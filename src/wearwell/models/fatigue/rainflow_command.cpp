@@ -95,8 +95,10 @@ void run(const RainflowOptions& options) {
   if (!options.output.empty()) folder.emplace(options.output);
   for (auto samples = file.next(); !samples.empty(); samples = file.next()) history.add(samples);
 
-  HistoryReport report{file.source(), file.column(),     file.unit(),
-                       rule,          history.counted(), static_cast<std::size_t>(options.bins)};
+  HistoryReport report{file.source(),      file.column(),
+                       file.unit(),        rule,
+                       history.counted(),  static_cast<std::size_t>(options.bins),
+                       file.unread_times()};
   if (report.counted.samples == 0) throw InputError(fmt::format("{} has no rows", file.source()));
   refuse_without_cycles(file, report.counted);
   if (rule.class_width > 0 && report.counted.classes.width() > rule.class_width)

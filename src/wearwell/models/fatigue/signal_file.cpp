@@ -69,6 +69,9 @@ void SignalFile::choose(const SignalChoice& choice) {
                       source(), fmt::join(possible, ", ")));
   }
   column_ = chosen->name;
+  for (const Column& column : table.columns)
+    if (column.is_number && choice.time.empty() && column.name != column_ && is_time(column))
+      unread_times_ = column.name;
   unit_ = load_heading(*chosen).unit;
   if (choice.unit.empty()) return;
   const auto wanted = parse_unit(choice.unit);

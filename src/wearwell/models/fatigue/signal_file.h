@@ -32,6 +32,8 @@ class SignalFile {
   const std::string& source() const { return stream_.source(); }
   const std::string& column() const { return column_; }
   const std::string& unit() const { return unit_; }  ///< empty where nobody says
+  /// A column of times in which nobody asked for gaps; else empty.
+  const std::string& unread_times() const { return unread_times_; }
 
   /// The next samples, in the file's unit; none at the end.
   std::span<const double> next();
@@ -42,7 +44,7 @@ class SignalFile {
 
   ColumnStream stream_;
   ColumnStream::Batch batch_;
-  std::string column_, unit_, time_;
+  std::string column_, unit_, time_, unread_times_;
   std::optional<double> last_time_, step_;
 };
 
