@@ -16,6 +16,7 @@
 #include <system_error>
 #include <thread>
 
+#include "wearwell/base/ending.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/fleet/duckdb_columns.h"
@@ -27,19 +28,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that goes with its object.
+/// A folder of its own that goes with its object, and with a program that a signal ends, if nothing was spilled
+/// by then.
 class SpillFolder {
  public:
   explicit SpillFolder(const fs::path& parent) {
     std::string name = (fs::absolute(parent) / ".wearwell-fleet-XXXXXX").string();
+    Uninterrupted now;
     if (!mkdtemp(name.data()))
       throw InputError(
           fmt::format("cannot make a folder in {}: {}", parent.string(), std::strerror(errno)));
     path_ = name;
+    now.note(path_, true);
+    now.note(path_ / "spill", true);
+    for (const char* each : {"sums.duckdb", "sums.duckdb.wal"}) now.note(path_ / each, false);
   }
   ~SpillFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    Uninterrupted().forget(path_);
   }
   SpillFolder(const SpillFolder&) = delete;
   SpillFolder& operator=(const SpillFolder&) = delete;
@@ -132,11 +139,11 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
     execute(
         fmt::format("set memory_limit = '{}MiB'; set temp_directory = {}; set "
                     "preserve_insertion_order = true; "
-                    "set enable_progress_bar = true; set enable_progress_bar_print = false; set "
+                    "set enable_progress_bar = {}; set enable_progress_bar_print = false; set "
                     "allowed_paths = "
                     "[{}]; set allowed_directories = [{}]; set enable_external_access = false; set "
                     "lock_configuration = true",
-                    memory_, quoted((spill_.path() / "spill").string(), '\''),
+                    memory_, quoted((spill_.path() / "spill").string(), '\''), settings.progress,
                     fmt::join(allowed, ", "), quoted(spill_.path().string() + "/", '\'')));
     view_ = "create or replace temp view cycles as select * from " + view_of(files, "");
     execute(view_);
