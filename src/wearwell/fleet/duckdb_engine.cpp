@@ -109,11 +109,11 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
     execute(
         fmt::format("set memory_limit = '{}MiB'; set temp_directory = {}; set "
                     "preserve_insertion_order = true; "
-                    "set enable_progress_bar = true; set enable_progress_bar_print = false; set "
+                    "set enable_progress_bar = {}; set enable_progress_bar_print = false; set "
                     "allowed_paths = "
                     "[{}]; set allowed_directories = [{}]; set enable_external_access = false; set "
                     "lock_configuration = true",
-                    memory_, quoted((spill_.path() / "spill").string(), '\''),
+                    memory_, quoted((spill_.path() / "spill").string(), '\''), settings.progress,
                     fmt::join(allowed, ", "), quoted(spill_.path().string() + "/", '\'')));
     view_ = "create or replace temp view cycles as select * from " + view_of(files, "");
     execute(view_);

@@ -52,7 +52,8 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
                                               .state = options.state,
                                               .spill = folder.path().parent_path(),
                                               .threads = options.threads,
-                                              .memory = options.memory}));
+                                              .memory = options.memory,
+                                              .progress = options.statements}));
     } else if (name.starts_with("postgresql://") || name.starts_with("postgres://")) {
       engines.push_back(fleet::postgres_engine(name, options.table));
     } else if (fleet::is_clickhouse(name)) {

@@ -141,6 +141,11 @@ void refuse_other_option(fleet::Engine& engine, const ClutchSql& sql, const Flee
       shard.engine.source(), shard.ranges, said));
 }
 
+/// The engine as one whose rows a loop of our own sums; nullptr where statements do.
+fleet::ColumnEngine* columns_of(fleet::Engine& engine, const FleetRequest& request) {
+  return request.statements ? nullptr : dynamic_cast<fleet::ColumnEngine*>(&engine);
+}
+
 /// By a loop of our own: it looks at all rows while it sums.
 void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const IdentifiedModel& model,
                        const FleetRequest& request, bool full, const Monitor& monitor) {
@@ -166,9 +171,8 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
   engine.refuse_torn_units(source.unit.name);
   shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
-  auto* const columns = dynamic_cast<fleet::ColumnEngine*>(&engine);
-  const bool by_loop = columns && !request.statements;
-  if (!by_loop) {
+  fleet::ColumnEngine* const columns = columns_of(engine, request);
+  if (!columns) {
     const FleetCheck check = check_rows(engine, shard.sql);
     shard.rows = check.rows;
     shard.ranges = check.ranges;
@@ -177,11 +181,12 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
     source.portions = static_cast<int>(std::ceil(shard.rows / request.portion_rows));
   try {
     engine.run(shard.sql.setup, {}, "", 0);
-    if (!request.first && columns) refuse_others(engine, shard.sql, model.id);
+    if (!request.first && dynamic_cast<fleet::ColumnEngine*>(&engine))
+      refuse_others(engine, shard.sql, model.id);
     if (!request.first) refuse_other_option(engine, shard.sql, request, full);
     if (!request.first) refuse_late(engine, shard.sql);
-    if (by_loop) sum_shard_by_loop(shard, *columns, model, request, full, monitor);
-    for (; !by_loop && source.portion < source.portions; ++source.portion) {
+    if (columns) sum_shard_by_loop(shard, *columns, model, request, full, monitor);
+    for (; !columns && source.portion < source.portions; ++source.portion) {
       const std::string query =
           source.portions == 1
               ? shard.sql.query
@@ -257,6 +262,10 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
                       .replicates = full,
                       .units = {},
                       .statements = shards.front().sql.setup + shards.front().sql.query};
+  if (columns_of(*engines.front(), request))
+    found.statements =
+        fleet::comment("Summed by a loop of the program's own. The statements give the same.") +
+        found.statements;
   for (const Shard& shard : shards) {
     found.engine += (found.engine.empty() ? "" : ", ") + shard.engine.in_words();
     found.rows += shard.rows;
