@@ -144,10 +144,11 @@ std::string SqlWriter::si(bool fresh) const {
                                   ? fmt::format("cityHash64(toString({})) % {} = {}", unit,
                                                 source_.portions, source_.portion)
                                   : "";
-  if (!fresh || source_.first)
-    return fmt::format("select\n  {}\nfrom {} as t{}{}{}", columns.text(), source_.table,
-                       portion.empty() ? "" : "\nwhere ", portion, fence());
-  if (clickhouse()) return fresh_of_clickhouse(columns, cycle, portion);
+  const std::string rows =
+      fmt::format("select\n  {}\nfrom {} as t{}{}{}", columns.text(), source_.table,
+                  portion.empty() ? "" : "\nwhere ", portion, fence());
+  if (!fresh || source_.first) return rows;
+  if (clickhouse()) return fresh_of_clickhouse(rows);
   columns.add("coalesce(last.after_cycle, 0)", "after_cycle");
   columns.add("coalesce(last.energy, 0)", "energy_before");
   return fmt::format(

@@ -39,19 +39,15 @@ std::string SqlWriter::keep() const {
       sums_table_, kept_names(), fresh_table_);
 }
 
-/// Where the table lies in shards, the sums are here alone and go to all of them (global); and 18.16 knows a joined table there only by
-/// names that nothing else has. Where a join finds nothing there is 0.
-std::string SqlWriter::fresh_of_clickhouse(SqlColumns columns, const std::string& cycle,
-                                           const std::string& portion) const {
-  columns.add("wearwell_unit", "unit");
-  columns.add("wearwell_after", "after_cycle");
-  columns.add("wearwell_energy", "energy_before");
+/// The rows first, from shards perhaps; then the sums, which are here alone. Names that nothing else has, since 18.16 takes no others for a
+/// join where shards answer, and servers of today take none of the SELECT that joins. Where a join finds nothing there is 0.
+std::string SqlWriter::fresh_of_clickhouse(const std::string& rows) const {
   return fmt::format(
-      "select\n  {}\nfrom {} as t\nglobal all left join (\n  select unit as wearwell_unit, "
+      "select *, wearwell_unit as unit, wearwell_after as after_cycle, wearwell_energy as "
+      "energy_before\nfrom (\n{}\n) as new_rows all left join (\n  select unit as wearwell_unit, "
       "max(last_cycle) as wearwell_after, sum(energy) as wearwell_energy from {} where model = {} "
-      "group by unit\n) using wearwell_unit\nwhere {} > wearwell_after{}",
-      columns.text(), source_.table, sums_table_, id_, cycle,
-      portion.empty() ? "" : " and " + portion);
+      "group by unit\n) as last using wearwell_unit\nwhere cycle > wearwell_after",
+      rows, sums_table_, id_);
 }
 
 /// ClickHouse of 2018 has no window functions: the cycles of a unit as an array, in order. Sorted rows come in blocks of a bounded size, those

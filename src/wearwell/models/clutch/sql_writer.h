@@ -86,8 +86,7 @@ class SqlWriter {
   std::string setup_of_clickhouse(const std::string& rows) const;
   /// All sums of the model: what was kept and what is new.
   std::string known_sums() const;
-  std::string fresh_of_clickhouse(SqlColumns columns, const std::string& cycle,
-                                  const std::string& portion) const;
+  std::string fresh_of_clickhouse(const std::string& rows) const;
   std::string powers() const;
   std::string rates() const;
   std::string worn() const;

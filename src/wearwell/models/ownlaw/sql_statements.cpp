@@ -217,7 +217,7 @@ std::string SqlStatements::by_arrays() const {
       "as "
       "law_unit, groupArray({}) as law_draws from (select unit, draw{} from {} group by unit, "
       "draw) "
-      "group by unit\n) using law_unit",
+      "group by unit\n) as known using law_unit",
       apart, row_columns(), unit, fleet::table_identifier(choice.dialect, choice.table), all, any,
       table);
   std::vector<std::string> own = kept();
