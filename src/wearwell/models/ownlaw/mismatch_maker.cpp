@@ -56,7 +56,7 @@ class MismatchMaker {
     const double freedom = std::max(3.0, domain_.freedom);
     variance_ = best.total / freedom;
     if (!(variance_ > 0 && std::isfinite(variance_))) return {};
-    const double r = most_size(freedom);
+    const double r = size_ = most_size(freedom);
     level_ = 2 * variance_ * r * r * (least_posterior + least_integrand);
     double low = best.theta, high = best.theta;
     if (shared) {
@@ -166,24 +166,36 @@ class MismatchMaker {
     return outside;
   }
 
-  // The x on one side of the best at which S reaches the level.
-  std::vector<double> end_of_x(const Best& best, double bound) {
-    std::vector<double> inside = best.x, outside(units_, bound);
-    std::copy(outside.begin(), outside.end(), x_.begin());
+  // The x between the best and a bound at which S has risen by so much; the bound where it has not.
+  std::vector<double> risen_by(const Best& best, const std::vector<double>& bound, double by) {
+    std::vector<double> inside = best.x, outside = bound;
+    x_ = bound;
     mismatch_(best.theta, x_, s_);
     std::vector<std::uint8_t> open(units_);
-    for (std::size_t u = 0; u < units_; ++u) open[u] = s_[u] < best.sums[u] + level_;
+    for (std::size_t u = 0; u < units_; ++u) open[u] = s_[u] < best.sums[u] + by;
     for (int round = 0; round < 40; ++round) {
       for (std::size_t u = 0; u < units_; ++u) x_[u] = 0.5 * (inside[u] + outside[u]);
       mismatch_(best.theta, x_, s_);
       for (std::size_t u = 0; u < units_; ++u) {
-        (s_[u] < best.sums[u] + level_ ? inside : outside)[u] = x_[u];
+        (s_[u] < best.sums[u] + by ? inside : outside)[u] = x_[u];
       }
     }
     for (std::size_t u = 0; u < units_; ++u) {
-      if (open[u]) inside[u] = bound;
+      if (open[u]) inside[u] = bound[u];
     }
     return inside;
+  }
+
+  // The x on one side of the best at which S reaches the level, or so many widths away: of a slow unit S rises no
+  // more at some distance.
+  std::vector<double> end_of_x(const Best& best, double bound) {
+    constexpr double most_widths = 14;
+    std::vector<double> ends = risen_by(best, std::vector<double>(units_, bound), variance_);
+    for (std::size_t u = 0; u < units_; ++u) {
+      const double farthest = best.x[u] + most_widths * size_ * (ends[u] - best.x[u]);
+      ends[u] = bound > best.x[u] ? std::min(bound, farthest) : std::max(bound, farthest);
+    }
+    return risen_by(best, ends, level_);
   }
 
   // Middles and widths of x over theta.
@@ -310,7 +322,7 @@ class MismatchMaker {
   Mismatch& mismatch_;
   const MismatchDomain& domain_;
   std::size_t units_;
-  double variance_ = 0, level_ = 0;
+  double variance_ = 0, level_ = 0, size_ = 1;
   std::vector<double> x_, s_;
 };
 
