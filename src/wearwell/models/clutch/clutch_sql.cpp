@@ -260,22 +260,6 @@ std::string SqlWriter::worn() const {
       columns.text(), rates(), fence());
 }
 
-/// Adds to a unit's row where it has one; not where another run counted in between.
-std::string SqlWriter::adding() const {
-  if (clickhouse()) return "";
-  std::vector<std::string> sets;
-  for (const std::string& each : sums_columns()) {
-    if (each == "model" || each == "unit") continue;
-    const bool place = each == "after_cycle" || each == "last_cycle";
-    sets.push_back(place ? fmt::format("{0} = excluded.{0}", each)
-                         : fmt::format("{0} = kept.{0} + excluded.{0}", each));
-  }
-  return fmt::format(
-      "\non conflict (model, unit) do update set\n  {}\nwhere kept.last_cycle = "
-      "excluded.after_cycle",
-      fmt::join(sets, ",\n  "));
-}
-
 std::string SqlWriter::query() const {
   SqlColumns columns;
   columns.keep(id_);

@@ -202,11 +202,31 @@ std::string SqlWriter::late() const {
       sums_table_, id_, unit, cycle);
 }
 
+/// Adds to a unit's row where it has one; not where another run counted in between.
+std::string SqlWriter::adding() const {
+  if (clickhouse()) return "";
+  std::vector<std::string> sets;
+  for (const std::string& each : sums_columns()) {
+    if (each == "model" || each == "unit") continue;
+    const bool place = each == "after_cycle" || each == "last_cycle";
+    sets.push_back(place ? fmt::format("{0} = excluded.{0}", each)
+                         : fmt::format("{0} = kept.{0} + excluded.{0}", each));
+  }
+  return fmt::format(
+      "\non conflict (model, unit) do update set\n  {}\nwhere kept.last_cycle = "
+      "excluded.after_cycle",
+      fmt::join(sets, ",\n  "));
+}
+
+/// Of a row whose values are not what they must be. ClickHouse has no truth that is missing.
+std::string SqlWriter::refused() const {
+  return fmt::format(fmt::runtime(clickhouse() ? "not ({})" : "not coalesce({}, false)"), valid());
+}
+
 std::string SqlWriter::check() const {
   SqlColumns columns;
   columns.keep(fleet::real(dialect_, "count(*)"));
-  const char* refused = clickhouse() ? "not ({})" : "not coalesce({}, false)";
-  columns.keep(fleet::real(dialect_, count_if(fmt::format(fmt::runtime(refused), valid()))));
+  columns.keep(fleet::real(dialect_, count_if(refused())));
   columns.keep(fleet::real(dialect_, count_if(clickhouse() ? "unit = ''" : "unit is null")));
   for (const char* each : input_columns) {
     columns.keep(fmt::format("min(raw_{})", each));
@@ -222,10 +242,8 @@ std::string SqlWriter::offender() const {
   columns.keep(fleet::real(dialect_, "cycle"));
   for (const char* each : input_columns) columns.keep(std::string("raw_") + each);
   columns.keep("raw_energy");
-  return fmt::format(
-      "select\n  {}\nfrom (\n{}\n) as si where not coalesce({}, false) order by unit, cycle limit "
-      "1",
-      columns.text(), si(false), valid());
+  return fmt::format("select\n  {}\nfrom (\n{}\n) as si where {} order by unit, cycle limit 1",
+                     columns.text(), si(false), refused());
 }
 
 std::string SqlWriter::stream() const {

@@ -78,6 +78,7 @@ class SqlWriter {
   std::string in_si(const SqlColumn& column) const;
   std::string unit() const;
   std::string valid() const;
+  std::string refused() const;
   std::string sigma() const;
   std::string si(bool fresh) const;
   std::string checked() const;
