@@ -2,6 +2,7 @@
 // clutch predict` from a Parquet file.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <string>
 
@@ -85,59 +86,91 @@ void predict_full(benchmark::State& state) {
 PREDICT(predict_scatter_only);
 PREDICT(predict_full);
 
+double processor_seconds() {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// Processor time a cycle in us, which other work on the machine changes least, and the most memory that the process had in
+/// MB: run one benchmark alone for that.
+void report(benchmark::State& state, double seconds, long long cycles) {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  state.counters["us_a_cycle"] =
+      1e6 * seconds / static_cast<double>(cycles) / static_cast<double>(state.iterations());
+  state.counters["MB"] = static_cast<double>(used.ru_maxrss) / 1024;
+}
+
+enum class Way { scatter_only, full, statements_scatter_only, statements_full };
+
 // `wearwell fleet` from Parquet on two threads: sums in fixed point, and the report.
-void fleet_run(benchmark::State& state, bool with_replicates) {
+void run_fleet(benchmark::State& state, const std::string& query, Way way) {
   const long long cycles = state.range(0);
-  const ParquetFile file("wearwell-bench-fleet", fleet_of(cycles));
+  const ParquetFile file("wearwell-bench-fleet", query);
   const IdentifiedModel model{example().model, "bench"};
+  const double start = processor_seconds();
   for (auto _ : state) {
-    const auto engine = fleet::duckdb_engine({.files = {file.path().string()}, .threads = 2});
-    const Result result =
-        find_fleet(model, {engine.get()},
-                   {.first = true, .replicates = with_replicates, .levels = {25, 50, 75, 100}}, {});
+    const auto engine =
+        fleet::duckdb_engine({.files = {file.path().string()}, .threads = 2, .memory = 1000});
+    const Result result = find_fleet(
+        model, {engine.get()},
+        {.first = true,
+         .replicates = way == Way::full || way == Way::statements_full,
+         .statements = way == Way::statements_full || way == Way::statements_scatter_only,
+         .levels = {25, 50, 75, 100}},
+        {.threads = 2});
     benchmark::DoNotOptimize(result.header.data.rows);
   }
-  state.counters["cycles/s"] = benchmark::Counter(static_cast<double>(cycles),
-                                                  benchmark::Counter::kIsIterationInvariantRate);
+  report(state, processor_seconds() - start, cycles);
 }
-void fleet_scatter_only(benchmark::State& state) {
-  fleet_run(state, false);
+void fleet_in_order(benchmark::State& state, Way way) {
+  run_fleet(state, fleet_of(state.range(0)), way);
 }
-void fleet_full(benchmark::State& state) {
-  fleet_run(state, true);
+// Row after row of another unit, as time brings them.
+void fleet_by_time(benchmark::State& state) {
+  run_fleet(state, fleet_of(state.range(0)) + " order by cycle, plate", Way::full);
+}
+void fleet_in_no_order(benchmark::State& state) {
+  run_fleet(state, fleet_of(state.range(0)) + " order by hash(plate * 7919 + cycle)", Way::full);
 }
 // What the engine takes to read the same columns: the limit.
 void fleet_scan(benchmark::State& state) {
   const long long cycles = state.range(0);
   const ParquetFile file("wearwell-bench-fleet", fleet_of(cycles));
+  const double start = processor_seconds();
   for (auto _ : state) {
     const auto engine = fleet::duckdb_engine({.files = {file.path().string()}, .threads = 2});
     engine->rows(
         "select max(plate), max(cycle), sum(columns('speed|torque|temp|time|energy')) from cycles",
         0, [](const fleet::Row& row) { benchmark::DoNotOptimize(row.numbers.front()); });
   }
-  state.counters["cycles/s"] = benchmark::Counter(static_cast<double>(cycles),
-                                                  benchmark::Counter::kIsIterationInvariantRate);
+  report(state, processor_seconds() - start, cycles);
 }
+#define FLEET(name, ...)               \
+  BENCHMARK_CAPTURE(name, __VA_ARGS__) \
+      ->Unit(benchmark::kMillisecond)  \
+      ->UseRealTime()                  \
+      ->MeasureProcessCPUTime()        \
+      ->Iterations(1)
+constexpr long long million = 1'000'000;
 BENCHMARK(fleet_scan)
-    ->Arg(20'000'000)
+    ->Arg(10 * million)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->MeasureProcessCPUTime();
-BENCHMARK(fleet_scatter_only)
-    ->Arg(1'000'000)
-    ->Arg(20'000'000)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime()
-    ->Iterations(1);
-BENCHMARK(fleet_full)
-    ->Arg(1'000'000)
-    ->Arg(4'000'000)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime()
-    ->Iterations(1);
+FLEET(fleet_in_order, scatter_only, Way::scatter_only)
+    ->Arg(million)
+    ->Arg(10 * million)
+    ->Arg(100 * million);
+FLEET(fleet_in_order, full, Way::full)->Arg(million)->Arg(10 * million)->Arg(100 * million);
+FLEET(fleet_in_order, statements_scatter_only, Way::statements_scatter_only)->Arg(10 * million);
+FLEET(fleet_in_order, statements_full, Way::statements_full)->Arg(million);
+BENCHMARK(fleet_by_time)->Arg(10 * million)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(fleet_in_no_order)->Arg(10 * million)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace
 }  // namespace wearwell::clutch

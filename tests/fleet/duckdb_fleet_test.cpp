@@ -1,8 +1,11 @@
 // `wearwell fleet` over files: the numbers of `wearwell clutch predict`, whatever the order of rows.
+#include <duckdb.h>
 #include <gmock/gmock.h>
 
 #include "fleet/sample_fleet.h"
 #include "support/scratch.h"
+#include "wearwell/fleet/duckdb_engine.h"
+#include "wearwell/models/clutch/fleet_run.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -19,6 +22,21 @@ class DuckdbFleet : public ScratchTest {
   }
   std::string path(const std::string& name) const { return "'" + (folder() / name).string() + "'"; }
   std::string output() const { return " -o " + path("results"); }
+  /// In the database of --state.
+  long rows_kept() const {
+    duckdb_database database = nullptr;
+    duckdb_connection connection = nullptr;
+    duckdb_result result;
+    EXPECT_EQ(duckdb_open((folder() / "sums.duckdb").c_str(), &database), DuckDBSuccess);
+    EXPECT_EQ(duckdb_connect(database, &connection), DuckDBSuccess);
+    EXPECT_EQ(duckdb_query(connection, "select count(*) from wearwell_sums", &result),
+              DuckDBSuccess);
+    const long rows = duckdb_value_int64(&result, 0, 0);
+    duckdb_destroy_result(&result);
+    duckdb_disconnect(&connection);
+    duckdb_close(&database);
+    return rows;
+  }
   std::string file(const std::string& name, const std::vector<FleetCycle>& cycles) {
     write(name, fleet_csv(cycles));
     return path(name);
@@ -34,11 +52,13 @@ TEST_F(DuckdbFleet, HasTheNumbersOfPredict) {
     const std::string name = model(kind);
     const json predicted =
         json::parse(run_wearwell("clutch predict " + name + " " + table + " --json").out);
-    const json fleet = fleet_summary(name + " " + table + output());
-    EXPECT_LT(difference(fleet, predicted), 1e-12) << name_of(kind);
-    double negative = 0;
-    for (const auto& each : fleet["worst"]) negative += each["negative"].get<double>();
-    EXPECT_GT(negative, 100);
+    for (const char* way : {"", " --statements"}) {
+      const json fleet = fleet_summary(name + " " + table + output() + way);
+      EXPECT_LT(difference(fleet, predicted), 1e-12) << name_of(kind) << way;
+      double negative = 0;
+      for (const auto& each : fleet["worst"]) negative += each["negative"].get<double>();
+      EXPECT_GT(negative, 100);
+    }
   }
 }
 
@@ -87,6 +107,93 @@ TEST_F(DuckdbFleet, DayByDayIsAllAtOnce) {
   EXPECT_EQ(whole["worst"].dump(), again["worst"].dump());
 }
 
+// Each unit is one row, however many runs there were; the statements do the same, and go on from it.
+TEST_F(DuckdbFleet, SavedSumsAreOneRowAUnit) {
+  const auto cycles = fleet_cycles(3000, 4, 15);
+  const std::string name = model(), state = " --state " + path("sums.duckdb");
+  for (const char* way : {"", " --statements"}) {
+    std::filesystem::remove(folder() / "sums.duckdb");
+    const json whole = fleet_summary(name + " " + file("all.csv", cycles) + output() + way);
+    json last;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto from = cycles.begin() + static_cast<long>(1000 * i);
+      last =
+          fleet_summary(name + " " + file("day.csv", {from, from + 1000}) + output() + state + way);
+    }
+    EXPECT_EQ(whole["worst"].dump(), last["worst"].dump()) << way;
+    EXPECT_EQ(rows_kept(), 4) << way;
+  }
+  // From one to the other.
+  const std::string more = file("more.csv", fleet_cycles(3200, 4, 15));
+  const json mixed = fleet_summary(name + " " + more + output() + state);
+  const json plain = fleet_summary(name + " " + more + output());
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(
+        mixed["worst"][i]["sd_full"].get<double>() / plain["worst"][i]["sd_full"].get<double>(), 1,
+        1e-12);
+}
+
+TEST_F(DuckdbFleet, SumsOfAnotherModelOrOptionAreRefused) {
+  const std::string name = model();
+  std::string table = file("a.csv", fleet_cycles(500, 2, 16));
+  const std::string state = output() + " --state " + path("sums.duckdb");
+  fleet_summary(name + " " + table + state);
+  table = file("b.csv", fleet_cycles(600, 2, 16));
+  const auto refused = [&](const std::string& arguments, const std::string& part) {
+    const CommandResult run = run_wearwell("fleet " + arguments + " " + table + state);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr(part));
+    EXPECT_EQ(rows_kept(), 2);
+  };
+  for (const std::string way : {"", " --statements"}) {
+    refused(name + way + " --scatter-only", "made without --scatter-only");
+    WearModel other = fleet_model(ScatterKind::linear);
+    other.worn_out *= 2;
+    write("other.json", to_json(other).dump(1));
+    refused(path("other.json") + way, "the sums of another model");
+  }
+  std::filesystem::remove(folder() / "sums.duckdb");
+  fleet_summary(name + " " + table + state + " --scatter-only");
+  refused(name, "made with --scatter-only");
+}
+
+// Sums of more units than may be held are given to the engine on the way.
+TEST_F(DuckdbFleet, UnitsBeyondMemoryAreTheSame) {
+  model();
+  const IdentifiedModel read = read_identified_model(folder() / "model.json");
+  const int units = 600;
+  std::vector<FleetCycle> cycles = fleet_cycles(30 * units, 1, 17);
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    cycles[i].unit = fmt::format("{}", i % units);
+    cycles[i].number = static_cast<long long>(1 + i / units);
+  }
+  file("all.csv", cycles);
+  const auto body = [&](std::size_t units_in_memory) {
+    const auto engine = fleet::duckdb_engine(
+        {.files = {(folder() / "all.csv").string()}, .unit = "plate", .spill = folder()});
+    return find_fleet(read, {engine.get()},
+                      {.first = true,
+                       .units_in_memory = units_in_memory,
+                       .levels = {50},
+                       .horizons = {0, 100}},
+                      {})
+        .body.dump();
+  };
+  const std::string all = body(0);
+  EXPECT_EQ(all, body(100));
+  EXPECT_EQ(all, body(1));
+}
+
+// Units in CSV are words, whatever they look like; whole numbers of a table are the same unit whatever their type.
+TEST_F(DuckdbFleet, UnitsAreWhatTheyLookLike) {
+  auto cycles = fleet_cycles(300, 3, 18);
+  for (FleetCycle& each : cycles) each.unit = fmt::format("00{}", each.unit.back());
+  const json fleet = fleet_summary(model() + " " + file("a.csv", cycles) + output());
+  ASSERT_EQ(fleet["worst"].size(), 3u);
+  for (const auto& each : fleet["worst"])
+    EXPECT_THAT(each["unit"].get<std::string>(), testing::StartsWith("00"));
+}
+
 TEST_F(DuckdbFleet, RowsThatComeLateAreRefusedAndNothingIsKept) {
   const auto cycles = fleet_cycles(3000, 4, 6);
   const std::string name = model(), state = " --state " + path("sums.duckdb");
@@ -114,7 +221,10 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   };
   auto changed = cycles;
   changed[50].torque = -1;
-  refused(changed, "1 rows of 200 have no value, or one that cannot be");
+  refused(changed,
+          fmt::format("1 rows of 200 have no value, or one that cannot be (unit {}, cycle {}: "
+                      "torque is -1, in SI and degC)",
+                      changed[50].unit, changed[50].number));
   changed = cycles;
   changed[50].temperature = -300;
   refused(changed, "cannot be");
@@ -128,6 +238,7 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   changed = cycles;
   changed[50].unit = "";
   refused(changed, "1 rows name no unit");
+  refused({}, "bad.csv has no rows");
   // Beyond what the sums hold.
   changed = cycles;
   changed[50].temperature = 1e12;

@@ -13,9 +13,13 @@
 #include <exception>
 #include <future>
 #include <limits>
+#include <system_error>
+#include <thread>
 
+#include "wearwell/base/ending.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/fleet/duckdb_columns.h"
 #include "wearwell/input/duckdb_message.h"
 #include "wearwell/input/duckdb_session.h"
 
@@ -24,19 +28,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own that goes with its object.
+/// A folder of its own that goes with its object, and with a program that a signal ends, if nothing was spilled
+/// by then.
 class SpillFolder {
  public:
   explicit SpillFolder(const fs::path& parent) {
     std::string name = (fs::absolute(parent) / ".wearwell-fleet-XXXXXX").string();
+    Uninterrupted now;
     if (!mkdtemp(name.data()))
       throw InputError(
           fmt::format("cannot make a folder in {}: {}", parent.string(), std::strerror(errno)));
     path_ = name;
+    now.note(path_, true);
+    now.note(path_ / "spill", true);
+    for (const char* each : {"sums.duckdb", "sums.duckdb.wal"}) now.note(path_ / each, false);
   }
   ~SpillFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    Uninterrupted().forget(path_);
   }
   SpillFolder(const SpillFolder&) = delete;
   SpillFolder& operator=(const SpillFolder&) = delete;
@@ -59,7 +69,7 @@ class Answer {
   duckdb_result result{};
 };
 
-class DuckdbEngine : public Engine {
+class DuckdbEngine : public Engine, public ColumnEngine {
  public:
   explicit DuckdbEngine(const DuckdbSettings& settings);
   ~DuckdbEngine() override { close(); }
@@ -78,6 +88,13 @@ class DuckdbEngine : public Engine {
   void rows(const std::string& query, std::size_t texts,
             const std::function<void(const Row&)>& take) override;
 
+  long long known_rows() override;
+  long memory() const override { return memory_; }
+  std::unique_ptr<ColumnScan> scan(const std::string& query) override;
+  std::unique_ptr<Appender> append(const std::string& table) override {
+    return duckdb_append(connection_, table, [this](const std::string& error) { fail(error); });
+  }
+
  private:
   void close();
   void execute(const std::string& statements, Answer& answer);
@@ -91,10 +108,11 @@ class DuckdbEngine : public Engine {
 
   SpillFolder spill_;
   long memory_;
-  std::string source_;
+  std::string source_, view_;
   bool csv_ = false;
   duckdb_database database_ = nullptr;
-  duckdb_connection connection_ = nullptr;
+  /// The second one scans, while the first keeps what was found.
+  duckdb_connection connection_ = nullptr, scanning_ = nullptr;
 };
 
 DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
@@ -120,18 +138,23 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
     if (settings.threads > 0) execute(fmt::format("set threads = {}", settings.threads));
     execute(
         fmt::format("set memory_limit = '{}MiB'; set temp_directory = {}; set "
-                    "preserve_insertion_order = false; "
-                    "set enable_progress_bar = true; set enable_progress_bar_print = false; set "
+                    "preserve_insertion_order = true; "
+                    "set enable_progress_bar = {}; set enable_progress_bar_print = false; set "
                     "allowed_paths = "
                     "[{}]; set allowed_directories = [{}]; set enable_external_access = false; set "
                     "lock_configuration = true",
-                    memory_, quoted((spill_.path() / "spill").string(), '\''),
+                    memory_, quoted((spill_.path() / "spill").string(), '\''), settings.progress,
                     fmt::join(allowed, ", "), quoted(spill_.path().string() + "/", '\'')));
-    execute("create temp view cycles as select * from " + view_of(files, ""));
+    view_ = "create or replace temp view cycles as select * from " + view_of(files, "");
+    execute(view_);
+    bool has_rows = false;
+    rows("select 1e0 from cycles limit 1", 0, [&](const Row&) { has_rows = true; });
+    if (!has_rows) throw InputError(fmt::format("{} has no rows", source_));
     for (const EngineColumn& each : columns()) {
-      if (each.name == settings.unit && each.is_number && csv_)
-        execute("create or replace temp view cycles as select * from " +
-                view_of(files, settings.unit));
+      if (each.name != settings.unit || !each.is_number || !csv_) continue;
+      view_ =
+          "create or replace temp view cycles as select * from " + view_of(files, settings.unit);
+      execute(view_);
     }
   } catch (...) {
     close();
@@ -139,9 +162,24 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
   }
 }
 
+/// On a thread without an exception on its way: DuckDB would not wait for those that still scan
+/// (DuckdbSession::close).
 void DuckdbEngine::close() {
-  if (connection_) duckdb_disconnect(&connection_);
-  if (database_) duckdb_close(&database_);
+  if (scanning_) duckdb_interrupt(scanning_);
+  const auto disconnect = [this] {
+    if (scanning_) duckdb_disconnect(&scanning_);
+    if (connection_) duckdb_disconnect(&connection_);
+    if (database_) duckdb_close(&database_);
+  };
+  if (std::uncaught_exceptions() == 0) {
+    disconnect();
+    return;
+  }
+  try {
+    std::thread(disconnect).join();
+  } catch (const std::system_error&) {
+    // No thread to be had: the database stays open, and what works for it has its memory.
+  }
 }
 
 void DuckdbEngine::fail(const std::string& message) const {
@@ -198,6 +236,7 @@ std::string DuckdbEngine::view_of(const std::vector<std::string>& files, const s
   if (!parquet && !csv)
     throw InputError(fmt::format(
         "{}: a fleet's cycles are Parquet files or CSV files, all of one kind", source_));
+  csv_ = csv;
   if (parquet)
     return fmt::format("read_parquet([{}], hive_partitioning = false)", fmt::join(names, ", "));
   // Without BIGINT: where the first thousands of cells are whole numbers, 2.5 would be read as 3.
@@ -276,6 +315,26 @@ void DuckdbEngine::rows(const std::string& query, std::size_t texts,
   }
   const char* error = duckdb_result_error(&answer.result);
   if (error && *error) fail(error);
+}
+
+long long DuckdbEngine::known_rows() {
+  double count = 0;
+  if (!csv_)
+    rows("select cast(count(*) as double) from cycles", 0,
+         [&](const Row& row) { count = row.numbers[0]; });
+  return static_cast<long long>(count);
+}
+
+std::unique_ptr<ColumnScan> DuckdbEngine::scan(const std::string& query) {
+  const auto refuse = [this](const std::string& error) { fail(error); };
+  if (!scanning_) {
+    if (duckdb_connect(database_, &scanning_) != DuckDBSuccess)
+      throw MachineError("cannot start DuckDB");
+    Answer answer;
+    if (duckdb_query(scanning_, view_.c_str(), &answer.result) != DuckDBSuccess)
+      fail(duckdb_result_error(&answer.result));
+  }
+  return duckdb_scan(scanning_, query, refuse);
 }
 
 }  // namespace

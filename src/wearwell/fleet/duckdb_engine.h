@@ -18,6 +18,7 @@ struct DuckdbSettings {
   std::filesystem::path spill = {};  ///< a folder where that one is made
   int threads = 0;                   ///< 0: all
   long memory = 0;                   ///< MB; 0: half of the machine's
+  bool progress = false;             ///< of statements, which costs a little
 };
 
 /// The files are the table `cycles`; nothing else can be read or written. Throws InputError where a pattern

@@ -35,12 +35,8 @@ std::vector<std::string> SqlWriter::sum_names() const {
   return names;
 }
 
-/// Columns of the table of sums.
 std::string SqlWriter::kept_names() const {
-  std::vector<std::string> names = {"model", "unit", "after_cycle", "last_cycle"};
-  names.insert(names.end(), std::begin(count_names), std::end(count_names));
-  for (const std::string& each : sum_names()) names.push_back(each);
-  return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{}", fmt::join(sums_columns(), ", "));
 }
 
 std::string SqlWriter::count_if(const std::string& condition) const {
@@ -71,11 +67,9 @@ std::string SqlWriter::setup() const {
       "create table if not exists {0} (\n  model {1} not null, replicate integer not null, name "
       "{1} "
       "not null, value {2} not null,\n  primary key (model, replicate, name));\n"
-      "-- One row a unit and run of statement 2. The key refuses a run that counts what another "
-      "has "
-      "counted.\n"
+      "-- One row a unit.\n"
       "create table if not exists {3} (\n  model {1} not null, unit {1} not null, after_cycle {4} "
-      "not null, last_cycle {4} not null{5},\n  primary key (model, unit, after_cycle));\n"
+      "not null, last_cycle {4} not null{5},\n  primary key (model, unit));\n"
       "delete from {0} where model = {6};\ninsert into {0} (model, replicate, name, value) "
       "values\n{7};\n",
       model_table_, types_.text, types_.real, sums_table_, types_.whole, sums, id_,
@@ -259,7 +253,31 @@ std::string SqlWriter::worn() const {
       columns.text(), rates(), fence());
 }
 
+std::vector<std::string> SqlWriter::sums_columns() const {
+  std::vector<std::string> names = {"model", "unit", "after_cycle", "last_cycle"};
+  names.insert(names.end(), std::begin(count_names), std::end(count_names));
+  for (const std::string& each : sum_names()) names.push_back(each);
+  return names;
+}
+
+/// Adds to a unit's row where it has one; not where another run counted in between.
+std::string SqlWriter::adding() const {
+  if (clickhouse()) return "";
+  std::vector<std::string> sets;
+  for (const std::string& each : sums_columns()) {
+    if (each == "model" || each == "unit") continue;
+    const bool place = each == "after_cycle" || each == "last_cycle";
+    sets.push_back(place ? fmt::format("{0} = excluded.{0}", each)
+                         : fmt::format("{0} = kept.{0} + excluded.{0}", each));
+  }
+  return fmt::format(
+      "\non conflict (model, unit) do update set\n  {}\nwhere kept.last_cycle = "
+      "excluded.after_cycle",
+      fmt::join(sets, ",\n  "));
+}
+
 std::string SqlWriter::query() const {
+  const std::vector<std::string> names = sums_columns();
   SqlColumns columns;
   columns.keep(id_);
   columns.keep(fleet::text(dialect_, "unit"));
@@ -301,18 +319,35 @@ std::string SqlWriter::query() const {
       "-- Whole numbers, so that no order of rows changes a bit. Units: energy 2^{} J, volume and "
       "settled 2^{} m^3, variance 2^{} m^6,\n-- replicates v1 .. (with run-in) and s1 .. (without) "
       "2^{} m^3.\n"
-      "insert into {} ({})\nselect\n  {}\nfrom (\n-- volumes of a plate that is run in, and "
+      "insert into {}{} ({})\nselect\n  {}\nfrom (\n-- volumes of a plate that is run in, and "
       "scatter\n{}\n) "
-      "as worn\ngroup by unit;\n",
+      "as worn\ngroup by unit{};\n",
       std::ilogb(units_.energy), std::ilogb(units_.fine), std::ilogb(units_.variance),
-      std::ilogb(units_.volume), fresh_table_, kept_names(), columns.text(), worn());
+      std::ilogb(units_.volume), fresh_table_, clickhouse() ? "" : " as kept",
+      fmt::join(names, ", "), columns.text(), worn(), adding());
 }
 
 ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Dialect dialect,
                      const SqlSource& source, bool replicates) {
   const SqlWriter writer(model, id, dialect, source, replicates);
-  return {writer.setup(), writer.query(), writer.combine(), writer.totals(),
-          writer.size(),  writer.late(),  writer.keep(),    writer.check()};
+  ClutchSql sql;
+  sql.setup = writer.setup();
+  sql.query = writer.query();
+  sql.combine = writer.combine();
+  sql.totals = writer.totals();
+  sql.size = writer.size();
+  sql.late = writer.late();
+  sql.keep = writer.keep();
+  sql.check = writer.check();
+  sql.offender = writer.offender();
+  sql.stream = writer.stream();
+  sql.sorted = sql.stream + "\norder by unit, cycle";
+  sql.known = writer.known();
+  sql.fresh = writer.fresh();
+  sql.gather = writer.gather();
+  sql.kept = writer.kept();
+  sql.others = writer.others();
+  return sql;
 }
 
 }  // namespace wearwell::clutch

@@ -62,7 +62,18 @@ struct ClutchSql {
   std::string late;
   std::string keep;   ///< what is new stays; empty where a transaction does that
   std::string check;  ///< SELECT: rows, rows without a value that can be, range of each input
+  /// SELECT: of a row that has no value that can be: unit, cycle, the four inputs, energy.
+  std::string offender;
+  /// For FixedSum. SELECT: unit, cycle and inputs in SI of all rows, in their order; the same by unit
+  /// and cycle; of each unit the last cycle that was counted, and its energy so far, halves of
+  /// 32 bits each; a temporary table that takes sums, and the statement that adds them to those kept.
+  std::string stream, sorted, known, fresh, gather;
+  /// SELECT: units of this model of which sums are kept, and those whose replicates are. Not of ClickHouse.
+  std::string kept;
+  std::string
+      others;  ///< SELECT: another model of which sums are kept, where there are none of this
 };
+inline constexpr const char* fresh_table = "wearwell_fresh";
 /// `id`: of the model, the SHA-1 of model.json. Without `replicates` there is only the interval by
 /// scatter and plate. Throws InputError for names that the dialect cannot hold.
 ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Dialect dialect,

@@ -216,4 +216,71 @@ std::string SqlWriter::check() const {
   return fmt::format("select\n  {}\nfrom (\n{}\n) as si", columns.text(), si(false));
 }
 
+std::string SqlWriter::offender() const {
+  SqlColumns columns;
+  columns.keep(fleet::text(dialect_, "unit"));
+  columns.keep(fleet::real(dialect_, "cycle"));
+  for (const char* each : input_columns) columns.keep(std::string("raw_") + each);
+  columns.keep("raw_energy");
+  return fmt::format(
+      "select\n  {}\nfrom (\n{}\n) as si where not {} order by unit, cycle limit 1", columns.text(),
+      si(false), fmt::format(fmt::runtime(clickhouse() ? "({})" : "coalesce({}, false)"), valid()));
+}
+
+std::string SqlWriter::stream() const {
+  SqlColumns columns;
+  columns.add(unit(), "unit");
+  columns.add(fleet::real(dialect_, "t." + fleet::identifier(dialect_, source_.cycle.name)),
+              "cycle");
+  for (std::size_t i = 0; i < 4; ++i) columns.add(in_si(source_.inputs[i]), input_columns[i]);
+  columns.add(in_si(source_.energy), "energy");
+  return fmt::format("select\n  {}\nfrom {} as t", columns.text(), source_.table);
+}
+
+std::string SqlWriter::known() const {
+  constexpr const char* half = "4294967296";
+  return fmt::format("select unit, {}, {}, {} from {} where model = {}",
+                     fleet::real(dialect_, "last_cycle"),
+                     fleet::real(dialect_, fmt::format("energy // {}", half)),
+                     fleet::real(dialect_, fmt::format("energy % {}", half)), sums_table_, id_);
+}
+
+std::string SqlWriter::fresh() const {
+  std::string columns;
+  for (const char* each : count_names) columns += fmt::format(", {} {}", each, types_.whole);
+  for (const std::string& each : sum_names()) columns += fmt::format(", {} {}", each, types_.sum);
+  return fmt::format(
+      "create or replace temp table {} (unit {}, after_cycle {}, last_cycle {}{});\n", fresh_table,
+      types_.text, types_.whole, types_.whole, columns);
+}
+
+std::string SqlWriter::gather() const {
+  SqlColumns columns;
+  columns.keep(id_);
+  columns.keep("unit");
+  columns.keep("min(after_cycle)");
+  columns.keep("max(last_cycle)");
+  for (const char* each : count_names) columns.keep(fmt::format("sum({})", each));
+  for (const std::string& each : sum_names()) columns.keep(fmt::format("sum({})", each));
+  return fmt::format("insert into {} as kept ({})\nselect\n  {}\nfrom {}\ngroup by unit{};\n",
+                     sums_table_, fmt::join(sums_columns(), ", "), columns.text(), fresh_table,
+                     adding());
+}
+
+/// Where the table has no column v1 the name is that of the row outside, which is nothing.
+std::string SqlWriter::kept() const {
+  const std::string count = fmt::format("(select {} from {} where model = {}",
+                                        fleet::real(dialect_, "count(*)"), sums_table_, id_);
+  return fmt::format(
+      "select {0}), {0} and v1 is not null) from (select cast(null as {1}) as v1) as outside",
+      count, types_.whole);
+}
+
+std::string SqlWriter::others() const {
+  return fmt::format(
+      "select max(model) as model, {} as models from {} having count(*) > 0 and "
+      "max(case when model = {} then 1 else 0 end) = 0",
+      fleet::real(dialect_, "count(distinct model)"), sums_table_, id_);
+}
+
 }  // namespace wearwell::clutch

@@ -30,7 +30,7 @@ struct FleetOptions {
   std::vector<double> levels = {25, 50, 75, 100}, horizons;
   int threads = 0;
   long memory = 0;
-  bool scatter_only = false, json = false, quiet = false;
+  bool scatter_only = false, statements = false, json = false, quiet = false;
 };
 
 std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& options,
@@ -52,7 +52,8 @@ std::vector<std::unique_ptr<fleet::Engine>> engines_of(const FleetOptions& optio
                                               .state = options.state,
                                               .spill = folder.path().parent_path(),
                                               .threads = options.threads,
-                                              .memory = options.memory}));
+                                              .memory = options.memory,
+                                              .progress = options.statements}));
     } else if (name.starts_with("postgresql://") || name.starts_with("postgres://")) {
       engines.push_back(fleet::postgres_engine(name, options.table));
     } else if (fleet::is_clickhouse(name)) {
@@ -86,6 +87,7 @@ void run_fleet(const FleetOptions& options, int& exit_code) {
                        .prefix = options.prefix,
                        .first = first,
                        .replicates = !options.scatter_only,
+                       .statements = options.statements,
                        .levels = options.levels,
                        .horizons = options.horizons},
                       monitor);
@@ -147,6 +149,9 @@ void add_fleet_command(CLI::App& app, int& exit_code) {
       ->check(number_between(0, 1e15));
   command->add_flag("--scatter-only", options->scatter_only,
                     "without what is not known of map and run-in; much faster");
+  command->add_flag("--statements", options->statements,
+                    "have DuckDB run the statements of wearwell sql, as other engines do, "
+                    "instead of a loop of our own: the same numbers, much slower");
   command->add_option("--memory", options->memory, "MB that DuckDB may take (default: half)")
       ->check(CLI::Range(100L, 100'000'000L));
   command

@@ -24,10 +24,11 @@ UnitRow FleetCounts::add(const UnitSums& sums) {
       !sums.volumes.isFinite().all())
     throw InputError(fmt::format("unit {} has no finite wear", printable(sums.unit)));
   const UnitForecast forecast(model_, sums);
-  for (std::size_t l = 0; l < levels_.size(); ++l) {
-    for (std::size_t h = 0; h < horizons_.size(); ++h) {
-      for (std::size_t b = 0; b < models_; ++b) {
-        const double p = forecast.reached(b, levels_[l] * model_.worn_out, horizons_[h]);
+  for (std::size_t h = 0; h < horizons_.size(); ++h) {
+    for (std::size_t b = 0; b < models_; ++b) {
+      const UnitForecast::Ahead ahead = forecast.ahead(b, horizons_[h]);
+      for (std::size_t l = 0; l < levels_.size(); ++l) {
+        const double p = ahead.reached(levels_[l] * model_.worn_out);
         Sum& sum = at(l, h, b);
         sum.mean += std::llround(p / probability_unit);
         sum.variance += std::llround(p * (1 - p) / probability_unit);

@@ -12,6 +12,7 @@
 #include "wearwell/base/workers.h"
 #include "wearwell/models/clutch/clutch_sql.h"
 #include "wearwell/models/clutch/fleet_columns.h"
+#include "wearwell/models/clutch/fleet_loop.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -22,12 +23,35 @@ struct FleetCheck {
   std::string ranges;  ///< least and most of each input, in words
 };
 
+/// "unit 7, cycle 4: torque is -1", of one row that no sum can take.
+std::string offender(fleet::Engine& engine, const ClutchSql& sql) {
+  std::string found;
+  engine.rows(sql.offender, 1, [&](const fleet::Row& row) {
+    constexpr const char* names[] = {"cycle",       "slip_speed",   "torque",
+                                     "temperature", "closing_time", "energy"};
+    found = fmt::format("unit {}, cycle {}:", printable(row.texts.front()), row.numbers[0]);
+    for (std::size_t i = 0; i < std::size(names); ++i) {
+      const double x = row.numbers[i];
+      const bool temperature = std::string_view(names[i]) == "temperature";
+      const bool good = i == 0 ? x >= 1 && x <= 9e15 && x == std::floor(x)
+                               : (temperature ? x >= -273.15 : x > 0) && x < 1e300;
+      if (good) continue;
+      found += fmt::format(" {} is {},", names[i],
+                           std::isnan(x) ? "no number" : fmt::format("{:.6g}", x));
+    }
+    found.pop_back();
+  });
+  return found;
+}
+
 /// Throws InputError for rows that no sum can take.
 FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
   FleetCheck check;
+  double refused = 0;
   engine.rows(sql.check, 0, [&](const fleet::Row& row) {
     check.rows = row.numbers[0];
-    const double refused = row.numbers[1], nameless = row.numbers[2];
+    refused = row.numbers[1];
+    const double nameless = row.numbers[2];
     if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
     check.ranges = fmt::format(
         "slip_speed {:.6g} .. {:.6g} rad/s, torque {:.6g} .. {:.6g} N m, temperature {:.6g} .. "
@@ -36,13 +60,14 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
         row.numbers[8], row.numbers[9], row.numbers[10], row.numbers[11]);
     if (nameless > 0)
       throw InputError(fmt::format("{}: {:.0f} rows name no unit", engine.source(), nameless));
-    if (refused > 0)
-      throw InputError(fmt::format(
-          "{}: {:.0f} rows of {:.0f} have no value, or one that cannot be: cycles are whole "
-          "numbers of at least 1, temperatures above absolute zero, all else positive (these are: "
-          "{})",
-          engine.source(), refused, check.rows, check.ranges));
   });
+  if (refused > 0)
+    throw InputError(fmt::format(
+        "{}: {:.0f} rows of {:.0f} have no value, or one that cannot be ({}, in SI and degC): "
+        "cycles are whole numbers of at least 1, temperatures above absolute zero, all else "
+        "positive "
+        "(these are: {})",
+        engine.source(), refused, check.rows, offender(engine, sql), check.ranges));
   return check;
 }
 
@@ -53,6 +78,17 @@ void refuse_late(fleet::Engine& engine, const ClutchSql& sql) {
                     "{:.0f} were counted: "
                     "rows came late or went; sum them all anew, without --state",
                     engine.source(), printable(row.texts.front()), row.numbers[0], row.numbers[1]));
+  });
+}
+
+/// Files hold what is new, as a rule: to begin anew beside another model's sums would lose what that has
+/// counted.
+void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::string& model) {
+  engine.rows(sql.others, 1, [&](const fleet::Row& row) {
+    throw InputError(
+        fmt::format("{}: --state holds the sums of another model ({}; this is {}), which cannot go "
+                    "on: sum all cycles anew, into another file",
+                    engine.source(), printable(row.texts.front()), model));
   });
 }
 
@@ -78,7 +114,63 @@ struct Shard {
   fleet::Engine& engine;
   ClutchSql sql = {};
   double rows = 0;
+  std::string ranges = {};
 };
+
+/// The sums of a run with another option lack what this one adds to, or would stay behind.
+void refuse_other_option(fleet::Engine& engine, const ClutchSql& sql, const FleetRequest& request,
+                         bool full) {
+  if (engine.dialect() == fleet::Dialect::clickhouse) return;
+  engine.rows(sql.kept, 0, [&](const fleet::Row& row) {
+    if (row.numbers[0] > 0 && (row.numbers[1] > 0) != full)
+      throw InputError(fmt::format(
+          "{}: the sums kept in {}_sums were made {} --scatter-only: go on with the same option, "
+          "or elsewhere",
+          engine.source(), request.prefix, full ? "with" : "without"));
+  });
+}
+
+/// Where a summand does not fit its column.
+[[noreturn]] void explain(Shard& shard, const InputError& error) {
+  const std::string_view said = error.what();
+  if (said.find("out of range") == std::string_view::npos) throw;  // as it is: a Lost is one
+  if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql).ranges;
+  throw InputError(fmt::format(
+      "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
+      "They are: {} ({})",
+      shard.engine.source(), shard.ranges, said));
+}
+
+/// The engine as one whose rows a loop of our own sums; nullptr where statements do.
+fleet::ColumnEngine* columns_of(fleet::Engine& engine, const FleetRequest& request) {
+  return request.statements ? nullptr : dynamic_cast<fleet::ColumnEngine*>(&engine);
+}
+
+/// By a loop of our own: it looks at all rows while it sums.
+void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const IdentifiedModel& model,
+                       const FleetRequest& request, bool full, const Monitor& monitor) {
+  const LoopFindings found = sum_by_loop(shard.engine, columns, shard.sql, model.model, full,
+                                         request.first, request.units_in_memory, monitor);
+  shard.rows = found.rows;
+  if (found.rows == 0 || found.refused + found.nameless > 0) {
+    check_rows(shard.engine, shard.sql);
+    throw InputError(fmt::format("{} changed while it was read", shard.engine.source()));
+  }
+}
+
+/// In portions, where an engine has to hold in memory what it sorts.
+void sum_by_statements(Shard& shard, const IdentifiedModel& model, const FleetRequest& request,
+                       SqlSource source, bool full, const Monitor& monitor) {
+  if (source.staged)
+    source.portions = static_cast<int>(std::ceil(shard.rows / request.portion_rows));
+  for (; source.portion < source.portions; ++source.portion) {
+    const std::string query =
+        source.portions == 1
+            ? shard.sql.query
+            : clutch_sql(model.model, model.id, shard.engine.dialect(), source, full).query;
+    shard.engine.run(query, monitor, "cycles", static_cast<long long>(shard.rows));
+  }
+}
 
 /// Everything up to the sums of its units, once.
 void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
@@ -93,26 +185,25 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
   engine.refuse_torn_units(source.unit.name);
   shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
-  const FleetCheck check = check_rows(engine, shard.sql);
-  shard.rows = check.rows;
-  engine.run(shard.sql.setup, {}, "", 0);
-  if (!request.first) refuse_late(engine, shard.sql);
-  if (source.staged)
-    source.portions = static_cast<int>(std::ceil(shard.rows / request.portion_rows));
+  fleet::ColumnEngine* const columns = columns_of(engine, request);
+  if (!columns) {
+    const FleetCheck check = check_rows(engine, shard.sql);
+    shard.rows = check.rows;
+    shard.ranges = check.ranges;
+  }
   try {
-    for (; source.portion < source.portions; ++source.portion) {
-      const std::string query =
-          source.portions == 1
-              ? shard.sql.query
-              : clutch_sql(model.model, model.id, engine.dialect(), source, full).query;
-      engine.run(query, monitor, "cycles", static_cast<long long>(shard.rows));
+    engine.run(shard.sql.setup, {}, "", 0);
+    if (!request.first && dynamic_cast<fleet::ColumnEngine*>(&engine))
+      refuse_others(engine, shard.sql, model.id);
+    if (!request.first) refuse_other_option(engine, shard.sql, request, full);
+    if (!request.first) refuse_late(engine, shard.sql);
+    if (columns) {
+      sum_shard_by_loop(shard, *columns, model, request, full, monitor);
+    } else {
+      sum_by_statements(shard, model, request, source, full, monitor);
     }
   } catch (const InputError& error) {
-    if (std::string_view(error.what()).find("out of range") == std::string_view::npos) throw;
-    throw InputError(fmt::format(
-        "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
-        "They are: {} ({})",
-        engine.source(), check.ranges, error.what()));
+    explain(shard, error);
   }
 }
 
@@ -180,6 +271,10 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
                       .replicates = full,
                       .units = {},
                       .statements = shards.front().sql.setup + shards.front().sql.query};
+  if (columns_of(*engines.front(), request))
+    found.statements =
+        fleet::comment("Summed by a loop of the program's own. The statements give the same.") +
+        found.statements;
   for (const Shard& shard : shards) {
     found.engine += (found.engine.empty() ? "" : ", ") + shard.engine.in_words();
     found.rows += shard.rows;

@@ -17,6 +17,9 @@ struct FleetRequest {
   std::string prefix = "wearwell";        ///< of the tables made
   bool first = false;                     ///< nothing was counted before
   bool replicates = true;
+  /// The statements of ClutchSql even where a loop of our own gives the same sums sooner.
+  bool statements = false;
+  std::size_t units_in_memory = 0;    ///< of which sums are held; 0: as many as sum_by_loop has it
   std::vector<double> levels;         ///< % of the worn-out volume
   std::vector<double> horizons = {};  ///< further cycles; empty: parts of the mean so far
   double portion_rows = 1e7;          ///< that ClickHouse sorts at once, in some GB

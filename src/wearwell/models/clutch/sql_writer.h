@@ -50,6 +50,13 @@ class SqlWriter {
   std::string late() const;
   std::string keep() const;
   std::string check() const;
+  std::string offender() const;
+  std::string stream() const;
+  std::string known() const;
+  std::string fresh() const;
+  std::string gather() const;
+  std::string kept() const;
+  std::string others() const;
 
  private:
   std::string k(std::size_t replicate, const std::string& name) const {
@@ -65,6 +72,8 @@ class SqlWriter {
   const char* fence() const { return dialect_ == fleet::Dialect::postgresql ? "\noffset 0" : ""; }
   std::vector<std::string> sum_names() const;
   std::string kept_names() const;
+  std::vector<std::string> sums_columns() const;
+  std::string adding() const;
   std::string parameters() const;
   std::string in_si(const SqlColumn& column) const;
   std::string unit() const;

@@ -1,5 +1,6 @@
 #include "wearwell/models/clutch/unit_forecast.h"
 
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -11,23 +12,25 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// Beyond so many times the cycles until the middle, or run until now, no end is looked for.
 constexpr double farthest = 1e6;
 
-/// Where `below` turns false, between a number where it is true and one where it is not.
-template <class Below>
-double turn(double low, double high, const Below& below) {
-  for (int i = 0; i < 200 && high - low > 1e-12 * high; ++i) {
-    const double half = 0.5 * (low + high);
-    (below(half) ? low : high) = half;
-  }
-  return 0.5 * (low + high);
+/// Where `f` turns from below 0 to above.
+template <class F>
+double turn(double low, double high, const F& f) {
+  const double at_low = f(low), at_high = f(high);
+  if (!(at_low < 0)) return low;
+  if (!(at_high > 0)) return high;
+  std::uintmax_t most = 200;
+  const auto [a, b] = boost::math::tools::toms748_solve(
+      f, low, high, at_low, at_high, [](double x, double y) { return y - x <= 1e-12 * y; }, most);
+  return 0.5 * (a + b);
 }
 
-/// The first n >= `from` at which `below` is false; infinite beyond `most`.
-template <class Below>
-double first_not(double from, double step, double most, const Below& below) {
-  if (!below(from)) return from;
+/// The first n >= `from` at which `f` is not below 0; infinite beyond `most`.
+template <class F>
+double first_not(double from, double step, double most, const F& f) {
+  if (!(f(from) < 0)) return from;
   double low = from;
   for (double high = from + step;; high = from + step) {
-    if (!below(high)) return turn(low, high, below);
+    if (!(f(high) < 0)) return turn(low, high, f);
     if (high > most) return never;
     low = high;
     step *= 2;
@@ -100,21 +103,20 @@ double UnitForecast::until(double target) const {
   if (volume_[0] >= target) return 0;
   if (!(rate_[0] > 0)) return never;
   const double most = (target - volume_[0]) / rate_[0];  // g >= 1
-  return turn(0, most, [&](double n) { return volume(n) < target; });
+  return turn(0, most, [&](double n) { return volume(n) - target; });
 }
 
 LifeInterval UnitForecast::interval(double target, double (UnitForecast::*sd)(double) const) const {
   const double middle = until(target);
   if (!std::isfinite(middle)) return {0, never};
-  const auto below = [&](double sign) {
-    return [this, sign, sd, target](double n) {
-      return volume(n) + sign * 2 * (this->*sd)(n) < target;
-    };
+  const auto beyond = [&](double sign) {
+    return
+        [this, sign, sd, target](double n) { return volume(n) + sign * 2 * (this->*sd)(n)-target; };
   };
   LifeInterval found{0, never};
-  if (below(1)(0)) found.low = turn(0, middle, below(1));
+  if (beyond(1)(0) < 0) found.low = turn(0, middle, beyond(1));
   const double scale = std::max(middle, std::max(1.0, 1e-3 * cycles_));
-  found.high = first_not(middle, scale, farthest * std::max(scale, cycles_), below(-1));
+  found.high = first_not(middle, scale, farthest * std::max(scale, cycles_), beyond(-1));
   return found;
 }
 
@@ -125,9 +127,12 @@ LifeInterval UnitForecast::full_interval(double target) const {
   return interval(target, &UnitForecast::full_sd);
 }
 
-double UnitForecast::reached(std::size_t b, double target, double more) const {
+UnitForecast::Ahead UnitForecast::ahead(std::size_t b, double more) const {
   const double mean = of(b, more), plate = model_.plate_sd * mean;
-  const double sd = std::sqrt(variance_ * (1 + more / cycles_) + plate * plate);
+  return {mean, std::sqrt(variance_ * (1 + more / cycles_) + plate * plate)};
+}
+
+double UnitForecast::Ahead::reached(double target) const {
   if (!(sd > 0)) return mean >= target ? 1 : 0;
   return 0.5 * std::erfc((target - mean) / (sd * std::numbers::sqrt2));
 }

@@ -48,9 +48,16 @@ class UnitForecast {
   LifeInterval scatter_interval(double target) const;
   LifeInterval full_interval(double target) const;
 
-  /// Probability that a unit of its kind, with the scatter of its cycles and a factor of its own, has
-  /// reached the target after `more` cycles if replicate b is true.
-  double reached(std::size_t b, double target, double more) const;
+  /// A unit of its kind, with the scatter of its cycles and a factor of its own, after `more` cycles if
+  /// replicate b is true.
+  struct Ahead {
+    double mean = 0, sd = 0;
+    double reached(double target) const;  ///< probability that it has
+  };
+  Ahead ahead(std::size_t b, double more) const;
+  double reached(std::size_t b, double target, double more) const {
+    return ahead(b, more).reached(target);
+  }
 
  private:
   LifeInterval interval(double target, double (UnitForecast::*sd)(double) const) const;
