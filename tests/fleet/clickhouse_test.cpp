@@ -113,7 +113,7 @@ TEST_F(ClickhouseFleet, HasTheNumbersOfPredictAndOfDuckdb) {
   refused(arguments + " --prefix y", "whose number stands there twice");
   EXPECT_EQ(server.sql("select count() from y_sums").out, "0\n");  // and nothing was kept
   must(server, "insert into cycles values ('unit 1', 100000, 100, null, 150, 1, 1000)");
-  refused(arguments, "1 rows of 2502 have no value");
+  refused(arguments, "unit 1, cycle 100000: torque is no number");
   refused(asked(server.address("reader:se%20cret@")), "Wrong password");
   refused(asked(server.address(), "nothing"), "nothing doesn't exist");
   refused(asked(server.address() + "/nowhere"), "nowhere doesn't exist");

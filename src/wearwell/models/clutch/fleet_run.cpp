@@ -130,10 +130,10 @@ void refuse_other_option(fleet::Engine& engine, const ClutchSql& sql, const Flee
   });
 }
 
-/// Where a summand does not fit its column; anything else is thrown on. While `error` is being handled.
+/// Where a summand does not fit its column.
 [[noreturn]] void explain(Shard& shard, const InputError& error) {
   const std::string_view said = error.what();
-  if (said.find("out of range") == std::string_view::npos) throw;
+  if (said.find("out of range") == std::string_view::npos) throw;  // as it is: a Lost is one
   if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql).ranges;
   throw InputError(fmt::format(
       "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
@@ -158,6 +158,20 @@ void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const Identif
   }
 }
 
+/// In portions, where an engine has to hold in memory what it sorts.
+void sum_by_statements(Shard& shard, const IdentifiedModel& model, const FleetRequest& request,
+                       SqlSource source, bool full, const Monitor& monitor) {
+  if (source.staged)
+    source.portions = static_cast<int>(std::ceil(shard.rows / request.portion_rows));
+  for (; source.portion < source.portions; ++source.portion) {
+    const std::string query =
+        source.portions == 1
+            ? shard.sql.query
+            : clutch_sql(model.model, model.id, shard.engine.dialect(), source, full).query;
+    shard.engine.run(query, monitor, "cycles", static_cast<long long>(shard.rows));
+  }
+}
+
 /// Everything up to the sums of its units, once.
 void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& request, bool full,
                const Monitor& monitor) {
@@ -177,21 +191,16 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
     shard.rows = check.rows;
     shard.ranges = check.ranges;
   }
-  if (source.staged)
-    source.portions = static_cast<int>(std::ceil(shard.rows / request.portion_rows));
   try {
     engine.run(shard.sql.setup, {}, "", 0);
     if (!request.first && dynamic_cast<fleet::ColumnEngine*>(&engine))
       refuse_others(engine, shard.sql, model.id);
     if (!request.first) refuse_other_option(engine, shard.sql, request, full);
     if (!request.first) refuse_late(engine, shard.sql);
-    if (columns) sum_shard_by_loop(shard, *columns, model, request, full, monitor);
-    for (; !columns && source.portion < source.portions; ++source.portion) {
-      const std::string query =
-          source.portions == 1
-              ? shard.sql.query
-              : clutch_sql(model.model, model.id, engine.dialect(), source, full).query;
-      engine.run(query, monitor, "cycles", static_cast<long long>(shard.rows));
+    if (columns) {
+      sum_shard_by_loop(shard, *columns, model, request, full, monitor);
+    } else {
+      sum_by_statements(shard, model, request, source, full, monitor);
     }
   } catch (const InputError& error) {
     explain(shard, error);
