@@ -163,8 +163,13 @@ class ZookeeperServer {
       _exit(127);
     }
     for (int i = 0; i < 300; ++i) {
-      if (run_command(fmt::format("bash -c 'exec 3<>/dev/tcp/127.0.0.1/{}'", port_)).exit_code == 0)
-        return;
+      // It listens before it serves: until then `srvr` has another answer.
+      const std::string answer =
+          run_command(fmt::format("bash -c 'exec 3<>/dev/tcp/127.0.0.1/{} && echo srvr >&3 && "
+                                  "timeout 5 cat <&3'",
+                                  port_))
+              .out;
+      if (answer.find("Mode: standalone") != std::string::npos) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     throw std::runtime_error("ZooKeeper does not answer");
