@@ -18,6 +18,8 @@ struct Fleet::Seen {
 
   /// The path ahead, computed when it is first asked for; of the state as it is then.
   struct Ahead {
+    explicit Ahead(const Unit& of) : unit(of) {}
+
     const Unit& unit;
     std::mutex lock = {};
     bool known = false;
