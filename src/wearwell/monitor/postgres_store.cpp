@@ -6,6 +6,7 @@
 #include <chrono>
 #include <iterator>
 #include <map>
+#include <span>
 #include <thread>
 
 #include "wearwell/base/error.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"

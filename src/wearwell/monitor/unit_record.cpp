@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
@@ -13,7 +12,6 @@ namespace wearwell::monitor {
 namespace {
 
 using Json = nlohmann::json;
-constexpr double never = std::numeric_limits<double>::infinity();
 
 UnitMoment moment_of(const StoredReading& reading, const prognosis::Forecast& forecast,
                      const TrackerUnits& units) {
