@@ -8,16 +8,14 @@
 #include <boost/algorithm/string/predicate.hpp>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <future>
 #include <limits>
-#include <system_error>
-#include <thread>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/scratch_folder.h"
 #include "wearwell/fleet/duckdb_columns.h"
+#include "wearwell/input/duckdb_closing.h"
 #include "wearwell/input/duckdb_message.h"
 #include "wearwell/input/duckdb_session.h"
 
@@ -132,24 +130,13 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
   }
 }
 
-/// On a thread without an exception on its way: DuckDB would not wait for those that still scan
-/// (DuckdbSession::close).
 void DuckdbEngine::close() {
   if (scanning_) duckdb_interrupt(scanning_);
-  const auto disconnect = [this] {
+  close_duckdb([this] {
     if (scanning_) duckdb_disconnect(&scanning_);
     if (connection_) duckdb_disconnect(&connection_);
     if (database_) duckdb_close(&database_);
-  };
-  if (std::uncaught_exceptions() == 0) {
-    disconnect();
-    return;
-  }
-  try {
-    std::thread(disconnect).join();
-  } catch (const std::system_error&) {
-    // No thread to be had: the database stays open, and what works for it has its memory.
-  }
+  });
 }
 
 void DuckdbEngine::fail(const std::string& message) const {

@@ -8,13 +8,12 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <chrono>
 #include <condition_variable>
-#include <exception>
 #include <limits>
 #include <mutex>
-#include <system_error>
 #include <thread>
 
 #include "wearwell/base/error.h"
+#include "wearwell/input/duckdb_closing.h"
 #include "wearwell/input/duckdb_message.h"
 #include "wearwell/input/text_lines.h"
 #include "wearwell/input/text_rewrite.h"
@@ -176,24 +175,13 @@ DuckdbSession::~DuckdbSession() {
   close();
 }
 
-/// Ends a query that still runs, and the threads that work for it. While an exception is on its way
-/// through the thread that disconnects, DuckDB does not wait for the others: they go on in memory
-/// that is freed (ClientContext::~ClientContext). So that is left to a thread without one.
+/// Ends a query that still runs, and the threads that work for it.
 void DuckdbSession::close() {
   if (connection_) duckdb_interrupt(connection_);
-  const auto disconnect = [this] {
+  close_duckdb([this] {
     duckdb_disconnect(&connection_);
     duckdb_close(&database_);
-  };
-  if (std::uncaught_exceptions() == 0) {
-    disconnect();
-    return;
-  }
-  try {
-    std::thread(disconnect).join();
-  } catch (const std::system_error&) {
-    // No thread to be had: the database stays open, and what works for it has its memory.
-  }
+  });
 }
 
 void DuckdbSession::fail(const std::string& message) const {
