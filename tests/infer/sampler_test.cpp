@@ -7,6 +7,7 @@
 #include "infer/test_posteriors.h"
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/fit.h"
+#include "wearwell/infer/leaps.h"
 #include "wearwell/infer/metropolis.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/nuts.h"
@@ -72,6 +73,23 @@ TEST_P(SamplerOnKnown, Metropolis) {
   const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
   expect_agreement(GetParam(),
                    run_metropolis(posterior, whitening, {}, {4, 10'000, 100'000, 13, 0}));
+}
+
+// About a pilot that is short and, of two humps, knows one better than the other.
+TEST_P(SamplerOnKnown, Leaps) {
+  const Posterior posterior = GetParam().make();
+  const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
+  const Draws pilot = run_nuts(posterior, whitening, {}, {4, 200, 200, 14, 0});
+  const Draws draws = run_leaps(posterior, pilot, {}, {4, 0, 4000, 14, 0});
+  expect_agreement(GetParam(), draws);
+  for (const Chain& chain : draws) {
+    for (const Eigen::Index row : {0, 3999}) {
+      const Eigen::VectorXd x = chain.values.row(row);
+      const double density = posterior.value(view(posterior.to_real(view(x))));
+      EXPECT_NEAR(chain.log_density[static_cast<std::size_t>(row)], density,
+                  1e-6 * (1 + std::abs(density)));
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, SamplerOnKnown, testing::ValuesIn(known_posteriors()),

@@ -6,6 +6,7 @@
 
 #include "wearwell/infer/digits.h"
 #include "wearwell/infer/effects.h"
+#include "wearwell/infer/leaps.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/surface.h"
 
@@ -137,13 +138,18 @@ bool mixed(const Fit& fit) {
 }
 
 // Where no quadrature vouches for them and nobody said how many there are to be, draws that do not
-// suffice are drawn anew, twice as long, and once more. Those of an improper posterior never do.
+// suffice are drawn anew, twice as long, and once more: of NUTS with leaps about those that there are, which
+// may be seen to be needed as early as in warm-up. Those of an improper posterior never do.
 void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& fit) {
   constexpr int most_doublings = 2;
   FitSettings longer = settings;
+  const bool leaps = settings.extend && !fit.exact && proper(fit) && fit.method == Method::nuts;
   for (int doubling = 0;; ++doubling) {
     fit.run = longer.run;
-    fit.draws = draw(posterior, fit, longer);
+    fit.draws = !leaps ? draw(posterior, fit, longer)
+                : doubling == 0
+                    ? run_nuts_or_leaps(posterior, fit.whitening, longer.nuts, longer.run)
+                    : run_leaps(posterior, fit.draws, longer.nuts, longer.run);
     fit.pooled = pool(fit.draws);
     fit.diagnostics.clear();
     for (int i = 0; i < posterior.dimension(); ++i) {
@@ -151,7 +157,7 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
     }
     const bool may = settings.extend && !fit.exact && proper(fit) && doubling < most_doublings;
     if (!may || mixed(fit)) return;
-    longer.run.warmup *= 2;
+    if (!leaps) longer.run.warmup *= 2;
     longer.run.draws *= 2;
     longer.run.progress = nullptr;
   }

@@ -2,9 +2,14 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/infer/diagnostics.h"
+#include "wearwell/infer/leaps.h"
 #include "wearwell/infer/metropolis.h"
 #include "wearwell/infer/nuts.h"
 #include "wearwell/infer/warmup.h"
@@ -33,59 +38,137 @@ Draws run_chains(const RunSettings& settings, const RunChain& run_chain) {
   return draws;
 }
 
+// A chain of NUTS.
 template <int N>
-Chain nuts_chain(const Posterior& posterior, const Whitening& whitening,
-                 const NutsSettings& options, const RunSettings& settings, Rng& rng) {
-  const WhitenedDensity density(posterior, whitening);
-  Nuts<N> nuts(density, options.dense_metric, options.max_treedepth);
-  nuts.set_position(random_start(density, rng));
-
-  nuts.find_reasonable_step_size(rng);
-  WindowedWarmup<N> warmup(settings.warmup, options.target_accept);
-  ProgressSteps steps(settings.progress);
-  for (int i = 0; i < settings.warmup; ++i) {
-    warmup.adapt(i, nuts.step(rng), nuts, rng);
-    steps.step();
+class NutsChain {
+ public:
+  NutsChain(const Posterior& posterior, const Whitening& whitening, const NutsSettings& options,
+            const RunSettings& settings, std::size_t c)
+      : posterior_(posterior),
+        whitening_(whitening),
+        settings_(settings),
+        rng_(settings.seed, settings.first_stream + c),
+        density_(posterior, whitening),
+        nuts_(density_, options.dense_metric, options.max_treedepth),
+        warmup_(settings.warmup, options.target_accept),
+        steps_(settings.progress) {
+    nuts_.set_position(random_start(density_, rng_));
+    nuts_.find_reasonable_step_size(rng_);
   }
-  if (settings.warmup > 0) warmup.finish(nuts);
 
-  Chain chain;
-  chain.values.resize(settings.draws, posterior.dimension());
-  chain.nuts.reserve(static_cast<std::size_t>(settings.draws));
-  chain.log_density.reserve(static_cast<std::size_t>(settings.draws));
-  Eigen::VectorXd x(posterior.dimension());
-  double accept = 0;
-  for (int i = 0; i < settings.draws; ++i) {
-    chain.nuts.push_back(nuts.step(rng));
-    accept += chain.nuts.back().accept_stat;
-    posterior.to_natural(view(whitening(nuts.point().position)), view(x));
-    chain.values.row(i) = x;
-    chain.log_density.push_back(nuts.point().log_density);
-    steps.step();
+  // So many iterations of the warm-up; keeps the second half of them.
+  void warm_up(int iterations) {
+    late_.values.resize(iterations - iterations / 2, posterior_.dimension());
+    for (int i = 0; i < iterations; ++i) {
+      warmup_.adapt(warmed_++, nuts_.step(rng_), nuts_, rng_);
+      if (i >= iterations / 2) late_.values.row(i - iterations / 2) = natural();
+      steps_.step();
+    }
+    if (warmed_ > 0 && warmed_ == settings_.warmup) warmup_.finish(nuts_);
   }
-  chain.accept_rate = accept / settings.draws;
-  chain.step_size = nuts.step_size;
-  return chain;
+  const Chain& late() const { return late_; }
+
+  Chain drawn() {
+    Chain chain;
+    chain.values.resize(settings_.draws, posterior_.dimension());
+    chain.nuts.reserve(static_cast<std::size_t>(settings_.draws));
+    chain.log_density.reserve(static_cast<std::size_t>(settings_.draws));
+    double accept = 0;
+    for (int i = 0; i < settings_.draws; ++i) {
+      chain.nuts.push_back(nuts_.step(rng_));
+      accept += chain.nuts.back().accept_stat;
+      chain.values.row(i) = natural();
+      chain.log_density.push_back(nuts_.point().log_density);
+      steps_.step();
+    }
+    chain.accept_rate = accept / settings_.draws;
+    chain.step_size = nuts_.step_size;
+    return chain;
+  }
+
+ private:
+  Eigen::VectorXd natural() const {
+    Eigen::VectorXd x(posterior_.dimension());
+    posterior_.to_natural(view(whitening_(nuts_.point().position)), view(x));
+    return x;
+  }
+
+  const Posterior& posterior_;
+  const Whitening& whitening_;
+  const RunSettings& settings_;
+  Rng rng_;
+  WhitenedDensity density_;
+  Nuts<N> nuts_;
+  WindowedWarmup<N> warmup_;
+  ProgressSteps steps_;
+  int warmed_ = 0;
+  Chain late_;
+};
+
+// Whether as many draws as were asked for, from a sampler that walks as it did late in warm-up, are likely to suffice.
+bool promising(const Draws& late, int draws) {
+  constexpr double most_rhat = 1.05, least = 125;  // effective draws a chain
+  const auto length = static_cast<double>(late.front().values.rows());
+  for (Eigen::Index i = 0; i < late.front().values.cols(); ++i) {
+    Chains chains;
+    for (const Chain& chain : late)
+      chains.draws.emplace_back(chain.values.col(i).data(), chain.values.rows());
+    const Diagnostics d = diagnose(chains);
+    const double expected = std::min(d.ess_bulk, d.ess_tail) / length * draws;
+    if (!(d.rhat <= most_rhat && expected >= least * static_cast<double>(late.size())))
+      return false;
+  }
+  return true;
+}
+
+template <int N>
+Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
+                  const NutsSettings& options, const RunSettings& settings, bool may_leap) {
+  std::vector<std::unique_ptr<NutsChain<N>>> chains(static_cast<std::size_t>(settings.chains));
+  const int half = settings.warmup / 2;
+  for (const int iterations : {half, settings.warmup - half}) {
+    tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t c) {
+      if (!chains[c])
+        chains[c] = std::make_unique<NutsChain<N>>(posterior, whitening, options, settings, c);
+      chains[c]->warm_up(iterations);
+    });
+    if (!may_leap) continue;
+    Draws late;
+    for (const auto& chain : chains) late.push_back(chain->late());
+    if (!promising(late, settings.draws)) return run_leaps(posterior, late, options, settings);
+  }
+  Draws draws(chains.size());
+  tbb::parallel_for(std::size_t{0}, chains.size(),
+                    [&](std::size_t c) { draws[c] = chains[c]->drawn(); });
+  return draws;
+}
+
+Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
+                  const NutsSettings& options, const RunSettings& settings, bool may_leap) {
+  switch (posterior.dimension()) {
+    case 1:
+      return nuts_chains<1>(posterior, whitening, options, settings, may_leap);
+    case 2:
+      return nuts_chains<2>(posterior, whitening, options, settings, may_leap);
+    case 3:
+      return nuts_chains<3>(posterior, whitening, options, settings, may_leap);
+    case 4:
+      return nuts_chains<4>(posterior, whitening, options, settings, may_leap);
+    default:
+      return nuts_chains<Eigen::Dynamic>(posterior, whitening, options, settings, may_leap);
+  }
 }
 
 }  // namespace
 
 Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const NutsSettings& nuts,
                const RunSettings& settings) {
-  return run_chains(settings, [&](Rng& rng) {
-    switch (posterior.dimension()) {
-      case 1:
-        return nuts_chain<1>(posterior, whitening, nuts, settings, rng);
-      case 2:
-        return nuts_chain<2>(posterior, whitening, nuts, settings, rng);
-      case 3:
-        return nuts_chain<3>(posterior, whitening, nuts, settings, rng);
-      case 4:
-        return nuts_chain<4>(posterior, whitening, nuts, settings, rng);
-      default:
-        return nuts_chain<Eigen::Dynamic>(posterior, whitening, nuts, settings, rng);
-    }
-  });
+  return nuts_chains(posterior, whitening, nuts, settings, false);
+}
+
+Draws run_nuts_or_leaps(const Posterior& posterior, const Whitening& whitening,
+                        const NutsSettings& nuts, const RunSettings& settings) {
+  return nuts_chains(posterior, whitening, nuts, settings, true);
 }
 
 Draws run_metropolis(const Posterior& posterior, const Whitening& whitening,

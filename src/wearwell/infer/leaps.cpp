@@ -1,0 +1,295 @@
+#include "wearwell/infer/leaps.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "wearwell/infer/nuts.h"
+#include "wearwell/infer/warmup.h"
+#include "wearwell/math/view.h"
+
+namespace wearwell {
+namespace {
+
+constexpr int leaps = 6;       // proposed before each transition
+constexpr int deepest = 3;     // of a transition: at most 7 steps
+constexpr int adapting = 100;  // transitions in which steps adapt
+constexpr int learning = 300;  // draws of each chain about which the final mixture lies
+constexpr double near_share = 0.55, middle_share = 0.3, middle_factor = 2.8, wide_scale = 1.5;
+constexpr std::uint64_t own_streams = 1ULL << 40;  // random numbers that the pilot did not use
+
+// A multivariate Student law with a scale in every direction alike. Its degrees of freedom are such that the density
+// is a whole power.
+class Student {
+ public:
+  Student(int dimension, int least_freedom, double scale)
+      : dimension_(dimension),
+        freedom_(least_freedom + (least_freedom + dimension) % 2),
+        power_((freedom_ + dimension) / 2),
+        scale_(scale),
+        factor_(std::exp(std::lgamma(power_) - std::lgamma(0.5 * freedom_) -
+                         0.5 * dimension * std::log(freedom_ * M_PI) -
+                         dimension * std::log(scale))) {}
+
+  // At a squared distance from its middle.
+  double density(double square) const {
+    const double base = 1 / (1 + square / (scale_ * scale_ * freedom_));
+    double product = factor_;
+    for (int i = 0; i < power_; ++i) product *= base;
+    return product;
+  }
+
+  void add_draw(Eigen::VectorXd& at, Rng& rng) const {
+    double chi_squared = 0;
+    for (int i = 0; i < freedom_; ++i) {
+      const double z = rng.normal();
+      chi_squared += z * z;
+    }
+    const double stretch = scale_ * std::sqrt(freedom_ / chi_squared);
+    for (int i = 0; i < dimension_; ++i) at[i] += stretch * rng.normal();
+  }
+
+ private:
+  int dimension_, freedom_, power_;
+  double scale_, factor_;
+};
+
+// Where to leap to, in the coordinates in which the pilot is round.
+class Mixture {
+ public:
+  // `pilot`: a column a draw.
+  explicit Mixture(const Eigen::MatrixXd& pilot)
+      : middles_(thinned(pilot)),
+        near_(static_cast<int>(pilot.rows()), 7, width(pilot.rows(), middles_.cols())),
+        middle_(static_cast<int>(pilot.rows()), 7,
+                middle_factor * width(pilot.rows(), middles_.cols())),
+        wide_(static_cast<int>(pilot.rows()), 3, wide_scale) {}
+
+  double log_density(const Eigen::VectorXd& u) const {
+    double near = 0, middle = 0;
+    for (Eigen::Index k = 0; k < middles_.cols(); ++k) {
+      const double square = (middles_.col(k) - u).squaredNorm();
+      near += near_.density(square);
+      middle += middle_.density(square);
+    }
+    return std::log((near_share * near + middle_share * middle) /
+                        static_cast<double>(middles_.cols()) +
+                    (1 - near_share - middle_share) * wide_.density(u.squaredNorm()));
+  }
+
+  Eigen::VectorXd draw(Rng& rng) const {
+    const double which = rng.uniform() - near_share - middle_share;
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(middles_.rows());
+    if (which >= 0) {
+      wide_.add_draw(u, rng);
+      return u;
+    }
+    const auto count = static_cast<double>(middles_.cols());
+    u = middles_.col(static_cast<Eigen::Index>(rng.uniform() * count));
+    (which < -middle_share ? near_ : middle_).add_draw(u, rng);
+    return u;
+  }
+
+ private:
+  static Eigen::MatrixXd thinned(const Eigen::MatrixXd& pilot) {
+    const Eigen::Index most = std::min<Eigen::Index>(1000, pilot.cols());
+    Eigen::MatrixXd some(pilot.rows(), most);
+    for (Eigen::Index k = 0; k < most; ++k) some.col(k) = pilot.col(k * pilot.cols() / most);
+    return some;
+  }
+  // Two thirds of what is best for a normal law (Scott 1992): a law that bends is narrower.
+  static double width(Eigen::Index dimension, Eigen::Index count) {
+    return 0.65 * std::pow(static_cast<double>(count), -1 / (static_cast<double>(dimension) + 4));
+  }
+
+  Eigen::MatrixXd middles_;
+  Student near_, middle_, wide_;
+};
+
+// The real line of each parameter about its middle, in units of its width, bent: t = w sqrt(1 + (w/2)^2), of which the
+// tail exp(t) of a logarithm whose number may be 0 is a normal one.
+class Bent final : public LogDensity {
+ public:
+  Bent(const Posterior& posterior, Eigen::VectorXd middle, Eigen::VectorXd width)
+      : posterior_(posterior), middle_(std::move(middle)), width_(std::move(width)) {}
+
+  int dimension() const override { return posterior_.dimension(); }
+  double value(std::span<const double> w) const override {
+    const Eigen::VectorXd z = to_real(w);
+    return posterior_.value(view(z)) + log_slope(w);
+  }
+  double value_and_gradient(std::span<const double> w, std::span<double> gradient) const override {
+    const Eigen::VectorXd z = to_real(w);
+    const double value = posterior_.value_and_gradient(view(z), gradient);
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      const double q = quarter(w[i]);
+      gradient[i] = gradient[i] * width_[static_cast<Eigen::Index>(i)] * slope(q) +
+                    w[i] / (1 + 2 * q) - 0.25 * w[i] / (1 + q);
+    }
+    return value + log_slope(w);
+  }
+
+  Eigen::VectorXd to_real(std::span<const double> w) const {
+    Eigen::VectorXd z = middle_;
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      z[at] += width_[at] * w[i] * std::sqrt(1 + quarter(w[i]));
+    }
+    return z;
+  }
+  Eigen::VectorXd from_real(const Eigen::VectorXd& z) const {
+    Eigen::VectorXd w = (z - middle_).cwiseQuotient(width_);
+    for (double& each : w)
+      each = std::copysign(std::sqrt(2 * each * each / (1 + std::sqrt(1 + each * each))), each);
+    return w;
+  }
+  // log of the product of the slopes of t.
+  static double log_slope(std::span<const double> w) {
+    double slopes = 1;
+    for (const double each : w) slopes *= slope(quarter(each));
+    return std::log(slopes);
+  }
+
+ private:
+  static double quarter(double w) { return 0.25 * w * w; }
+  static double slope(double q) { return (1 + 2 * q) / std::sqrt(1 + q); }
+
+  const Posterior& posterior_;
+  Eigen::VectorXd middle_, width_;
+};
+
+// Coordinates in which earlier draws are round and of unit size.
+struct Pilot {
+  Bent bent;
+  Whitening round;                    // of the bent line
+  Eigen::MatrixXd places;             // a column a draw
+  std::vector<Eigen::VectorXd> last;  // of each chain
+};
+
+Pilot pilot_of(const Posterior& posterior, const Draws& draws) {
+  const Eigen::Index length = draws.front().values.rows();
+  Eigen::MatrixXd all(posterior.dimension(), length * std::ssize(draws));
+  Eigen::Index at = 0;
+  for (const Chain& chain : draws) {
+    for (Eigen::Index row = 0; row < length; ++row) {
+      const Eigen::VectorXd x = chain.values.row(row);
+      all.col(at++) = posterior.to_real(view(x));
+    }
+  }
+  const auto count = static_cast<double>(all.cols());
+  const Eigen::VectorXd middle = all.rowwise().mean();
+  const Eigen::VectorXd width =
+      ((all.colwise() - middle).rowwise().squaredNorm() / count).cwiseSqrt();
+  Bent bent(posterior, middle, width);
+  for (Eigen::Index k = 0; k < all.cols(); ++k) all.col(k) = bent.from_real(all.col(k));
+  const Eigen::VectorXd center = all.rowwise().mean();
+  all.colwise() -= center;
+  const Eigen::MatrixXd covariance = all * all.transpose() / count;
+  const Eigen::MatrixXd scale = covariance.llt().matrixL();
+  scale.triangularView<Eigen::Lower>().solveInPlace(all);
+  std::vector<Eigen::VectorXd> last;
+  for (Eigen::Index k = length - 1; k < all.cols(); k += length) last.push_back(all.col(k));
+  return {std::move(bent), {center, scale}, std::move(all), std::move(last)};
+}
+
+template <int N>
+class LeapingChain {
+ public:
+  LeapingChain(const Posterior& posterior, const Pilot& pilot, const Mixture& mixture,
+               const NutsSettings& options, const Eigen::VectorXd& start, Rng rng)
+      : posterior_(posterior),
+        pilot_(pilot),
+        mixture_(mixture),
+        density_(pilot.bent, pilot.round),
+        nuts_(density_, false, std::min(options.max_treedepth, deepest)),
+        rng_(rng) {
+    nuts_.set_position(start);
+    nuts_.find_reasonable_step_size(rng_);
+    DualAveraging step(options.target_accept);
+    step.restart(nuts_.step_size);
+    for (int i = 0; i < adapting; ++i) nuts_.step_size = step.update(transition().accept_stat);
+    nuts_.step_size = step.adapted();
+  }
+
+  Chain drawn(const RunSettings& settings) {
+    ProgressSteps steps(settings.progress);
+    Chain chain;
+    chain.values.resize(settings.draws, posterior_.dimension());
+    chain.step_size = nuts_.step_size;
+    taken_ = 0;
+    Eigen::VectorXd x(posterior_.dimension());
+    double accept = 0;
+    for (int i = 0; i < settings.draws; ++i) {
+      chain.nuts.push_back(transition());
+      accept += chain.nuts.back().accept_stat;
+      const Eigen::VectorXd w = pilot_.round(nuts_.point().position);
+      const Eigen::VectorXd z = pilot_.bent.to_real(view(w));
+      posterior_.to_natural(view(z), view(x));
+      chain.values.row(i) = x;
+      chain.log_density.push_back(nuts_.point().log_density - Bent::log_slope(view(w)));
+      steps.step();
+    }
+    chain.accept_rate = accept / settings.draws;
+    chain.notes.push_back(
+        fmt::format("Before each transition {} leaps to a mixture about earlier "
+                    "draws are proposed; {:.0f} % are taken",
+                    leaps, 100.0 * taken_ / (leaps * settings.draws)));
+    return chain;
+  }
+
+ private:
+  NutsStep transition() {
+    Eigen::VectorXd at = nuts_.point().position;
+    double here = nuts_.point().log_density - mixture_.log_density(at);
+    bool moved = false;
+    for (int i = 0; i < leaps; ++i) {
+      const Eigen::VectorXd next = mixture_.draw(rng_);
+      const double there = density_.value(view(next)) - mixture_.log_density(next);
+      if (!(std::log(rng_.uniform()) < there - here)) continue;
+      at = next;
+      here = there;
+      moved = true;
+      ++taken_;
+    }
+    if (moved) nuts_.set_position(at);
+    return nuts_.step(rng_);
+  }
+
+  const Posterior& posterior_;
+  const Pilot& pilot_;
+  const Mixture& mixture_;
+  WhitenedDensity density_;
+  Nuts<N> nuts_;
+  Rng rng_;
+  int taken_ = 0;
+};
+
+template <int N>
+Draws chains(const Posterior& posterior, const Pilot& pilot, const NutsSettings& options,
+             const RunSettings& settings) {
+  const Mixture mixture(pilot.places);
+  Draws draws(pilot.last.size());
+  tbb::parallel_for(std::size_t{0}, draws.size(), [&](std::size_t c) {
+    const Rng rng(settings.seed, settings.first_stream + c + own_streams);
+    LeapingChain<N> chain(posterior, pilot, mixture, options, pilot.last[c], rng);
+    draws[c] = chain.drawn(settings);
+  });
+  return draws;
+}
+
+}  // namespace
+
+Draws run_leaps(const Posterior& posterior, const Draws& pilot, const NutsSettings& nuts,
+                const RunSettings& settings) {
+  RunSettings few = settings;
+  few.draws = learning;
+  few.first_stream += own_streams;
+  few.progress = nullptr;
+  const Draws learned = chains<Eigen::Dynamic>(posterior, pilot_of(posterior, pilot), nuts, few);
+  return chains<Eigen::Dynamic>(posterior, pilot_of(posterior, learned), nuts, settings);
+}
+
+}  // namespace wearwell
