@@ -8,8 +8,8 @@ namespace wearwell {
 
 /// NUTS and leaps in turn, for posteriors that bend so much that NUTS alone takes long to walk around them: before each
 /// transition a chain may leap a few times to a place that is proposed without regard to where it stands, by the rule of
-/// Metropolis and Hastings (an independence sampler; Tierney 1994, section 2.3). Proposed is a mixture: Student laws about a
-/// thousand draws of earlier chains, narrow and three times as wide, and one about all with long tails. Transitions are cut
+/// Metropolis and Hastings (an independence sampler; Tierney 1994, section 2.3). Proposed is a mixture: Student laws about six
+/// hundred draws of earlier chains, narrow and three times as wide, and one about all with long tails. Transitions are cut
 /// short at seven steps: what they are for is what the mixture does not reach. A mixture about `pilot`, draws that lie about
 /// right, serves for 300 draws a chain; about these lies the mixture of the draws that are kept. It is fixed before the
 /// first of them, so that the posterior is the exact limit of the chains whatever the pilot.
