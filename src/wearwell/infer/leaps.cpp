@@ -14,11 +14,11 @@
 namespace wearwell {
 namespace {
 
-constexpr int leaps = 6;       // proposed before each transition
+constexpr int leaps = 8;       // proposed before each transition
 constexpr int deepest = 3;     // of a transition: at most 7 steps
 constexpr int adapting = 100;  // transitions in which steps adapt
 constexpr int learning = 300;  // draws of each chain about which the final mixture lies
-constexpr double near_share = 0.55, middle_share = 0.3, middle_factor = 2.8, wide_scale = 1.5;
+constexpr double near_share = 0.6, middle_share = 0.3, middle_factor = 2.5, wide_scale = 1.5;
 constexpr std::uint64_t own_streams = 1ULL << 40;  // random numbers that the pilot did not use
 
 // A multivariate Student law with a scale in every direction alike. Its degrees of freedom are such that the density
@@ -63,8 +63,8 @@ class Mixture {
   // `pilot`: a column a draw.
   explicit Mixture(const Eigen::MatrixXd& pilot)
       : middles_(thinned(pilot)),
-        near_(static_cast<int>(pilot.rows()), 7, width(pilot.rows(), middles_.rows())),
-        middle_(static_cast<int>(pilot.rows()), 7,
+        near_(static_cast<int>(pilot.rows()), 3, width(pilot.rows(), middles_.rows())),
+        middle_(static_cast<int>(pilot.rows()), 3,
                 middle_factor * width(pilot.rows(), middles_.rows())),
         wide_(static_cast<int>(pilot.rows()), 3, wide_scale) {}
 
@@ -98,9 +98,9 @@ class Mixture {
     for (Eigen::Index k = 0; k < most; ++k) some.row(k) = pilot.col(k * pilot.cols() / most);
     return some;
   }
-  // Two thirds of what is best for a normal law (Scott 1992): a law that bends is narrower.
+  // Somewhat less than is best for a normal law (Scott 1992): a law that bends is narrower.
   static double width(Eigen::Index dimension, Eigen::Index count) {
-    return 0.65 * std::pow(static_cast<double>(count), -1 / (static_cast<double>(dimension) + 4));
+    return 0.85 * std::pow(static_cast<double>(count), -1 / (static_cast<double>(dimension) + 4));
   }
 
   Eigen::ArrayXXd middles_;  // a row a draw

@@ -135,8 +135,13 @@ int run(const LoadLifeOptions& options) {
   question.confidence = options.confidence / 100;
   read_block_length(options.block, report);
   const bool with_mean = law.correction != MeanStress::none;
+  const bool timed = !options.counting.signal.time.empty() && options.block.empty();
   report.block = read_block({options.counting.signal, options.counting.rule(), options.scale,
-                             with_mean, report.result.stress_si});
+                             with_mean, timed, report.result.stress_si});
+  if (report.block.seconds) {
+    report.per_block = *report.block.seconds / 3600;
+    report.unit = "h";
+  }
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
   const bool dear = law.limit || law.scatter_grows;
@@ -168,6 +173,9 @@ void add_life_command(CLI::App& fatigue, int& exit_code) {
                    "one block: a signal, or counted cycles (range or amplitude, mean, cycles)")
       ->required();
   add_counting_options(*command, options->counting, "of a signal: ");
+  command->add_option("--time", options->counting.signal.time,
+                      "of a signal: a column of times; refuse a file in which samples are missing, "
+                      "and without --block tell lives in h");
   command->add_option("--scale", options->scale,
                       "from the load to stress, like '0.35 MPa/N'; of a strain '206 GPa'");
   command
@@ -198,6 +206,7 @@ void add_life_command(CLI::App& fatigue, int& exit_code) {
       "median 1, 30 % scatter.\n\n"
       "Examples:\n"
       "  wearwell fatigue life study-results loads.csv --column stress --block '350 km'\n"
+      "  wearwell fatigue life study-results loads.csv --time 'time [s]'\n"
       "  wearwell fatigue life study-results loads.csv --rule haibach --knee '2e6 cycles'\n"
       "  wearwell fatigue life study-results cycles.csv --damage-sum '0.5 x/ 2' --json\n\n"
       "Exit codes: 0 done; 1 the study is not trusted; 2 the request is wrong, nothing written.");

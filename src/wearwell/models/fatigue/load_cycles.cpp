@@ -118,6 +118,7 @@ Block counted_signal(const BlockChoice& choice) {
         "{}, column '{}' holds {}: it has no cycle", file.source(), file.column(),
         counted.samples == 1 ? "one sample" : fmt::format("{} throughout", counted.lowest)));
   Block block;
+  if (choice.timed) block.seconds = file.seconds();
   for (const CycleClass& each : counted.classes.classes()) {
     block.cycles.push_back({{0.5 * std::abs(pascal) * each.range, pascal * each.mean}, each.count});
     block.count += each.count;
@@ -227,6 +228,11 @@ class CountedTable {
 Block read_block(const BlockChoice& choice) {
   if (choice.signal.column.empty()) {
     const CountedTable headings(choice, ColumnStream(choice.signal.file).columns());
+    if (headings.is_one() && !choice.signal.time.empty())
+      throw InputError(fmt::format(
+          "{} is a table of counted cycles, which has no times: leave --time out and say "
+          "by --block what it stands for, or of a signal which column it is: --column NAME",
+          choice.signal.file.string()));
     if (headings.is_one()) return CountedTable(choice, read_table(choice.signal.file)).read();
     if (headings.doubtful())
       throw InputError(fmt::format("{}: {}", choice.signal.file.string(), headings.doubt()));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "wearwell/models/fatigue/damage.h"
@@ -16,6 +17,7 @@ struct BlockChoice {
   CountingRule rule;
   std::string scale;             ///< "0.35 MPa/N": from load to stress; empty for none
   bool with_mean = true;         ///< whether the mean stress matters
+  bool timed = false;            ///< whether it is asked how long the signal lasts
   std::string stress_si = "Pa";  ///< of the curve that the cycles are for
 };
 
@@ -23,6 +25,8 @@ struct Block {
   LoadCycles cycles;
   double count = 0;  ///< of all cycles
   std::string told;  ///< what was read, a sentence
+  std::optional<double> seconds =
+      {};  ///< that it lasts, where asked for and a column of times says it
   /// Of a signal where the mean stress does not matter: the largest that there is, as it would be in `cycles`.
   double largest_mean_left_out = 0;
 };

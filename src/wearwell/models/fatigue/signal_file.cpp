@@ -42,7 +42,10 @@ SignalFile::SignalFile(const SignalChoice& choice) : stream_(choice.file) {
   choose(choice);
   std::vector<std::string> columns = {column_};
   if (!choice.time.empty()) {
-    time_ = stream_.columns().column(choice.time).name;
+    const Table table = stream_.columns();
+    const Column& times = table.column(choice.time);
+    time_ = times.name;
+    time_unit_ = times.unit.empty() ? read_heading(times.name, "s").unit : times.unit;
     columns.push_back(time_);
   }
   stream_.select(columns);
@@ -123,8 +126,22 @@ void SignalFile::check_times() {
                         "file there and count the parts",
                         *last_time_, times[i], *step_));
     }
+    if (!first_time_) first_time_ = times[i];
     last_time_ = times[i];
   }
+}
+
+std::optional<double> SignalFile::seconds() const {
+  if (!step_) return {};
+  const auto unit = parse_unit(time_unit_);
+  if (time_unit_.empty() || !unit || unit->dimension != Dimension{{"second", 1}})
+    throw InputError(fmt::format(
+        "{}, column '{}' {}: say the unit of times in the heading, \"time [s]\", or by --block how "
+        "long one pass lasts",
+        source(), time_,
+        time_unit_.empty() ? "has no unit"
+                           : fmt::format("is in '{}', which is no unit of time", time_unit_)));
+  return unit->scale * (*last_time_ - *first_time_ + *step_);
 }
 
 }  // namespace wearwell::fatigue

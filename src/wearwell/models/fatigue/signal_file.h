@@ -35,6 +35,10 @@ class SignalFile {
   /// A column of times in which nobody asked for gaps; else empty.
   const std::string& unread_times() const { return unread_times_; }
 
+  /// How long the samples read so far last, s, the last of them as long as the first step. None without a column of
+  /// times, or of a single sample; throws InputError where its heading says no unit of time.
+  std::optional<double> seconds() const;
+
   /// The next samples, in the file's unit; none at the end.
   std::span<const double> next();
 
@@ -45,7 +49,8 @@ class SignalFile {
   ColumnStream stream_;
   ColumnStream::Batch batch_;
   std::string column_, unit_, time_, unread_times_;
-  std::optional<double> last_time_, step_;
+  std::string time_unit_;
+  std::optional<double> first_time_, last_time_, step_;
 };
 
 }  // namespace wearwell::fatigue
