@@ -207,6 +207,33 @@ TEST_F(FatigueLife, OfASignalAndOfItsCyclesAgree) {
     EXPECT_TRUE(fs::exists(folder() / "out" / file)) << file;
 }
 
+// 3000 samples of 0.05 s: 1/24 h. Twice as many of half the length, an even signal between them, last as long.
+TEST_F(FatigueLife, InTheHoursOfTheSignal) {
+  const std::string loads = "'" + example + "loads.csv' --column stress";
+  const json timed = result("life res " + loads + " --time 'time [s]'");
+  const json said = result("life res " + loads + " --block '0.04166666666666667 h'");
+  EXPECT_EQ(timed["unit"], "h");
+  for (const char* key : {"q05", "q50", "q95", "bound", "predictive"})
+    EXPECT_NEAR(timed["lives"][1][key].get<double>() / said["lives"][1][key].get<double>(), 1,
+                1e-12);
+  const json named = result("life res " + loads + " --time 'time [s]' --block '350 km'");
+  EXPECT_EQ(named["unit"], "km");
+
+  write("minutes.csv", "time [min],stress [MPa]\n0,0\n1,300\n2,0\n3,300\n");
+  EXPECT_THAT(run("life res minutes.csv --time 'time [min]'").out,
+              HasSubstr("a block is 0.0666667 h"));
+  write("gap.csv", "time [s],stress [MPa]\n0,0\n1,300\n2,0\n9,300\n");
+  EXPECT_THAT(refused("life res gap.csv --time 'time [s]'"), HasSubstr("a gap"));
+  write("unit.csv", "when,stress [MPa]\n0,0\n1,300\n2,0\n");
+  EXPECT_THAT(refused("life res unit.csv --column stress --time when"),
+              AllOf(HasSubstr("'when' has no unit"), HasSubstr("--block")));
+  write("metres.csv", "way [m],stress [MPa]\n0,0\n1,300\n2,0\n");
+  EXPECT_THAT(refused("life res metres.csv --column stress --time way"),
+              HasSubstr("no unit of time"));
+  write("counted.csv", "range [MPa],mean [MPa],cycles\n300,10,1\n");
+  EXPECT_THAT(refused("life res counted.csv --time cycles"), HasSubstr("has no times"));
+}
+
 TEST_F(FatigueLife, RefusesWhatMayBeMisread) {
   write("no_kind.csv", "stress [MPa],cycles\n300,10\n");
   EXPECT_THAT(refused("life res no_kind.csv"), AllOf(HasSubstr("range"), HasSubstr("amplitude")));
