@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/models/ownlaw/own_drawn.h"
+
 // Longer than others: one likelihood: rows, effects integrated out, gradients of both.
 namespace wearwell::ownlaw {
 namespace {
@@ -515,6 +517,12 @@ class OwnLikelihood final : public LogDensity {
 
   // Of units where they differ, else of observations, column by column.
   std::vector<double> pointwise(std::span<const double> x) const override {
+    if (!law_->draws_units()) return each_factor(x);
+    return without_drawn_effects(*law_, x, *this,
+                                 [this](std::span<const double> at) { return each_factor(at); });
+  }
+
+  std::vector<double> each_factor(std::span<const double> x) const {
     Scratch& scratch = mine();
     if (scratch.linear) {
       scratch.rows.move_to(x.data());

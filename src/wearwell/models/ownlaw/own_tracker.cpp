@@ -6,6 +6,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/sha1.h"
+#include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_reader.h"
 #include "wearwell/models/ownlaw/tracked_unit.h"
 
@@ -66,6 +67,7 @@ class OwnTracker final : public prognosis::Tracker {
 std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedState& state) {
   const TomlReader root = TomlReader::parse(state.source.study);
   const std::shared_ptr<const OwnLaw> law = read_own_law(root, state.source);
+  refuse_drawn_effects(*law, "followed on line");
   std::vector<std::string> names;
   for (const Parameter& each : law->parameters) names.push_back(each.name);
   if (names != state.parameters) {
