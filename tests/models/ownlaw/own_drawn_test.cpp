@@ -201,14 +201,14 @@ TEST_F(OwnDrawn, PathsOfUnitsAreTheirConjugateOnes) {
     }
     const double middle = there * mean, sd = std::sqrt((there * covariance * there.transpose())(0));
     // Over 500 of the draws that are read as points.
-    EXPECT_NEAR(each.exact ? each.exact->q50 : each.q50, middle, 0.25 * sd) << each.of;
-    EXPECT_NEAR((each.q95 - each.q05) / (2 * 1.6448536), sd, 0.15 * sd) << each.of;
+    EXPECT_NEAR(each.best().q50, middle, 0.25 * sd) << each.of;
+    EXPECT_NEAR((each.best().q95 - each.best().q05) / (2 * 1.6448536), sd, 0.15 * sd) << each.of;
     ++seen;
   }
   EXPECT_EQ(seen, 5U);
 }
 
-const char *const crossed = R"(
+const char* const crossed = R"toml(
 model = "law"
 [data]
 file = "own_crossed.csv"
@@ -228,13 +228,11 @@ k = { law = "lognormal", log_sd = "k_scatter" }
 [varies.operator]
 k = { law = "lognormal", log_sd = "o_scatter" }
 [prior]
-k = { law = "lognormal", median = "1e-6 mm^3/(N m)",
-                  log_sd = 2
-}
+k = { law = "lognormal", median = "1e-6 mm^3/(N m)", log_sd = 2 }
 sigma = { law = "half-normal", scale = "5 um" }
 k_scatter = { law = "half-normal", scale = 1 }
 o_scatter = { law = "half-normal", scale = 0.5 }
-)";
+)toml";
 
 // Every machine by a sum over 4,000 places of its own effect.
 TEST_F(OwnDrawn, TwoLabelsThatCrossAreASumOverAGrid) {
