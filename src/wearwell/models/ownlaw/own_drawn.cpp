@@ -106,7 +106,6 @@ void require_few(const TomlReader& root, const OwnLaw& law, const std::string& l
 
 std::size_t label_of_units(const TomlReader& root, const OwnData& data,
                            const std::vector<WrittenVaries>& varies) {
-  if (varies.size() < 2) return 0;
   const TomlReader table = root.required_table("data");
   std::vector<std::string> names;
   for (const WrittenVaries& each : varies) names.push_back(each.label);
@@ -119,6 +118,7 @@ std::size_t label_of_units(const TomlReader& root, const OwnData& data,
     }
     return static_cast<std::size_t>(at - names.begin());
   }
+  if (varies.size() < 2) return 0;
   std::vector<std::size_t> inmost;
   for (std::size_t i = 0; i < varies.size(); ++i) {
     const LabelColumn& own = label_of(root, data, names[i]);
