@@ -327,12 +327,20 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
   std::vector<double> log_prior, log_likelihood;
   for (Eigen::Index row = 0; row < values.rows(); ++row) {
     const Eigen::VectorXd x = values.row(row);
-    log_prior.push_back(posterior.log_prior(view(x)));
-    log_likelihood.push_back(posterior.likelihood()->value(view(x)));
+    double of_effects = 0;
+    for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
+      const Parameter& each = posterior.parameters()[i];
+      if (each.law == law_of_effects) {
+        of_effects += log_density(each.prior, x[static_cast<Eigen::Index>(i)]).value;
+      }
+    }
+    log_prior.push_back(posterior.log_prior(view(x)) - of_effects);
+    log_likelihood.push_back(posterior.likelihood()->value(view(x)) + of_effects);
   }
   std::vector<std::string> passed;
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
     const Parameter& parameter = posterior.parameters()[i];
+    if (parameter.law == law_of_effects) continue;
     const Eigen::VectorXd draws = values.col(static_cast<Eigen::Index>(i));
     const PowerScaling sensitivity = power_scaling(view(draws), log_prior, log_likelihood);
     const std::string numbers =

@@ -47,5 +47,25 @@ TEST_F(BesideRstan, WearOfMachinesThatDiffer) {
   expect_means("law", examples + "law/study.toml");
 }
 
+// Machines that differ, read by operators who differ (own_drawn_test.cpp has the law): by NUTS on both sides.
+TEST_F(BesideRstan, TwoLabelsThatCross) {
+  const PosteriorSummary result =
+      run_study(wearwell::read_posterior_study(std::filesystem::path(PROJECT_SOURCE_DIR) /
+                                               "tests/golden/own_crossed.toml"),
+                {Method::nuts, 4, 1000, 5000, 7}, {}, false);
+  std::size_t compared = 0;
+  for (const auto& row : read_golden("own_rstan.csv")) {
+    if (row[0] != "crossed") continue;
+    const auto at = std::find_if(result.parameters.begin(), result.parameters.end(),
+                                 [&](const auto& each) { return each.name == row[1]; });
+    ASSERT_NE(at, result.parameters.end()) << row[1];
+    const double error = std::hypot(std::stod(row[3]), at->mcse);
+    EXPECT_NEAR(at->mean, std::stod(row[2]), 3.3 * error) << row[1];
+    EXPECT_NEAR(at->sd / std::stod(row[4]), 1, 0.06) << row[1];
+    ++compared;
+  }
+  EXPECT_EQ(compared, 4U);
+}
+
 }  // namespace
 }  // namespace wearwell

@@ -15,6 +15,7 @@
 #include "wearwell/law/c_text.h"
 #include "wearwell/models/ownlaw/c_likelihood.h"
 #include "wearwell/models/ownlaw/node_lives.h"
+#include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_reader.h"
 #include "wearwell/models/ownlaw/unit_nodes.h"
 
@@ -63,6 +64,7 @@ struct Exported {
 
   static std::shared_ptr<const OwnLaw> allowed(std::shared_ptr<const OwnLaw> read) {
     refuse_law(*read);
+    refuse_drawn_effects(*read, "exported");
     return read;
   }
 

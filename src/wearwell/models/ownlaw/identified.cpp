@@ -104,7 +104,10 @@ Check identified(const OwnRows& rows, const std::vector<Parameter>& parameters, 
   for (Eigen::Index i = 0; i < points; ++i) {
     const Eigen::VectorXd at =
         fit.pooled.values.row((2 * i + 1) * fit.pooled.values.rows() / (2 * points));
-    direction = still(derivatives(rows, parameters, {at.begin(), at.end()}));
+    // Drawn effects are held by the law that they are drawn from; they stand behind all other parameters.
+    const std::vector<DrawnEffect>& drawn = rows.law().drawn;
+    const auto others = drawn.empty() ? at.size() : static_cast<Eigen::Index>(drawn.front().first);
+    direction = still(derivatives(rows, parameters, {at.begin(), at.end()}).leftCols(others));
     if (direction.size() == 0) break;
   }
   if (direction.size() > 0) {

@@ -38,6 +38,11 @@ Conditions read_conditions(const TomlReader& table, const OwnLaw& law) {
     }
     if (const LabelColumn* label = law.data.label(name)) {
       const std::string level = table.required_text(name);
+      if (law.is_drawn(name) && level == "new " + name) {
+        result.labels[name] = static_cast<int>(label->levels.size());
+        words.push_back(level);
+        continue;
+      }
       const auto at = std::find(label->levels.begin(), label->levels.end(), level);
       if (at == label->levels.end()) {
         table.fail(name,
@@ -75,7 +80,9 @@ Conditions conditions_of_unit(const OwnLaw& law, std::size_t unit, const Conditi
     if (!alike) result.of_last_row.insert(each.name);
   }
   for (const LabelColumn& each : law.data.labels) {
-    if (law.label != each.name) result.labels.try_emplace(each.name, each.at[*last]);
+    if (law.label != each.name || law.is_drawn(each.name)) {
+      result.labels.try_emplace(each.name, each.at[*last]);
+    }
   }
   return result;
 }
@@ -91,6 +98,10 @@ Conditions common_conditions(const OwnLaw& law, const Conditions& given) {
   }
   for (const LabelColumn& each : law.data.labels) {
     if (each.levels.size() == 1 && law.label != each.name) result.labels.try_emplace(each.name, 0);
+    // Of what varies, one not yet seen.
+    if (law.is_drawn(each.name)) {
+      result.labels.try_emplace(each.name, static_cast<int>(each.levels.size()));
+    }
   }
   return result;
 }

@@ -125,6 +125,11 @@ std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
     for (std::size_t e = 0; e < d; ++e) {
       for (std::size_t i = e; i < z.size(); i += d) scores.push_back({z[i], z[i]});
     }
+    for (const DrawnEffect& each : rows->law().drawn) {
+      for (std::size_t i = 0; i < each.seen; ++i) {
+        scores.push_back({x[each.first + i], x[each.first + i]});
+      }
+    }
     return scores;
   };
   data.drivers = drivers_of(law);
@@ -142,6 +147,14 @@ std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
     UnitEffect named{effect.name, {}};
     for (const std::string& unit : law.units) {
       named.of.push_back(fmt::format("{} {}", *law.label, unit));
+    }
+    data.effects.push_back(std::move(named));
+  }
+  for (const DrawnEffect& effect : law.drawn) {
+    const bool of_units = law.label == effect.label;
+    UnitEffect named{of_units ? effect.name : effect.name + " of " + effect.label, {}};
+    for (const std::string& level : law.data.label(effect.label)->levels) {
+      named.of.push_back(fmt::format("{} {}", effect.label, level));
     }
     data.effects.push_back(std::move(named));
   }

@@ -44,6 +44,8 @@ StudyKeys law_keys() {
         "what expressions call `*`; `status`, `lower`, `upper`, `count` and `entry` say how much "
         "is "
         "known of an observation"},
+       {"data.rows_of", "\"machine\"",
+        "of several labels that parameters vary with: whose levels are the units"},
        {"constants.*", "\"50 mm^2\"", "a number with its unit, or a plain one"},
        {"law.*", "\"k * work / area\"",
         "intermediate value, or a state by its rate `\"d(depth)/d(distance)\"` ([law.md](law.md))"},

@@ -10,6 +10,17 @@ bool OwnLaw::has_process() const {
                      [](const Measured& each) { return each.process != nullptr; });
 }
 
+bool OwnLaw::is_drawn(const std::string& of) const {
+  return std::any_of(drawn.begin(), drawn.end(),
+                     [&](const DrawnEffect& each) { return each.label == of; });
+}
+
+std::size_t OwnLaw::drawn_correlation(std::size_t effect) const {
+  std::size_t at = drawn.size();
+  for (std::size_t i = 0; i < effect; ++i) at += drawn[i].correlation ? 1 : 0;
+  return at;
+}
+
 double Population::value(const OwnLaw& law, std::size_t i, const double* z) const {
   const double own =
       i == 0 ? z[0] : correlation * z[0] + std::sqrt(1 - correlation * correlation) * z[1];

@@ -22,6 +22,21 @@ struct Effect {
   bool lognormal = false;
 };
 
+/// A parameter that differs from level to level of a label, drawn with the study's parameters where it is not
+/// integrated out: of each level that was seen, and of a new one, how far it lies from the middle is a parameter
+/// of its own, standard normal (non-centred).
+struct DrawnEffect {
+  std::string name;     ///< what differs: "k"
+  std::string label;    ///< "operator"
+  std::string scatter;  ///< as it is written
+  bool lognormal = false;
+  std::string z;           ///< of its parameters, as expressions call them: "k_operator_z"
+  std::size_t first = 0;   ///< of its levels, among the parameters of the study
+  std::size_t seen = 0;    ///< levels; the parameter behind theirs is that of a new one
+  std::size_t middle = 0;  ///< among the parameters of the study
+  std::optional<std::string> correlation = {};  ///< with the one before, as it is written
+};
+
 /// One measured column with the law of its scatter.
 struct Measured {
   std::string column;
@@ -39,9 +54,10 @@ struct Measured {
 
 /// A study of a law in the user's own words, read and compiled; data in SI.
 struct OwnLaw {
-  std::vector<law::Line> lines;
-  law::Symbols symbols;      ///< of the study's parameters as they are: middles of what differs
-  law::Symbols row_symbols;  ///< the same with what differs from unit to unit given by row
+  std::vector<law::Line> written;  ///< lines of [law], for functions of the parameters
+  std::vector<law::Line> lines;  ///< with those that put drawn effects in: for what differs by row
+  law::Symbols symbols;          ///< of the study's parameters as they are: middles of what differs
+  law::Symbols row_symbols;      ///< the same with what differs from unit to unit given by row
   std::vector<Measured> measured;
   std::vector<Parameter> parameters;  ///< the study's: slots(symbols)
   /// Parameters of `row_symbols` among the study's.
@@ -54,6 +70,10 @@ struct OwnLaw {
   law::Program population;
   bool correlated = false;
 
+  std::vector<DrawnEffect> drawn;
+  /// Their scatters, then the correlations of those that follow another.
+  law::Program drawn_scatter;
+
   OwnData data;
   /// Rows in the order in which programs see them: unit by unit, along the axis.
   std::vector<std::size_t> order;
@@ -62,6 +82,12 @@ struct OwnLaw {
   std::optional<std::string> along;      ///< the column that is the axis of wear and life
 
   bool varies() const { return !effects.empty(); }
+  /// Whether effects of this label are drawn.
+  bool is_drawn(const std::string& of) const;
+  /// Whether such of the units are; then those of a unit are integrated out where it is left out.
+  bool draws_units() const { return label && is_drawn(*label); }
+  /// Where among the outputs of `drawn_scatter` the correlation stands of an effect that follows.
+  std::size_t drawn_correlation(std::size_t effect) const;
   bool has_process() const;
   /// Whether the likelihood's factors are units, not rows: where they differ, or a row's reading depends
   /// on those before it.

@@ -4,6 +4,7 @@
 
 #include "wearwell/math/root.h"
 #include "wearwell/models/ownlaw/few_points.h"
+#include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_lives.h"
 #include "wearwell/predict/prediction.h"
 
@@ -65,26 +66,36 @@ double solve(const F& cdf, double p, double middle, bool positive) {
 class LifeLaw::AtPoint {
  public:
   explicit AtPoint(const LifeLaw& life)
-      : life_(life), nodes_(life.slots_->law->effects.size()), path_(*life.slots_) {
-    slots_.resize(most_response_slots * nodes_.weight.size());
+      : life_(life),
+        nodes_(life.slots_->law->effects.size()),
+        new_units_(*life.slots_->law),
+        path_(*life.slots_) {
+    slots_.resize(most_response_slots * size());
   }
 
   void move_to(const double* x) {
-    path_.move_to(x);
-    const std::size_t d = life_.slots_->law->effects.size(), count = nodes_.weight.size();
-    for (std::size_t at = 0; at < count; at += Path::most) {
-      const std::size_t n = std::min(Path::most, count - at);
-      path_.evaluate(n, d ? &nodes_.z[at * d] : nullptr, nullptr);
-      for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t o = 0; o < life_.slot_.size(); ++o) {
-          slots_[(at + i) * most_response_slots + life_.slot_[o]] = path_.output(o, i);
+    const OwnLaw& law = *life_.slots_->law;
+    const std::size_t d = law.effects.size(), count = nodes_.weight.size();
+    for (std::size_t k = 0; k < new_units_.count(); ++k) {
+      path_.move_to(new_units_.at(k, x, law.parameters.size()));
+      for (std::size_t at = 0; at < count; at += Path::most) {
+        const std::size_t n = std::min(Path::most, count - at);
+        path_.evaluate(n, d ? &nodes_.z[at * d] : nullptr, nullptr);
+        for (std::size_t i = 0; i < n; ++i) {
+          for (std::size_t o = 0; o < life_.slot_.size(); ++o) {
+            slots_[(k * count + at + i) * most_response_slots + life_.slot_[o]] =
+                path_.output(o, i);
+          }
         }
       }
     }
   }
 
-  std::size_t size() const { return nodes_.weight.size(); }
-  double weight(std::size_t i) const { return nodes_.weight[i]; }
+  std::size_t size() const { return nodes_.weight.size() * new_units_.count(); }
+  double weight(std::size_t i) const {
+    const std::size_t count = nodes_.weight.size();
+    return nodes_.weight[i % count] * new_units_.share[i / count];
+  }
   const double* slots(std::size_t i) const { return &slots_[i * most_response_slots]; }
 
   double cdf(double life) const {
@@ -117,6 +128,7 @@ class LifeLaw::AtPoint {
  private:
   const LifeLaw& life_;
   NormalNodes nodes_;
+  NewUnits new_units_;
   PathAt path_;
   std::vector<double> slots_;
 };

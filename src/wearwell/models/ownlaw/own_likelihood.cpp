@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/models/ownlaw/own_drawn.h"
+
 // Longer than others: one likelihood: rows, effects integrated out, gradients of both.
 namespace wearwell::ownlaw {
 namespace {
@@ -85,7 +87,10 @@ BoundColumn bind_column(const OwnLaw& law, const Measured& measured, std::size_t
   }
   bound.data = measured.program.bind(columns.rows);
   bound.responses = ResponseColumn(std::move(responses));
-  if (measured.process && measured.process->process != Process::wiener) note_growth(bound);
+  const bool noisy = std::count(measured.slot.begin(), measured.slot.end(), 2) > 0;
+  if (measured.process && measured.process->process != Process::wiener && !noisy) {
+    note_growth(bound);
+  }
   return bound;
 }
 
@@ -515,6 +520,12 @@ class OwnLikelihood final : public LogDensity {
 
   // Of units where they differ, else of observations, column by column.
   std::vector<double> pointwise(std::span<const double> x) const override {
+    if (!law_->draws_units()) return each_factor(x);
+    return without_drawn_effects(*law_, x, *this,
+                                 [this](std::span<const double> at) { return each_factor(at); });
+  }
+
+  std::vector<double> each_factor(std::span<const double> x) const {
     Scratch& scratch = mine();
     if (scratch.linear) {
       scratch.rows.move_to(x.data());

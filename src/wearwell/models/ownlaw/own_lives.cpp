@@ -6,6 +6,7 @@
 
 #include "wearwell/models/ownlaw/effect_lines.h"
 #include "wearwell/models/ownlaw/few_points.h"
+#include "wearwell/models/ownlaw/own_drawn.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -20,7 +21,11 @@ struct Most {
 class Part {
  public:
   Part(const OwnRows& rows, const LimitedPath& path)
-      : rows_(rows), path_(path), fresh_(lines_of_new_unit(rows.law().effects.size())) {
+      : rows_(rows),
+        path_(path),
+        fresh_(rows.law().draws_units() ? lines_of_new_unit(effects(), 0.5, 5)
+                                        : lines_of_new_unit(effects())),
+        new_units_(rows.law()) {
     if (path.next) next_.emplace(*path.next, path.rising, path.begin, path.scale);
     for (const LimitedPath::Seen& each : path.seen) {
       ahead_.emplace_back(*each.ahead, path.rising, path.begin, path.scale);
@@ -54,6 +59,16 @@ class Part {
   }
 
   void add_next(const double* x, double weight) {
+    CellMixture units;
+    for (std::size_t i = 0; i < new_units_.count(); ++i) {
+      add_some(new_units_.at(i, x, rows_.law().parameters.size()), weight * new_units_.share[i],
+               units);
+    }
+    found.next.add(units);
+    if (!path_.shares.empty()) found.add_shares(path_, units);
+  }
+
+  void add_some(const double* x, double weight, CellMixture& units) {
     next_->at().move_to(x);
     const EffectLines* lines = &fresh_;
     if (effects() == 2) {
@@ -61,10 +76,7 @@ class Part {
       lines = &lines_;
     }
     solve(*next_, lines->z, lines->count(), place_);
-    CellMixture units;
     lines->each(place_, [&](auto share, auto place) { units.add_curve(weight, share, place); });
-    found.next.add(units);
-    if (!path_.shares.empty()) found.add_shares(path_, units);
   }
 
   // In which direction of two effects lives of new units change.
@@ -136,6 +148,7 @@ class Part {
   std::vector<Crossing> ahead_;
   std::vector<std::unique_ptr<PathAt>> behind_;
   const EffectLines fresh_;
+  NewUnits new_units_;
   EffectLines lines_;
   std::vector<double> place_, past_, level_;
 };
@@ -149,7 +162,8 @@ Most points_of(const Path& any) {
 
 LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
                            const WeightedDraws& draws) {
-  const Most most = points_of(path.next ? *path.next : *path.seen.front().ahead);
+  Most most = points_of(path.next ? *path.next : *path.seen.front().ahead);
+  if (rows.law().draws_units()) most.next = std::min<std::size_t>(most.next, 400);
   LimitedLives lives;
   LimitedPath seen = path, next = path;
   seen.next.reset();

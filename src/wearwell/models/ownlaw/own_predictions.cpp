@@ -187,7 +187,7 @@ class Predictions {
       }
       const law::Wanted wanted{"[predict.quantities] " + name, text, {}, {}, true};
       const auto program = std::make_shared<const law::Program>(
-          compile_at(*table, name, law_->lines, wanted, law_->symbols));
+          compile_at(*table, name, law_->written, wanted, law_->symbols));
       const law::Powers& powers = program->outputs()[0].powers;
       Unit shown{powers.empty() ? "1" : law::in_words(powers), 1, 0};
       if (unit) {

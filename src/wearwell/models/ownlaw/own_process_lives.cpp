@@ -7,6 +7,7 @@
 #include "wearwell/math/quadrature.h"
 #include "wearwell/models/ownlaw/effect_lines.h"
 #include "wearwell/models/ownlaw/few_points.h"
+#include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
 
 namespace wearwell::ownlaw {
@@ -42,7 +43,8 @@ class Part {
         form_(*rows.law().measured[limit.column].process),
         table_(ScoreTable::passages(form_.process)),
         effects_(rows.law().effects.size()),
-        fresh_(lines_of_new_unit(effects_, 0.5, 5)) {
+        fresh_(lines_of_new_unit(effects_, 0.5, 5)),
+        new_units_(rows.law()) {
     const LimitedPath& path = limit.path;
     sign_ = path.rising ? 1 : -1;
     if (path.next) next_.emplace(*path.next, path.rising, path.begin, path.scale);
@@ -62,12 +64,14 @@ class Part {
 
  private:
   void add_next(const double* x, double weight) {
-    next_->at().move_to(x);
     CellMixture units;
-    for (std::size_t i = 0; i < fresh_.count(); ++i) {
-      const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
-      add_passage(*next_, z, limit_.path.begin, 0, sign_ * limit_.path.limit,
-                  weight * fresh_.share[i], false, units);
+    for (std::size_t k = 0; k < new_units_.count(); ++k) {
+      next_->at().move_to(new_units_.at(k, x, rows_.law().parameters.size()));
+      for (std::size_t i = 0; i < fresh_.count(); ++i) {
+        const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
+        add_passage(*next_, z, limit_.path.begin, 0, sign_ * limit_.path.limit,
+                    weight * new_units_.share[k] * fresh_.share[i], false, units);
+      }
     }
     found.next.add(units);
     if (!limit_.path.shares.empty()) found.add_shares(limit_.path, units);
@@ -153,6 +157,7 @@ class Part {
   const ScoreTable& table_;
   std::size_t effects_;
   const EffectLines fresh_;
+  NewUnits new_units_;
   double sign_ = 1;
   std::optional<Crossing> next_;
   std::vector<Crossing> ahead_;
@@ -171,8 +176,8 @@ LimitedLives process_lives(const OwnRows& rows, const ProcessLimit& limit,
   }
   if (!limit.path.next) return lives;
   // Lives of new units hang on the tail of what is known of the population.
-  LimitedLives of_next =
-      sum_over(FewPoints(draws, most_points_of_next), [&] { return Part(rows, next); });
+  const std::size_t most = rows.law().draws_units() ? most_points : most_points_of_next;
+  LimitedLives of_next = sum_over(FewPoints(draws, most), [&] { return Part(rows, next); });
   lives.next = std::move(of_next.next);
   lives.by_share = std::move(of_next.by_share);
   return lives;

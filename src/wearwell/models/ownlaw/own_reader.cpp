@@ -13,6 +13,9 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/prior.h"
+#include "wearwell/models/ownlaw/own_drawn.h"
+#include "wearwell/models/ownlaw/own_likelihood.h"
+#include "wearwell/models/ownlaw/own_linear.h"
 #include "wearwell/models/ownlaw/own_order.h"
 
 // Longer than others: the sections of one study file, each of which needs the names of those before.
@@ -45,22 +48,20 @@ struct WrittenLikelihood {
   std::vector<std::pair<std::size_t, std::string>> slots;  // of the form, and the expression
 };
 
-struct WrittenEffect {
-  std::string name, scatter;
-  bool lognormal;
-};
-
 class Reader {
  public:
-  Reader(const TomlReader& root, const Source& source)
-      : root_(root), source_(source), law_(std::make_shared<OwnLaw>()) {}
+  // Of more than two effects of the units, `integrated` are integrated out.
+  Reader(const TomlReader& root, const Source& source, std::size_t integrated)
+      : root_(root), source_(source), integrated_(integrated), law_(std::make_shared<OwnLaw>()) {}
 
   std::shared_ptr<OwnLaw> read() {
     read_texts();
     law_->data = read_own_data(root_, source_, label_names());
+    choose_units();
     read_along();
     read_symbols();
     read_parameters();
+    add_drawn_effects(root_, drawn_, *law_);
     read_effects();
     compile_population();
     compile_measured();
@@ -75,9 +76,10 @@ class Reader {
   void read_texts() {
     if (const auto lines = root_.table("law")) {
       for (const std::string& name : lines->keys()) {
-        law_->lines.push_back({name, expression(*lines, name)});
-        texts_.push_back(law_->lines.back().text);
+        law_->written.push_back({name, expression(*lines, name)});
+        texts_.push_back(law_->written.back().text);
       }
+      law_->lines = law_->written;
     }
     const TomlReader likelihoods = root_.required_table("likelihood");
     for (const std::string& column : likelihoods.keys()) {
@@ -87,15 +89,8 @@ class Reader {
       root_.fail("likelihood", "is empty; give one table for each measured column");
     }
     if (const auto varies = root_.table("varies")) {
-      const std::vector<std::string> labels = varies->keys();
-      if (labels.size() > 1) {
-        varies->fail(labels[1],
-                     "a second label that parameters vary with is more than is "
-                     "integrated out; one label may vary");
-      }
-      for (const std::string& label : labels) {
-        law_->label = label;
-        read_varies(varies->required_table(label));
+      for (const std::string& label : varies->keys()) {
+        read_varies(varies->required_table(label), label);
       }
     }
     if (const auto predict = root_.table("predict")) {
@@ -137,11 +132,6 @@ class Reader {
     };
     for (const ResponseForm& each : response_forms()) look_at(each, nullptr);
     for (const ProcessForm& each : process_forms()) look_at(each.form, &each);
-    if (process && process->process != Process::wiener && table.has("noise")) {
-      table.fail("noise", fmt::format("is not integrated out of a {}: readings are taken as they "
-                                      "are; a wiener-process has noise",
-                                      *family));
-    }
     if (!form) {
       table.fail("family", fmt::format("{} needs {}", *family, fmt::join(ways, ", or ")));
     }
@@ -156,7 +146,8 @@ class Reader {
     return result;
   }
 
-  void read_varies(const TomlReader& table) {
+  void read_varies(const TomlReader& table, const std::string& label) {
+    WrittenVaries written{label, {}, {}};
     for (const std::string& name : table.keys()) {
       if (name == "correlation") continue;
       const TomlReader effect = table.required_table(name);
@@ -168,19 +159,42 @@ class Reader {
         effect.fail(key,
                     fmt::format("is missing: of a {} law it says how far units differ", *kind));
       }
-      effects_.push_back({name, expression(effect, key), lognormal});
-      texts_.push_back(effects_.back().scatter);
+      written.effects.push_back({name, expression(effect, key), lognormal});
+      texts_.push_back(written.effects.back().scatter);
     }
-    if (effects_.empty()) table.fail("", "names no parameter that varies");
-    if (effects_.size() > latent_effects) {
-      table.fail(effects_[latent_effects].name,
-                 fmt::format("is one too many: at most {} parameters may vary", latent_effects));
-    }
+    if (written.effects.empty()) table.fail("", "names no parameter that varies");
     if (table.has("correlation")) {
-      if (effects_.size() < 2) table.fail("correlation", "needs two parameters that vary");
-      correlation_ = expression(table, "correlation");
-      texts_.push_back(*correlation_);
+      if (written.effects.size() != 2) table.fail("correlation", "needs two parameters that vary");
+      written.correlation = expression(table, "correlation");
+      texts_.push_back(*written.correlation);
     }
+    varies_.push_back(std::move(written));
+  }
+
+  // Which label says of which unit a row is, and which effects are drawn.
+  void choose_units() {
+    if (varies_.empty()) return;
+    const std::size_t unit = label_of_units(root_, law_->data, varies_);
+    const WrittenVaries& units = varies_[unit];
+    law_->label = units.label;
+    correlation_ = units.correlation;
+    effects_ = units.effects;
+    if (effects_.size() > most_unit_effects) {
+      root_.required_table("varies")
+          .required_table(units.label)
+          .fail(effects_[most_unit_effects].name,
+                fmt::format("is one too many: at most {} parameters may vary from {} to {}",
+                            most_unit_effects, units.label, units.label));
+    }
+    for (std::size_t v = 0; v < varies_.size(); ++v) {
+      if (v != unit) drawn_.push_back(varies_[v]);
+    }
+    const std::size_t kept = effects_.size() == most_unit_effects ? latent_effects : integrated_;
+    if (effects_.size() <= latent_effects) return;
+    WrittenVaries rest{units.label, {}, {}};
+    rest.effects.assign(effects_.begin() + static_cast<std::ptrdiff_t>(kept), effects_.end());
+    effects_.resize(kept);
+    drawn_.push_back(std::move(rest));
   }
 
   // Where rows follow each other, the one column without a unit that no expression names says which
@@ -214,9 +228,9 @@ class Reader {
 
   std::vector<std::string> label_names() {
     std::vector<std::string> names;
-    if (law_->label) names.push_back(*law_->label);
+    for (const WrittenVaries& each : varies_) names.push_back(each.label);
     names.emplace_back("status");
-    if (const auto unit = idle_column(); unit && !law_->label) names.push_back(*unit);
+    if (const auto unit = idle_column(); unit && varies_.empty()) names.push_back(*unit);
     static const std::regex indexed(R"(([A-Za-z_]\w*)\s*\[\s*([A-Za-z_]\w*)\s*\])");
     static const std::regex compared(R"re(([A-Za-z_]\w*)\s*(==|!=)\s*")re");
     static const std::regex compared_back(R"re("\s*(==|!=)\s*([A-Za-z_]\w*))re");
@@ -307,11 +321,13 @@ class Reader {
         if (kind == SlotKind::size || kind == SlotKind::number) bounds[name].take(0, INFINITY);
       }
     }
-    for (const WrittenEffect& each : effects_) {
-      if (each.lognormal) bounds[each.name].take(0, INFINITY);
-      bounds[trimmed(each.scatter)].take(0, INFINITY);
+    for (const WrittenVaries& varies : varies_) {
+      for (const WrittenEffect& each : varies.effects) {
+        if (each.lognormal) bounds[each.name].take(0, INFINITY);
+        bounds[trimmed(each.scatter)].take(0, INFINITY);
+      }
+      if (varies.correlation) bounds[trimmed(*varies.correlation)].take(-1, 1);
     }
-    if (correlation_) bounds[trimmed(*correlation_)].take(-1, 1);
     return bounds;
   }
 
@@ -385,6 +401,12 @@ class Reader {
       priors.fail(base, fmt::format("stands before [{}], and '{}' is no label under data.columns",
                                     label, label));
     }
+    if (std::any_of(drawn_.begin(), drawn_.end(),
+                    [&](const WrittenVaries& each) { return each.label == label; })) {
+      priors.fail(base, fmt::format("is one of each {} by itself, and [varies.{}] draws others "
+                                    "from one law: one of the two",
+                                    label, label));
+    }
     std::optional<law::Powers> powers;
     const std::string common = priors.has(base) ? base : fmt::format("{}[{}]", base, label);
     for (const std::string& level : column->levels) {
@@ -447,6 +469,7 @@ class Reader {
                                             "least 2",
                                             law_->data.table.source, *law_->label));
     }
+    put_drawn_effects_in_rows(*law_);
   }
 
   void compile_population() {
@@ -575,13 +598,16 @@ class Reader {
     }
   }
 
-  static constexpr std::size_t latent_effects = 2;
+  static constexpr std::size_t latent_effects = 2, most_unit_effects = 4;
   const TomlReader& root_;
   const Source& source_;
+  std::size_t integrated_;
   std::shared_ptr<OwnLaw> law_;
   std::vector<std::string> texts_;
   std::vector<WrittenLikelihood> written_;
-  std::vector<WrittenEffect> effects_;
+  std::vector<WrittenVaries> varies_;
+  std::vector<WrittenEffect> effects_;  // of the units, that are integrated out
+  std::vector<WrittenVaries> drawn_;
   std::optional<std::string> correlation_;
   std::map<std::string, std::string> indexed_;  // parameter -> label
 };
@@ -604,7 +630,10 @@ law::Program compile_at(const TomlReader& table, const std::string& key,
 }
 
 std::shared_ptr<OwnLaw> read_own_law(const TomlReader& root, const Source& source) {
-  return Reader(root, source).read();
+  std::shared_ptr<OwnLaw> law = Reader(root, source, 2).read();
+  // Two effects in which paths are straight cost no more than one; else one alone is integrated out.
+  if (!law->draws_units() || is_linear(*law, bind_columns(*law, law->data.table.rows))) return law;
+  return Reader(root, source, 1).read();
 }
 
 }  // namespace wearwell::ownlaw

@@ -10,6 +10,7 @@
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/models/ownlaw/identified.h"
 #include "wearwell/models/ownlaw/life_paper.h"
+#include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_fit_data.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/models/ownlaw/own_predictions.h"
@@ -48,6 +49,12 @@ std::string in_words(const OwnLaw& law) {
     parts.push_back(
         fmt::format("their correlation is {}", law.population.text(law.effects.size())));
   }
+  for (const ownlaw::DrawnEffect& each : law.drawn) {
+    parts.push_back(fmt::format(
+        "{} of each of {} {}s is {} about {}_middle with {} {}{}", each.name, each.seen, each.label,
+        each.lognormal ? "lognormal" : "normal", each.name, each.lognormal ? "log_sd" : "sd",
+        each.scatter, each.correlation ? ", correlation " + *each.correlation : ""));
+  }
   return fmt::format("{}", fmt::join(parts, "; "));
 }
 
@@ -59,6 +66,14 @@ std::vector<std::string> meanings(const OwnLaw& law) {
     all.push_back(effect == law.effects.end()
                       ? "parameter"
                       : fmt::format("{} {}'s", effect->lognormal ? "median" : "mean", *law.label));
+  }
+  for (const ownlaw::DrawnEffect& each : law.drawn) {
+    if (all[each.middle] == "parameter") {
+      all[each.middle] = fmt::format("{} {}'s", each.lognormal ? "median" : "mean", each.label);
+    }
+    for (std::size_t i = 0; i <= each.seen; ++i) {
+      all[each.first + i] = fmt::format("{} of this {}, from the middle", each.name, each.label);
+    }
   }
   return all;
 }
@@ -92,6 +107,13 @@ std::vector<std::string> notes(const OwnLaw& law) {
     }
   }
   if (law.varies()) all.push_back(fmt::format("{} {}s", law.units.size(), *law.label));
+  for (const ownlaw::DrawnEffect& each : law.drawn) {
+    all.push_back(
+        fmt::format("{} of each of {} {}s is drawn, not integrated out: by NUTS, without "
+                    "quadrature beside it. The mode is then one of all that is drawn together: "
+                    "its scatters are no estimates",
+                    each.name, each.seen, each.label));
+  }
   return all;
 }
 
@@ -185,6 +207,7 @@ void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy
   study.checks = [rows](const Fit& fit) {
     return std::vector<Check>{ownlaw::identified(*rows, rows->law().parameters, fit)};
   };
+  ownlaw::tell_drawn_effects(law, study);
   ownlaw::read_own_predictions(root, law, rows, study);
   ownlaw::show_life_paper(root, law, study);
 }

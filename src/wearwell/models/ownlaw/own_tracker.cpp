@@ -6,6 +6,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/sha1.h"
+#include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_reader.h"
 #include "wearwell/models/ownlaw/tracked_unit.h"
 
@@ -66,6 +67,14 @@ class OwnTracker final : public prognosis::Tracker {
 std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedState& state) {
   const TomlReader root = TomlReader::parse(state.source.study);
   const std::shared_ptr<const OwnLaw> law = read_own_law(root, state.source);
+  refuse_drawn_effects(*law, "followed on line");
+  for (const Measured& each : law->measured) {
+    if (!each.process || each.process->process == Process::wiener || each.wanted.size() < 3)
+      continue;
+    throw InputError(
+        fmt::format("{}: a {} with noise is not followed on line; a wiener-process with noise is",
+                    each.column, each.form->name));
+  }
   std::vector<std::string> names;
   for (const Parameter& each : law->parameters) names.push_back(each.name);
   if (names != state.parameters) {

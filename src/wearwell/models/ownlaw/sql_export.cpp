@@ -13,6 +13,7 @@
 #include "wearwell/base/sha1.h"
 #include "wearwell/models/ownlaw/law_sql.h"
 #include "wearwell/models/ownlaw/node_rows.h"
+#include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_reader.h"
 #include "wearwell/models/ownlaw/sql_statements.h"
 #include "wearwell/models/ownlaw/unit_nodes.h"
@@ -90,6 +91,7 @@ class Exporter {
         root_(TomlReader::parse(state.source.study)),
         law_(read_own_law(root_, state.source)),
         population_(law_, state.posterior) {
+    refuse_drawn_effects(*law_, "exported");
     // Nothing is in a hurry here.
     population_.few = population_.many;
     if (law_->has_process())
