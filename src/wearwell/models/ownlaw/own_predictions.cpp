@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/law/no_columns.h"
 #include "wearwell/models/ownlaw/own_asked.h"
 #include "wearwell/models/ownlaw/own_exhibits.h"
 #include "wearwell/models/ownlaw/own_life_law.h"
@@ -221,15 +222,10 @@ class Predictions {
     };
     auto own = std::make_shared<tbb::enumerable_thread_specific<std::unique_ptr<Own>>>();
     const std::size_t size = law_->parameters.size();
-    const std::size_t columns = law_->symbols.columns.size(), labels = law_->symbols.labels.size();
-    return [=](const double* x) {
+    return [=, law = law_](const double* x) {
       std::unique_ptr<Own>& mine = own->local();
       if (!mine) {
-        law::Rows rows;
-        rows.count = 1;
-        rows.columns.resize(columns);
-        rows.labels.resize(labels);
-        mine.reset(new Own{program->bind(rows), program->workspace(1)});
+        mine.reset(new Own{law::bind_no_columns(*program, law->symbols), program->workspace(1)});
       }
       program->forward(mine->data, 0, 1, {{x, size}, {}}, mine->workspace);
       return mine->workspace.values(0)[0];
