@@ -25,6 +25,12 @@ class LeftOut {
     sum_ += weight;
     with_ += std::exp(log_weight + log_p - top_);
     if (!score) return;
+    if (score->exact()) {
+      const double beyond = normal_cdf(-std::abs(score->high));
+      below_ += weight * (score->high < 0 ? beyond : 1 - beyond);
+      above_ += weight * (score->high < 0 ? 1 - beyond : beyond);
+      return;
+    }
     below_ += weight * normal_cdf(score->high);
     above_ += weight * normal_cdf(-score->low);
   }

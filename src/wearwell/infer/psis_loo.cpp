@@ -28,16 +28,37 @@ constexpr std::size_t many_terms = 1000;
 // With more doubtful observations than this the model is in doubt, not the weights.
 constexpr std::ptrdiff_t most_refits = 20;
 
-// All of a likelihood but one observation.
+// All of a likelihood but one observation: the sum of all other factors. Of a likelihood that is no such sum (one that
+// integrates its factors' product by a rule of its own) what is left when that of the observation is taken away.
 class Without final : public LogDensity {
  public:
-  Without(std::shared_ptr<const LogDensity> whole, std::size_t term)
-      : whole_(std::move(whole)), term_(term) {}
+  Without(std::shared_ptr<const LogDensity> whole, std::size_t term, std::span<const double> at)
+      : whole_(std::move(whole)), term_(term), counts_(whole_->pointwise_counts()) {
+    constexpr double rounding = 1e-9;
+    const std::vector<double> each = whole_->pointwise(at);
+    counts_.resize(each.size(), 1);
+    double sum = 0, size = 1;
+    for (std::size_t i = 0; i < each.size(); ++i) {
+      sum += counts_[i] * each[i];
+      size += counts_[i] * std::abs(each[i]);
+    }
+    sums_ = std::abs(whole_->value(at) - sum) < rounding * size;
+    --counts_[term];
+  }
 
   int dimension() const override { return whole_->dimension(); }
   double value(std::span<const double> x) const override {
-    const double all = whole_->value(x);
-    return std::isfinite(all) ? all - whole_->pointwise(x)[term_] : all;
+    if (!sums_) {
+      const double all = whole_->value(x);
+      return std::isfinite(all) ? all - whole_->pointwise(x)[term_] : all;
+    }
+    const std::vector<double> each = whole_->pointwise(x);
+    double sum = 0;
+    for (std::size_t i = 0; i < each.size(); ++i) {
+      if (counts_[i] > 0) sum += counts_[i] * each[i];
+    }
+    return sum < std::numeric_limits<double>::infinity() ? sum
+                                                         : -std::numeric_limits<double>::infinity();
   }
   // By differences: no likelihood tells the gradients of its terms. Only searches for a peak ask.
   double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
@@ -57,6 +78,8 @@ class Without final : public LogDensity {
  private:
   std::shared_ptr<const LogDensity> whole_;
   std::size_t term_;
+  std::vector<int> counts_;  // of the others
+  bool sums_ = false;
 };
 
 struct Refitted {
@@ -67,8 +90,10 @@ struct Refitted {
 std::optional<Refitted> fitted_without(const Posterior& posterior, const Whitening& whitening,
                                        std::size_t term, const Scores* scores,
                                        std::stop_token stop) {
+  Eigen::VectorXd center(posterior.dimension());
+  posterior.to_natural(view(whitening.center), view(center));
   const Posterior others(posterior.parameters(),
-                         std::make_shared<Without>(posterior.likelihood(), term));
+                         std::make_shared<Without>(posterior.likelihood(), term, view(center)));
   ExactSettings settings;
   settings.tolerance = 1e-3;
   settings.max_evaluations = 4'000'000;

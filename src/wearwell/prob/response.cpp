@@ -7,6 +7,7 @@
 #include "wearwell/math/root.h"
 #include "wearwell/prob/gamma_tail.h"
 #include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_values.h"
 
 // Longer than others: the families side by side, each with every censoring.
 namespace wearwell {
@@ -36,9 +37,11 @@ struct Standardized {
 
 enum class Side { inside, below, above };  // of the support
 
-template <class T>
+template <bool rated, class T>
 Standardized<T> of_log(StandardLaw law, double log_y, const T& log_center, const T& scale) {
-  return {law, (log_y - log_center) / scale, -log(scale) - log_y};
+  Standardized<T> at{law, (log_y - log_center) / scale, T(0)};
+  if constexpr (rated) at.log_rate = -log(scale) - log_y;
+  return at;
 }
 
 bool is_standardized(ResponseFamily family) {
@@ -60,38 +63,63 @@ bool on_whole_line(ResponseFamily family) {
          family == ResponseFamily::largest_extreme_value;
 }
 
-// y inside the support.
-template <class T>
+// y inside the support. Probabilities need no rate.
+template <bool rated, class T>
 Standardized<T> standardize(ResponseFamily family, double y, const T* s) {
+  const auto linear = [&](StandardLaw law) {
+    Standardized<T> at{law, (y - s[0]) / s[1], T(0)};
+    if constexpr (rated) at.log_rate = -log(s[1]);
+    return at;
+  };
   switch (family) {
     case ResponseFamily::lognormal:
-      return of_log(StandardLaw::normal, std::log(y), T(log(s[0])), s[1]);
+      return of_log<rated>(StandardLaw::normal, std::log(y), T(log(s[0])), s[1]);
     case ResponseFamily::lognormal_by_moments: {
       const T ratio = s[1] / s[0];
       const T variance = log1p(ratio * ratio);
-      return of_log(StandardLaw::normal, std::log(y), T(log(s[0]) - 0.5 * variance),
-                    T(sqrt(variance)));
+      return of_log<rated>(StandardLaw::normal, std::log(y), T(log(s[0]) - 0.5 * variance),
+                           T(sqrt(variance)));
     }
     case ResponseFamily::log10_normal:
-      return of_log(StandardLaw::normal, std::log(y), T(log(s[0])), T(ln10 * s[1]));
+      return of_log<rated>(StandardLaw::normal, std::log(y), T(log(s[0])), T(ln10 * s[1]));
     case ResponseFamily::weibull: {
       const T beyond = y - s[2], log_beyond = log(beyond);
-      return {StandardLaw::smallest_extreme_value, (log_beyond - log(s[0])) * s[1],
-              log(s[1]) - log_beyond};
+      Standardized<T> at{StandardLaw::smallest_extreme_value, (log_beyond - log(s[0])) * s[1],
+                         T(0)};
+      if constexpr (rated) at.log_rate = log(s[1]) - log_beyond;
+      return at;
     }
     case ResponseFamily::exponential:
-      return of_log(StandardLaw::smallest_extreme_value, std::log(y), T(log(s[0])), T(1.0));
+      return of_log<rated>(StandardLaw::smallest_extreme_value, std::log(y), T(log(s[0])), T(1.0));
     case ResponseFamily::loglogistic: {
       const double log_y = std::log(y);
-      return {StandardLaw::logistic, (log_y - log(s[0])) * s[1], log(s[1]) - log_y};
+      Standardized<T> at{StandardLaw::logistic, (log_y - log(s[0])) * s[1], T(0)};
+      if constexpr (rated) at.log_rate = log(s[1]) - log_y;
+      return at;
     }
     case ResponseFamily::smallest_extreme_value:
-      return {StandardLaw::smallest_extreme_value, (y - s[0]) / s[1], -log(s[1])};
+      return linear(StandardLaw::smallest_extreme_value);
     case ResponseFamily::largest_extreme_value:
-      return {StandardLaw::largest_extreme_value, (y - s[0]) / s[1], -log(s[1])};
+      return linear(StandardLaw::largest_extreme_value);
     default:
-      return {StandardLaw::normal, (y - s[0]) / s[1], -log(s[1])};
+      return linear(StandardLaw::normal);
   }
+}
+
+double survival_of(const Standardized<double>& at) {
+  return log_survival_value(at.law, at.z);
+}
+template <int N>
+Dual<N> survival_of(const Standardized<Dual<N>>& at) {
+  return log_survival(at.law, at.z);
+}
+
+double probability_of(const Standardized<double>& at) {
+  return log_cdf_value(at.law, at.z);
+}
+template <int N>
+Dual<N> probability_of(const Standardized<Dual<N>>& at) {
+  return log_cdf(at.law, at.z);
 }
 
 // log(1 + x) and so on of a logarithm: log(e^a - e^b) for a > b.
@@ -221,7 +249,7 @@ T log_density_of(ResponseFamily family, double y, const T* s, double trials) {
   }
   if (!(y > threshold(family, s))) return nothing<T>();
   if (is_standardized(family)) {
-    const Standardized<T> at = standardize(family, y, s);
+    const Standardized<T> at = standardize<true>(family, y, s);
     return log_density(at.law, at.z) + at.log_rate;
   }
   switch (family) {
@@ -238,10 +266,7 @@ template <class T>
 T log_survival_of(ResponseFamily family, double y, const T* s) {
   if (!(y > threshold(family, s))) return T(0);
   if (y == infinity) return nothing<T>();
-  if (is_standardized(family)) {
-    const Standardized<T> at = standardize(family, y, s);
-    return log_survival(at.law, at.z);
-  }
+  if (is_standardized(family)) return survival_of(standardize<false>(family, y, s));
   switch (family) {
     case ResponseFamily::student_t:
       return student_tail(s[0], T((y - s[1]) / s[2]));
@@ -256,10 +281,7 @@ template <class T>
 T log_cdf_of(ResponseFamily family, double y, const T* s) {
   if (!(y > threshold(family, s))) return nothing<T>();
   if (y == infinity) return T(0);
-  if (is_standardized(family)) {
-    const Standardized<T> at = standardize(family, y, s);
-    return log_cdf(at.law, at.z);
-  }
+  if (is_standardized(family)) return probability_of(standardize<false>(family, y, s));
   switch (family) {
     case ResponseFamily::student_t:
       return student_tail(s[0], T(-(y - s[1]) / s[2]));
@@ -290,7 +312,8 @@ T log_between_of(ResponseFamily family, double a, double b, const T* s) {
   if (b == infinity) return log_survival_of(family, a, s);
   if (is_standardized(family)) {
     constexpr double thin = 0.01;
-    const Standardized<T> low = standardize(family, a, s), high = standardize(family, b, s);
+    const Standardized<T> low = standardize<false>(family, a, s),
+                          high = standardize<false>(family, b, s);
     if (scalar(high.z) - scalar(low.z) < thin) return log_narrow(family, a, b, s);
     return log_between(low.law, low.z, high.z);
   }
@@ -388,9 +411,23 @@ double log_survival(ResponseFamily family, double y, const double* slots, double
                          : log_survival_of(family, y, slots);
 }
 
+namespace {
+
+// The same share is asked for at very many points of a posterior.
+double normal_quantile(double p) {
+  static thread_local double last = 0.5, z = 0;
+  if (p != last) {
+    z = quantile(StandardLaw::normal, p);
+    last = p;
+  }
+  return z;
+}
+
+}  // namespace
+
 double quantile(ResponseFamily family, double p, const double* s) {
   if (!allowed(family, s)) return std::nan("");
-  const auto normal = [&](double scale) { return scale * quantile(StandardLaw::normal, p); };
+  const auto normal = [&](double scale) { return scale * normal_quantile(p); };
   switch (family) {
     case ResponseFamily::normal:
       return s[0] + normal(s[1]);

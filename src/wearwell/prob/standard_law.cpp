@@ -1,5 +1,7 @@
 #include "wearwell/prob/standard_law.h"
 
+#include "wearwell/prob/standard_values.h"
+
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 
@@ -31,14 +33,20 @@ double mills_far_out(double t) {
   return sum / t;
 }
 
+double normal_log_survival_value(double z) {
+  if (z > 20) return normal_log_density(z) + std::log(mills_far_out(z));
+  // Where nearly all survive, the logarithm comes from the small rest.
+  return z < -1 ? std::log1p(-0.5 * std::erfc(-z * M_SQRT1_2))
+                : std::log(0.5 * std::erfc(z * M_SQRT1_2));
+}
+
 ValueAndSlope normal_log_survival(double z) {
   if (z > 20) {
     const double mills = mills_far_out(z);
     return {normal_log_density(z) + std::log(mills), -1 / mills};
   }
   const double survival = 0.5 * std::erfc(z * M_SQRT1_2);
-  // Where nearly all survive, the logarithm comes from the small rest.
-  const double value = z < -1 ? std::log1p(-0.5 * std::erfc(-z * M_SQRT1_2)) : std::log(survival);
+  const double value = z < -1 ? normal_log_survival_value(z) : std::log(survival);
   return {value, -std::exp(normal_log_density(z)) / survival};
 }
 
@@ -159,6 +167,20 @@ ValueAndSlope log_cdf_and_slope(StandardLaw law, double z) {
       break;
   }
   return mirrored(normal_log_survival(-z));
+}
+
+double log_density_value(StandardLaw law, double z) {
+  return log_density_and_slope(law, z).value;
+}
+
+double log_survival_value(StandardLaw law, double z) {
+  return law == StandardLaw::normal ? normal_log_survival_value(z)
+                                    : log_survival_and_slope(law, z).value;
+}
+
+double log_cdf_value(StandardLaw law, double z) {
+  return law == StandardLaw::normal ? normal_log_survival_value(-z)
+                                    : log_cdf_and_slope(law, z).value;
 }
 
 LogBetween log_between_and_slopes(StandardLaw law, double a, double b) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "wearwell/law/kernels.h"
+#include "wearwell/models/ownlaw/unit_rule.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -25,12 +25,6 @@ struct SinhNodes {
     }
   }
 };
-
-// exp of a whole array, in vectors.
-void exp_all(const double* x, double* y, std::size_t n) {
-  static const law::Forward forward = law::kernels_of(law::Op::exp, 0).forward;
-  forward(x, nullptr, nullptr, y, n, 0);
-}
 
 // Of the n-th node to the right (above 0) or to the left.
 std::size_t place_of(int n) {

@@ -13,12 +13,24 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+// Of one value; of normal laws without their distribution function.
+double place(ResponseFamily family, double value, const double* slots, double trials) {
+  constexpr double log_half = -0.693147180559945309;
+  const bool sized = slots[1] > 0 && std::isfinite(slots[0]) && std::isfinite(slots[1]);
+  if (family == ResponseFamily::normal && sized) return (value - slots[0]) / slots[1];
+  if (family == ResponseFamily::lognormal && sized && slots[0] > 0 && value > 0) {
+    return (std::log(value) - std::log(slots[0])) / slots[1];
+  }
+  const double below = log_cdf(family, value, slots, trials);
+  // The smaller tail tells.
+  if (below < log_half) return normal_score(below, 0);
+  return normal_score(below, log_survival(family, value, slots, trials));
+}
+
 // Places of observations in their laws; of a count those of its ends.
 NormalScore score(const Measured& measured, const Response& y, const double* slots) {
-  const ResponseFamily family = measured.form->family;
   const auto at = [&](double value) {
-    return normal_score(log_cdf(family, value, slots, y.trials),
-                        log_survival(family, value, slots, y.trials));
+    return place(measured.form->family, value, slots, y.trials);
   };
   if (measured.form->counted) {
     const double high = y.trials > 0 && y.at >= y.trials ? infinity : at(y.at);

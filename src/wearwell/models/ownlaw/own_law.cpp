@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/law/no_columns.h"
+
 namespace wearwell::ownlaw {
 
 bool OwnLaw::has_process() const {
@@ -30,11 +32,7 @@ double Population::value(const OwnLaw& law, std::size_t i, const double* z) cons
 
 PopulationAt::PopulationAt(const OwnLaw& law) : law_(&law) {
   if (!law.varies()) return;
-  law::Rows rows;
-  rows.count = 1;
-  rows.columns.resize(law.symbols.columns.size());
-  rows.labels.resize(law.symbols.labels.size());
-  data_ = law.population.bind(rows);
+  data_ = law::bind_no_columns(law.population, law.symbols);
   workspace_ = law.population.workspace(1);
 }
 

@@ -439,7 +439,7 @@ std::vector<std::vector<double>> UnitRows::each_slot(std::span<const double> z) 
     all.emplace_back(most_response_slots * column.measured->observed.rows.size());
   }
   visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
-    forward(chunk, z, false);
+    run(chunk, z);
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       if (!(chunk.column->count[i] > 0)) continue;
       for (std::size_t s = 0; s < most_response_slots; ++s) {

@@ -14,7 +14,7 @@ namespace {
 // How many points of the posterior. Where they are dear fewer for units that have shown their own pace: lives of
 // new ones hang on the tail of what is known of the population.
 struct Most {
-  std::size_t next = 4000, seen = 4000;
+  std::size_t next = 4000, seen = 1000;
 };
 
 // One thread's part: some points of the posterior, one after the other.

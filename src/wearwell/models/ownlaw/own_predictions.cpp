@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include "wearwell/base/error.h"
+#include "wearwell/law/no_columns.h"
 #include "wearwell/models/ownlaw/own_asked.h"
 #include "wearwell/models/ownlaw/own_exhibits.h"
 #include "wearwell/models/ownlaw/own_life_law.h"
@@ -17,6 +21,68 @@
 
 namespace wearwell::ownlaw {
 namespace {
+
+// What is asked of a life of which the likelihood is.
+struct AskedOfLife {
+  std::shared_ptr<const LifeLaw> life, fast;  // under the conditions, and those of a test
+  LifeLevels levels;
+  std::optional<Quantity> survived;
+  std::vector<Quantity> survival, hazard;
+
+  // Over all of the posterior, none of which waits for another.
+  std::vector<std::function<Distribution()>> known(const WeightedDraws& draws) const {
+    std::vector<std::function<Distribution()>> all;
+    for (const double percent : levels.percents) {
+      all.push_back([&, percent] { return life->quantile(draws, percent / 100); });
+    }
+    for (std::size_t k = 0; survived && k < levels.percents.size(); ++k) {
+      all.push_back(
+          [&, k] { return life->quantile(draws, levels.percents[k] / 100, survived->si()); });
+    }
+    for (const Quantity& each : survival) {
+      all.push_back([&] { return life->survival(draws, each.si()); });
+    }
+    for (const Quantity& each : hazard) {
+      all.push_back([&] { return life->hazard(draws, each.si()); });
+    }
+    if (fast) all.push_back([&] { return life->ratio(draws, *fast); });
+    return all;
+  }
+
+  std::vector<QuantityQuantiles> answers(const WeightedDraws& draws) const {
+    const auto asked = known(draws);
+    std::vector<QuantityQuantiles> found(asked.size());
+    LifeLaw::Next next;
+    tbb::parallel_for(std::size_t{0}, asked.size() + 1, [&](std::size_t i) {
+      if (i == 0) {
+        next = life->next(draws);
+        return;
+      }
+      const Distribution of = asked[i - 1]();
+      found[i - 1] = {of.quantile(0.05), of.quantile(0.5), of.quantile(0.95), 0, 0, 0};
+      found[i - 1].bound = of.quantile(1 - levels.credible_level);
+    });
+    std::vector<QuantityQuantiles> all;
+    auto answer = found.begin();
+    const auto add = [&](std::optional<double> predictive) {
+      all.push_back(*answer++);
+      all.back().predictive = predictive;
+      if (!predictive) all.back().bound = {};
+    };
+    const double middle = next.quantile(0.5);
+    all.push_back({next.quantile(0.05), middle, next.quantile(0.95), next.quantile(0.01),
+                   next.quantile(0.1), middle});
+    for (const double percent : levels.percents) add(next.quantile(percent / 100));
+    if (survived) {
+      const auto q = [&](double p) { return next.quantile(p, survived->si()); };
+      all.push_back({q(0.05), q(0.5), q(0.95), q(0.01), q(0.1), q(0.5)});
+      for (const double percent : levels.percents) add(q(percent / 100));
+    }
+    for (const Quantity& each : survival) add(1 - next.cdf(each.si()));
+    while (answer != found.end()) add({});
+    return all;
+  }
+};
 
 class Predictions {
  public:
@@ -134,38 +200,8 @@ class Predictions {
                                        fmt::format("{} over {}", given_words_, fast_words),
                                        Unit{"1", 1, 0}));
     }
-    group.from_draws = [=](const WeightedDraws& draws) {
-      const LifeLaw::Next next = life->next(draws);
-      const double middle = next.quantile(0.5);
-      std::vector<QuantityQuantiles> all = {{next.quantile(0.05), middle, next.quantile(0.95),
-                                             next.quantile(0.01), next.quantile(0.1), middle}};
-      const auto add = [&](const Distribution& known, std::optional<double> predictive) {
-        QuantityQuantiles q{
-            known.quantile(0.05), known.quantile(0.5), known.quantile(0.95), 0, 0, 0};
-        if (predictive) {
-          q.predictive = predictive;
-          q.bound = known.quantile(1 - levels.credible_level);
-        }
-        all.push_back(q);
-      };
-      for (const double percent : levels.percents) {
-        add(life->quantile(draws, percent / 100), next.quantile(percent / 100));
-      }
-      if (survived) {
-        const double from = survived->si();
-        const auto q = [&](double p) { return next.quantile(p, from); };
-        all.push_back({q(0.05), q(0.5), q(0.95), q(0.01), q(0.1), q(0.5)});
-        for (const double percent : levels.percents) {
-          add(life->quantile(draws, percent / 100, from), q(percent / 100));
-        }
-      }
-      for (const Quantity& each : survival) {
-        add(life->survival(draws, each.si()), 1 - next.cdf(each.si()));
-      }
-      for (const Quantity& each : hazard) add(life->hazard(draws, each.si()), {});
-      if (fast) add(life->ratio(draws, *fast), {});
-      return all;
-    };
+    const AskedOfLife of_life{life, fast, levels, survived, survival, hazard};
+    group.from_draws = [of_life](const WeightedDraws& draws) { return of_life.answers(draws); };
     study_.quantity_groups.push_back(std::move(group));
   }
 
@@ -221,15 +257,10 @@ class Predictions {
     };
     auto own = std::make_shared<tbb::enumerable_thread_specific<std::unique_ptr<Own>>>();
     const std::size_t size = law_->parameters.size();
-    const std::size_t columns = law_->symbols.columns.size(), labels = law_->symbols.labels.size();
-    return [=](const double* x) {
+    return [=, law = law_](const double* x) {
       std::unique_ptr<Own>& mine = own->local();
       if (!mine) {
-        law::Rows rows;
-        rows.count = 1;
-        rows.columns.resize(columns);
-        rows.labels.resize(labels);
-        mine.reset(new Own{program->bind(rows), program->workspace(1)});
+        mine.reset(new Own{law::bind_no_columns(*program, law->symbols), program->workspace(1)});
       }
       program->forward(mine->data, 0, 1, {{x, size}, {}}, mine->workspace);
       return mine->workspace.values(0)[0];

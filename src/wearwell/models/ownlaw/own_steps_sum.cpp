@@ -2,20 +2,15 @@
 #include <cmath>
 #include <limits>
 
-#include "wearwell/law/kernels.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/models/ownlaw/own_steps.h"
+#include "wearwell/models/ownlaw/unit_rule.h"
 
 namespace wearwell::ownlaw {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double half_log_two_pi = 0.91893853320467274178;
-
-void exp_all(const double* x, double* y, std::size_t n) {
-  static const law::Forward forward = law::kernels_of(law::Op::exp, 0).forward;
-  forward(x, nullptr, nullptr, y, n, 0);
-}
 
 }  // namespace
 
@@ -74,7 +69,6 @@ void StepUnits::log_densities(const Unit& unit, const double* z, double* log_f) 
 
 // Nodes on both sides of the middle, until the integrand is e^-30 of its highest; false where there are too many.
 bool StepUnits::lay(const Unit& unit, const Bell& about, double width, double& highest) {
-  constexpr double fallen = 30;
   constexpr std::size_t n = Nodes::together;
   nodes_.count = 0;
   highest = -infinity;
@@ -91,30 +85,21 @@ bool StepUnits::lay(const Unit& unit, const Bell& about, double width, double& h
       log_densities(unit, z, log_f);
       for (std::size_t i = 0; i < n; ++i) highest = std::max(highest, log_f[i]);
       nodes_.count += n;
-      if (!(log_f[n - 1] > highest - fallen)) break;
+      if (!(log_f[n - 1] > highest - rule_fallen)) break;
     }
   }
   return highest > -infinity;
 }
 
-// By the trapezoidal rule about its mode, whose error is about the square of what every second node of it is off.
 // The nodes and their shares are kept.
 std::optional<double> StepUnits::integral(const Unit& unit) {
-  constexpr double most_of_half = 3e-5;
   const auto about = bell(unit);
   if (!about) return {};
-  for (const double gap : {0.6, 0.3, 0.15}) {
+  for (const double gap : rule_gaps) {
     const double width = gap * about->width;
     double highest = 0;
     if (!lay(unit, *about, width, highest)) return {};
-    for (std::size_t i = 0; i < nodes_.count; ++i) nodes_.f[i] -= highest;
-    exp_all(nodes_.f.data(), nodes_.f.data(), nodes_.count);
-    double sums[2] = {};
-    for (std::size_t i = 0; i < nodes_.count; ++i) sums[nodes_.odd[i]] += nodes_.f[i];
-    const double sum = sums[0] + sums[1];
-    if (!(std::abs(sums[0] - sums[1]) < most_of_half * sum)) continue;
-    for (std::size_t i = 0; i < nodes_.count; ++i) nodes_.f[i] /= sum;
-    return highest + std::log(sum * width) - half_log_two_pi;
+    if (const auto log_integral = settled(nodes_, width)) return *log_integral - half_log_two_pi;
   }
   return {};
 }

@@ -6,7 +6,9 @@
 #include <limits>
 #include <regex>
 
+#include "wearwell/law/no_columns.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
+#include "wearwell/models/ownlaw/unit_rule.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -157,11 +159,7 @@ TabledUnits::TabledUnits(UnitRows& rows, const TabledForm& form,
     readings_[column.unit[i]] += column.count[i];
     if (form.logarithms) constant_[column.unit[i]] -= column.count[i] * column.responses.log_at[i];
   }
-  law::Rows one;
-  one.count = 1;
-  one.columns.resize(law_.symbols.columns.size());
-  one.labels.resize(law_.symbols.labels.size());
-  size_data_ = form_.size.bind(one);
+  size_data_ = law::bind_no_columns(form_.size, law_.symbols);
   size_workspace_ = form_.size.workspace(1);
 }
 
@@ -272,44 +270,33 @@ std::optional<TabledUnits::Bell> TabledUnits::bell(std::size_t unit) {
   return {};
 }
 
-// By the trapezoidal rule about its mode, whose error is about the square of what every second node of it is off.
+// By nodes on both sides of the middle; nothing where they are too many or leave the table.
 std::optional<double> TabledUnits::integral(std::size_t unit, Moments* moments) {
   if (!(readings_[unit] > 0)) return 0.0;
   if (!(scatter_ > 0 && std::isfinite(scatter_))) return {};
   const auto about = bell(unit);
   if (!about) return {};
-  constexpr double fallen = 30, most_of_half = 3e-5;
   const double per_square = 0.5 / (size_ * size_);
-  const auto log_f = [&](double x) {
-    const double z = (x - middle_) / scatter_;
-    return -slice_.value(unit, x) * per_square - 0.5 * z * z;
-  };
-  for (const double gap : {0.6, 0.3, 0.15}) {
+  for (const double gap : rule_gaps) {
     const double width = gap * about->width;
-    Nodes& nodes = nodes_;
-    nodes.count = 0;
+    nodes_.count = 0;
     double highest = -infinity;
     for (const int way : {1, -1}) {
       for (int n = way > 0 ? 0 : 1;; ++n) {
-        const double x = about->center + way * n * width;
-        if (!slice_.holds(unit, x) || nodes.count == Nodes::most) return {};
-        const double f = log_f(x);
-        highest = std::max(highest, f);
-        nodes.x[nodes.count] = x;
-        nodes.odd[nodes.count] = n % 2;
-        nodes.f[nodes.count++] = f;
-        if (f < highest - fallen) break;
+        const double x = about->center + way * n * width, z = (x - middle_) / scatter_;
+        if (!slice_.holds(unit, x) || nodes_.count == Nodes::most) return {};
+        const double log_f = -slice_.value(unit, x) * per_square - 0.5 * z * z;
+        highest = std::max(highest, log_f);
+        nodes_.x[nodes_.count] = x;
+        nodes_.odd[nodes_.count] = n % 2;
+        nodes_.f[nodes_.count++] = log_f;
+        if (log_f < highest - rule_fallen) break;
       }
     }
-    double sums[2] = {};
-    for (std::size_t i = 0; i < nodes.count; ++i) {
-      nodes.f[i] = std::exp(nodes.f[i] - highest);
-      sums[nodes.odd[i]] += nodes.f[i];
-    }
-    const double sum = sums[0] + sums[1];
-    if (!(std::abs(sums[0] - sums[1]) < most_of_half * sum)) continue;
-    if (moments) add_moments(unit, sum, *moments);
-    return constant(unit) + highest + std::log(sum * width / scatter_) - half_log_two_pi;
+    const auto log_integral = settled(nodes_, width / scatter_);
+    if (!log_integral) continue;
+    if (moments) add_moments(unit, 1, *moments);
+    return constant(unit) + *log_integral - half_log_two_pi;
   }
   return {};
 }
