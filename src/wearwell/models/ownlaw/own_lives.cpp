@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "wearwell/models/ownlaw/effect_lines.h"
-#include "wearwell/models/ownlaw/few_points.h"
+#include "wearwell/predict/few_points.h"
 
 namespace wearwell::ownlaw {
 namespace {
