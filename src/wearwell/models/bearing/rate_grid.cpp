@@ -188,7 +188,7 @@ RateGrid rate_grid(const WearModel& model, const FewPoints& points, const OwnRow
   // Classes of even weight.
   const std::size_t classes = model.depth_error ? 1 : sigma_classes;
   const double wanted = model.depth_error ? grid_step_alone : grid_step;
-  const double most_nodes = model.depth_error ? 800 : 120;
+  const double most_nodes = model.depth_error ? 800 : 400;
   std::size_t begin = 0;
   double before = 0;
   for (std::size_t c = 0; c < classes && begin < all.size(); ++c) {

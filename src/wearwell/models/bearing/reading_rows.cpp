@@ -15,6 +15,8 @@ ReadingRows::ReadingRows(const TomlReader& root, const BearingData& data, Observ
   for (const DataColumn& each : data.columns) {
     column_[each.name] = columns_.size();
     columns_.push_back({each.name, each.unit, each.name == "depth"});
+    // What is counted has a name, also where its numbers stand alone.
+    if (each.name == "revolutions" && each.unit.text == "1") columns_.back().unit.text = "rev";
   }
   if (!contact_) labels_.emplace_back("contact");
   if (const auto conditions = root.table("conditions")) {

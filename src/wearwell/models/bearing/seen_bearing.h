@@ -14,7 +14,7 @@ namespace wearwell::bearing {
 Inspections inspections_of(const Inspections& all, std::size_t bearing);
 
 /// The wear rate of one bearing that was inspected, over all that the posterior leaves open: ln k with
-/// weights that sum to 1.
+/// weights.
 struct OwnRate {
   std::vector<double> log_k, weight;
 };
@@ -24,7 +24,7 @@ struct OwnRate {
 ///
 ///   p(z | own, x) = N(z; 0, 1) prod_i p(d_i | k exp(k_scatter z), sigma) / L_own(x),
 ///
-/// on the nodes of `rate_nodes`; else the posterior's k. `k` is where searches start.
+/// summed over them at even places of ln k; else the posterior's k. `k` is where searches start.
 OwnRate own_rate(const WearModel& model, const Inspections& own, double k,
                  const WeightedDraws& posterior);
 

@@ -64,6 +64,8 @@ struct Followed {
       if (each.name == "force") force = columns.size();
       if (each.name == "slip") slip = columns.size();
       columns.push_back({each.name, each.unit, each.name == "volume"});
+      // What is counted has a name, also where its numbers stand alone.
+      if (each.name == "cycles" && each.unit.text == "1") columns.back().unit.text = "cycles";
     }
   }
 
