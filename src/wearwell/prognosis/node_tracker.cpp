@@ -28,6 +28,10 @@ constexpr std::string_view mark = "wearwell nodes 1";
 
 using Model = std::shared_ptr<const NodeModel>;
 
+bool carries(double log_weight) {
+  return log_weight > -infinity && log_weight < infinity;
+}
+
 class NodeUnit final : public TrackedUnit {
  public:
   NodeUnit(Model model, std::string unit) : model_(std::move(model)), unit_(std::move(unit)) {
@@ -90,7 +94,6 @@ bool NodeUnit::lay(std::vector<Reading> all) {
   };
   std::sort(all.begin(), all.end(), before);
   NodeCloud laid = model_->lay(unit_, all);
-  const auto carries = [](double each) { return each > -infinity && each < infinity; };
   if (!std::any_of(laid.log_weight.begin(), laid.log_weight.end(), carries)) return false;
   // Single precision, as states are saved.
   nodes_.values = laid.values.cast<float>().cast<double>();
@@ -175,7 +178,11 @@ Forecast NodeUnit::forecast() const {
   forecast.effective = effective_;
   const std::optional<NodeCourse> course =
       refusal_.empty() ? this->course() : std::optional<NodeCourse>();
-  if (!course) return forecast;
+  if (!course) {  // nothing says how it goes on
+    forecast.level05 = forecast.level50 = forecast.level95 = forecast.passed =
+        std::numeric_limits<double>::quiet_NaN();
+    return forecast;
+  }
   forecast.now = course->now;
   std::vector<double> level, level_weight, life, life_weight;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
@@ -278,7 +285,13 @@ void NodeUnit::load(ByteReader& from) {
 class NodeTracker final : public Tracker {
  public:
   explicit NodeTracker(NodeModel model)
-      : model_(std::make_shared<const NodeModel>(std::move(model))) {}
+      : model_(std::make_shared<const NodeModel>(std::move(model))) {
+    const NodeCloud nodes = model_->lay(model_->seen.empty() ? "" : model_->seen.front(), {});
+    if (std::none_of(nodes.log_weight.begin(), nodes.log_weight.end(), carries))
+      throw InputError(
+          "the posterior that was carried on gives the units of its study no weight: it is "
+          "damaged");
+  }
 
   std::span<const ReadingColumn> columns() const override { return model_->columns; }
   std::span<const std::string> labels() const override { return model_->labels; }
@@ -288,6 +301,8 @@ class NodeTracker final : public Tracker {
   bool rising() const override { return true; }
   const std::string& noun() const override { return model_->noun; }
   std::span<const std::string> seen() const override { return model_->seen; }
+
+  std::string refusal(const std::string& unit) const override { return model_->refusal(unit); }
 
   std::unique_ptr<TrackedUnit> begin(const std::string& unit) const override {
     return std::make_unique<NodeUnit>(model_, unit);

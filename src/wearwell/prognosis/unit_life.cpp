@@ -12,6 +12,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/toml_edit.h"
@@ -337,10 +338,13 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
   const auto whole = read(of_one_bearing(source, question));
   const PosteriorStudy& study = require_posterior_study(*whole);
   if (study.life) {
-    if (study.life->of.empty() && !question.unit.empty() && question.unit != "joint")
+    const TomlReader data = TomlReader::parse(source.study).required_table("data");
+    const std::string name = data.text("joint").value_or("joint");
+    if (study.life->of.empty() && !question.unit.empty() && question.unit != name)
       throw InputError(fmt::format(
-          "--unit: this study is of one joint: leave it out. Joints that wear each at its own pace "
-          "are a study of model \"law\" with [varies.UNIT]"));
+          "--unit: this study is of one joint, called '{}' (data.joint): leave it out. Joints that "
+          "wear each at its own pace are a study of model \"law\" with [varies.UNIT]",
+          printable(name)));
     return of_request(*study.life, posterior, question);
   }
   const bool law = study.model == "law";

@@ -108,9 +108,12 @@ TEST(JointTracker, FollowsVolumesBeforeAnyWorkToo) {
 
 TEST(JointTracker, RefusesOtherJointsAndWhatIsNoReading) {
   const TrackedTrade known(study_with("lognormal"), {"cycles", "volume"}, first(4));
+  EXPECT_THAT(known.tracker->refusal("J7"), HasSubstr("one joint, called 'joint'"));
+  EXPECT_EQ(known.tracker->refusal("joint"), "");
   FollowedUnit other{known.tracker->begin("J7")};
   EXPECT_THAT(other.take(numbers(4)).problem, HasSubstr("one joint"));
   EXPECT_TRUE(other.unit->forecast().remaining.points().empty());
+  EXPECT_TRUE(std::isnan(other.unit->forecast().passed));
   const std::string bytes = other.unit->save();
   EXPECT_EQ(known.tracker->restore(bytes)->save(), bytes);
   FollowedUnit joint{known.tracker->begin("joint")};

@@ -24,7 +24,6 @@ using prognosis::Reading;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t points = 2000;
-const std::string only = "joint";
 
 // One inspection, in SI.
 struct Inspection {
@@ -177,15 +176,15 @@ std::unique_ptr<const prognosis::Tracker> track_joint(const prognosis::CarriedSt
   model.limited = "volume";
   model.noun = "joint";
   model.limit = joint->limit;
-  model.seen = {only};
+  model.seen = {joint->data.name};
   model.fingerprint = prognosis::population_fingerprint(state.source.study.text, state.posterior);
-  model.refusal = [](const std::string& unit) {
+  model.refusal = [only = joint->data.name](const std::string& unit) {
     return unit == only ? std::string()
                         : fmt::format(
-                              "the study is of one joint, whose readings come as unit \"{}\", and "
-                              "says nothing of '{}': joints that wear each at its own pace are a "
-                              "study of model \"law\" with [varies.UNIT]",
-                              only, printable(unit));
+                              "the study is of one joint, called '{}' (data.joint), and "
+                              "says nothing of '{}': joints that wear each at its own pace "
+                              "are a study of model \"law\" with [varies.UNIT]",
+                              printable(only), printable(unit));
   };
   model.problem = [joint](const Reading& reading) {
     Inspection inspection;
