@@ -267,7 +267,8 @@ std::string life_lines(const LifeSummary& summary) {
       plain_number(summary.limit), printable(summary.limit_unit), count(life.b1), count(life.b10),
       count(life.b50), count(life.q05), count(life.q95));
   const std::string passed = fmt::format(
-      "after {} {} the limit is passed already with a probability of {}{}", summary.now, unit,
+      "after {} {} the limit is passed already with a probability of {}{}",
+      whole ? fmt::format("{}", summary.now) : plain_number(summary.now, 6), unit,
       probability_in_words(life.passed),
       summary.passed_beyond_risk() ? fmt::format(": more than the risk of {} % that is tolerated",
                                                  plain_number(100 * summary.risk))

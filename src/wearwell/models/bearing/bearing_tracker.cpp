@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 
 #include "wearwell/base/error.h"
 #include "wearwell/models/bearing/bearing_data.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "wearwell/models/bearing/rate_integral.h"
 #include "wearwell/models/bearing/seen_bearing.h"
@@ -101,28 +103,24 @@ struct Nodes {
 };
 
 // Points of about one sigma.
-void lay_class(const std::span<const PointOf> points, const OwnRows& rows, double wanted_step,
+void lay_class(const std::span<const PointOf> points, const OwnRows& rows, double step,
                double most_nodes, double shift, Nodes& nodes) {
-  double top = -infinity, sum = 0, sigma = 0, width = 0, from = infinity, to = -infinity;
+  double top = -infinity, sum = 0, sigma = 0, from = infinity, to = -infinity;
   for (const PointOf& each : points) top = std::max(top, each.total());
   for (const PointOf& each : points) {
     const double share = std::exp(each.total() - top);
     sum += share;
     sigma += share * each.sigma;
-    width += share * each.width;
     if (each.total() < top + tail) continue;
     from = std::min(from, each.from);
     to = std::max(to, each.to);
   }
   sigma /= sum;
-  width /= sum;
-  constexpr double least_nodes = 32;
-  const double count =
-      std::ceil(std::clamp((to - from) / (wanted_step * width), least_nodes, most_nodes));
-  const double step = (to - from) / count;
+  step *= std::max(1.0, std::ceil((to - from) / (step * most_nodes)));
   std::vector<double> term(points.size());
-  for (double n = shift; n < count; ++n) {
-    const double u = from + n * step;
+  // Places of all classes are even together, not each of them from where it begins.
+  for (double n = std::floor(from / step); (n + shift) * step <= to; ++n) {
+    const double u = (n + shift) * step;
     double highest = -infinity, likelihood = 0, of_sigma = -1;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const PointOf& point = points[i];
@@ -166,10 +164,11 @@ prognosis::NodeCloud cloud_of(const Nodes& nodes, bool with_sigma) {
 RateGrid rate_grid(const WearModel& model, const FewPoints& points, const OwnRows& rows) {
   std::vector<PointOf> all = points_of(model, points, rows);
   RateGrid grid;
-  double top = -infinity, sum = 0, square = 0;
+  double top = -infinity, sum = 0, square = 0, width = 0;
   for (const PointOf& each : all) top = std::max(top, each.total());
   for (const PointOf& each : all) {
     sum += std::exp(each.total() - top);
+    width += std::exp(each.total() - top) * each.width;
     square += std::exp(2 * (each.total() - top));
   }
   grid.effective = square > 0 ? sum * sum / square : 0;
@@ -187,7 +186,7 @@ RateGrid rate_grid(const WearModel& model, const FewPoints& points, const OwnRow
                    [](const PointOf& a, const PointOf& b) { return a.sigma < b.sigma; });
   // Classes of even weight.
   const std::size_t classes = model.depth_error ? 1 : sigma_classes;
-  const double wanted = model.depth_error ? grid_step_alone : grid_step;
+  const double step = (model.depth_error ? grid_step_alone : grid_step) * width / sum;
   const double most_nodes = model.depth_error ? 800 : 400;
   std::size_t begin = 0;
   double before = 0;
@@ -197,7 +196,7 @@ RateGrid rate_grid(const WearModel& model, const FewPoints& points, const OwnRow
     while (end < all.size() && (before < until || c + 1 == classes))
       before += std::exp(all[end++].total() - top);
     if (end > begin)
-      lay_class(std::span(all).subspan(begin, end - begin), rows, wanted, most_nodes, fraction(c),
+      lay_class(std::span(all).subspan(begin, end - begin), rows, step, most_nodes, fraction(c),
                 nodes);
     begin = end;
   }

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <span>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
