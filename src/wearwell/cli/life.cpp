@@ -144,7 +144,10 @@ present::Table path_ahead(const LifeOptions& options, Models models,
   const std::string bare = options.unit.starts_with(named) && !is_known(options.unit)
                                ? options.unit.substr(named.size())
                                : options.unit;
-  const auto unit = tracker->begin(is_known(bare) ? bare : prognosis::new_name(*tracker));
+  const bool only = state.model == "archard-joint";  // a study of one
+  const auto unit = tracker->begin(only             ? seen.front()
+                                   : is_known(bare) ? bare
+                                                    : prognosis::new_name(*tracker));
   const Unit &along = tracker->axis().unit, &level = tracker->limit().unit;
   present::Table table{"path",
                        "Path ahead",
@@ -224,9 +227,10 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
       app.add_subcommand("life", "How long one unit of a result may go on, or a new one");
   life->add_option("RESULT", options->result, "Folder that fit or update wrote, or its state.bin")
       ->required();
-  life->add_option(
-      "--unit", options->unit,
-      "Whose life: a label of the data, or a stress of an S-N study (default: a new one)");
+  life->add_option("--unit", options->unit,
+                   "Whose life: a label of the data (a machine, a bearing), or a stress of an S-N "
+                   "study (default: a "
+                   "new one; of a joint, the joint)");
   life->add_option("--survived", options->survived,
                    "What it has come to, with its unit (default: its last reading)");
   life->add_option("--readings", options->readings, "Table of readings since then")
@@ -238,14 +242,16 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
   life->add_option("-o,--output", options->output, "Write the survival curve as CSV")
       ->type_name("FILE");
   life->add_option("--path", options->path,
-                   "Write the path ahead as CSV: what the limit is of, 5, 50 and 95 % (model "
-                   "\"law\")")
+                   "Write the path ahead as CSV: what the limit is of, 5, 50 and 95 % (of a law, a "
+                   "bearing, a joint)")
       ->type_name("FILE");
   life->add_flag("--json", options->json, "Print one JSON object and nothing else");
   life->footer(
       "Examples:\n"
       "  wearwell life study-results --unit J7 --survived \"1e4 cycles\" --horizon \"500 cycles\"\n"
-      "  wearwell life study-results --unit J7 --readings today.csv --risk \"1 %\" --json\n\n"
+      "  wearwell life study-results --unit J7 --readings today.csv --risk \"1 %\" --json\n"
+      "  wearwell life bearing-results --unit B --path path.csv\n"
+      "  wearwell life sn-results --unit shaft --survived \"2e5 cycles\"\n\n"
       "Exit codes: 0 done; 1 done, but a check of the fit had failed; 2 the request is wrong; 3 "
       "the machine failed.");
   life->callback([options, models, &exit_code] { exit_code = run_life(*options, models); });

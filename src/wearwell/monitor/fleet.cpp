@@ -173,8 +173,9 @@ void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readin
 
 void Fleet::forecast(Unit& unit) {
   const prognosis::Forecast forecast = unit.record.state->forecast();
-  const double risk = risk_within(forecast, settings_.alarm.horizon);
-  unit.alarm = alarm_at(risk, unit.alarm, settings_.alarm);
+  const bool known = !std::isnan(forecast.passed);
+  const double risk = known ? risk_within(forecast, settings_.alarm.horizon) : 0;
+  unit.alarm = known ? alarm_at(risk, unit.alarm, settings_.alarm) : Alarm::unknown;
   auto seen = std::make_shared<Seen>();
   UnitView& view = seen->view;
   const UnitRecord& record = unit.record;
@@ -184,13 +185,13 @@ void Fleet::forecast(Unit& unit) {
   view.last_reading_ms = record.last_time_ms
                              ? std::min(record.last_time_ms, record.last_received_ms)
                              : record.last_received_ms;
-  view.level = told_.level(forecast);
+  if (known) view.level = told_.level(forecast);
   view.remaining = told_.remaining(forecast);
   constexpr double tenth = 0.1;
   view.b10 =
       forecast.remaining.points().empty() ? 0 : told_.along(forecast.remaining.quantile(tenth));
   view.risk = risk;
-  view.passed = forecast.passed;
+  if (known) view.passed = forecast.passed;
   view.quality.readings = record.readings;
   view.quality.late = record.late;
   view.quality.contradicting = record.contradicting;

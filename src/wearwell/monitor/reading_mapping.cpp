@@ -167,6 +167,7 @@ double required_si(const TomlReader& table, const std::string& key, const Unit& 
 ReadingMapping read_mapping(const TomlReader& reading, const prognosis::Tracker& tracker,
                             bool topic_names_unit) {
   ReadingMapping mapping;
+  mapping.refusal = [&tracker](const std::string& unit) { return tracker.refusal(unit); };
   read_identity(reading, topic_names_unit, mapping);
   const TomlReader columns = reading.required_table("columns");
   std::vector<std::string> missing;
@@ -215,6 +216,9 @@ StoredReading reading_of(const Fields& fields, const std::string& unit,
     reading.unit = name_of(&topic, "the unit of the topic");
   } else {
     reading.unit = name_of(find_field(fields, mapping.unit), mapping.unit);
+  }
+  if (mapping.refusal) {
+    if (const std::string why = mapping.refusal(reading.unit); !why.empty()) throw InputError(why);
   }
   reading.received_ms = received_ms;
   if (!mapping.time.empty()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ struct ReadingMapping {
   std::string sequence;              ///< field; empty: time tells readings apart
   std::vector<ColumnField> columns;  ///< as Tracker::columns
   std::vector<std::string> labels;   ///< fields, as Tracker::labels
+  std::function<std::string(const std::string& unit)> refusal = {};  ///< Tracker::refusal
 };
 
 /// A quantity of the kind of `like`, in SI. A plain number beside a unit of another size than 1 is refused.

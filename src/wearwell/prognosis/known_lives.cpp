@@ -130,7 +130,8 @@ KnownLives lives_of_new(const Tracker& tracker, const std::string& title, bool t
   known.axis = tracker.axis().name;
   known.unit = tracker.axis().unit;
   known.trusted = trusted;
-  known.fresh = PopulationLives(tracker.begin(new_name(tracker))->forecast().remaining);
+  WeightedLives lives = tracker.begin(new_name(tracker))->forecast().remaining;
+  if (!lives.points().empty()) known.fresh = PopulationLives(std::move(lives));
   return known;
 }
 

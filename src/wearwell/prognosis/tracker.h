@@ -39,9 +39,10 @@ struct Taken {
 struct Forecast {
   double now = 0;                                ///< where its farthest reading lies
   double level05 = 0, level50 = 0, level95 = 0;  ///< what the limit is of, there (wear), SI
-  double passed = 0;                             ///< the probability that the limit is behind it
-  WeightedLives remaining;                       ///< from `now` on, given that it is not
-  double effective = 0;                          ///< nodes that carry this: 1 / sum of squares
+  double passed =
+      0;  ///< the probability that the limit is behind it; NaN where nothing says how it goes on
+  WeightedLives remaining;  ///< from `now` on, given that it is not
+  double effective = 0;     ///< nodes that carry this: 1 / sum of squares
 };
 
 /// What the limit is of at a place ahead, SI: quantiles over all that is not known of the unit, and over
@@ -95,6 +96,8 @@ class Tracker {
   virtual const std::string& noun() const = 0;  ///< what a unit is: "machine"
   /// The units that the study has seen.
   virtual std::span<const std::string> seen() const = 0;
+  /// Why there can be no unit of that name; empty where there can be: of a study of one joint there is that one.
+  virtual std::string refusal(const std::string& /*unit*/) const { return {}; }
   /// A unit before its first reading here: one of the study's, with what it showed there, or a new one.
   virtual std::unique_ptr<TrackedUnit> begin(const std::string& unit) const = 0;
   /// Throws InputError where the bytes are of another population or damaged.

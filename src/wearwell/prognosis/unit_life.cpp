@@ -12,9 +12,12 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/unit_system.h"
+#include "wearwell/input/columns.h"
 #include "wearwell/input/toml_edit.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/prognosis/data_roles.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/life_levels.h"
 
@@ -143,6 +146,32 @@ Source with_wishes(const Source& source,
   Source asked = source;
   asked.study = with_predict(source.study, keys);
   return asked;
+}
+
+// A bearing study tells the life of a new one unless it is asked for one of its own.
+Source of_one_bearing(const Source& source, const LifeQuestion& question) {
+  const TomlReader root = TomlReader::parse(source.study);
+  if (question.unit.empty() || root.required_text("model") != "bearing-wear") return source;
+  const Table table = read_table(root.required_table("data"), source);
+  const DataRoles roles = data_roles(root, table);
+  if (!roles.unit)
+    throw InputError(
+        "--unit: the rows of this study do not say which bearing they are of "
+        "(data.columns.bearing); "
+        "without --unit the life of a new one is told");
+  const Column& column = table.column(*roles.unit);
+  std::vector<std::string> known;
+  for (std::size_t row = 0; row < table.rows; ++row) known.push_back(cell_word(column, row));
+  const std::string bare = question.unit.starts_with("bearing ") ? question.unit.substr(8) : "";
+  for (const std::string& name : {question.unit, bare}) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) continue;
+    return with_wishes(source, {{"life_of", nlohmann::json(name).dump()}});
+  }
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  throw InputError(
+      fmt::format("--unit: no '{}' is known{} (known: {}; without --unit a new bearing)",
+                  question.unit, did_you_mean(question.unit, known), fmt::join(known, ", ")));
 }
 
 bool to_a_limit(const Source& source) {
@@ -306,17 +335,16 @@ double UnitLife::cdf(double until) const {
 
 UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDraws& posterior,
                    const LifeQuestion& question) {
-  const auto whole = read(source);
+  const auto whole = read(of_one_bearing(source, question));
   const PosteriorStudy& study = require_posterior_study(*whole);
   if (study.life) {
-    if (!question.unit.empty())
+    const TomlReader data = TomlReader::parse(source.study).required_table("data");
+    const std::string name = data.text("joint").value_or("joint");
+    if (study.life->of.empty() && !question.unit.empty() && question.unit != name)
       throw InputError(fmt::format(
-          "--unit: {}: leave it out. Units that wear each at its own pace are a study of model "
-          "\"law\" with "
-          "[varies.UNIT]",
-          study.life->of.empty()
-              ? "this study is of one joint"
-              : "a bearing study tells the life of a new bearing, not of each one seen"));
+          "--unit: this study is of one joint, called '{}' (data.joint): leave it out. Joints that "
+          "wear each at its own pace are a study of model \"law\" with [varies.UNIT]",
+          printable(name)));
     return of_request(*study.life, posterior, question);
   }
   const bool law = study.model == "law";

@@ -80,7 +80,7 @@ class Clauses {
 
  private:
   static std::string of_whom(const LifeSummary& summary) {
-    return summary.of.empty() ? "" : " of a " + summary.of;
+    return summary.of.empty() ? "" : (summary.now > 0 ? " of " : " of a ") + summary.of;
   }
 
   std::string unit(const std::string& text) const {

@@ -261,13 +261,14 @@ std::string life_lines(const LifeSummary& summary) {
   const auto count = [&](double x, int digits = 4) {
     return whole || !std::isfinite(x) ? counted(x, digits) : plain_number(x, digits);
   };
-  const std::string lives =
-      fmt::format("{}{} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})", unit,
-                  summary.of.empty() ? "" : " of a " + printable(summary.of),
-                  plain_number(summary.limit), printable(summary.limit_unit), count(life.b1),
-                  count(life.b10), count(life.b50), count(life.q05), count(life.q95));
+  const std::string lives = fmt::format(
+      "{}{} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})", unit,
+      summary.of.empty() ? "" : (summary.now > 0 ? " of " : " of a ") + printable(summary.of),
+      plain_number(summary.limit), printable(summary.limit_unit), count(life.b1), count(life.b10),
+      count(life.b50), count(life.q05), count(life.q95));
   const std::string passed = fmt::format(
-      "after {} {} the limit is passed already with a probability of {}{}", summary.now, unit,
+      "after {} {} the limit is passed already with a probability of {}{}",
+      whole ? fmt::format("{}", summary.now) : plain_number(summary.now, 6), unit,
       probability_in_words(life.passed),
       summary.passed_beyond_risk() ? fmt::format(": more than the risk of {} % that is tolerated",
                                                  plain_number(100 * summary.risk))

@@ -105,7 +105,7 @@ class Inputs {
   }
 
   // Which bearing each row belongs to; without a column each is one of its own.
-  std::vector<std::size_t> bearings() const {
+  std::vector<std::size_t> bearings(std::vector<std::string>& names) const {
     std::vector<std::size_t> numbers(table_.rows);
     const auto choice = read_word_column(columns_, "bearing", table_);
     std::map<std::string, std::size_t> known;
@@ -119,6 +119,7 @@ class Inputs {
         }
       }
       numbers[i] = known.emplace(name, known.size()).first->second;
+      if (known.size() > names.size()) names.push_back(name);
     }
     return numbers;
   }
@@ -190,6 +191,7 @@ BearingData read_bearing_data(const TomlReader& root, const Source& source,
       revolutions.push_back(speed.values[i] * time.values[i]);
     }
     data.common.speed = speed.constant;
+    data.speed = speed.values;
   }
   data.common.contact = inputs.constant_contact();
   data.common.radius = radius.constant;
@@ -211,9 +213,8 @@ BearingData read_bearing_data(const TomlReader& root, const Source& source,
     data.inspections.duty.push_back(
         {contacts[i], radius.values[i], clearance.values[i], pressures[i], revolutions[i]});
   }
-  data.inspections.bearing = inputs.bearings();
-  data.bearings =
-      1 + *std::max_element(data.inspections.bearing.begin(), data.inspections.bearing.end());
+  data.inspections.bearing = inputs.bearings(data.names);
+  data.bearings = data.names.size();
   return data;
 }
 

@@ -28,6 +28,8 @@ struct BearingData {
   BearingCommon common;
   Unit depth_unit, pressure_unit;
   std::size_t bearings = 0;
+  std::vector<std::string> names;   ///< of the bearings
+  std::vector<double> speed;        ///< of each row, rev/s, where revolutions are speed x time
   std::vector<DataColumn> columns;  ///< as they were read
 };
 

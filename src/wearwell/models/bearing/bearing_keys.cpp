@@ -62,6 +62,8 @@ StudyKeys study_keys() {
             {"predict.revolutions", "[100000, \"400 krev\"]", "how deep then?"},
             {"predict.time", "[\"500 h\"]", "how deep then? needs a speed"},
             {"predict.limit", "\"80 um\"", "how long until that depth?"},
+            {"predict.life_of", "\"b3\"",
+             "whose life: what remains to this bearing of the data, not the life of a new one"},
             {"predict.risk", "0.01", "when to inspect a new bearing, at that risk of the limit"},
             {"predict.b_lives", "[1, 10]", "until when have 1 and 10 % reached it? (1 and 10)"},
             {"predict.credible_level", "0.9", "of lower bounds of B-lives"},

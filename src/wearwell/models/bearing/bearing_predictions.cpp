@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/models/bearing/seen_bearing.h"
 #include "wearwell/models/bearing/wear_number.h"
 #include "wearwell/study/life_levels.h"
 
@@ -68,6 +70,10 @@ class Predictions {
       predict_.fail(required_key_, "needs predict.limit: the depth that is allowed until then");
     }
     if (limit) reach(*limit, required);
+    if (const auto name = predict_.text("life_of")) {
+      if (!limit) predict_.fail("life_of", "needs predict.limit: the depth that ends its life");
+      life_of_seen(*name, *limit);
+    }
     for (const char* key : {"b_lives", "credible_level"}) {
       if (!predict_.has(key) || study_.life) continue;
       predict_.fail(key,
@@ -190,6 +196,62 @@ class Predictions {
     study_.life = std::move(request);
   }
 
+  std::size_t bearing_named(const std::string& name) const {
+    const auto at = std::find(data_.names.begin(), data_.names.end(), name);
+    if (at == data_.names.end())
+      predict_.fail("life_of", fmt::format("no bearing of the data is called '{}'{}", name,
+                                           did_you_mean(name, data_.names)));
+    return static_cast<std::size_t>(at - data_.names.begin());
+  }
+
+  // Of one that was inspected: it keeps its geometry, and bears the load that is said, else that of
+  // its last inspection.
+  void life_of_seen(const std::string& name, const Quantity& limit) {
+    const std::size_t number = bearing_named(name);
+    std::size_t last = data_.inspections.bearing.size();
+    for (std::size_t i = 0; i < data_.inspections.bearing.size(); ++i) {
+      if (data_.inspections.bearing[i] != number) continue;
+      if (last == data_.inspections.bearing.size() ||
+          data_.inspections.duty[i].revolutions >= data_.inspections.duty[last].revolutions)
+        last = i;
+    }
+    bearing::GoingOn going{data_.inspections.duty[last], 0, 0, 0, 1};
+    const Duty& now = going.now;
+    const Unit& of_pressure = data_.pressure_unit;
+    const Quantity pressure =
+        pressure_.value_or(Quantity{from_si(of_pressure, now.pressure), of_pressure});
+    going.pressure = pressure.si();
+    try {
+      going.wear_number =
+          bearing::wear_number(now.contact, now.clearance / now.radius, limit.si() / now.radius);
+    } catch (const InputError& error) {
+      predict_.fail("limit", fmt::format("of bearing {}: {}", name, error.what()));
+    }
+    const std::optional<double> speed = speed_                ? std::optional(speed_->si())
+                                        : data_.speed.empty() ? std::nullopt
+                                                              : std::optional(data_.speed[last]);
+    Unit unit{"1", 1, 0};
+    going.begin = now.revolutions;
+    if (speed) {
+      unit = time_unit_;
+      going.per_turn = 1 / (*speed * unit.scale);
+      going.begin = data_.speed.empty() ? now.revolutions * going.per_turn
+                                        : now.revolutions / data_.speed[last] / unit.scale;
+    }
+    const double risk = study_.life ? study_.life->risk : 0.01;
+    study_.life = LifeRequest{
+        unit,
+        speed ? unit.text : "revolutions",
+        limit,
+        going.begin,
+        risk,
+        [going, model = model_, k = k_,
+         own = bearing::inspections_of(data_.inspections, number)](const WeightedDraws& draws) {
+          return bearing::own_life_law(going, bearing::own_rate(model, own, k, draws));
+        },
+        fmt::format("bearing {} at {}", name, in_words(pressure))};
+  }
+
   void depth(const char* key, double revolutions, const std::string& when) {
     if (!(revolutions > 0)) predict_.fail(key, "must be positive");
     most_revolutions_ = std::max(most_revolutions_, revolutions);
@@ -232,7 +294,7 @@ class Predictions {
          fmt::format("the deepest measured is {:.4g} {}", from_si(data_.depth_unit, deepest),
                      data_.depth_unit.text),
          limit.si(), deepest});
-    if (!pressure_ && !required) {
+    if (!pressure_ && !required && !predict_.has("life_of")) {
       predict_.fail("limit",
                     "needs predict.pressure for the life until then, or required_revolutions (or "
                     "required_time) for the pressure that is allowed");

@@ -17,7 +17,7 @@ namespace wearwell {
 namespace {
 
 std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData& data,
-                                       bearing::WearModel& model) {
+                                       const bearing::WearModel& model) {
   const auto priors = root.table("prior");
   bearing::WearGuess guess{};
   try {
@@ -25,7 +25,6 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", data.source, error.what()));
   }
-  model.has_scatter = priors && priors->has("k_scatter");
   if (model.has_scatter && data.bearings < 2) {
     priors->fail("k_scatter", fmt::format("all rows of {} are of one bearing; the scatter between "
                                           "bearings needs at least 2",
@@ -114,8 +113,8 @@ FitData fit_data(const bearing::WearModel& model, const BearingData& data) {
 
 }  // namespace
 
-void read_bearing_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
-  bearing::WearModel model;
+bearing::WearModel bearing::read_wear_model(const TomlReader& root) {
+  WearModel model;
   if (const auto likelihood = root.table("likelihood")) {
     const auto family = likelihood->choice("family", {"normal", "lognormal"});
     if (family == "lognormal") model.family = ObservationFamily::lognormal;
@@ -123,6 +122,13 @@ void read_bearing_study(const TomlReader& root, const Source& source, PosteriorS
       model.depth_error = error->si();
     }
   }
+  const auto priors = root.table("prior");
+  model.has_scatter = priors && priors->has("k_scatter");
+  return model;
+}
+
+void read_bearing_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
+  const bearing::WearModel model = bearing::read_wear_model(root);
   const BearingData data = read_bearing_data(root, source, model.family);
   study.parameters = read_parameters(root, data, model);
   study.equation = in_words(model, data);

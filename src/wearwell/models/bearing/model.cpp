@@ -3,6 +3,7 @@
 #include "wearwell/models/bearing/bearing_first.h"
 #include "wearwell/models/bearing/bearing_keys.h"
 #include "wearwell/models/bearing/bearing_study.h"
+#include "wearwell/models/bearing/bearing_tracker.h"
 #include "wearwell/models/bearing/commands.h"
 
 namespace wearwell {
@@ -27,7 +28,8 @@ Model model() {
               },
           .add_commands = add_bearing_command,
           .keys = study_keys,
-          .first_study = first_study};
+          .first_study = first_study,
+          .track = track_bearings};
 }
 
 }  // namespace bearing

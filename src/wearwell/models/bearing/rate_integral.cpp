@@ -14,6 +14,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double negligible = -23;  // 1e-10 of the top
 constexpr int most_stretches = 60;
+constexpr int most_tops = 20;
+constexpr double half_log_two_pi = 0.91893853320467274178;
 
 // Sums of the integrand and its derivatives over nodes, relative to exp(top).
 struct Sums {
@@ -191,6 +193,21 @@ std::optional<Sums> trapezoids(const Integrand& integrand, const Top& top, doubl
   return even;
 }
 
+// Gauss and Kronrod's nodes of a half, and their weights.
+constexpr std::array<double, 8> gauss_kronrod = {
+    0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
+    0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
+    0.586087235467691130294144691693013, 0.405845151377397166906606412076961,
+    0.207784955007898467600689403773245, 0};
+constexpr std::array<double, 8> kronrod = {
+    0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
+    0.104790010322250183839876322541518, 0.140653259715525918745189590510238,
+    0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
+    0.204432940075298892414161999234649, 0.209482141084727828012999174891714};
+constexpr std::array<double, 4> gauss = {
+    0.129484966168869693270611432679082, 0.279705391489276667901467771423780,
+    0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
+
 // A panel integrated by Gauss and Kronrod's 7 and 15 nodes; `error` is their difference.
 struct Panel {
   double from, to;
@@ -201,26 +218,13 @@ struct Panel {
 };
 
 Panel panel(const Integrand& integrand, double from, double to, double top) {
-  static constexpr std::array<double, 8> node = {
-      0.991455371120812639206854697526329, 0.949107912342758524526189684047851,
-      0.864864423359769072789712788640926, 0.741531185599394439863864773280788,
-      0.586087235467691130294144691693013, 0.405845151377397166906606412076961,
-      0.207784955007898467600689403773245, 0};
-  static constexpr std::array<double, 8> kronrod = {
-      0.022935322010529224963732008058970, 0.063092092629978553290700663189204,
-      0.104790010322250183839876322541518, 0.140653259715525918745189590510238,
-      0.169004726639267902826583426598550, 0.190350578064785409913256402421014,
-      0.204432940075298892414161999234649, 0.209482141084727828012999174891714};
-  static constexpr std::array<double, 4> gauss = {
-      0.129484966168869693270611432679082, 0.279705391489276667901467771423780,
-      0.381830050505118944950369775488975, 0.417959183673469387755102040816327};
   Panel result{from, to, {}, 0, -infinity, from};
   const double half = 0.5 * (to - from), middle = 0.5 * (from + to);
   double coarse = 0;
-  for (std::size_t i = 0; i < node.size(); ++i) {
+  for (std::size_t i = 0; i < gauss_kronrod.size(); ++i) {
     for (const double side : {-1.0, 1.0}) {
-      if (node[i] == 0 && side > 0) continue;
-      const double z = middle + side * half * node[i];
+      if (gauss_kronrod[i] == 0 && side > 0) continue;
+      const double z = middle + side * half * gauss_kronrod[i];
       const Integrand::Value value = integrand(z);
       if (value.g > result.highest) result.highest = value.g, result.at = z;
       Integrand::add(result.sums, z, value, half * kronrod[i], top);
@@ -264,8 +268,21 @@ std::vector<double> cuts(const Integrand& integrand, const Top& top) {
   return result;
 }
 
-// None, and `top` moved there, where a much higher one comes to light.
-std::optional<Sums> adaptive(const Integrand& integrand, Top& top) {
+void add_nodes(const Integrand& integrand, const Panel& panel, std::vector<RateNode>& nodes) {
+  const double half = 0.5 * (panel.to - panel.from), middle = 0.5 * (panel.from + panel.to);
+  for (std::size_t i = 0; i < gauss_kronrod.size(); ++i) {
+    for (const double side : {-1.0, 1.0}) {
+      if (gauss_kronrod[i] == 0 && side > 0) continue;
+      const double z = middle + side * half * gauss_kronrod[i];
+      nodes.push_back({z, integrand(z).g - half_log_two_pi + std::log(half * kronrod[i])});
+    }
+  }
+}
+
+// None, and `top` moved there, where a much higher one comes to light. `nodes`, where they are wanted, are those of
+// all panels.
+std::optional<Sums> adaptive(const Integrand& integrand, Top& top,
+                             std::vector<RateNode>* nodes = nullptr) {
   constexpr std::size_t most_panels = 400;
   constexpr double tolerance = 1e-9;
   constexpr double much = 20;  // far from overflow, but nodes were laid for less
@@ -294,6 +311,9 @@ std::optional<Sums> adaptive(const Integrand& integrand, Top& top) {
   }
   Sums sums;
   for (const Panel& each : panels) sums.add(each.sums, 1);
+  for (const Panel& each : panels) {
+    if (nodes) add_nodes(integrand, each, *nodes);
+  }
   if (edges.back() == integrand.last()) {  // the edge moves with ln k and the scatter
     const double density = std::exp(integrand(edges.back()).g - top.value.g) / integrand.scatter();
     if (std::isfinite(density)) {
@@ -304,14 +324,38 @@ std::optional<Sums> adaptive(const Integrand& integrand, Top& top) {
   return sums;
 }
 
+// So far below any posterior the differences that are exponentiated here would be rounding.
+constexpr double lost = -1e9;
+constexpr double shortest_edge = 0.35;  // in ln k, of the plateau of depths below the noise
+
+// The even rule about `top`, begun `shift` of a step farther on; nothing where it does not resolve the bell or
+// the bell does not end.
+std::vector<RateNode> even_nodes(const Integrand& integrand, const Top& top, double step,
+                                 double shift) {
+  constexpr int most_nodes = 200;        // to either side
+  constexpr double halves_agree = 1e-3;  // of every second node
+  std::vector<RateNode> nodes;
+  double sums[2] = {};
+  for (const int side : {1, -1}) {
+    for (int n = side > 0 ? 0 : -1;; n += side) {
+      const double z = top.z + (n + shift) * step;
+      if (std::abs(n) > most_nodes || z + step == z || z > integrand.last()) return {};
+      const Integrand::Value value = integrand(z);
+      if (value.g > top.value.g + 30) return {};
+      nodes.push_back({z, value.g - half_log_two_pi + std::log(step)});
+      sums[n & 1] += std::exp(value.g - top.value.g);
+      if (integrand.nothing_beyond(z, side, value, top.value.g)) break;
+    }
+  }
+  if (!(std::abs(sums[0] - sums[1]) <= halves_agree * (sums[0] + sums[1]))) return {};
+  return nodes;
+}
+
 }  // namespace
 
 RateIntegral log_rate_integral(const Inspected& bearing, double log_k, double sigma,
                                double scatter) {
-  // So far below any posterior the differences that are exponentiated here would be rounding.
-  constexpr double lost = -1e9;
   constexpr double step_over_width = 0.7;
-  constexpr double shortest_edge = 0.35;  // in ln k, of the plateau of depths below the noise
   const RateIntegral nothing{-infinity, 0, 0, 0};
   const Integrand integrand(bearing, log_k, sigma, scatter);
   Top top = find_top(integrand);
@@ -327,11 +371,27 @@ RateIntegral log_rate_integral(const Inspected& bearing, double log_k, double si
   double step = std::min(step_over_width * top.width, shortest_edge / scatter);
   for (int halving = 0; halving < 3 && !sums; ++halving, step *= 0.5)
     sums = trapezoids(integrand, top, step);
-  constexpr int most_tops = 20;
   for (int tops = 0; tops < most_tops && !sums; ++tops) sums = adaptive(integrand, top);
   if (!sums || !(sums->mass > 0)) return nothing;
-  return {std::log(sums->mass) + top.value.g - 0.5 * std::log(2 * std::numbers::pi),
-          sums->by_log_k / sums->mass, sums->by_sigma / sums->mass, sums->by_scatter / sums->mass};
+  return {std::log(sums->mass) + top.value.g - half_log_two_pi, sums->by_log_k / sums->mass,
+          sums->by_sigma / sums->mass, sums->by_scatter / sums->mass};
+}
+
+std::vector<RateNode> rate_nodes(const Inspected& bearing, double log_k, double sigma,
+                                 double scatter, double step, double shift) {
+  const Integrand integrand(bearing, log_k, sigma, scatter);
+  Top top = find_top(integrand);
+  if (!(top.value.g > lost)) return {};
+  double width = std::min(step * top.width, shortest_edge / scatter);
+  for (int halving = 0; halving < 3; ++halving, width *= 0.5) {
+    std::vector<RateNode> nodes = even_nodes(integrand, top, width, shift);
+    if (!nodes.empty()) return nodes;
+  }
+  std::vector<RateNode> nodes;
+  for (int tops = 0; tops < most_tops; ++tops) {
+    if (adaptive(integrand, top, &nodes)) break;
+  }
+  return nodes;
 }
 
 }  // namespace wearwell::bearing

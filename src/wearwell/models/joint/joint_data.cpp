@@ -142,6 +142,7 @@ JointData read_joint_data(const TomlReader& root, const Source& source, Observat
   const ColumnChoice cycles = required_column(columns, "cycles", "cycle", table);
   JointData data;
   data.layout = table.layout;
+  data.name = data_table.text("joint").value_or("joint");
   data.cycles = si_numbers(table, cycles);
   for (std::size_t i = 0; i < table.rows; ++i) {
     require(data.cycles[i] >= 0, table, cycles, i, "0 or more");

@@ -23,6 +23,7 @@ struct JointData {
   std::optional<PointwiseTable> pointwise;
   std::vector<DataColumn> columns;
   std::string layout;  ///< of the table, in words
+  std::string name;  ///< of the joint, as its readings come under it: "joint" unless the study says
 };
 
 /// Work and volume from whichever sources the study names (docs/joint.md): columns, one constant, a

@@ -10,6 +10,7 @@ StudyKeys study_keys() {
   add_keys(
       keys,
       {needed_key("data.columns.cycles", "\"cycles\"", "cycles until each inspection"),
+       {"data.joint", "\"J7\"", "its name, under which its readings come on line (joint)"},
        {"data.columns.count", "\"count\"", "so many rows alike"},
        needed_key("data.columns.volume", "{ column = \"volume\", unit = \"mm^3\" }", "worn volume",
                   positions),

@@ -17,7 +17,7 @@ namespace {
 using joint::JointData;
 
 std::vector<Parameter> read_parameters(const TomlReader& root, const JointData& data,
-                                       joint::Archard& law) {
+                                       const joint::Archard& law) {
   const auto priors = root.table("prior");
   const joint::LeastSquares guess = joint::least_squares(data.inspections);
   const double largest =
@@ -41,8 +41,6 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const JointData& 
                             {"lognormal", Lognormal{std::log(1e-14), 4.2}, unit + "/(N m)"}));
   parameters.push_back(
       read({"sigma", "m^3", 0, INFINITY, sigma}, {"half-normal", Normal{0, size}, unit, 0}));
-  law.has_constant = priors && priors->has("V0");
-  law.has_exponent = priors && priors->has("exponent");
   if (law.has_constant) {
     parameters.push_back(
         read({"V0", "m^3", -INFINITY, INFINITY, 0.1 * sigma}, {"normal", Normal{0, size}, unit}));
@@ -67,17 +65,28 @@ std::string in_words(const joint::Archard& law, ObservationFamily family, const 
 
 }  // namespace
 
-void read_joint_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
+ObservationFamily joint::read_family(const TomlReader& root) {
   const TomlReader likelihood = root.required_table("likelihood");
   const auto family_name = likelihood.choice("family", {"normal", "lognormal"});
   if (!family_name) likelihood.fail("family", "is missing: \"normal\" or \"lognormal\"");
-  const ObservationFamily family =
-      *family_name == "normal" ? ObservationFamily::normal : ObservationFamily::lognormal;
+  return *family_name == "normal" ? ObservationFamily::normal : ObservationFamily::lognormal;
+}
 
+joint::Archard joint::read_law(const TomlReader& root, const JointData& data) {
+  const auto priors = root.table("prior");
+  const auto& work = data.inspections.work;
+  Archard law;
+  law.reference_work = *std::max_element(work.begin(), work.end());
+  law.has_constant = priors && priors->has("V0");
+  law.has_exponent = priors && priors->has("exponent");
+  return law;
+}
+
+void read_joint_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
+  const ObservationFamily family = joint::read_family(root);
   const JointData data = joint::read_joint_data(root, source, family);
   const auto& work = data.inspections.work;
-  joint::Archard law;
-  law.reference_work = *std::max_element(work.begin(), work.end());
+  const joint::Archard law = joint::read_law(root, data);
   study.parameters = read_parameters(root, data, law);
   study.equation = in_words(law, family, data);
   study.data_rows = data.cycles.size();

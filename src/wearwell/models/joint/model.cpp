@@ -3,6 +3,7 @@
 #include "wearwell/models/joint/joint_first.h"
 #include "wearwell/models/joint/joint_keys.h"
 #include "wearwell/models/joint/joint_study.h"
+#include "wearwell/models/joint/joint_tracker.h"
 
 namespace wearwell {
 namespace resource {
@@ -26,7 +27,8 @@ Model model() {
               },
           .add_commands = nullptr,
           .keys = study_keys,
-          .first_study = first_study};
+          .first_study = first_study,
+          .track = track_joint};
 }
 
 }  // namespace joint

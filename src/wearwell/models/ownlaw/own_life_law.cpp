@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "wearwell/math/root.h"
-#include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_lives.h"
+#include "wearwell/predict/few_points.h"
 #include "wearwell/predict/prediction.h"
 
 namespace wearwell::ownlaw {

@@ -6,9 +6,9 @@
 #include "wearwell/bayes/normal_score.h"
 #include "wearwell/math/quadrature.h"
 #include "wearwell/models/ownlaw/effect_lines.h"
-#include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
+#include "wearwell/predict/few_points.h"
 
 namespace wearwell::ownlaw {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "wearwell/models/ownlaw/effect_lines.h"
-#include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/models/ownlaw/own_first_passage.h"
+#include "wearwell/predict/few_points.h"
 
 namespace wearwell::ownlaw {
 namespace {

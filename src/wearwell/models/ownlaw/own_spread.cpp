@@ -4,7 +4,7 @@
 #include <array>
 
 #include "wearwell/models/ownlaw/effect_lines.h"
-#include "wearwell/models/ownlaw/few_points.h"
+#include "wearwell/predict/few_points.h"
 
 namespace wearwell::ownlaw {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wearwell/models/ownlaw/few_points.h"
+#include "wearwell/predict/few_points.h"
 
 namespace wearwell::ownlaw {
 namespace {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "wearwell/models/ownlaw/few_points.h"
 #include "wearwell/models/ownlaw/node_rows.h"
+#include "wearwell/predict/few_points.h"
 
 namespace wearwell::ownlaw {
 

@@ -1,4 +1,4 @@
-#include "wearwell/models/ownlaw/few_points.h"
+#include "wearwell/predict/few_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "wearwell/predict/prediction.h"
 
-namespace wearwell::ownlaw {
+namespace wearwell {
 namespace {
 
 using Eigen::Index;
@@ -200,4 +200,4 @@ FewPoints::FewPoints(const WeightedDraws& draws, std::size_t most) {
   }
 }
 
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell

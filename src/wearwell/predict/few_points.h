@@ -6,7 +6,7 @@
 
 #include "wearwell/bayes/weighted_draws.h"
 
-namespace wearwell::ownlaw {
+namespace wearwell {
 
 /// A posterior as few of its own points. In each of many regions they are chosen, and weighted, so that means,
 /// variances and covariances are those of all points there: what changes smoothly over the posterior is summed
@@ -38,4 +38,4 @@ auto sum_over(const FewPoints& few, const Make& make) {
   return all;
 }
 
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell

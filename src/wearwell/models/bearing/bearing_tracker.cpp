@@ -1,0 +1,266 @@
+#include "wearwell/models/bearing/bearing_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/bearing/bearing_data.h"
+#include "wearwell/models/bearing/bearing_study.h"
+#include "wearwell/models/bearing/rate_grid.h"
+#include "wearwell/models/bearing/reading_rows.h"
+#include "wearwell/models/bearing/seen_bearing.h"
+#include "wearwell/models/bearing/wear_number.h"
+#include "wearwell/predict/few_points.h"
+#include "wearwell/prognosis/node_tracker.h"
+
+namespace wearwell::bearing {
+namespace {
+
+using prognosis::Reading;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double half_log_two_pi = 0.91893853320467274178;
+constexpr std::size_t few_points = 1000, many_points = 4000, points_alone = 2000;
+constexpr double least_few = 0.3;  // of the few points' effective number: then many are taken
+
+// Curves of one clearance over radius, as far as memory goes. Which of them are kept changes no bit.
+class Curves {
+ public:
+  DepthLaw law(const Duty& duty) const {
+    const std::lock_guard lock(lock_);
+    const std::pair key(duty.contact, duty.clearance / duty.radius);
+    auto at = curves_.find(key);
+    if (at == curves_.end()) {
+      if (curves_.size() >= most) curves_.clear();
+      at = curves_.emplace(key, std::make_shared<const DepthCurve>(key.first, key.second, from, to))
+               .first;
+    }
+    return {at->second, duty.radius, std::log(duty.pressure * duty.revolutions)};
+  }
+
+ private:
+  static constexpr std::size_t most = 200;
+  static constexpr double from = -14, to = 2;  // logarithms of wear numbers; beyond, it solves
+  mutable std::mutex lock_;
+  mutable std::map<std::pair<Contact, double>, std::shared_ptr<const DepthCurve>> curves_;
+};
+
+// What is said of the bearings to come, and else of none.
+struct Ahead {
+  std::optional<Contact> contact;
+  std::optional<double> radius, clearance, pressure, speed;
+  Quantity limit;
+};
+
+Ahead read_ahead(const TomlReader& root, const BearingCommon& common) {
+  const auto predict = root.table("predict");
+  const auto limit = predict ? positive_quantity(*predict, "limit", "m") : std::nullopt;
+  if (!limit) root.fail("predict", "needs limit: bearings are followed until they are so deep");
+  const auto mine = [&](const char* name, const char* si, const std::optional<Quantity>& of_all) {
+    const auto own = positive_quantity(*predict, name, si);
+    return own || of_all ? std::optional((own ? *own : *of_all).si()) : std::nullopt;
+  };
+  Ahead ahead;
+  ahead.contact = contact_in(predict);
+  if (!ahead.contact) ahead.contact = common.contact;
+  ahead.radius = mine("radius", "m", common.radius);
+  ahead.clearance = mine("clearance", "m", common.clearance);
+  ahead.pressure = mine("pressure", "Pa", common.pressure);
+  ahead.speed = mine("speed", "rev/s", common.speed);
+  ahead.limit = *limit;
+  const auto length = positive_quantity(*predict, "length", "m");
+  const auto force = positive_quantity(*predict, "force", "N");
+  if (length && force && ahead.radius)
+    ahead.pressure = force->si() / (2 * *ahead.radius * length->si());
+  return ahead;
+}
+
+struct Population {
+  WearModel model;
+  BearingData data;
+  ReadingRows rows;
+  Ahead ahead;
+  FewPoints few, many;
+  Curves curves;
+
+  Population(const TomlReader& root, const prognosis::CarriedState& state)
+      : model(read_wear_model(root)),
+        data(read_bearing_data(root, state.source, model.family)),
+        rows(root, data, model.family),
+        ahead(read_ahead(root, data.common)),
+        few(state.posterior, model.has_scatter ? few_points : points_alone),
+        many(state.posterior, many_points) {}
+
+  std::optional<std::size_t> number(const std::string& unit) const {
+    const auto at = std::find(data.names.begin(), data.names.end(), unit);
+    if (at == data.names.end()) return {};
+    return static_cast<std::size_t>(at - data.names.begin());
+  }
+
+  Inspections seen(const std::string& unit) const {
+    const auto at = number(unit);
+    return at ? inspections_of(data.inspections, *at) : Inspections{};
+  }
+
+  // Its farthest row in the study.
+  std::optional<ReadingRow> last_seen(const std::string& unit) const {
+    const auto at = number(unit);
+    std::optional<ReadingRow> last;
+    for (std::size_t i = 0; at && i < data.inspections.depth.size(); ++i) {
+      const Duty& duty = data.inspections.duty[i];
+      if (data.inspections.bearing[i] != *at) continue;
+      if (last && duty.revolutions < last->duty.revolutions) continue;
+      last = ReadingRow{duty, data.inspections.depth[i], duty.revolutions, {}};
+      if (data.speed.empty()) continue;
+      last->speed = data.speed[i];
+      if (rows.in_time()) last->place = duty.revolutions / data.speed[i];
+    }
+    return last;
+  }
+};
+
+using Shared = std::shared_ptr<const Population>;
+
+double effective_of(const FewPoints& points) {
+  double square = 0;
+  for (const double each : points.weights) square += each * each;
+  return 1 / square;
+}
+
+std::optional<Inspected> inspected(const Population& population, const Inspections& rows) {
+  if (rows.depth.empty()) return {};
+  std::vector<DepthLaw> laws;
+  for (const Duty& each : rows.duty) laws.push_back(population.curves.law(each));
+  return Inspected(population.model.family, std::move(laws), rows.duty, rows.depth);
+}
+
+prognosis::NodeCloud lay(const Population& population, const std::string& unit,
+                         std::span<const Reading> readings) {
+  Inspections rows = population.seen(unit);
+  OwnRows own;
+  own.seen = inspected(population, rows);
+  for (const Reading& each : readings) {
+    ReadingRow row;
+    if (!population.rows.read(each, row).empty()) continue;
+    rows.duty.push_back(row.duty);
+    rows.depth.push_back(row.depth);
+  }
+  own.all = inspected(population, rows);
+  RateGrid grid = rate_grid(population.model, population.few, own);
+  if (grid.effective < least_few * effective_of(population.few))
+    grid = rate_grid(population.model, population.many, own);
+  return std::move(grid.nodes);
+}
+
+prognosis::NodeReading reading_law(const Population& population, const Reading& reading) {
+  ReadingRow row;
+  population.rows.read(reading, row);
+  const DepthLaw law = population.curves.law(row.duty);
+  const ObservationFamily family = population.model.family;
+  const auto sigma = [known = population.model.depth_error](const double* node) {
+    return known ? *known : node[1];
+  };
+  const double at = family == ObservationFamily::normal ? row.depth : std::log(row.depth);
+  return {[=](const double* node) {
+            if (!(node[0] <= law.limit())) return -infinity;
+            const double mean = law.depth(node[0]), sd = sigma(node);
+            if (family == ObservationFamily::lognormal)
+              return mean > 0 ? lognormal_log_density(at, mean, sd) : -infinity;
+            const double score = (at - mean) / sd;
+            return -0.5 * score * score - std::log(sd) - half_log_two_pi;
+          },
+          [=](const double* node) {
+            if (!(node[0] <= law.limit())) return 0.0;
+            return ObservationLaw(family, law.depth(node[0]), sigma(node)).cdf(at);
+          }};
+}
+
+std::optional<prognosis::NodeCourse> course(const Shared& population, const std::string& unit,
+                                            const Reading* reading) {
+  const Ahead& ahead = population->ahead;
+  std::optional<ReadingRow> last = population->last_seen(unit);
+  ReadingRow row;
+  if (reading && population->rows.read(*reading, row).empty() &&
+      (!last || row.place >= last->place))
+    last = row;
+  GoingOn going;
+  const double own_speed = last ? last->speed.value_or(0) : 0;
+  const double speed = ahead.speed.value_or(own_speed);
+  if (last) {
+    going.now = last->duty;
+    going.begin = last->place;
+  } else {
+    if (!ahead.contact || !ahead.radius || !ahead.clearance || !ahead.pressure) return {};
+    going.now = {*ahead.contact, *ahead.radius, *ahead.clearance, *ahead.pressure, 0};
+  }
+  if (population->rows.in_time()) {
+    if (!(speed > 0)) return {};
+    going.per_turn = 1 / speed;
+  }
+  going.pressure = ahead.pressure.value_or(going.now.pressure);
+  const Duty& duty = going.now;
+  try {
+    going.wear_number =
+        wear_number(duty.contact, duty.clearance / duty.radius, ahead.limit.si() / duty.radius);
+  } catch (const InputError&) {
+    return {};  // it is worn through before
+  }
+  Duty one = duty;
+  one.pressure = one.revolutions = 1;
+  const DepthLaw law = population->curves.law(one);
+  return prognosis::NodeCourse{
+      going.begin, [going](const double* node) { return life_at(going, node[0]); },
+      [going, law](const double* node, double at) {
+        const double loading = going.now.pressure * going.now.revolutions +
+                               going.pressure * (at - going.begin) / going.per_turn;
+        if (!(loading > 0)) return 0.0;
+        return law.depth(std::min(node[0] + std::log(loading), law.limit()));
+      }};
+}
+
+}  // namespace
+
+std::unique_ptr<const prognosis::Tracker> track_bearings(const prognosis::CarriedState& state) {
+  const TomlReader root = TomlReader::parse(state.source.study);
+  const auto population = std::make_shared<const Population>(root, state);
+  std::vector<std::string> names = {"k"};
+  if (!population->model.depth_error) names.emplace_back("sigma");
+  if (population->model.has_scatter) names.emplace_back("k_scatter");
+  if (names != state.parameters)
+    throw InputError(fmt::format("{}: the posterior that was carried on has other parameters",
+                                 state.source.study.path.string()));
+  prognosis::NodeModel model;
+  model.columns = population->rows.columns();
+  model.labels = population->rows.labels();
+  model.axis = population->rows.axis();
+  model.limited = "depth";
+  model.noun = "bearing";
+  model.limit = population->ahead.limit;
+  model.seen = population->data.names;
+  model.fingerprint = prognosis::population_fingerprint(state.source.study.text, state.posterior);
+  model.refusal = [](const std::string&) { return std::string(); };
+  model.problem = [population](const Reading& reading) {
+    ReadingRow row;
+    return population->rows.read(reading, row);
+  };
+  model.reading = [population](const Reading& reading) {
+    return reading_law(*population, reading);
+  };
+  model.lay = [population](const std::string& unit, std::span<const Reading> readings) {
+    return lay(*population, unit, readings);
+  };
+  model.course = [population](const std::string& unit, const Reading* last) {
+    return course(population, unit, last);
+  };
+  return prognosis::node_tracker(std::move(model));
+}
+
+}  // namespace wearwell::bearing

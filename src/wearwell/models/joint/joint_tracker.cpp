@@ -1,0 +1,206 @@
+#include "wearwell/models/joint/joint_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/infer/fit.h"
+#include "wearwell/models/joint/archard.h"
+#include "wearwell/models/joint/joint_data.h"
+#include "wearwell/models/joint/joint_study.h"
+#include "wearwell/predict/few_points.h"
+#include "wearwell/prognosis/node_tracker.h"
+#include "wearwell/study/inference_data.h"
+
+namespace wearwell::joint {
+namespace {
+
+using prognosis::NodeCloud;
+using prognosis::Reading;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t points = 2000;
+
+// One inspection, in SI.
+struct Inspection {
+  double cycles = 0, work = 0, volume = 0;
+};
+
+// What readings bring beside cycles and volume, and what is known of the cycles to come.
+struct Followed {
+  Archard law;
+  ObservationFamily family;
+  JointData data;
+  std::vector<Parameter> parameters;
+  FewPoints few;
+  Quantity limit;
+  double rate = 0;  // J a cycle, to come
+  std::vector<prognosis::ReadingColumn> columns;
+  std::size_t cycles = 0, volume = 0;
+  std::optional<std::size_t> work, force, slip;  // of columns
+
+  Followed(const TomlReader& root, const prognosis::CarriedState& state)
+      : family(read_family(root)),
+        data(read_joint_data(root, state.source, family)),
+        few(state.posterior, points) {
+    law = read_law(root, data);
+    const auto study = read_posterior_study(root, state.source, read_joint_study);
+    parameters = require_posterior_study(*study).parameters;
+    read_limit(root);
+    for (const DataColumn& each : data.columns) {
+      if (each.name == "dx" || each.name == "dy")
+        root.required_table("data").required_table("columns").fail(
+            each.name,
+            "has many rows an inspection, which cannot be followed one by one: add them by "
+            "wearwell update, or give data.columns.volume");
+      if (each.name == "cycles") cycles = columns.size();
+      if (each.name == "volume") volume = columns.size();
+      if (each.name == "work") work = columns.size();
+      if (each.name == "force") force = columns.size();
+      if (each.name == "slip") slip = columns.size();
+      columns.push_back({each.name, each.unit, each.name == "volume"});
+      // What is counted has a name, also where its numbers stand alone.
+      if (each.name == "cycles" && each.unit.text == "1") columns.back().unit.text = "cycles";
+    }
+  }
+
+  void read_limit(const TomlReader& root) {
+    const auto predict = root.table("predict");
+    const auto wanted = predict ? predict->quantity("limit", "m^3") : std::nullopt;
+    if (!wanted) root.fail("predict", "needs limit: a joint is followed until so much is worn");
+    limit = *wanted;
+    const auto to_come = predict->quantity("work_per_cycle", "N m/cycle");
+    rate = data.work_per_cycle ? *data.work_per_cycle : to_come ? to_come->si() : 0;
+  }
+
+  // Why this is no inspection; empty where it is one.
+  std::string read(const Reading& reading, Inspection& inspection) const {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const double x = reading.numbers[c];
+      if (std::isnan(x)) return fmt::format("{} is missing", columns[c].name);
+      if (!std::isfinite(x)) return fmt::format("{} is not finite", columns[c].name);
+      if (c != volume && x < 0) return fmt::format("{} must be 0 or more", columns[c].name);
+    }
+    inspection.cycles = reading.numbers[cycles];
+    inspection.volume = reading.numbers[volume];
+    inspection.work = work    ? reading.numbers[*work]
+                      : force ? reading.numbers[*force] * reading.numbers[*slip]
+                              : inspection.cycles * *data.work_per_cycle;
+    if (family == ObservationFamily::lognormal && !(inspection.volume > 0 && inspection.work > 0))
+      return "work and volume must be positive for the lognormal likelihood";
+    return {};
+  }
+
+  // The farthest of the study and of `reading`.
+  Inspection last(const Reading* reading) const {
+    Inspection farthest;
+    for (std::size_t i = 0; i < data.cycles.size(); ++i) {
+      if (data.cycles[i] >= farthest.cycles)
+        farthest = {data.cycles[i], data.inspections.work[i], data.inspections.volume[i]};
+    }
+    Inspection own;
+    if (reading && read(*reading, own).empty() && own.cycles >= farthest.cycles) farthest = own;
+    return farthest;
+  }
+};
+
+NodeCloud cloud(const FewPoints& few) {
+  NodeCloud cloud{few.values, {}};
+  for (const double each : few.weights) cloud.log_weight.push_back(std::log(each));
+  return cloud;
+}
+
+// Without readings the posterior that was carried on; else that of all inspections, integrated anew.
+NodeCloud lay(const Followed& joint, std::span<const Reading> readings) {
+  if (readings.empty()) return cloud(joint.few);
+  Inspections all = joint.data.inspections;
+  for (const Reading& each : readings) {
+    Inspection inspection;
+    if (!joint.read(each, inspection).empty()) continue;
+    all.work.push_back(inspection.work);
+    all.volume.push_back(inspection.volume);
+  }
+  const Posterior posterior(joint.parameters,
+                            archard_likelihood(joint.law, joint.family, all, all.work.size()));
+  FitSettings settings;
+  settings.method = Method::exact;
+  const Fit fitted = fit(posterior, settings);
+  if (!proper(fitted)) return {};
+  return cloud(FewPoints(fitted.exact ? fitted.exact->nodes : fitted.pooled, points));
+}
+
+prognosis::NodeReading reading_law(const Followed& joint, const Reading& reading) {
+  Inspection inspection;
+  joint.read(reading, inspection);
+  const bool normal = joint.family == ObservationFamily::normal;
+  const double at = normal ? inspection.volume : std::log(inspection.volume);
+  return {[=, law = joint.law](const double* x) {
+            const double mean = law.mean_volume(x, inspection.work);
+            if (normal) return normal_log_density(at, mean, 1 / x[1], std::log(x[1]));
+            return mean > 0 ? lognormal_log_density(at, mean, x[1]) : -infinity;
+          },
+          [=, law = joint.law, family = joint.family](const double* x) {
+            return ObservationLaw(family, law.mean_volume(x, inspection.work), x[1]).cdf(at);
+          }};
+}
+
+prognosis::NodeCourse course(const Followed& joint, const Reading* last) {
+  const Inspection now = joint.last(last);
+  return {now.cycles,
+          [now, law = joint.law, rate = joint.rate, limit = joint.limit.si()](const double* x) {
+            const double work = law.work_at(x, limit);
+            return work <= now.work ? now.cycles : now.cycles + (work - now.work) / rate;
+          },
+          [now, law = joint.law, rate = joint.rate](const double* x, double at) {
+            return law.mean_volume(x, now.work + (at - now.cycles) * rate);
+          }};
+}
+
+}  // namespace
+
+std::unique_ptr<const prognosis::Tracker> track_joint(const prognosis::CarriedState& state) {
+  const TomlReader root = TomlReader::parse(state.source.study);
+  const auto joint = std::make_shared<const Followed>(root, state);
+  std::vector<std::string> names;
+  for (const Parameter& each : joint->parameters) names.push_back(each.name);
+  if (names != state.parameters)
+    throw InputError(fmt::format("{}: the posterior that was carried on has other parameters",
+                                 state.source.study.path.string()));
+  prognosis::NodeModel model;
+  model.columns = joint->columns;
+  model.axis = joint->cycles;
+  model.limited = "volume";
+  model.noun = "joint";
+  model.limit = joint->limit;
+  model.seen = {joint->data.name};
+  model.fingerprint = prognosis::population_fingerprint(state.source.study.text, state.posterior);
+  model.refusal = [only = joint->data.name](const std::string& unit) {
+    return unit == only ? std::string()
+                        : fmt::format(
+                              "the study is of one joint, called '{}' (data.joint), and "
+                              "says nothing of '{}': joints that wear each at its own pace "
+                              "are a study of model \"law\" with [varies.UNIT]",
+                              printable(only), printable(unit));
+  };
+  model.problem = [joint](const Reading& reading) {
+    Inspection inspection;
+    return joint->read(reading, inspection);
+  };
+  model.reading = [joint](const Reading& reading) { return reading_law(*joint, reading); };
+  model.lay = [joint](const std::string&, std::span<const Reading> readings) {
+    return lay(*joint, readings);
+  };
+  model.course = [joint](const std::string&, const Reading* last) {
+    return std::optional(course(*joint, last));
+  };
+  return prognosis::node_tracker(std::move(model));
+}
+
+}  // namespace wearwell::joint

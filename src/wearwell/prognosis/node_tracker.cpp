@@ -1,0 +1,347 @@
+#include "wearwell/prognosis/node_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/sha1.h"
+#include "wearwell/prognosis/bytes.h"
+#include "wearwell/prognosis/weighted_quantiles.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least_effective = 0.5;   // of the number when nodes were laid
+constexpr double hardly_possible = 1e-4;  // a surprise below contradicts
+constexpr std::size_t most_sampled = 128;
+constexpr double doubtful = 0.05;  // a surprise below is summed over all nodes
+constexpr double negligible = 1e-12;
+constexpr std::string_view mark = "wearwell nodes 1";
+
+using Model = std::shared_ptr<const NodeModel>;
+
+bool carries(double log_weight) {
+  return log_weight > -infinity && log_weight < infinity;
+}
+
+class NodeUnit final : public TrackedUnit {
+ public:
+  NodeUnit(Model model, std::string unit) : model_(std::move(model)), unit_(std::move(unit)) {
+    refusal_ = model_->refusal(unit_);
+    if (refusal_.empty()) lay({});
+  }
+
+  Taken take(const Reading& reading, const History& history) override;
+  Forecast forecast() const override;
+  std::vector<LevelAhead> ahead(std::span<const double> places) const override;
+  std::size_t readings() const override { return readings_; }
+  std::string save() const override;
+  void load(ByteReader& from);
+
+ private:
+  const double* node(std::size_t i) const {
+    return nodes_.values.row(static_cast<Eigen::Index>(i)).data();
+  }
+  double place(const Reading& reading) const { return reading.numbers[model_->axis]; }
+  std::optional<NodeCourse> course() const {
+    return model_->course(unit_, last_.numbers.empty() ? nullptr : &last_);
+  }
+  bool lay(std::vector<Reading> all);
+  bool lay_with(const Reading& reading, const History& history);
+  void weigh();
+  double surprise(const NodeReading& law) const;
+
+  Model model_;
+  std::string unit_, refusal_;
+  NodeCloud nodes_;
+  std::vector<double> weight_;  // of nodes_; sum to 1
+  Reading last_;                // the farthest; without numbers where there is none
+  double effective_ = 0, laid_effective_ = 0;
+  std::size_t readings_ = 0;
+};
+
+void NodeUnit::weigh() {
+  double top = -infinity, sum = 0, square = 0;
+  for (const double each : nodes_.log_weight) top = std::max(top, each);
+  weight_.assign(nodes_.log_weight.size(), 0);
+  effective_ = 0;
+  if (!(top > -infinity && top < infinity)) return;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    // To single precision, as states are saved: weights to a relative 1e-6.
+    double& log_weight = nodes_.log_weight[i];
+    log_weight = static_cast<float>(log_weight - top);
+    weight_[i] = std::exp(log_weight);
+    sum += weight_[i];
+    square += weight_[i] * weight_[i];
+  }
+  for (double& each : weight_) each /= sum;
+  effective_ = sum * sum / square;
+}
+
+// False, and all as it was, where no node goes through all of them.
+bool NodeUnit::lay(std::vector<Reading> all) {
+  const auto before = [&](const Reading& a, const Reading& b) {
+    return std::pair(place(a), std::tie(a.numbers, a.labels)) <
+           std::pair(place(b), std::tie(b.numbers, b.labels));
+  };
+  std::sort(all.begin(), all.end(), before);
+  NodeCloud laid = model_->lay(unit_, all);
+  if (!std::any_of(laid.log_weight.begin(), laid.log_weight.end(), carries)) return false;
+  // Single precision, as states are saved.
+  nodes_.values = laid.values.cast<float>().cast<double>();
+  nodes_.log_weight = std::move(laid.log_weight);
+  for (double& each : nodes_.log_weight) each = carries(each) ? each : -infinity;
+  weigh();
+  laid_effective_ = effective_;
+  if (!all.empty()) last_ = all.back();
+  return true;
+}
+
+bool NodeUnit::lay_with(const Reading& reading, const History& history) {
+  std::vector<Reading> all;
+  history([&](const Reading& each) {
+    if (model_->problem(each).empty()) all.push_back(each);
+  });
+  all.push_back(reading);
+  return lay(std::move(all));
+}
+
+// Two-sided, by few nodes that stand for all where that will do.
+double NodeUnit::surprise(const NodeReading& law) const {
+  double before = 0, below = 0;
+  std::size_t drawn = 0;
+  for (std::size_t i = 0; i < weight_.size() && drawn < most_sampled; ++i) {
+    before += weight_[i];
+    double own = 0;
+    for (; drawn < most_sampled &&
+           before > (static_cast<double>(drawn) + 0.5) / static_cast<double>(most_sampled);
+         ++drawn)
+      own += 1.0 / most_sampled;
+    if (own > 0) below += own * law.cdf(node(i));
+  }
+  const double sampled = 2 * std::min(below, 1 - below);
+  if (sampled > doubtful) return sampled;
+  double lower = 0, upper = 0;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    if (!(weight_[i] > negligible)) continue;
+    const double share = law.cdf(node(i));
+    lower += weight_[i] * share;
+    upper += weight_[i] * (1 - share);
+  }
+  return std::clamp(2 * std::min(lower, upper), 0.0, 1.0);
+}
+
+Taken NodeUnit::take(const Reading& reading, const History& history) {
+  Taken taken;
+  if (reading.numbers.size() != model_->columns.size() ||
+      reading.labels.size() != model_->labels.size())
+    throw InputError(fmt::format("a reading has {} numbers and {} labels: {} and {} are expected",
+                                 reading.numbers.size(), reading.labels.size(),
+                                 model_->columns.size(), model_->labels.size()));
+  taken.problem = refusal_.empty() ? model_->problem(reading) : refusal_;
+  if (!taken.problem.empty()) return taken;
+  const NodeReading law = model_->reading(reading);
+  taken.surprise = surprise(law);
+  std::vector<double> after = nodes_.log_weight;
+  bool any = false;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (!(after[i] > -infinity)) continue;
+    const double own = law.log_density(node(i));
+    after[i] = own < infinity ? after[i] + own : -infinity;
+    any |= after[i] > -infinity;
+  }
+  if (any) {
+    std::swap(nodes_.log_weight, after);
+    weigh();
+    if (last_.numbers.empty() || place(reading) >= place(last_)) last_ = reading;
+    if (effective_ < least_effective * laid_effective_) lay_with(reading, history);
+  } else if (!lay_with(reading, history)) {
+    taken.problem = "no unit that the population allows can show this after what it showed before";
+    return taken;
+  }
+  ++readings_;
+  taken.counted = true;
+  taken.contradicts = taken.surprise < hardly_possible;
+  return taken;
+}
+
+Forecast NodeUnit::forecast() const {
+  Forecast forecast;
+  forecast.effective = effective_;
+  const std::optional<NodeCourse> course =
+      refusal_.empty() ? this->course() : std::optional<NodeCourse>();
+  if (!course) {  // nothing says how it goes on
+    forecast.level05 = forecast.level50 = forecast.level95 = forecast.passed =
+        std::numeric_limits<double>::quiet_NaN();
+    return forecast;
+  }
+  forecast.now = course->now;
+  std::vector<double> level, level_weight, life, life_weight;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    if (!(weight_[i] > negligible)) continue;
+    level.push_back(course->level(node(i), forecast.now));
+    level_weight.push_back(weight_[i]);
+    const double end = course->end(node(i));
+    if (!(end > forecast.now)) {
+      forecast.passed += weight_[i];
+      continue;
+    }
+    life.push_back(end - forecast.now);
+    life_weight.push_back(weight_[i]);
+  }
+  forecast.passed = std::min(forecast.passed, 1.0);
+  const std::vector<double> levels =
+      weighted_quantiles(level, level_weight, std::array{0.05, 0.5, 0.95});
+  forecast.level05 = levels[0];
+  forecast.level50 = levels[1];
+  forecast.level95 = levels[2];
+  forecast.remaining = WeightedLives(life, life_weight);
+  return forecast;
+}
+
+std::vector<LevelAhead> NodeUnit::ahead(std::span<const double> places) const {
+  const std::optional<NodeCourse> course =
+      refusal_.empty() ? this->course() : std::optional<NodeCourse>();
+  if (!course) return {};
+  if (!places.empty() && places.front() < course->now)
+    throw std::invalid_argument("a path ahead begins where the unit is");
+  std::vector<LevelAhead> path;
+  std::vector<double> level(weight_.size());
+  for (const double at : places) {
+    for (std::size_t i = 0; i < level.size(); ++i)
+      level[i] = weight_[i] > negligible ? course->level(node(i), at) : 0;
+    const std::vector<double> q = weighted_quantiles(level, weight_, std::array{0.05, 0.5, 0.95});
+    path.push_back({at, q[0], q[1], q[2]});
+  }
+  return path;
+}
+
+std::uint32_t bits_of(double value) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+}
+
+double number_of(std::uint32_t bits) {
+  return std::bit_cast<float>(bits);
+}
+
+std::string NodeUnit::save() const {
+  ByteWriter to;
+  to.text(mark);
+  to.text(model_->fingerprint);
+  to.text(unit_);
+  to.u64(readings_);
+  to.number(laid_effective_);
+  to.u64(nodes_.log_weight.size());
+  to.u64(static_cast<std::uint64_t>(nodes_.values.cols()));
+  for (const double each : nodes_.values.reshaped<Eigen::RowMajor>()) to.u32(bits_of(each));
+  for (const double each : nodes_.log_weight) to.u32(bits_of(each));
+  to.u64(last_.numbers.size());
+  for (const double each : last_.numbers) to.number(each);
+  for (std::size_t i = 0; !last_.numbers.empty() && i < last_.labels.size(); ++i)
+    to.text(last_.labels[i]);
+  std::string bytes = to.take();
+  return sha1_of(bytes) + bytes;
+}
+
+void NodeUnit::load(ByteReader& from) {
+  readings_ = from.u64();
+  laid_effective_ = from.number();
+  const std::size_t count = from.count(sizeof(float)), columns = from.u64();
+  if (columns != static_cast<std::size_t>(nodes_.values.cols()))
+    from.fail("its nodes have another number of numbers");
+  from.require(count, sizeof(float) * (columns + 1));
+  nodes_.values.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(columns));
+  nodes_.log_weight.resize(count);
+  for (Eigen::Index i = 0; i < nodes_.values.rows(); ++i) {
+    for (Eigen::Index j = 0; j < nodes_.values.cols(); ++j) {
+      nodes_.values(i, j) = number_of(from.u32());
+      if (!std::isfinite(nodes_.values(i, j))) from.fail("a node is no number");
+    }
+  }
+  for (double& each : nodes_.log_weight) {
+    each = number_of(from.u32());
+    if (!(each < infinity)) from.fail("a weight is no number");
+  }
+  const std::size_t numbers = from.count(sizeof(double));
+  if (numbers != 0 && numbers != model_->columns.size()) from.fail("its last reading is none");
+  last_ = {};
+  for (std::size_t i = 0; i < numbers; ++i) last_.numbers.push_back(from.number());
+  for (std::size_t i = 0; numbers > 0 && i < model_->labels.size(); ++i)
+    last_.labels.push_back(from.text());
+  from.end();
+  if (numbers > 0 && !model_->problem(last_).empty()) from.fail("its last reading is none");
+  weigh();
+  if (refusal_.empty() && !(effective_ > 0)) from.fail("no node carries anything");
+}
+
+class NodeTracker final : public Tracker {
+ public:
+  explicit NodeTracker(NodeModel model)
+      : model_(std::make_shared<const NodeModel>(std::move(model))) {
+    const NodeCloud nodes = model_->lay(model_->seen.empty() ? "" : model_->seen.front(), {});
+    if (std::none_of(nodes.log_weight.begin(), nodes.log_weight.end(), carries))
+      throw InputError(
+          "the posterior that was carried on gives the units of its study no weight: it is "
+          "damaged");
+  }
+
+  std::span<const ReadingColumn> columns() const override { return model_->columns; }
+  std::span<const std::string> labels() const override { return model_->labels; }
+  const ReadingColumn& axis() const override { return model_->columns[model_->axis]; }
+  const std::string& limited() const override { return model_->limited; }
+  const Quantity& limit() const override { return model_->limit; }
+  bool rising() const override { return true; }
+  const std::string& noun() const override { return model_->noun; }
+  std::span<const std::string> seen() const override { return model_->seen; }
+
+  std::string refusal(const std::string& unit) const override { return model_->refusal(unit); }
+
+  std::unique_ptr<TrackedUnit> begin(const std::string& unit) const override {
+    return std::make_unique<NodeUnit>(model_, unit);
+  }
+
+  std::unique_ptr<TrackedUnit> restore(const std::string& bytes) const override {
+    constexpr std::size_t digest = 40;
+    const std::string name = "the state of a unit";
+    if (bytes.size() < digest || sha1_of(bytes.substr(digest)) != bytes.substr(0, digest))
+      throw InputError(name + " is damaged, or of another version");
+    ByteReader from(std::string_view(bytes).substr(digest), name);
+    if (from.text() != mark) from.fail("of another version");
+    if (from.text() != model_->fingerprint)
+      throw InputError(
+          "the state of a unit is of another population: the study was fitted anew since");
+    auto unit = std::make_unique<NodeUnit>(model_, from.text());
+    unit->load(from);
+    return unit;
+  }
+
+ private:
+  std::shared_ptr<const NodeModel> model_;
+};
+
+}  // namespace
+
+std::unique_ptr<const Tracker> node_tracker(NodeModel model) {
+  return std::make_unique<const NodeTracker>(std::move(model));
+}
+
+std::string population_fingerprint(const std::string& study, const WeightedDraws& posterior) {
+  std::string print = study;
+  const auto add = [&](const double* values, Eigen::Index count) {
+    print.append(reinterpret_cast<const char*>(values),
+                 static_cast<std::size_t>(count) * sizeof(double));
+  };
+  add(posterior.values.data(), posterior.values.size());
+  add(posterior.weights.data(), posterior.weights.size());
+  return sha1_of(print);
+}
+
+}  // namespace wearwell::prognosis
