@@ -241,17 +241,25 @@ std::vector<double> cell_shares(const WeightedDraws& draws,
       spread.center = at_node;
       spread.half_width = spread.widest = spread.others = 0;
     }
-    // Along the widest axis the density is a straight line about its middle, with the mean of the mass.
+    // Along the widest axis the density is the parabola about its middle that has the mean and the mean square of the
+    // mass, as far as it is no lower than nothing; s runs from -1/2 to 1/2.
     const double a = spread.widest, b = std::sqrt(spread.others),
                  off = std::clamp(spread.off, -a / 3, a / 3), middle = spread.center - off;
+    const double tilt = a > 0 ? 6 * off / a : 0,
+                 bend = std::clamp(180 * (Along(draws, i, spread.widest_axis).square - 1.0 / 12),
+                                   -6.0, 6.0);
     // The integral up to x of its distribution.
-    const auto integral = [a, off](double x) {
+    const auto integral = [=](double x) {
       if (!(x < a)) return x - off;
       if (!(x > -a)) return 0.0;
-      return (x + a) * (x + a) / (4 * a) + off * (0.25 * x * (x * x / (a * a) - 3) / a - 0.5);
+      const double s = 0.5 * x / a, s2 = s * s;
+      return 2 * a *
+             (0.5 * (s + 0.5) * (s + 0.5) + 0.5 * tilt * (s * (s2 / 3 - 0.25) - 1.0 / 12) +
+              bend * (s2 * (s2 - 0.5) / 12 + 1.0 / 192));
     };
-    const auto distribution = [a, off](double x) {
-      return std::clamp(0.5 * (1 + x / a) + 0.75 * off / a * (x * x / (a * a) - 1), 0.0, 1.0);
+    const auto distribution = [=](double x) {
+      const double s = std::clamp(0.5 * x / a, -0.5, 0.5);
+      return s + 0.5 + 0.5 * tilt * (s * s - 0.25) + bend * s * (s * s / 3 - 1.0 / 12);
     };
     const auto first = std::upper_bound(edges.begin(), edges.end(), middle - a - b);
     auto edge = static_cast<std::size_t>(first - edges.begin());
