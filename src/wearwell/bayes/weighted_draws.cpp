@@ -44,7 +44,8 @@ struct Spread {
   double widest = 0, others = 0, off = 0;
   // Along which axis that is, and the number at both of its ends.
   std::size_t widest_axis = 0;
-  double below = 0, above = 0;
+  double below = 0, above = 0,
+         bow = 0;  // bow: how far their middle lies from the node, of the half width
 
   Spread(const WeightedDraws& draws, Eigen::Index i, double at_node,
          const std::function<double(const double* x)>& quantity)
@@ -76,6 +77,7 @@ struct Spread {
         widest_axis = axis;
         below = a;
         above = b;
+        bow = middle / half;
       } else {
         others += half * half;
       }
@@ -242,11 +244,13 @@ std::vector<double> cell_shares(const WeightedDraws& draws,
       spread.half_width = spread.widest = spread.others = 0;
     }
     // Along the widest axis the density is the parabola about its middle that has the mean and the mean square of the
-    // mass, as far as it is no lower than nothing; s runs from -1/2 to 1/2.
+    // mass where the number runs straight along it, else the line with its mean; s runs from -1/2 to 1/2.
     const double a = spread.widest, b = std::sqrt(spread.others),
                  off = std::clamp(spread.off, -a / 3, a / 3), middle = spread.center - off;
     const double tilt = a > 0 ? 6 * off / a : 0,
-                 bend = std::clamp(180 * (Along(draws, i, spread.widest_axis).square - 1.0 / 12),
+                 straight = std::max(0.0, 1 - std::abs(spread.bow) / 0.02),
+                 bend = straight *
+                        std::clamp(180 * (Along(draws, i, spread.widest_axis).square - 1.0 / 12),
                                    -6.0, 6.0);
     // The integral up to x of its distribution.
     const auto integral = [=](double x) {

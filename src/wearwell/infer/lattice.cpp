@@ -28,10 +28,10 @@ constexpr long most_nodes = 6'000'000;
 constexpr int farthest = 3000;  // steps along an axis: beyond, the mass has no end
 // Finer than sums ask for: quantiles of a posterior whose cells are as wide as those that sum well are wrong by some
 // hundredths of a standard deviation, which falls with the fourth power of the step.
-constexpr double widest_told = 0.62;
+constexpr double widest_told = 0.55;
 constexpr int most_across = 80;  // steps along a line on either side of its mode
 // Of the step between lines that along them: half the lines are a lattice of finer dual than every second node of a line.
-constexpr double line_share = 0.8, longest_on_line = 0.7;
+constexpr double line_share = 0.95, longest_on_line = 0.7;
 // Where a line is thinner than this share of what its parameter spreads over, no quantile needs all of its nodes.
 constexpr double thin_share = 1.0 / 3;
 
