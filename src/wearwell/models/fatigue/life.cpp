@@ -55,7 +55,7 @@ void MixedLife::add(double weight, double center, double sigma) {
 
 void MixedLife::merge() {
   // Of cells, in sigma: within one, a twelfth of its square is lost of the variance.
-  constexpr double width = 0.01;
+  constexpr double width = 0.005;
   std::unordered_map<std::uint64_t, std::size_t> cells;
   std::vector<double> weight, center, sigma;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
