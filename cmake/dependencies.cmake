@@ -31,3 +31,14 @@ endif()
 find_path(CERES_JET_INCLUDE_DIR ceres/jet.h REQUIRED)
 find_path(PROTOZERO_INCLUDE_DIR protozero/pbf_reader.hpp REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+
+# A source that sees nlohmann/json's string literal instantiates the parser whether it uses it or not, as the literal is an inline
+# function: 0.45 s of GCC 12's time each. Nobody here uses it, so our sources see a copy of the header that only declares it.
+find_path(JSON_INCLUDE_DIR nlohmann/json.hpp REQUIRED)
+set(json_copy ${PROJECT_BINARY_DIR}/include/nlohmann/json.hpp)
+if(NOT EXISTS ${json_copy} OR ${JSON_INCLUDE_DIR}/nlohmann/json.hpp IS_NEWER_THAN ${json_copy})
+  file(READ ${JSON_INCLUDE_DIR}/nlohmann/json.hpp json)
+  string(REPLACE "{\n    return nlohmann::json::parse(s, s + n);\n}" ";" json "${json}")
+  file(WRITE ${json_copy} "${json}")
+endif()
+include_directories(SYSTEM ${PROJECT_BINARY_DIR}/include)

@@ -25,17 +25,40 @@ if(WEARWELL_BUILD_TESTS)
   target_compile_options(wearwell_test_headers PRIVATE ${test_options})
 endif()
 
+# Sources of one folder are compiled eight at a time where WEARWELL_UNITY says so (presets `release` and of sanitizers): most of what a
+# source costs is what its neighbours cost too. Helpers of a folder therefore have names of their own; ALONE are those that
+# do not.
+function(wearwell_batches target)
+  cmake_parse_arguments(ARG "" "" "SOURCES;ALONE" ${ARGN})
+  if(NOT WEARWELL_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # What a neighbour names is no global that a local would hide, nor does its source become a header.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> -Wno-subobject-linkage)
+  set(at 0)
+  foreach(source ${ARG_SOURCES})
+    if(NOT source IN_LIST ARG_ALONE)
+      math(EXPR batch "${at} / 8")
+      math(EXPR at "${at} + 1")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP batch${batch})
+    endif()
+  endforeach()
+endfunction()
+
 # One library per folder, so that an include against the direction of the design fails to link.
 #
 #   wearwell_library(bayes SOURCES posterior.cpp USES prob table LIBRARIES fmt::fmt)
 #
-# A folder without sources is a header-only library. USES names folders, LIBRARIES third parties.
+# A folder without sources is a header-only library. USES names folders, LIBRARIES third parties, ALONE those sources that are
+# not compiled together with others (wearwell_batches).
 function(wearwell_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;USES;LIBRARIES;ALONE" ${ARGN})
   list(TRANSFORM ARG_USES PREPEND wearwell_)
   if(ARG_SOURCES)
     add_library(wearwell_${name} STATIC ${ARG_SOURCES})
     target_precompile_headers(wearwell_${name} REUSE_FROM wearwell_headers)
+    wearwell_batches(wearwell_${name} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE})
     set(scope PUBLIC)
   else()
     add_library(wearwell_${name} INTERFACE)
@@ -64,11 +87,12 @@ endfunction()
 #
 #   wearwell_test(prob SOURCES law_test.cpp USES prob)
 function(wearwell_test name)
-  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;USES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;USES;LIBRARIES;ALONE" ${ARGN})
   list(TRANSFORM ARG_USES PREPEND wearwell_)
   add_executable(test_${name} ${ARG_SOURCES})
   target_compile_options(test_${name} PRIVATE ${test_options})
   target_precompile_headers(test_${name} REUSE_FROM wearwell_test_headers)
+  wearwell_batches(test_${name} SOURCES ${ARG_SOURCES} ALONE ${ARG_ALONE})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(test_${name} PRIVATE
     ${ARG_USES} ${ARG_LIBRARIES} Eigen3::Eigen fmt::fmt GTest::gmock_main rapidcheck)

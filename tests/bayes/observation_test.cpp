@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const std::vector<double> measured{4.44e-9, 5.105e-9, 8.825e-9};  // m^3
 const double mean[] = {1e-9, 2e-9, 9e-9}, sd = 2.5e-9;
 

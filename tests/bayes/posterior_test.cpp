@@ -5,18 +5,16 @@
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
-#include <limits>
 
 #include "support/between.h"
 #include "wearwell/base/error.h"
 #include "wearwell/bayes/observation.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // y_i = offset + rate t_i with scatter sigma; parameters rate, sigma, offset, of which the last may
 // be left out (0), and sigma too (1).

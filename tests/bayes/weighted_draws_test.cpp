@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "support/between.h"
 #include "wearwell/bayes/cell_shares.h"
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double itself(const double* x) {
   return x[0];

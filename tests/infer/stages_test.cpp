@@ -8,6 +8,7 @@
 #include "wearwell/infer/natural_mode.h"
 #include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/math/view.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/models/joint/archard.h"
@@ -16,8 +17,6 @@ namespace wearwell {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 FitSettings exact_settings() {
   FitSettings settings;

@@ -5,10 +5,10 @@
 #include "support/formula.h"
 #include "wearwell/models/joint/archard.h"
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Parameter with_law(const std::string& name, const Family& family, double lower, double upper,
                    double start) {

@@ -9,6 +9,7 @@
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
 #include "wearwell/input/prior.h"
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
@@ -42,7 +43,6 @@ std::vector<Line> lines_of_page() {
 class PriorDocs : public ScratchTest {
  protected:
   Parameter read(const std::string& name, const std::vector<std::string>& keys) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const std::map<std::string, ParameterSpec> specs = {
         {"k",
          {"k", "m^3/(N m)", 0, infinity, 7e-13,

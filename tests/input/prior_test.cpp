@@ -6,14 +6,13 @@
 
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
 
 using testing::HasSubstr;
 using testing::MatchesRegex;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class PriorTest : public ScratchTest {
  protected:

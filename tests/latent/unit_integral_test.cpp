@@ -5,10 +5,10 @@
 #include <cmath>
 #include <functional>
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell::latent {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Units whose log likelihoods are given formulas, with slopes by differences.
 class Formulas final : public UnitTerms {

@@ -5,14 +5,14 @@
 
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <limits>
 
 #include "support/between.h"
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double z95 = 1.6448536269514722;  // R: qnorm(0.95)
 
 const Function mean = [](const double* x) { return x[0]; };

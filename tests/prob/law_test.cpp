@@ -12,11 +12,10 @@
 
 #include "support/between.h"
 #include "wearwell/base/error.h"
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Family family_of(const std::string& name, double a, double b, double c) {
   if (name == "normal") return Normal{a, b};

@@ -7,10 +7,10 @@
 
 #include "support/golden.h"
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<Response> lives(const std::vector<double>& entry) {
   const double t[] = {2, 3, 3, 5, 6, 6, 8, 11, 12, 15};

@@ -7,12 +7,11 @@
 #include <sstream>
 #include <string>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/prob/response_block.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Of the lognormal family the first, by median.
 ResponseFamily family_of(const std::string& name) {

@@ -5,15 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "wearwell/base/rng.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/prognosis/weighted_quantiles.h"
 
 namespace wearwell::prognosis {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 WeightedLives lives(const std::vector<double>& life, const std::vector<double>& weight) {
   return WeightedLives(life, weight);

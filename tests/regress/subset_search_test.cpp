@@ -9,12 +9,11 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/regress/terms.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Problem {
   Eigen::MatrixXd columns;

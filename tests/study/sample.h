@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/study/posterior_result.h"
 #include "wearwell/study/saved_result.h"
 
@@ -10,7 +11,6 @@ namespace wearwell {
 /// A small result with everything in it: two chains of NUTS, two parameters, one stage, a life
 /// that may never end.
 inline PosteriorSummary sample_result() {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   PosteriorSummary result;
   result.version = "1.2.3";
   result.title = "Pin joint";

@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Over observations: their number, the sum of a value and that of squared distances from its mean.
 struct Sums {

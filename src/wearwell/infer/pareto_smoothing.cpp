@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/math/log_sum_exp.h"
 
 namespace wearwell {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
-
 double GeneralizedPareto::quantile(double p) const {
   const double survival = std::log1p(-p);
   return std::abs(k) < 1e-12 ? -sigma * survival : sigma * std::expm1(-k * survival) / k;

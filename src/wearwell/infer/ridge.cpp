@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wearwell/infer/maximize.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -56,7 +57,6 @@ ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& gu
       best = &guess;
     }
   }
-  const double infinity = std::numeric_limits<double>::infinity();
   const Box everywhere{Eigen::VectorXd::Constant(n, -infinity),
                        Eigen::VectorXd::Constant(n, infinity)};
   constexpr double enough = 1e-6;  // a Laplace approximation asks for no more

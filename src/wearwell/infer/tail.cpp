@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "wearwell/infer/ridge.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -26,8 +26,6 @@ constexpr int most_failures = 6;
 
 // A density that has fallen by so much (log), and falls like so high a power, has no tail.
 constexpr double fallen = 200, steep = 50;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 const Parameter& parameter_of(const Posterior& posterior, int i) {
   return posterior.parameters()[static_cast<std::size_t>(i)];

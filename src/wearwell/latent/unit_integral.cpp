@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "wearwell/math/constants.h"
 
 // Longer than others: one integrand: its mode, its nodes about it, and the sums over them.
 namespace wearwell::latent {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double log_sqrt_two_pi = 0.91893853320467274178;
 constexpr double negligible = -36;        // of log f below its highest
 constexpr double farthest = 1000;         // of z: beyond there is nothing
 constexpr double most_difference = 3e-6;  // between a rule and every second node of it
@@ -271,7 +270,7 @@ class Lattice {
     terms_.evaluate(s.z, wanted_, value_, {});
     for (std::size_t u = 0; u < units_; ++u) {
       if (!wanted_[u]) continue;
-      s.log_f[u] = value_[u] - static_cast<double>(effects_) * log_sqrt_two_pi;
+      s.log_f[u] = value_[u] - static_cast<double>(effects_) * half_log_two_pi;
       for (std::size_t e = 0; e < effects_; ++e) {
         s.log_f[u] -= 0.5 * s.z[u * effects_ + e] * s.z[u * effects_ + e];
       }

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell::law {
 namespace {
 
@@ -51,7 +53,6 @@ inline double vector_log(double x) {
   const double r = z * (l1 + w * (l3 + w * (l5 + w * l7))) + w * (l2 + w * (l4 + w * l6));
   const double half_square = 0.5 * f * f;
   double y = s * (half_square + r) + k * ln2_low - half_square + f + k * ln2_high;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   y = x < infinity ? y : x;  // infinity and NaN as they are
   y = x == 0 ? -infinity : y;
   return x < 0 ? std::numeric_limits<double>::quiet_NaN() : y;

@@ -13,13 +13,11 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double log_two_pi = 1.8378770664093454836;
 
 struct Support {
   double lower;

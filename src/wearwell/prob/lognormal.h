@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell {
 
 /// log x is normal with mean `eta` and standard deviation `zeta` (An et al. 2011, eq. 8).
@@ -42,7 +44,6 @@ T log_kernel(const Lognormal& law, const T& x) {
 template <class T>
 T lognormal_log_density(double log_x, const T& mean, const T& sd) {
   using std::log;
-  constexpr double half_log_two_pi = 0.91893853320467274178;
   const LognormalByMoments<T> law(mean, sd);
   const T z = (log_x - law.eta) / law.zeta;
   return -0.5 * z * z - log(law.zeta) - half_log_two_pi - log_x;

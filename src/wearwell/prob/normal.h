@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell {
 
 struct Normal {
@@ -19,7 +21,6 @@ T log_kernel(const Normal& law, const T& x) {
 /// inverse_sd: the logarithm and the division are shared by all observations of one likelihood.
 template <class T>
 T normal_log_density(double x, const T& mean, const T& inverse_sd, const T& log_sd) {
-  constexpr double half_log_two_pi = 0.91893853320467274178;
   const T z = (x - mean) * inverse_sd;
   return -0.5 * z * z - log_sd - half_log_two_pi;
 }

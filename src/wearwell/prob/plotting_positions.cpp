@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<PlottingPosition> by_kaplan_meier(std::span<const Response> responses,
                                               std::span<const int> counts) {

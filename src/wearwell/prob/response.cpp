@@ -3,6 +3,7 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/math/quadrature.h"
 #include "wearwell/math/root.h"
 #include "wearwell/prob/gamma_tail.h"
@@ -12,9 +13,6 @@
 // Longer than others: the families side by side, each with every censoring.
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double ln10 = 2.302585092994045684;
 
 using std::exp;
 using std::log;

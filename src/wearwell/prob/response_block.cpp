@@ -2,12 +2,10 @@
 
 #include <cmath>
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double half_log_two_pi = 0.91893853320467274178;
-constexpr double ln10 = 2.302585092994045684;
 
 // The normal law of y, or of its logarithm, row by row: `location` and `scale` are of that.
 struct NormalRow {

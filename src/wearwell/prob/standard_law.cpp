@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/math/quadrature.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double half_log_two_pi = 0.91893853320467274178;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double log_one_plus_exp(double z) {
   return z > 0 ? z + std::log1p(std::exp(-z)) : std::log1p(std::exp(z));

@@ -6,19 +6,18 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <tuple>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/sha1.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/prognosis/bytes.h"
 #include "wearwell/prognosis/weighted_quantiles.h"
 
 namespace wearwell::prognosis {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_effective = 0.5;   // of the number when nodes were laid
 constexpr double hardly_possible = 1e-4;  // a surprise below contradicts
 constexpr std::size_t most_sampled = 128;

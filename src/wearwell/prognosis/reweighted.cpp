@@ -3,8 +3,9 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <limits>
 #include <span>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -18,7 +19,6 @@ double effective_of(const Eigen::VectorXd& weights) {
 Reweighted reweighted(const WeightedDraws& draws, const Posterior& before, const Posterior& after) {
   const Eigen::Index n = draws.values.rows();
   const auto d = static_cast<std::size_t>(draws.values.cols());
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   Eigen::VectorXd log_ratio = Eigen::VectorXd::Constant(n, -infinity);
   tbb::parallel_for(Eigen::Index{0}, n, [&](Eigen::Index i) {
     if (!(draws.weights[i] > 0) && !(draws.cell_weight(i) > 0)) return;

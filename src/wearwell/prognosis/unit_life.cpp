@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -17,14 +16,13 @@
 #include "wearwell/input/columns.h"
 #include "wearwell/input/toml_edit.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/prognosis/data_roles.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/life_levels.h"
 
 namespace wearwell::prognosis {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double probit(double p) {
   return boost::math::quantile(boost::math::normal(), p);

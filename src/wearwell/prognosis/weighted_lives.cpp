@@ -7,12 +7,11 @@
 #include <numeric>
 #include <utility>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/prognosis/float_order.h"
 
 namespace wearwell::prognosis {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Point {
   double life, weight;

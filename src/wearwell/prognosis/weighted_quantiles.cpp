@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/prognosis/float_order.h"
 #include "wearwell/prognosis/weighted_lives.h"
 
 namespace wearwell::prognosis {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t bins = 4096;
 
 struct Point {

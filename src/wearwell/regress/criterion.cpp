@@ -4,11 +4,11 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include "wearwell/base/error.h"
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
@@ -20,8 +20,6 @@ constexpr std::array<std::pair<std::string_view, Criterion>, 6> names = {
      {"bic", Criterion::bic},
      {"cp", Criterion::cp},
      {"adjr2", Criterion::adjr2}}};
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

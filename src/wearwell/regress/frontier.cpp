@@ -1,12 +1,11 @@
 #include "wearwell/regress/frontier.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool later(const Branch& a, const Branch& b) {
   return a.bound > b.bound;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 long long tie_class(double score) {
   return std::llround(std::log(score) * 1e10);

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/regress/submodel.h"
 
 namespace wearwell {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Candidate {
   TermSet set = 0;

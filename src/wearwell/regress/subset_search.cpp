@@ -8,13 +8,13 @@
 #include <thread>
 
 #include "wearwell/base/error.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/regress/branch_and_bound.h"
 #include "wearwell/regress/seed_models.h"
 
 namespace wearwell {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_free_for_points = 25, most_free_for_bins = 30;
 
 TermSet read_terms(const char* what, const std::vector<int>& chosen, int terms) {

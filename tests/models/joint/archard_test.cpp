@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "support/between.h"
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell::joint {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The joint of An et al. (2011) in SI: k about 5e-13 m^3/(N m), some 1e5 J of work.
 struct Case {

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "wearwell/base/error.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/models/bearing/bearing_data.h"
 #include "wearwell/models/bearing/bearing_study.h"
 #include "wearwell/models/bearing/rate_grid.h"
@@ -26,8 +27,6 @@ namespace {
 
 using prognosis::Reading;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double half_log_two_pi = 0.91893853320467274178;
 constexpr std::size_t few_points = 1000, many_points = 4000, points_alone = 2000;
 constexpr double least_few = 0.3;  // of the few points' effective number: then many are taken
 

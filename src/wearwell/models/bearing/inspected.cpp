@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 #include "wearwell/models/bearing/wear_number.h"
 
 namespace wearwell::bearing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // From so many rows on a table is faster than their sum.
 constexpr std::size_t rows_for_table = 8;

@@ -6,14 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/models/bearing/rate_integral.h"
 #include "wearwell/models/bearing/seen_bearing.h"
 
 namespace wearwell::bearing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double half_log_two_pi = 0.91893853320467274178;
 constexpr double tail = -16;       // log of what is left out over the largest
 constexpr double rule_step = 0.8;  // of a width: where one point's integrand lies
 // Of the mean width: where sigma is known there is one class, else 32 of them lie dense together.

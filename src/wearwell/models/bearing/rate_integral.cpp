@@ -8,14 +8,14 @@
 #include <optional>
 #include <vector>
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell::bearing {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double negligible = -23;  // 1e-10 of the top
 constexpr int most_stretches = 60;
 constexpr int most_tops = 20;
-constexpr double half_log_two_pi = 0.91893853320467274178;
 
 // Sums of the integrand and its derivatives over nodes, relative to exp(top).
 struct Sums {

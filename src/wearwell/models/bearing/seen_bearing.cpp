@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/models/bearing/inspected.h"
 #include "wearwell/models/bearing/rate_integral.h"
 #include "wearwell/prognosis/weighted_lives.h"
@@ -56,7 +57,6 @@ Share share_of(const Inspected& inspected, const WearModel& model, const double*
 // Adds what a point says of ln k at even places.
 void add_share(const Share& share, const Inspected& inspected, double first, double step,
                std::vector<double>& density) {
-  constexpr double half_log_two_pi = 0.91893853320467274178;
   const double before =
       std::log(share.weight * step / share.scatter) - share.log_integral - half_log_two_pi;
   const auto begin =

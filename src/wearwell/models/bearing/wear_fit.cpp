@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "wearwell/base/error.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 #include "wearwell/models/bearing/inspected.h"
 #include "wearwell/models/bearing/rate_integral.h"
 
 namespace wearwell::bearing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double half_log_two_pi = 0.91893853320467274178;
 
 // log of the integral over the rates of one bearing, for the scalars of a formula.
 double scattered(const Inspected& bearing, double log_k, double sigma, double scatter) {

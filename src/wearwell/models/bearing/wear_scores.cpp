@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell::bearing {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // What the rows of one bearing so far say of its z, ln k_b = ln k + scatter z: the logarithm of a
 // density on even points.

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell::fatigue {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of crack growth, in the mean over steels (Liu and Zenner).
 constexpr double crack_slope = 3.6;
 

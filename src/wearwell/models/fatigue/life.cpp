@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/math/root.h"
 #include "wearwell/models/fatigue/random_limit.h"
 
 namespace wearwell::fatigue {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_decades = 300;
 
 double normal_cdf(double z) {

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <limits>
 #include <optional>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell::fatigue {
 namespace {
@@ -11,7 +12,6 @@ namespace {
 using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
 using Gauss = boost::math::quadrature::gauss<double, 7>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double negligible = 34;  // e^-34 is 2e-15
 /// Of the difference between Kronrod's and Gauss's sums; the error of Kronrod's is far smaller,
 /// about (200 difference)^1.5.

@@ -9,11 +9,12 @@
 #include <span>
 #include <vector>
 
+#include "wearwell/math/constants.h"
+
 // Longer than others: one rule, whose nodes are found, filled and judged over the same table.
 namespace wearwell::fatigue {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double root_half = M_SQRT1_2, per_root_two_pi = 0.3989422804014327;
 const double decade = std::log(10.0);
 

@@ -7,13 +7,13 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/predict/cell_mixture.h"
 
 namespace wearwell::fatigue {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double negligible = 1e-9;
 constexpr double golden = 0.6180339887498949;  // its multiples are the most even modulo 1
 constexpr std::size_t sums_per_draw = 4, limits_per_draw = 16;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/math/root.h"
 
 namespace wearwell::fatigue {
@@ -58,7 +59,6 @@ double walker_at_mean(double reversed, double mean, double gamma) {
 
 double alternating_stress(MeanStress correction, double reversed, const StressLine& line,
                           double strength, double gamma) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double mean = line.mean;
   // Mean over alternating stress, where that is what stays.
   const double slope = line.ratio ? (1 + *line.ratio) / (1 - *line.ratio) : 0;

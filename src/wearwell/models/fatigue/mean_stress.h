@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 
 namespace wearwell::fatigue {
@@ -51,7 +51,6 @@ std::string strength_name(MeanStress correction);
 template <class T>
 T log10_factor(MeanStress correction, const Stress& stress, const T& strength, const T& gamma) {
   using std::log;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double per_decade = 1 / std::log(10.0);
   switch (correction) {
     case MeanStress::none:

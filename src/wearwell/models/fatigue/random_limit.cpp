@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/models/fatigue/limit_integral.h"
 #include "wearwell/models/fatigue/limit_lattice.h"
 
 namespace wearwell::fatigue {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Broken by then with a limit below the stress, or, of runouts, broken later.
 LimitedLifeSlopes integral(const LimitedLife<double>& item, Outcome outcome, double at,

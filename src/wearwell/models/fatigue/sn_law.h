@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/models/fatigue/mean_stress.h"
 #include "wearwell/prob/standard_law.h"
 
@@ -100,7 +101,6 @@ struct SnLaw {
   T log10_life(const T* x, const T& log10_reversed) const {
     using std::exp;
     using std::log;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const double decade = std::log(10.0);
     // log10 of S - limit.
     const auto above = [&](const T& log10_limit) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 #include "wearwell/models/fatigue/random_limit.h"
 #include "wearwell/prob/normal.h"
@@ -225,7 +226,6 @@ class SnLikelihood final : public LogDensity {
     using std::log;
     const Row& row = rows_[i];
     const Outcome outcome = tests_[i].outcome;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     if (!std::isfinite(scalar(location))) {
       // Below a limit of all items life has no end.
       return T(scalar(location) > 0 && outcome == Outcome::runout ? 0 : -infinity);

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/models/fatigue/random_limit.h"
 
 namespace wearwell::fatigue {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double cdf_above(StandardLaw law, double z) {
   return std::exp(log_survival(law, z));

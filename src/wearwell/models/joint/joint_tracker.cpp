@@ -12,6 +12,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/infer/fit.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/models/joint/archard.h"
 #include "wearwell/models/joint/joint_data.h"
 #include "wearwell/models/joint/joint_study.h"
@@ -25,7 +26,6 @@ namespace {
 using prognosis::NodeCloud;
 using prognosis::Reading;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t points = 2000;
 
 // One inspection, in SI.

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell::ownlaw {
 
@@ -22,7 +23,6 @@ void search_crossings(bool rising, double begin, double scale, std::size_t count
                       double* place, double* ahead) {
   constexpr int most_outward = 60, most_inward = 120;
   constexpr std::size_t most = most_crossings;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   double low[most] = {}, high[most] = {}, at_low[most] = {};
   double at_high[most] = {}, trial[most] = {};
   std::uint8_t state[most] = {};  // 0 looks outward, 1 inward, 2 is done

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <span>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell::ownlaw {
 
@@ -10,7 +11,6 @@ namespace wearwell::ownlaw {
 
 /// The largest; -infinity of none.
 inline double highest_of(std::span<const double> values) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   double top[4] = {-infinity, -infinity, -infinity, -infinity};
   std::size_t i = 0;
   for (; i + 4 <= values.size(); i += 4) {

@@ -1,16 +1,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "wearwell/base/rng.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/chebyshev_series.h"
 #include "wearwell/models/ownlaw/mismatch_table.h"
 
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t terms = MismatchTable::terms;
 constexpr double least_posterior =
     22;  // log of the posterior below its highest that a fit goes down to

@@ -11,11 +11,10 @@
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/heading.h"
+#include "wearwell/math/constants.h"
 
 namespace wearwell::ownlaw {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Columns>
 auto find(const Columns& columns, const std::string& name) {

@@ -4,14 +4,12 @@
 
 #include <bit>
 #include <cmath>
-#include <limits>
 
 #include "wearwell/base/rng.h"
+#include "wearwell/math/constants.h"
 
 namespace wearwell::ownlaw {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Of one value; of normal laws without their distribution function.
 double place(ResponseFamily family, double value, const double* slots, double trials) {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <boost/math/special_functions/digamma.hpp>
 #include <cmath>
-#include <limits>
+
+#include "wearwell/math/constants.h"
 
 // Longer than others: a lattice, the law of a step on it, and the passes there and back.
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double log_two_pi = 1.8378770664093454836;
 constexpr int stencil = 6;
 constexpr int most_nodes = 20'000;  // of a row: what looks farther is no density to compute with
 

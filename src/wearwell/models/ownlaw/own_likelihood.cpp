@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 
 // Longer than others: one likelihood: rows, effects integrated out, gradients of both.
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t rows_of_call = 256;
 
 // Columns and labels of these rows, kept while a program binds them.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <regex>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/lognormal_unit.h"
 #include "wearwell/models/ownlaw/normal_unit.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
@@ -11,9 +12,6 @@
 // Longer than others: one special case of the likelihood, whose sums are all of one kind.
 namespace wearwell::ownlaw {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double half_log_two_pi = 0.91893853320467274178;
 
 using Matrix2 = Eigen::Matrix2d;
 using Vector2 = Eigen::Vector2d;

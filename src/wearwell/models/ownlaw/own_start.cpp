@@ -6,12 +6,11 @@
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/maximize.h"
 #include "wearwell/infer/mode.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell::ownlaw {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // The likelihood, seen from a posterior that does not own it.
 std::shared_ptr<const LogDensity> borrowed(const LogDensity& density) {

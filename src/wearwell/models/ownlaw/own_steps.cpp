@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <boost/math/special_functions/digamma.hpp>
 #include <cmath>
-#include <limits>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
 namespace wearwell::ownlaw {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double log_two_pi = 1.8378770664093454836;
 
 // Not in long double, which is several times as dear.
 double digamma(double x) {

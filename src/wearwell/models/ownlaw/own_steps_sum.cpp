@@ -1,19 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/models/ownlaw/own_steps.h"
 #include "wearwell/models/ownlaw/unit_rule.h"
 
 namespace wearwell::ownlaw {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double half_log_two_pi = 0.91893853320467274178;
-
-}  // namespace
-
 // Of the logarithm of a unit's integrand.
 double StepUnits::slope_by_z(const Unit& unit, double z) const {
   const Population& population = rows_.population();

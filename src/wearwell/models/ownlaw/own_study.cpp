@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/bayes/posterior.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/identified.h"
 #include "wearwell/models/ownlaw/life_paper.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
@@ -24,8 +25,6 @@ using ownlaw::Effect;
 using ownlaw::Measured;
 using ownlaw::OwnLaw;
 using ownlaw::OwnRows;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string in_words(const OwnLaw& law) {
   std::vector<std::string> parts;

@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <regex>
 
 #include "wearwell/law/no_columns.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/models/ownlaw/unit_rule.h"
 
 namespace wearwell::ownlaw {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double half_log_two_pi = 0.91893853320467274178;
-constexpr double ln10 = 2.30258509299404568402;
 
 // Slots of the study's parameters that an expression of the rows leans on, other than effects.
 std::vector<std::size_t> leans_on(const OwnLaw& law, const law::Wanted& wanted) {

@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "wearwell/base/error.h"
 #include "wearwell/law/kernels.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/lanes.h"
 #include "wearwell/models/ownlaw/state_bytes.h"
 
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_effective =
     0.5;  // of the number when nodes were laid: then they are laid anew
 constexpr double hardly_possible = 1e-4;  // a surprise below contradicts

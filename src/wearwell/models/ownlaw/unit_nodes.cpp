@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "wearwell/law/kernels.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/lanes.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double log_two_pi = 1.8378770664093454836;
 constexpr std::size_t few_lines = 256, most_lines = 600, many_lines = 2000, per_line = 10;
 constexpr std::size_t few_alone = 2000, many_alone = 20'000;  // where nothing varies
 constexpr double tail = 1e-5;      // of a line: beyond its nodes lies as much on either side
