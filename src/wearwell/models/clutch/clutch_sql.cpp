@@ -328,7 +328,9 @@ ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Diale
   sql.known = writer.known();
   sql.fresh = writer.fresh();
   sql.gather = writer.gather();
-  sql.kept = writer.kept();
+  sql.columns = writer.sums_columns();
+  sql.layout = writer.layout();
+  sql.exists = writer.exists();
   sql.others = writer.others();
   return sql;
 }

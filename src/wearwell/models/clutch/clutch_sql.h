@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "wearwell/fleet/dialect.h"
 #include "wearwell/models/clutch/wear_model.h"
@@ -68,8 +69,10 @@ struct ClutchSql {
   /// and cycle; of each unit the last cycle that was counted, and its energy so far, halves of
   /// 32 bits each; a temporary table that takes sums, and the statement that adds them to those kept.
   std::string stream, sorted, known, fresh, gather;
-  /// SELECT: units of this model of which sums are kept, and those whose replicates are. Not of ClickHouse.
-  std::string kept;
+  /// Columns of the table of sums, as this run has them; SELECT: those of the table that is there, each with 1 where it
+  /// is of the key. Of ClickHouse the table may be missing, which `exists` tells (elsewhere empty).
+  std::vector<std::string> columns;
+  std::string layout, exists;
   std::string
       others;  ///< SELECT: another model of which sums are kept, where there are none of this
 };

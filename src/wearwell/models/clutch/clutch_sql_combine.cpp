@@ -286,13 +286,28 @@ std::string SqlWriter::gather() const {
                      adding());
 }
 
-/// Where the table has no column v1 the name is that of the row outside, which is nothing.
-std::string SqlWriter::kept() const {
-  const std::string count = fmt::format("(select {} from {} where model = {}",
-                                        fleet::real(dialect_, "count(*)"), sums_table_, id_);
-  return fmt::format(
-      "select {0}), {0} and v1 is not null) from (select cast(null as {1}) as v1) as outside",
-      count, types_.whole);
+std::string SqlWriter::layout() const {
+  const std::string table = fleet::literal(dialect_, sums_table_);
+  switch (dialect_) {
+    case fleet::Dialect::duckdb:
+      return fmt::format("select name, cast(pk as double) from pragma_table_info({})", table);
+    case fleet::Dialect::postgresql:
+      return fmt::format(
+          "select cast(a.attname as text), case when a.attnum = any(i.indkey) then 1e0 else 0e0 "
+          "end "
+          "from pg_catalog.pg_attribute as a left join pg_catalog.pg_index as i on i.indrelid = "
+          "a.attrelid and i.indisprimary where a.attrelid = to_regclass({}) and a.attnum > 0 and "
+          "not "
+          "a.attisdropped",
+          table);
+    case fleet::Dialect::clickhouse:
+      break;
+  }
+  return "describe table " + sums_table_;
+}
+
+std::string SqlWriter::exists() const {
+  return clickhouse() ? "exists table " + sums_table_ : "";
 }
 
 std::string SqlWriter::others() const {

@@ -13,6 +13,7 @@
 #include "wearwell/models/clutch/clutch_sql.h"
 #include "wearwell/models/clutch/fleet_columns.h"
 #include "wearwell/models/clutch/fleet_loop.h"
+#include "wearwell/models/clutch/kept_sums.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -71,27 +72,6 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
   return check;
 }
 
-void refuse_late(fleet::Engine& engine, const ClutchSql& sql) {
-  engine.rows(sql.late, 1, [&](const fleet::Row& row) {
-    throw InputError(
-        fmt::format("{}: unit {} has {:.0f} cycles up to the last one that was counted, of which "
-                    "{:.0f} were counted: "
-                    "rows came late or went; sum them all anew, without --state",
-                    engine.source(), printable(row.texts.front()), row.numbers[0], row.numbers[1]));
-  });
-}
-
-/// Files hold what is new, as a rule: to begin anew beside another model's sums would lose what that has
-/// counted.
-void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::string& model) {
-  engine.rows(sql.others, 1, [&](const fleet::Row& row) {
-    throw InputError(
-        fmt::format("{}: --state holds the sums of another model ({}; this is {}), which cannot go "
-                    "on: sum all cycles anew, into another file",
-                    engine.source(), printable(row.texts.front()), model));
-  });
-}
-
 void refuse_repeated(const fleet::Engine& engine, const UnitSums& sums) {
   if (sums.repeated > 0)
     throw InputError(fmt::format("{}: unit {} has {:.0f} cycles whose number stands there twice",
@@ -116,19 +96,6 @@ struct Shard {
   double rows = 0;
   std::string ranges = {};
 };
-
-/// The sums of a run with another option lack what this one adds to, or would stay behind.
-void refuse_other_option(fleet::Engine& engine, const ClutchSql& sql, const FleetRequest& request,
-                         bool full) {
-  if (engine.dialect() == fleet::Dialect::clickhouse) return;
-  engine.rows(sql.kept, 0, [&](const fleet::Row& row) {
-    if (row.numbers[0] > 0 && (row.numbers[1] > 0) != full)
-      throw InputError(fmt::format(
-          "{}: the sums kept in {}_sums were made {} --scatter-only: go on with the same option, "
-          "or elsewhere",
-          engine.source(), request.prefix, full ? "with" : "without"));
-  });
-}
 
 /// Where a summand does not fit its column.
 [[noreturn]] void explain(Shard& shard, const InputError& error) {
@@ -192,11 +159,15 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
     shard.ranges = check.ranges;
   }
   try {
+    // ClickHouse has no transaction that would take the tables away again.
+    const bool before = engine.dialect() == fleet::Dialect::clickhouse;
+    if (before) refuse_other_layout(engine, shard.sql, request.prefix);
     engine.run(shard.sql.setup, {}, "", 0);
-    if (!request.first && dynamic_cast<fleet::ColumnEngine*>(&engine))
-      refuse_others(engine, shard.sql, model.id);
-    if (!request.first) refuse_other_option(engine, shard.sql, request, full);
-    if (!request.first) refuse_late(engine, shard.sql);
+    if (!request.first) {
+      if (!before) refuse_other_layout(engine, shard.sql, request.prefix);
+      if (dynamic_cast<fleet::ColumnEngine*>(&engine)) refuse_others(engine, shard.sql, model.id);
+      refuse_late(engine, shard.sql);
+    }
     if (columns) {
       sum_shard_by_loop(shard, *columns, model, request, full, monitor);
     } else {

@@ -55,7 +55,9 @@ class SqlWriter {
   std::string known() const;
   std::string fresh() const;
   std::string gather() const;
-  std::string kept() const;
+  std::vector<std::string> sums_columns() const;
+  std::string layout() const;
+  std::string exists() const;
   std::string others() const;
 
  private:
@@ -71,7 +73,6 @@ class SqlWriter {
   /// PostgreSQL would put expressions into each other, and compute them as often as they are used.
   const char* fence() const { return dialect_ == fleet::Dialect::postgresql ? "\noffset 0" : ""; }
   std::vector<std::string> sum_names() const;
-  std::vector<std::string> sums_columns() const;
   std::string kept_names() const;
   std::string adding() const;
   std::string parameters() const;
