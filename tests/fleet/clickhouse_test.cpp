@@ -102,6 +102,12 @@ TEST_F(ClickhouseFleet, HasTheNumbersOfPredictAndOfDuckdb) {
   const json known = fleet_summary(asked(server.address("reader@")));
   ::unsetenv("CLICKHOUSE_PASSWORD");
   EXPECT_EQ(fleet["worst"].dump(), known["worst"].dump());
+  must(server,
+       "create view dated as select *, toDateTime('2026-01-01 00:00:00') + toInt64(cycle) * 3600 "
+       "as moment from cycles");
+  expect_hours(
+      fleet_summary(asked(server.address(), "dated") + " time=moment --horizon 0 --days 30"),
+      cycles_);
   const json duckdb = fleet_summary(model_ + " " + table_file() + output());
   for (std::size_t i = 0; i < fleet["levels"].size(); ++i)
     EXPECT_NEAR(fleet["levels"][i]["units"].get<double>(),
@@ -172,7 +178,8 @@ TEST_F(ClickhouseFleet, ALawHasTheNumbersOfTheLibrary) {
   values.push_back("erf(wear/(10 [um]))");
   ownlaw::expect_library(ownlaw::law_state(folder()), *engine, "liners", values);
   must(server,
-       "create table pads (id Int32, machine String, mat String, T Float64, TF Float64, t Float64) "
+       "create table pads (id Int32, machine String, mat String, T Float64, TF Float64, hours "
+       "Float64) "
        "engine = MergeTree order by id;\ninsert into pads values" +
            ownlaw::pad_row_values("\\'") + ";\n");
   ownlaw::expect_pads(*fleet::clickhouse_engine(server.address(), "pads"), "pads");

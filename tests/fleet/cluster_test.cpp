@@ -67,6 +67,14 @@ TEST_F(Cluster, PostgresHasTheNumbersOfPredictAndOfDuckdb) {
   EXPECT_LT(difference(fleet, predicted()), 1e-9);
   // Nothing new: not a bit changes.
   EXPECT_EQ(fleet["worst"].dump(), fleet_summary(model_ + engine)["worst"].dump());
+  ASSERT_EQ(server
+                .sql("create view dated as select *, timestamp '2026-01-01' + cycle * interval '1 "
+                     "hour' as moment from cycles")
+                .exit_code,
+            0);
+  expect_hours(fleet_summary(model_ + " --engine " + server.address() + " --table dated" +
+                             output() + columns + " time=moment --horizon 0 --days 30"),
+               cycles_);
   const json duckdb = fleet_summary(model_ + " " + table_file() + output());
   for (std::size_t i = 0; i < fleet["levels"].size(); ++i)
     EXPECT_NEAR(fleet["levels"][i]["units"].get<double>(),
@@ -153,7 +161,7 @@ TEST_F(Cluster, ALawInPostgresHasTheNumbersOfTheLibrary) {
   const auto engine = fleet::postgres_engine(server.address(), "liners");
   ownlaw::expect_library(ownlaw::law_state(folder()), *engine, "liners", ownlaw::law_values());
   const CommandResult pads = server.sql(
-      "create table pads (id integer, machine text, mat text, \"T\" float8, \"TF\" float8, t "
+      "create table pads (id integer, machine text, mat text, \"T\" float8, \"TF\" float8, hours "
       "float8);\ninsert into pads values" +
       ownlaw::pad_row_values("''") + ";\n");
   ASSERT_EQ(pads.exit_code, 0) << pads.err;

@@ -60,13 +60,18 @@ TEST_F(LawSqlTest, DuckdbHasTheNumbersOfTheLibrary) {
 
 // Two effects, a parameter of each label, temperatures with an offset.
 TEST_F(LawSqlTest, DuckdbHasTheNumbersOfTheLibraryForEveryKindOfParameter) {
-  std::string csv = "id,machine,mat,T,TF,t\n";
+  std::string csv = "id,machine,mat,T,TF,hours\n";
   for (const PadRow& each : pad_rows())
     csv += fmt::format("{},{},{},{},{},{}\n", each.id, each.machine, each.material,
                        each.temperature, 32 + 1.8 * each.temperature, each.time);
   const auto engine = fleet::duckdb_engine(
       {.files = {write("pads.csv", csv).string()}, .unit = "machine", .spill = folder()});
   expect_pads(*engine, "cycles");
+  // One column would silently stand for both.
+  SqlExportChoice choice;
+  choice.table = "t";
+  EXPECT_THAT(message_of<InputError>([&] { sql_export(pad_state(), choice); }),
+              HasSubstr("'T' and 't' are one name for DuckDB"));
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ inline const std::vector<PadValue>& pad_values() {
   return values;
 }
 
-/// Puts each value to the engine's table, pad_rows() as id, machine, mat, T (degC), TF (degF), t (h), and holds the answers
+/// Puts each value to the engine's table, pad_rows() as id, machine, mat, T (degC), TF (degF), hours, and holds the answers
 /// against the library's own numbers at the same draws.
 inline void expect_pads(fleet::Engine& engine, const std::string& table) {
   const prognosis::CarriedState state = pad_state();
@@ -122,7 +122,8 @@ inline void expect_pads(fleet::Engine& engine, const std::string& table) {
     SqlExportChoice choice;
     choice.dialect = engine.dialect();
     choice.table = table;
-    if (asked.fahrenheit) choice.columns = {"temperature=TF:degF"};
+    choice.columns = {"time=hours:h"};
+    if (asked.fahrenheit) choice.columns.push_back("temperature=TF:degF");
     choice.keep = {"id"};
     choice.value = asked.value;
     choice.unit = asked.unit;

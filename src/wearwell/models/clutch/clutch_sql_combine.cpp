@@ -7,11 +7,7 @@ namespace wearwell::clutch {
 
 using fleet::number;
 
-namespace {
-
-constexpr int newton_steps = 8;
-
-}  // namespace
+static constexpr int newton_steps = 8;
 
 /// The sums of each unit over all runs, in SI.
 std::string SqlWriter::unit_sums() const {
@@ -244,6 +240,39 @@ std::string SqlWriter::offender() const {
   columns.keep("raw_energy");
   return fmt::format("select\n  {}\nfrom (\n{}\n) as si where {} order by unit, cycle limit 1",
                      columns.text(), si(false), refused());
+}
+
+std::string SqlWriter::times() const {
+  if (source_.time.empty() && source_.per_day.empty()) return "";
+  const std::string unit = this->unit();
+  const std::string nothing = clickhouse() ? "nan" : fmt::format("cast(null as {})", types_.real);
+  SqlColumns columns;
+  columns.add(
+      clickhouse() ? fmt::format("ifNull(toString({}), '')", unit) : fleet::text(dialect_, unit),
+      "wearwell_unit");
+  if (source_.time.empty()) {
+    for (const char* each : {"first_time", "last_time", "timed"}) columns.add(nothing, each);
+  } else {
+    std::string time = "t." + fleet::identifier(dialect_, source_.time);
+    if (dialect_ == fleet::Dialect::duckdb) time = fmt::format("cast({} as timestamp)", time);
+    columns.add(fleet::seconds(dialect_, fmt::format("min({})", time)), "first_time");
+    columns.add(fleet::seconds(dialect_, fmt::format("max({})", time)), "last_time");
+    columns.add(fleet::real(dialect_, fmt::format("count({})", time)), "timed");
+  }
+  // Texts that are dates have no other moment of the day than its begin.
+  columns.add(!source_.time.empty() && dialect_ == fleet::Dialect::duckdb
+                  ? fmt::format("cast(max(epoch(cast({0} as timestamp)) % 86400) as double)",
+                                "t." + fleet::identifier(dialect_, source_.time))
+                  : nothing,
+              "clock");
+  const std::string rate =
+      "t." +
+      fleet::identifier(dialect_, source_.per_day.empty() ? source_.cycle.name : source_.per_day);
+  columns.add(
+      source_.per_day.empty() ? nothing : fleet::real(dialect_, fmt::format("avg({})", rate)),
+      "per_day");
+  return fmt::format("select\n  {}\nfrom {} as t group by {}", columns.text(), source_.table,
+                     clickhouse() ? "wearwell_unit" : unit);
 }
 
 std::string SqlWriter::stream() const {

@@ -6,12 +6,14 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <thread>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/workers.h"
 #include "wearwell/models/clutch/clutch_sql.h"
 #include "wearwell/models/clutch/fleet_columns.h"
+#include "wearwell/models/clutch/fleet_days.h"
 #include "wearwell/models/clutch/fleet_loop.h"
 #include "wearwell/models/clutch/kept_sums.h"
 
@@ -93,6 +95,7 @@ std::vector<double> horizons_of(double mean_cycles) {
 struct Shard {
   fleet::Engine& engine;
   ClutchSql sql = {};
+  SqlSource source = {};
   double rows = 0;
   std::string ranges = {};
 };
@@ -152,6 +155,7 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
   engine.refuse_torn_units(source.unit.name);
   shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
+  shard.source = source;
   fleet::ColumnEngine* const columns = columns_of(engine, request);
   if (!columns) {
     const FleetCheck check = check_rows(engine, shard.sql);
@@ -208,6 +212,32 @@ std::vector<double> horizons_for(const FleetRequest& request, const std::vector<
   return horizons;
 }
 
+/// Forecasts of many units at a time.
+void count_units(std::vector<Shard>& shards, std::size_t replicates, FleetDays& days,
+                 FleetCounts& counts, std::vector<UnitRow>& rows, const Monitor& monitor) {
+  constexpr std::size_t together = 8192;
+  const int threads = monitor.threads > 0
+                          ? monitor.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::vector<UnitSums> units;
+  std::vector<double> per_day;
+  const auto count = [&] {
+    if (monitor.stop.stop_requested()) throw Cancelled();
+    for (UnitRow& each : counts.add(units, per_day, threads)) rows.push_back(std::move(each));
+    units.clear();
+    per_day.clear();
+  };
+  for (Shard& shard : shards) {
+    shard.engine.rows(shard.sql.totals, 1, [&](const fleet::Row& row) {
+      units.push_back(unit_sums(row, replicates));
+      refuse_repeated(shard.engine, units.back());
+      if (days.known) per_day.push_back(days.of(units.back().unit));
+      if (units.size() == together) count();
+    });
+    count();
+  }
+}
+
 void refuse_torn(const std::vector<UnitRow>& units) {
   std::vector<const std::string*> names;
   for (const UnitRow& each : units) names.push_back(&each.unit);
@@ -241,6 +271,7 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
                       .rows = 0,
                       .replicates = full,
                       .units = {},
+                      .days = {},
                       .statements = shards.front().sql.setup + shards.front().sql.query};
   if (columns_of(*engines.front(), request))
     found.statements =
@@ -253,15 +284,17 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   }
   std::vector<double> levels;
   for (const double percent : request.levels) levels.push_back(percent / 100);
-  FleetCounts counts(model.model, full, levels, horizons_for(request, shards));
-  const std::size_t replicates = full ? model.model.replicates.size() : 0;
-  for (const Shard& shard : shards) {
-    shard.engine.rows(shard.sql.totals, 1, [&](const fleet::Row& row) {
-      const UnitSums sums = unit_sums(row, replicates);
-      refuse_repeated(shard.engine, sums);
-      found.units.push_back(counts.add(sums));
-    });
-  }
+  for (const Shard& shard : shards) found.days.read(shard.engine, shard.sql, shard.source);
+  found.days.finish();
+  if (!request.days.empty() && !found.days.known)
+    throw InputError(
+        "--days: nothing tells how many cycles a day units make: say with --columns time=COLUMN "
+        "when a cycle was, or cycles_per_day=COLUMN");
+  FleetCounts counts(
+      model.model, full, levels, horizons_for(request, shards),
+      found.days.known && request.days.empty() ? std::vector<double>{30, 90, 365} : request.days);
+  count_units(shards, full ? model.model.replicates.size() : 0, found.days, counts, found.units,
+              monitor);
   refuse_torn(found.units);
   worst_first(found.units);
   Result result = fleet_result(model.model, counts, found);

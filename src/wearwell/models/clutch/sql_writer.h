@@ -48,6 +48,7 @@ class SqlWriter {
   std::string totals() const;
   std::string size() const;
   std::string late() const;
+  std::string times() const;
   std::string keep() const;
   std::string check() const;
   std::string offender() const;
