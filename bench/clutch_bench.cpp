@@ -4,7 +4,13 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "parquet_file.h"
 #include "wearwell/fleet/duckdb_engine.h"
@@ -169,6 +175,48 @@ FLEET(fleet_in_order, scatter_only, Way::scatter_only)
 FLEET(fleet_in_order, full, Way::full)->Arg(million)->Arg(10 * million)->Arg(100 * million);
 FLEET(fleet_in_order, statements_scatter_only, Way::statements_scatter_only)->Arg(10 * million);
 FLEET(fleet_in_order, statements_full, Way::statements_full)->Arg(million);
+// A large fleet, as a manufacturer's would write it: readings of 12 bits, energy in J, files of 10^8 cycles of their own units, some
+// 10 bytes a cycle on disk. In the temporary folder (TMPDIR), gone at the end.
+void large_fleet(benchmark::State& state, Way way) {
+  const long long cycles = state.range(0), part = std::min(cycles, 100 * million);
+  if (!std::getenv("WEARWELL_BENCH_LARGE")) {
+    state.SkipWithError("WEARWELL_BENCH_LARGE=1 runs it: half an hour, 15 GB of disk");
+    return;
+  }
+  std::vector<std::unique_ptr<ParquetFile>> files;
+  std::vector<std::string> names;
+  double bytes = 0;
+  for (long long from = 0; from < cycles; from += part) {
+    files.push_back(std::make_unique<ParquetFile>(
+        fmt::format("wearwell-bench-large-{}", files.size()),
+        fmt::format(
+            "select plate, cycle, s as \"slip_speed [rad/s]\", m as \"torque [N m]\", t as "
+            "\"temperature [degC]\", c as \"closing_time [s]\", cast(m*s*c/2 as integer) as "
+            "\"energy [J]\" from (select cast(i // {0} + 1 as integer) as plate, "
+            "cast(i % {0} + 1 as integer) as cycle, 130 + ((i * 40503 + 1) % 4093) / 25.6 as s, "
+            "26 + ((i * 69069 + 7) % 4091) / 85.25 as m, 121 + ((i * 1103515 + 5) % 4079) / "
+            "34.7 as t, 1 + ((i * 25173 + 3) % 4073) / 1780.0 as c from range({1}, {2}) r(i))",
+            cycles_per_plate, from, std::min(cycles, from + part))));
+    names.push_back(files.back()->path().string());
+    bytes += static_cast<double>(std::filesystem::file_size(files.back()->path()));
+  }
+  const IdentifiedModel model{example().model, "bench"};
+  std::ofstream("/proc/self/clear_refs") << 5;  // what writing took is no part of the most memory
+  const double start = processor_seconds();
+  for (auto _ : state) {
+    const auto engine = fleet::duckdb_engine({.files = names, .threads = 2, .memory = 1000});
+    const Result result =
+        find_fleet(model, {engine.get()},
+                   {.first = true, .replicates = way == Way::full, .levels = {25, 50, 75, 100}},
+                   {.threads = 2});
+    if (result.header.data.rows != static_cast<std::size_t>(cycles))
+      state.SkipWithError("cycles are missing");
+  }
+  report(state, processor_seconds() - start, cycles);
+  state.counters["bytes_a_cycle"] = bytes / static_cast<double>(cycles);
+}
+FLEET(large_fleet, scatter_only, Way::scatter_only)->Arg(100 * million)->Arg(1000 * million);
+FLEET(large_fleet, full, Way::full)->Arg(100 * million)->Arg(1000 * million);
 BENCHMARK(fleet_by_time)->Arg(10 * million)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(fleet_in_no_order)->Arg(10 * million)->Unit(benchmark::kMillisecond)->Iterations(1);
 

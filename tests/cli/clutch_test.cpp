@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -475,6 +476,75 @@ TEST_F(Clutch, FitSaysWhatItDoesNotUse) {
               AllOf(HasSubstr("no weighing of plate 15 follows 1 of its cycles"),
                     HasSubstr("points 500 of the design were not run")));
   EXPECT_FALSE(fs::exists(folder() / "out/report.html"));
+}
+
+// The last two blocks of plates 12 and 13 come one after the other: the fit of all, byte for byte.
+TEST_F(Clutch, UpdateIsTheFitOfAllData) {
+  const auto plate_of = [](const std::string& row) { return row.substr(0, row.find(',')); };
+  const auto cycle_of = [](const std::string& row) {
+    return std::stoll(row.substr(row.find(',') + 1));
+  };
+  auto c = cycles(), w = weighings();
+  std::map<std::string, long long>
+      known;  // of plates whose end is late, the last cycle that is not
+  for (const std::string plate : {"12", "13"}) {
+    std::vector<long long> at;
+    for (const std::string& row : w)
+      if (plate_of(row) == plate) at.push_back(cycle_of(row));
+    ASSERT_GT(at.size(), 4u);
+    known[plate] = at[at.size() - 3];
+  }
+  std::map<std::string, std::vector<std::string>> parts;  // by file
+  const auto part = [&](const std::vector<std::string>& rows, const std::string& name) {
+    for (const std::string file : {"", "12", "13"}) parts[name + file] = {rows.front()};
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      const auto late = known.find(plate_of(rows[i]));
+      const bool is_late = late != known.end() && cycle_of(rows[i]) > late->second;
+      parts[name + (is_late ? late->first : "")].push_back(rows[i]);
+    }
+  };
+  part(c, "cycles");
+  part(w, "weighings");
+  for (const auto& [name, rows] : parts) write(name + ".csv", joined(rows));
+  write("design.csv", read(shared_ / "design.csv"));
+  write("traces.csv", read(shared_ / "traces.csv"));
+  write("study.toml", study);
+  const auto done = [&](const std::string& command) {
+    const CommandResult run = here(command + " --quiet --no-report");
+    EXPECT_LE(run.exit_code, 1) << command << "\n" << run.err;
+  };
+  done("fit study.toml -o r0");
+  done("update r0 weighings13.csv cycles13.csv -o r1");
+  done("update r1 cycles12.csv weighings12.csv cycles13.csv -o r2");
+  done("update r0 cycles12.csv weighings12.csv cycles13.csv weighings13.csv -o at-once");
+  const auto content = [&](const std::string& file) { return read(folder() / file); };
+  EXPECT_EQ(content("r2/state.bin"), content("at-once/state.bin"));
+  for (const char* file : {"state.bin", "model.json", "predictions.csv"}) {
+    EXPECT_EQ(content(std::string("r2/") + file), read(shared_ / "result" / file)) << file;
+    EXPECT_NE(content(std::string("r1/") + file), content(std::string("r2/") + file)) << file;
+  }
+  json told = json::parse(content("r2/summary.json")), whole = summary_;
+  EXPECT_EQ(told["update"]["counted"], parts["cycles12"].size() + parts["weighings12"].size() - 2);
+  EXPECT_EQ(told["update"]["repeated"], parts["cycles13"].size() - 1);
+  EXPECT_EQ(told["checks"][0]["name"], "new-data");
+  EXPECT_EQ(std::string(told["checks"][0]["detail"]).find("sql"), std::string::npos);
+  told["checks"].erase(0);
+  told.erase("update");
+  for (json* each : {&told, &whole}) each->erase("seconds");
+  EXPECT_EQ(told, whole);
+}
+
+TEST_F(Clutch, UpdateRefusesWhatIsNoneOfItsTables) {
+  const auto refusal = [&](const std::string& content) {
+    write("new.csv", content);
+    const CommandResult run = here("update '" + (shared_ / "result").string() + "' new.csv -o out");
+    EXPECT_EQ(run.exit_code, 2) << run.out;
+    EXPECT_FALSE(fs::exists(folder() / "out"));
+    return run.err;
+  };
+  EXPECT_THAT(refusal("plate,cycle\n1,2\n"),
+              AllOf(HasSubstr("is none of the campaign's tables"), HasSubstr("weighings (block")));
+  EXPECT_THAT(in_shared("life result").err, HasSubstr("has no posterior"));
 }
 
 TEST_F(Clutch, FitRefusesStudiesByKey) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -95,6 +96,36 @@ TEST_F(Decide, NamesTheRowThatIsNoLife) {
   EXPECT_THAT(table("life [h],unit\n12,A\n"), HasSubstr("nothing is said of the life of a new"));
   EXPECT_THAT(table("life [h]\n100\n100\n"), HasSubstr("lie at one place"));
   EXPECT_THAT(table("life [h],colour\n12,red\n"), HasSubstr("colour"));
+  EXPECT_THAT(table("life [h],unit,population\n9,,A\n12,,A\n20,,B\n30,,B\n5,U,A\n"),
+              HasSubstr("the population 'A' has 1 of the weight of the unit 'U' and 0.5"));
+}
+
+// Two populations as likely, in which all units fail within a month or none does: all or nothing. Without it, between.
+TEST_F(Decide, CountsUnitsOverThePopulationsThatTheyShare) {
+  std::string shared = "life [h],unit,population\n9,,early\n12,,early\n200,,late\n300,,late\n",
+              alone = "life [h],unit\n9,\n12,\n200,\n300,\n";
+  for (int u = 0; u < 10; ++u) {
+    shared += fmt::format("5,U{0},early\n6,U{0},early\n200,U{0},late\n300,U{0},late\n", u);
+    alone += fmt::format("5,U{0}\n6,U{0}\n200,U{0}\n300,U{0}\n", u);
+  }
+  const auto told = [&](const std::string& text) {
+    const std::string file = (folder() / "lives.csv").string();
+    std::ofstream(file) << text;
+    const CommandResult run =
+        run_wearwell("decide " + file + costs + " --month '100 h' --months 1 --json");
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return json::parse(run.out);
+  };
+  const json together = told(shared), apart = told(alone);
+  EXPECT_EQ(together["counting"]["populations"], 2);
+  EXPECT_EQ(together["counting"]["independent"], false);
+  EXPECT_EQ(together["months"][0]["q05"], 0);
+  EXPECT_EQ(together["months"][0]["q95"], 10);
+  EXPECT_EQ(apart["counting"]["independent"], true);
+  EXPECT_GE(apart["months"][0]["q05"], 2);
+  EXPECT_LE(apart["months"][0]["q95"], 8);
+  EXPECT_NEAR(apart["months"][0]["expected"].get<double>(),
+              together["months"][0]["expected"].get<double>(), 0.3);
 }
 
 }  // namespace

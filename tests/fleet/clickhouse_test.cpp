@@ -6,6 +6,7 @@
 
 #include "fleet/clickhouse_server.h"
 #include "fleet/sample_fleet.h"
+#include "fleet/sample_kinds.h"
 #include "fleet/sample_law.h"
 #include "support/scratch.h"
 #include "wearwell/fleet/clickhouse_engine.h"
@@ -101,6 +102,12 @@ TEST_F(ClickhouseFleet, HasTheNumbersOfPredictAndOfDuckdb) {
   const json known = fleet_summary(asked(server.address("reader@")));
   ::unsetenv("CLICKHOUSE_PASSWORD");
   EXPECT_EQ(fleet["worst"].dump(), known["worst"].dump());
+  must(server,
+       "create view dated as select *, toDateTime('2026-01-01 00:00:00') + toInt64(cycle) * 3600 "
+       "as moment from cycles");
+  expect_hours(
+      fleet_summary(asked(server.address(), "dated") + " time=moment --horizon 0 --days 30"),
+      cycles_);
   const json duckdb = fleet_summary(model_ + " " + table_file() + output());
   for (std::size_t i = 0; i < fleet["levels"].size(); ++i)
     EXPECT_NEAR(fleet["levels"][i]["units"].get<double>(),
@@ -118,6 +125,26 @@ TEST_F(ClickhouseFleet, HasTheNumbersOfPredictAndOfDuckdb) {
   refused(asked(server.address(), "nothing"), "nothing doesn't exist");
   refused(asked(server.address() + "/nowhere"), "nowhere doesn't exist");
   refused(asked("clickhouse://127.0.0.1:1"), "not reached: 127.0.0.1:1: Connection refused");
+}
+
+// Columns that a run does not name would be 0 there, without a word.
+TEST_F(ClickhouseFleet, SumsOfAnotherOptionAreRefused) {
+  const ClickhouseServer server(folder());
+  must(server, "create table cycles " + layout + " engine = MergeTree order by vin;\n" +
+                   rows_of(cycles_, "cycles"));
+  const std::string arguments = asked(server.address());
+  fleet_summary(arguments);
+  fleet_summary(arguments + " --scatter-only --prefix plain");
+  std::filesystem::remove_all(folder() / "results");
+  const std::string all = "select sum(cityHash64(unit, last_cycle, v1)) from wearwell_sums";
+  const std::string before = server.sql(all).out;
+  refused(arguments + " --scatter-only",
+          "made without --scatter-only, or for a model that has replicates: go on with the same "
+          "option, or sum all cycles anew, under another --prefix");
+  refused(arguments + " --prefix plain", "made with --scatter-only: go on with the same option");
+  EXPECT_EQ(before, server.sql(all).out);
+  EXPECT_EQ(server.sql("select count() from plain_model").out,
+            server.sql("select count() from plain_model where replicate = 0").out);
 }
 
 TEST_F(ClickhouseFleet, HostileNamesAreHarmless) {
@@ -150,6 +177,12 @@ TEST_F(ClickhouseFleet, ALawHasTheNumbersOfTheLibrary) {
   std::vector<std::string> values = ownlaw::law_values();
   values.push_back("erf(wear/(10 [um]))");
   ownlaw::expect_library(ownlaw::law_state(folder()), *engine, "liners", values);
+  must(server,
+       "create table pads (id Int32, machine String, mat String, T Float64, TF Float64, hours "
+       "Float64) "
+       "engine = MergeTree order by id;\ninsert into pads values" +
+           ownlaw::pad_row_values("\\'") + ";\n");
+  ownlaw::expect_pads(*fleet::clickhouse_engine(server.address(), "pads"), "pads");
 }
 
 TEST_F(ClickhouseFleet, ACertificateIsHeldAgainstTheName) {

@@ -4,6 +4,7 @@
 #include "fleet/clickhouse_server.h"
 #include "fleet/postgres_server.h"
 #include "fleet/sample_fleet.h"
+#include "fleet/sample_kinds.h"
 #include "fleet/sample_law.h"
 #include "support/scratch.h"
 #include "wearwell/fleet/postgres_engine.h"
@@ -66,6 +67,14 @@ TEST_F(Cluster, PostgresHasTheNumbersOfPredictAndOfDuckdb) {
   EXPECT_LT(difference(fleet, predicted()), 1e-9);
   // Nothing new: not a bit changes.
   EXPECT_EQ(fleet["worst"].dump(), fleet_summary(model_ + engine)["worst"].dump());
+  ASSERT_EQ(server
+                .sql("create view dated as select *, timestamp '2026-01-01' + cycle * interval '1 "
+                     "hour' as moment from cycles")
+                .exit_code,
+            0);
+  expect_hours(fleet_summary(model_ + " --engine " + server.address() + " --table dated" +
+                             output() + columns + " time=moment --horizon 0 --days 30"),
+               cycles_);
   const json duckdb = fleet_summary(model_ + " " + table_file() + output());
   for (std::size_t i = 0; i < fleet["levels"].size(); ++i)
     EXPECT_NEAR(fleet["levels"][i]["units"].get<double>(),
@@ -107,6 +116,41 @@ TEST_F(Cluster, PrintedStatementsRunInPsql) {
   EXPECT_EQ(found, expected["plates"].size());
 }
 
+// Also where only another model has sums there; and those of a version that kept a row for each run.
+TEST_F(Cluster, SumsOfAnotherOptionOrVersionAreRefusedInPostgres) {
+  const PostgresServer server(folder());
+  ASSERT_EQ(server.sql(create).exit_code, 0);
+  load(server, cycles_);
+  const std::string engine =
+      " --engine " + server.address() + " --table cycles" + output() + columns;
+  fleet_summary(model_ + engine);
+  fleet_summary(model_ + engine + " --scatter-only --prefix plain");
+  std::filesystem::remove_all(folder() / "results");
+  WearModel other = fleet_model(ScatterKind::linear);
+  write("other.json", to_json(other).dump(1));
+  const std::string second = "'" + (folder() / "other.json").string() + "'";
+  const std::string all = "select md5(string_agg(s::text, ';' order by unit)) from wearwell_sums s";
+  const std::string before = server.sql(all).out;
+  const auto refused = [&](const std::string& arguments, const std::string& part) {
+    const CommandResult run = run_wearwell("fleet " + arguments);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, AllOf(HasSubstr(part), HasSubstr("under another --prefix")));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "results"));
+    EXPECT_EQ(before, server.sql(all).out);
+  };
+  for (const std::string& name : {model_, second}) {
+    refused(name + engine + " --scatter-only", "made without --scatter-only");
+    refused(name + engine + " --prefix plain", "made with --scatter-only");
+  }
+  EXPECT_EQ(server.sql("select count(distinct model) from plain_model").out, "1\n");
+  ASSERT_EQ(server
+                .sql("alter table wearwell_sums drop constraint wearwell_sums_pkey; alter table "
+                     "wearwell_sums add primary key (model, unit, after_cycle)")
+                .exit_code,
+            0);
+  refused(model_ + engine, "another version of wearwell");
+}
+
 TEST_F(Cluster, ALawInPostgresHasTheNumbersOfTheLibrary) {
   const PostgresServer server(folder());
   const CommandResult made = server.sql(
@@ -116,6 +160,12 @@ TEST_F(Cluster, ALawInPostgresHasTheNumbersOfTheLibrary) {
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const auto engine = fleet::postgres_engine(server.address(), "liners");
   ownlaw::expect_library(ownlaw::law_state(folder()), *engine, "liners", ownlaw::law_values());
+  const CommandResult pads = server.sql(
+      "create table pads (id integer, machine text, mat text, \"T\" float8, \"TF\" float8, hours "
+      "float8);\ninsert into pads values" +
+      ownlaw::pad_row_values("''") + ";\n");
+  ASSERT_EQ(pads.exit_code, 0) << pads.err;
+  ownlaw::expect_pads(*fleet::postgres_engine(server.address(), "pads"), "pads");
 }
 
 TEST_F(Cluster, HostileNamesAreHarmlessInPostgres) {

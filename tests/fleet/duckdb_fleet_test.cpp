@@ -22,21 +22,25 @@ class DuckdbFleet : public ScratchTest {
   }
   std::string path(const std::string& name) const { return "'" + (folder() / name).string() + "'"; }
   std::string output() const { return " -o " + path("results"); }
-  /// In the database of --state.
-  long rows_kept() const {
+  /// The first value of the answer of the database of --state.
+  std::string kept(const std::string& statement) const {
     duckdb_database database = nullptr;
     duckdb_connection connection = nullptr;
     duckdb_result result;
     EXPECT_EQ(duckdb_open((folder() / "sums.duckdb").c_str(), &database), DuckDBSuccess);
     EXPECT_EQ(duckdb_connect(database, &connection), DuckDBSuccess);
-    EXPECT_EQ(duckdb_query(connection, "select count(*) from wearwell_sums", &result),
-              DuckDBSuccess);
-    const long rows = duckdb_value_int64(&result, 0, 0);
+    EXPECT_EQ(duckdb_query(connection, statement.c_str(), &result), DuckDBSuccess)
+        << duckdb_result_error(&result);
+    char* const text =
+        duckdb_row_count(&result) > 0 ? duckdb_value_varchar(&result, 0, 0) : nullptr;
+    const std::string value = text ? text : "";
+    duckdb_free(text);
     duckdb_destroy_result(&result);
     duckdb_disconnect(&connection);
     duckdb_close(&database);
-    return rows;
+    return value;
   }
+  long rows_kept() const { return std::stol(kept("select count(*) from wearwell_sums")); }
   std::string file(const std::string& name, const std::vector<FleetCycle>& cycles) {
     write(name, fleet_csv(cycles));
     return path(name);
@@ -155,6 +159,33 @@ TEST_F(DuckdbFleet, SumsOfAnotherModelOrOptionAreRefused) {
   std::filesystem::remove(folder() / "sums.duckdb");
   fleet_summary(name + " " + table + state + " --scatter-only");
   refused(name, "made with --scatter-only");
+}
+
+// A file of a version that kept a row for each run, and whose key was another; and one with fewer replicates.
+TEST_F(DuckdbFleet, SumsOfAnotherVersionAreRefused) {
+  const std::string name = model(), state = output() + " --state " + path("sums.duckdb");
+  fleet_summary(name + " " + file("a.csv", fleet_cycles(500, 2, 19)) + state);
+  const std::string table = file("b.csv", fleet_cycles(600, 2, 19));
+  const std::string before = kept("select sum(hash(s)) from wearwell_sums as s");
+  const auto refused = [&](const std::string& part) {
+    std::filesystem::remove_all(folder() / "results");
+    for (const std::string way : {"", " --statements"}) {
+      const CommandResult run = run_wearwell("fleet " + name + " " + table + state + way);
+      EXPECT_EQ(run.exit_code, 2);
+      EXPECT_THAT(run.err, AllOf(HasSubstr(part), HasSubstr("into another file (--state)")));
+      EXPECT_FALSE(std::filesystem::exists(folder() / "results"));
+    }
+  };
+  std::string made = kept("select sql from duckdb_tables() where table_name = 'wearwell_sums'");
+  const std::string key = "PRIMARY KEY(model, unit", other = key + ", after_cycle";
+  ASSERT_NE(made.find(key), std::string::npos) << made;
+  made.replace(made.find(key), key.size(), other);
+  kept("create temp table old as select * from wearwell_sums; drop table wearwell_sums; " + made +
+       "insert into wearwell_sums select * from old");
+  refused("another version of wearwell");
+  EXPECT_EQ(before, kept("select sum(hash(s)) from wearwell_sums as s"));
+  kept("alter table wearwell_sums drop column v5; alter table wearwell_sums drop column s5");
+  refused("of a model of 4 replicates, and this one has 5");
 }
 
 // Sums of more units than may be held are given to the engine on the way.

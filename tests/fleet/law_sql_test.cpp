@@ -1,6 +1,7 @@
 // Laws of users as SQL, in DuckDB; `cluster_test.cpp` and `clickhouse_test.cpp` do the same with servers.
 #include <gmock/gmock.h>
 
+#include "fleet/sample_kinds.h"
 #include "fleet/sample_law.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
@@ -55,6 +56,22 @@ TEST_F(LawSqlTest, DuckdbHasTheNumbersOfTheLibrary) {
       run_wearwell("sql '" + (folder() / "law").string() + "' --dialect duckdb --table t").err,
       HasSubstr("export sql"));
   EXPECT_THAT(refusal({.table = "a..b"}), HasSubstr("empty"));
+}
+
+// Two effects, a parameter of each label, temperatures with an offset.
+TEST_F(LawSqlTest, DuckdbHasTheNumbersOfTheLibraryForEveryKindOfParameter) {
+  std::string csv = "id,machine,mat,T,TF,hours\n";
+  for (const PadRow& each : pad_rows())
+    csv += fmt::format("{},{},{},{},{},{}\n", each.id, each.machine, each.material,
+                       each.temperature, 32 + 1.8 * each.temperature, each.time);
+  const auto engine = fleet::duckdb_engine(
+      {.files = {write("pads.csv", csv).string()}, .unit = "machine", .spill = folder()});
+  expect_pads(*engine, "cycles");
+  // One column would silently stand for both.
+  SqlExportChoice choice;
+  choice.table = "t";
+  EXPECT_THAT(message_of<InputError>([&] { sql_export(pad_state(), choice); }),
+              HasSubstr("'T' and 't' are one name for DuckDB"));
 }
 
 }  // namespace

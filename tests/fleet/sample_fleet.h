@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -94,6 +95,23 @@ inline nlohmann::json fleet_summary(const std::string& arguments) {
   const CommandResult run = run_wearwell("fleet " + arguments + " --json");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   return run.exit_code == 0 ? nlohmann::json::parse(run.out) : nlohmann::json();
+}
+
+/// A fleet's summary of cycles of which each is at the hour of its number: cycles a day of each unit.
+inline void expect_hours(const nlohmann::json& fleet, const std::vector<FleetCycle>& cycles) {
+  for (const auto& unit : fleet["worst"]) {
+    double count = 0, first = 1e18, last = 0;
+    for (const FleetCycle& each : cycles) {
+      if (unit["unit"] != each.unit) continue;
+      ++count;
+      first = std::min(first, static_cast<double>(each.number));
+      last = std::max(last, static_cast<double>(each.number));
+    }
+    EXPECT_NEAR(unit["cycles_per_day"].get<double>() / (24 * (count - 1) / (last - first)), 1,
+                1e-9);
+  }
+  EXPECT_EQ(fleet["fleet"]["units_without_rate"], 0);
+  ASSERT_EQ(fleet["levels_by_day"].size(), fleet["levels"].size());
 }
 
 /// The largest relative difference of volumes and standard deviations between a fleet's summary and what

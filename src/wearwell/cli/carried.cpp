@@ -20,21 +20,30 @@ std::optional<nlohmann::ordered_json> summary_of(const std::filesystem::path& re
 
 }  // namespace
 
-prognosis::CarriedState read_carried(const std::filesystem::path& result) {
+prognosis::CarriedState read_carried_data(const std::filesystem::path& result) {
   std::error_code error;
   if (std::filesystem::is_directory(result, error) &&
       !std::filesystem::exists(result / "state.bin", error)) {
     const auto summary = summary_of(result);
     if (summary && summary->value("model", "") == "clutch-wear")
-      throw InputError(
-          fmt::format("{}: a clutch campaign has no posterior that could be carried on, its map is "
-                      "searched anew in all of its "
-                      "data. Add the rows to its files and fit it again; what a plate has worn "
-                      "goes on with wearwell clutch "
-                      "predict --state",
-                      valid_utf8(result.string())));
+      throw InputError(fmt::format(
+          "{}: of this clutch campaign no data were kept: it was simulated, an sql asks for one of "
+          "its tables, two of them are one file, or an earlier version fitted it. Add the rows to "
+          "its files and fit it again",
+          valid_utf8(result.string())));
   }
   return prognosis::read_state(result);
+}
+
+prognosis::CarriedState read_carried(const std::filesystem::path& result) {
+  prognosis::CarriedState state = read_carried_data(result);
+  if (state.parameters.empty())
+    throw InputError(fmt::format(
+        "{}: a clutch campaign has no posterior that could be carried on. New data: wearwell "
+        "update; the life of a plate: wearwell clutch life; what it has worn goes on with wearwell "
+        "clutch predict --state",
+        valid_utf8(result.string())));
+  return state;
 }
 
 SamplerChoice sampler_of(const std::filesystem::path& result) {

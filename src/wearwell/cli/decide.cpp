@@ -119,6 +119,15 @@ Question question_of(const DecideOptions& options, const Unit& axis) {
   return question;
 }
 
+// All readings of a unit that its state has taken; the store outlives it.
+History history_of(monitor::Store& store, const std::string& name, std::int64_t until) {
+  return [&store, name, until](const std::function<void(const Reading&)>& visit) {
+    store.of_unit(name, 0, until, [&](const monitor::StoredReading& each) {
+      visit({each.numbers, each.labels});
+    });
+  };
+}
+
 struct Read {
   KnownLives lives;
   std::unique_ptr<const Tracker> tracker;  ///< of a result
@@ -131,13 +140,9 @@ struct Read {
     return at == stored.end() ? tracker->begin(name) : tracker->restore(at->second.state->save());
   }
   History history(const std::string& name) const {
-    return [this, name](const std::function<void(const Reading&)>& visit) {
-      const auto at = stored.find(name);
-      if (at == stored.end()) return;
-      store->of_unit(name, 0, at->second.place, [&](const monitor::StoredReading& each) {
-        visit({each.numbers, each.labels});
-      });
-    };
+    const auto at = stored.find(name);
+    if (at == stored.end()) return [](const std::function<void(const Reading&)>&) {};
+    return history_of(*store, name, at->second.place);
   }
   std::vector<std::string> names() const {
     std::vector<std::string> all(tracker->seen().begin(), tracker->seen().end());
@@ -157,8 +162,11 @@ void read_fleet(const DecideOptions& options, Models models, Read& read) {
     throw MachineError(error.what());
   }
   read.lives = lives_of_new(*fleet.tracker, options.lives.string(), fleet.trusted);
-  for (const auto& [name, record] : read.stored)
-    read.lives.units.push_back(known_unit(name, *record.state));
+  for (const auto& [name, record] : read.stored) {
+    // `stored` keeps it as long as lives are asked.
+    const std::shared_ptr<const TrackedUnit> unit(std::shared_ptr<void>(), record.state.get());
+    read.lives.units.push_back(known_unit(name, unit, history_of(*read.store, name, record.place)));
+  }
   read.tracker = std::move(fleet.tracker);
 }
 

@@ -9,12 +9,14 @@
 #include <memory>
 #include <string>
 
+#include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/cli/carried.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/present/progress_line.h"
 #include "wearwell/prognosis/carry.h"
+#include "wearwell/prognosis/joined_campaign.h"
 #include "wearwell/prognosis/updated_study.h"
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/result_writer.h"
@@ -48,11 +50,43 @@ std::string names_of(const std::vector<std::filesystem::path>& files) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+Result run_shown(const Study& study, const RunOptions& run, const UpdateOptions& options) {
+  ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);
+  const Monitor monitor{.progress = [&](const Step& step) { line.show(step); },
+                        .threads = options.threads};
+  return study.run(run, monitor);
+}
+
+void write_updated(const UpdateOptions& options, const Result& result, const std::string& text,
+                   ResultFolder& folder) {
+  write_result(result, text, folder);
+  if (options.json) {
+    fmt::print("{}", summary_text(result));
+  } else if (!options.quiet) {
+    fmt::print("{}Results are in {}\n", terminal_text(result, terminal_style()),
+               folder.path().string());
+  }
+}
+
+// A study without a posterior: all of its tables, old and new rows, fitted.
+int update_campaign(const UpdateOptions& options, const Source& source, Models models) {
+  if (!options.repeated.empty())
+    throw InputError("--repeated: a row of a campaign that is there already counts once");
+  const prognosis::JoinedData joined = prognosis::joined_campaign(source, options.data);
+  const auto study = read_study(joined.source, models);
+  ResultFolder folder(options.output);
+  Result result = run_shown(*study, {{}, !options.no_report}, options);
+  prognosis::add_new_data(joined, names_of(options.data), result);
+  write_updated(options, result, source.study.text, folder);
+  return result.header.trusted ? 0 : 1;
+}
+
 int run_update(const UpdateOptions& options, Models models) {
   std::vector<NamedFile> inputs;
   for (const auto& file : options.data) inputs.push_back({"the new data", file});
   refuse_overwriting(inputs, {{"--output", options.output}});
-  prognosis::CarriedState state = read_carried(options.result);
+  prognosis::CarriedState state = read_carried_data(options.result);
+  if (state.parameters.empty()) return update_campaign(options, state.source, models);
   prognosis::JoinedData joined = joined_files(state.source, options);
   Source source = joined.source;
   const auto read = read_study(source, models);
@@ -61,22 +95,11 @@ int run_update(const UpdateOptions& options, Models models) {
   const PosteriorStudy study =
       prognosis::updated_study(of_all, std::move(joined), names_of(options.data));
   ResultFolder folder(options.output);
-  Result result = [&] {
-    ProgressLine line(!options.quiet && isatty(STDERR_FILENO) ? stderr : nullptr);
-    const Monitor monitor{.progress = [&](const Step& step) { line.show(step); },
-                          .threads = options.threads};
-    return study.run({sampler_of(options.result), !options.no_report}, monitor);
-  }();
+  Result result = run_shown(study, {sampler_of(options.result), !options.no_report}, options);
   const std::string text = source.study.text;
   result.files.emplace_back(
       "state.bin", prognosis::state_bytes(prognosis::state_of_result(std::move(source), result)));
-  write_result(result, text, folder);
-  if (options.json) {
-    fmt::print("{}", summary_text(result));
-  } else if (!options.quiet) {
-    fmt::print("{}Results are in {}\n", terminal_text(result, terminal_style()),
-               folder.path().string());
-  }
+  write_updated(options, result, text, folder);
   return result.header.trusted ? 0 : 1;
 }
 

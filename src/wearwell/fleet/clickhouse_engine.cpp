@@ -267,8 +267,8 @@ std::vector<EngineColumn> ClickhouseEngine::columns() {
     }
     const auto starts = [&](const char* name) { return boost::algorithm::starts_with(type, name); };
     const bool real = starts("Float") || starts("Decimal");
-    found.push_back(
-        {row.texts[0], real || (starts("Int") && !starts("Interval")) || starts("UInt"), real});
+    found.push_back({row.texts[0], real || (starts("Int") && !starts("Interval")) || starts("UInt"),
+                     real, starts("Date") && !starts("DateTime"), starts("DateTime")});
   });
   return found;
 }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/replace.hpp>
+#include <locale>
+#include <map>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
@@ -76,6 +79,20 @@ std::string table_identifier(Dialect dialect, std::string_view name) {
   return out;
 }
 
+void refuse_alike(Dialect dialect, const std::vector<std::string>& names) {
+  if (dialect != Dialect::duckdb) return;
+  std::map<std::string, std::string> seen;
+  for (const std::string& name : names) {
+    const auto at =
+        seen.emplace(boost::algorithm::to_lower_copy(name, std::locale::classic()), name).first;
+    if (at->second != name)
+      throw InputError(fmt::format(
+          "the columns '{}' and '{}' are one name for DuckDB, which does not tell cases "
+          "apart: call one of them otherwise (--columns)",
+          printable(at->second), printable(name)));
+  }
+}
+
 std::string literal(Dialect dialect, std::string_view text) {
   if (text.find('\0') != std::string_view::npos)
     throw InputError(fmt::format("the text '{}' holds a zero byte", printable(text)));
@@ -131,6 +148,18 @@ std::string sum_of(Dialect dialect, const std::string& fixed) {
 std::string real(Dialect dialect, const std::string& fixed) {
   if (dialect == Dialect::clickhouse) return fmt::format("toFloat64({})", fixed);
   return fmt::format("cast({} as {})", fixed, types(dialect).real);
+}
+
+std::string seconds(Dialect dialect, const std::string& moment) {
+  switch (dialect) {
+    case Dialect::duckdb:
+      return fmt::format("cast(epoch({}) as double)", moment);
+    case Dialect::postgresql:
+      return fmt::format("cast(extract(epoch from {}) as double precision)", moment);
+    case Dialect::clickhouse:
+      break;
+  }
+  return fmt::format("toFloat64(toUInt32(toDateTime({})))", moment);
 }
 
 std::string text(Dialect dialect, const std::string& any) {

@@ -22,6 +22,8 @@ std::string identifier(Dialect dialect, std::string_view name);
 /// A table with the schemas it lies in, "fleet.cycles": each part is a name; a part in double quotes
 /// may hold a dot. Throws InputError.
 std::string table_identifier(Dialect dialect, std::string_view name);
+/// Throws InputError for two names of columns that the engine takes for one: DuckDB does not tell "T" from "t".
+void refuse_alike(Dialect dialect, const std::vector<std::string>& names);
 /// A text as a statement has it: `'it''s'`.
 std::string literal(Dialect dialect, std::string_view text);
 /// A number that every engine reads as a double, with all its digits: "1e0".
@@ -45,6 +47,8 @@ std::string wide(Dialect dialect, const std::string& real);
 std::string sum_of(Dialect dialect, const std::string& fixed);
 /// As a double.
 std::string real(Dialect dialect, const std::string& fixed);
+/// Seconds since 1970 of a date or a time.
+std::string seconds(Dialect dialect, const std::string& moment);
 /// As text.
 std::string text(Dialect dialect, const std::string& any);
 /// exp of a number that is not positive: PostgreSQL takes a result too small for a double for an

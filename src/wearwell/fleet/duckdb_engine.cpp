@@ -213,7 +213,11 @@ std::vector<EngineColumn> DuckdbEngine::columns() {
     const duckdb_type type = duckdb_column_type(&answer.result, c);
     found.push_back(
         {duckdb_column_name(&answer.result, c), is_number(type),
-         type == DUCKDB_TYPE_DOUBLE || type == DUCKDB_TYPE_FLOAT || type == DUCKDB_TYPE_DECIMAL});
+         type == DUCKDB_TYPE_DOUBLE || type == DUCKDB_TYPE_FLOAT || type == DUCKDB_TYPE_DECIMAL,
+         type == DUCKDB_TYPE_DATE,
+         type == DUCKDB_TYPE_TIMESTAMP || type == DUCKDB_TYPE_TIMESTAMP_S ||
+             type == DUCKDB_TYPE_TIMESTAMP_MS || type == DUCKDB_TYPE_TIMESTAMP_NS ||
+             type == DUCKDB_TYPE_TIMESTAMP_TZ});
   }
   return found;
 }

@@ -20,7 +20,8 @@ struct Row {
 struct EngineColumn {
   std::string name;
   bool is_number = false;
-  bool is_real = false;  ///< a number with a fraction, perhaps
+  bool is_real = false;                   ///< a number with a fraction, perhaps
+  bool is_date = false, is_time = false;  ///< a day; a moment of it
 };
 
 /// A server, or one behind it, went away in the middle of the work. After another `begin` all may be done anew, by a

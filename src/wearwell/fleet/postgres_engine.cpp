@@ -28,6 +28,8 @@ std::string sentence(const std::string& message) {
 /// numeric.
 constexpr unsigned numbers[] = {20, 21, 23, 700, 701, 1700};
 constexpr unsigned reals[] = {700, 701, 1700};
+/// date; timestamp, timestamp with time zone.
+constexpr unsigned dates[] = {1082}, times[] = {1114, 1184};
 
 class PostgresEngine : public Engine {
  public:
@@ -92,7 +94,8 @@ std::vector<EngineColumn> PostgresEngine::columns() {
       return std::find(std::begin(types), std::end(types), result.column_type(c)) !=
              std::end(types);
     };
-    found.push_back({result.column_name(c), among(numbers), among(reals)});
+    found.push_back(
+        {result.column_name(c), among(numbers), among(reals), among(dates), among(times)});
   }
   return found;
 }

@@ -145,7 +145,7 @@ std::string body_of(const CarriedState& state) {
   }
   out.u64(state.parameters.size());
   for (const std::string& each : state.parameters) out.text(each);
-  write(state.posterior, out);
+  if (!state.parameters.empty()) write(state.posterior, out);
   return out.take();
 }
 
@@ -164,10 +164,10 @@ CarriedState state_of(std::string_view body, const std::string& file) {
       in.fail(fmt::format("two tables '{}'", printable(name)));
   }
   const std::size_t parameters = in.count(least_text);
-  if (parameters == 0 || parameters > static_cast<std::size_t>(max_dimension))
+  if (parameters > static_cast<std::size_t>(max_dimension))
     in.fail(fmt::format("{} parameters", parameters));
   for (std::size_t p = 0; p < parameters; ++p) state.parameters.push_back(in.text());
-  state.posterior = read_draws(parameters, in);
+  if (parameters > 0) state.posterior = read_draws(parameters, in);
   in.end();
   return state;
 }

@@ -13,11 +13,12 @@ namespace wearwell::prognosis {
 /// What `wearwell fit` leaves for those who go on from it, state.bin (docs/state.md): the study with its data, and
 /// the posterior as nodes.
 struct CarriedState {
-  std::string model;                    ///< key: "law"
-  bool trusted = true;                  ///< whether the fit was
-  Source source;                        ///< the study file, and its tables as they were read
-  std::vector<std::string> parameters;  ///< names, as columns of the posterior
-  WeightedDraws posterior;              ///< natural, SI; nodes of the quadrature, or draws
+  std::string model;    ///< key: "law"
+  bool trusted = true;  ///< whether the fit was
+  Source source;        ///< the study file, and its tables as they were read
+  /// Names, as columns of the posterior; none of a study without one (a clutch campaign).
+  std::vector<std::string> parameters;
+  WeightedDraws posterior;  ///< natural, SI; nodes of the quadrature, or draws
 };
 
 /// The bytes of state.bin: versioned, the same on every machine, with a checksum.

@@ -1,6 +1,7 @@
 #include "wearwell/prognosis/decisions.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +13,6 @@ namespace {
 
 // Its limit is more likely behind it than not: there is nothing to wait for.
 constexpr double too_late = 0.5;
-
-double failed_by(const KnownUnit& unit, double after) {
-  if (unit.passed >= 1 || unit.remaining.points().empty()) return 1;
-  return unit.passed + (1 - unit.passed) * unit.remaining.cdf(after);
-}
 
 UnitDecision decided(const KnownUnit& unit, const Costs& costs, double rate) {
   UnitDecision decision;
@@ -34,23 +30,52 @@ UnitDecision decided(const KnownUnit& unit, const Costs& costs, double rate) {
   return decision;
 }
 
-FleetMonth month_of(const std::vector<UnitDecision>& units, const Question& question, int month) {
+// Months whose probabilities are held at once, of each population and unit.
+std::size_t months_at_once(std::size_t populations, std::size_t units) {
+  constexpr std::size_t most_numbers = 20'000'000;
+  return std::max<std::size_t>(1, most_numbers / std::max<std::size_t>(1, populations * units));
+}
+
+FleetMonth month_of(const std::vector<UnitDecision>& units, const Question& question, int month,
+                    const CommonPopulation& common, std::size_t moment) {
   FleetMonth result;
   result.month = month;
   result.until = month * *question.per_month;
-  std::vector<double> reached, replaced;
-  for (const UnitDecision& each : units) {
-    const double failed = failed_by(*each.unit, result.until);
-    reached.push_back(std::clamp(failed, 0.0, 1.0));
-    replaced.push_back(each.best.after <= result.until ? 1 : reached.back());
+  std::vector<std::vector<double>> reached, replaced;
+  for (const auto& failed : common.failed) {
+    reached.push_back(failed[moment]);
+    replaced.push_back(failed[moment]);
+    for (std::size_t u = 0; u < units.size(); ++u)
+      if (units[u].best.after <= result.until) replaced.back()[u] = 1;
   }
-  result.reached = how_many(reached);
-  result.replaced = how_many(replaced);
+  result.reached = how_many(reached, common.weight);
+  result.replaced = how_many(replaced, common.weight);
   result.low = enough_for(result.reached, 0.05);
   result.high = enough_for(result.reached, 0.95);
   result.parts = enough_for(result.reached, question.service);
   result.parts_planned = enough_for(result.replaced, question.service);
   return result;
+}
+
+void count_months(const KnownLives& lives, const Question& question, Decisions& decisions) {
+  std::vector<const KnownUnit*> units;
+  for (const UnitDecision& each : decisions.units) units.push_back(each.unit);
+  const auto months = static_cast<std::size_t>(question.months);
+  const std::size_t step = months_at_once(lives.populations.size(), units.size());
+  for (std::size_t first = 0; first < months; first += step) {
+    std::vector<double> after;
+    for (std::size_t m = first; m < std::min(first + step, months); ++m)
+      after.push_back(static_cast<double>(m + 1) * *question.per_month);
+    const CommonPopulation common = in_common(lives, units, after);
+    const std::size_t populations = common.why.empty() ? common.weight.size() : 0;
+    decisions.counting = {populations, common.effective, common.why, common.outgrown};
+    const std::size_t before = decisions.months.size();
+    decisions.months.resize(before + after.size());
+    tbb::parallel_for(std::size_t{0}, after.size(), [&](std::size_t m) {
+      decisions.months[before + m] =
+          month_of(decisions.units, question, static_cast<int>(first + m) + 1, common, m);
+    });
+  }
 }
 
 }  // namespace
@@ -82,10 +107,7 @@ Decisions decide(const KnownLives& lives, const Question& question) {
                      if (a.best.after != b.best.after) return a.best.after < b.best.after;
                      return a.q50 < b.q50;
                    });
-  if (question.per_month && !decisions.units.empty()) {
-    for (int month = 1; month <= question.months; ++month)
-      decisions.months.push_back(month_of(decisions.units, question, month));
-  }
+  if (question.per_month && !decisions.units.empty()) count_months(lives, question, decisions);
   return decisions;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/prognosis/common_population.h"
 #include "wearwell/prognosis/fleet_risk.h"
 #include "wearwell/prognosis/inspection.h"
 #include "wearwell/prognosis/known_lives.h"
@@ -40,6 +41,15 @@ struct FleetMonth {
   std::size_t parts = 0, parts_planned = 0;  ///< spare parts from now until then
 };
 
+/// How units were counted: on what the numbers of `FleetMonth` rest.
+struct FleetCounting {
+  std::size_t populations =
+      0;                 ///< that units share, over which they are counted; 0: as independent
+  double effective = 0;  ///< of them carry it
+  std::string why_independent = {};
+  bool outgrown = false;  ///< CommonPopulation
+};
+
 /// All decisions.
 struct Decisions {
   std::optional<AgeReplacement> age;
@@ -47,6 +57,7 @@ struct Decisions {
   double reference = 0;  ///< cost per unit of the axis that running units are held against
   std::vector<UnitDecision> units;  ///< the most urgent first
   std::vector<FleetMonth> months;
+  FleetCounting counting;  ///< of months
 };
 
 /// Throws InputError where what is asked cannot be told of such lives.

@@ -107,11 +107,22 @@ std::string table_text(const Table& table, std::size_t most = 40) {
   return text;
 }
 
-const char* const how_counted =
-    "Each unit counts once: parts that fail again within that time are not counted. Units are "
-    "independent given what each has shown; that all are of a population which is not known "
-    "exactly "
-    "would spread the number of young units further.";
+std::string how_counted(const DecisionsReport& report) {
+  const FleetCounting& counting = report.decisions.counting;
+  std::string text =
+      "Each unit counts once: parts that fail again within that time are not counted. ";
+  if (counting.populations > 0)
+    return text +
+           fmt::format(
+               "What {}s have in common is not known exactly: in each of {} possible populations "
+               "they are counted as independent, and these are mixed by what is known of them "
+               "(effective number {:.0f}).",
+               report.lives.noun, counting.populations, counting.effective);
+  return text + fmt::format(
+                    "Units are counted as independent, since {}; that all are of a population "
+                    "which is not known exactly would spread the numbers further.",
+                    counting.why_independent);
+}
 
 }  // namespace
 
@@ -138,6 +149,13 @@ std::vector<Check> decision_checks(const DecisionsReport& report) {
                                : "of a new one"),
          "How likely such early failures are is not known from these points: more of them, or "
          "weighted ones in the tail, would tell."});
+  if (report.decisions.counting.outgrown)
+    checks.push_back(
+        {"population", Verdict::warn,
+         fmt::format("how many of the fleet is counted as if {}s were independent: {}",
+                     report.lives.noun, report.decisions.counting.why_independent),
+         "Intervals and spare parts are closer than they ought to be. Fit with these readings "
+         "among the data (wearwell update) tells the population anew."});
   if (report.worth && std::abs(report.worth->worth.error) > 0.02)
     checks.push_back(
         {"inspection", Verdict::warn,
@@ -162,7 +180,7 @@ std::string decisions_text(const DecisionsReport& report) {
     text += table_text(units);
   }
   if (!report.decisions.months.empty())
-    text += table_text(months_table(report)) + wrapped(how_counted, 2, 2);
+    text += table_text(months_table(report)) + wrapped(printable(how_counted(report)), 2, 2);
   if (report.worth) text += "\n" + wrapped(printable(worth_in_words(report)), 0, 2);
   const std::vector<Check> checks = decision_checks(report);
   if (!checks.empty()) text += "\nChecks\n";
@@ -198,7 +216,7 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
   if (!report.decisions.months.empty()) {
     present::Section fleet{"fleet", "Fleet"};
     fleet.add(months_table(report));
-    fleet.add(present::Prose{how_counted});
+    fleet.add(present::Prose{how_counted(report)});
     fleet.add(present::Figures{{months_figure(report)}});
     sections.push_back(fleet);
   }
@@ -267,6 +285,16 @@ nlohmann::ordered_json decisions_json(const DecisionsReport& report) {
                                 {"reads", asked.column},     {"worth", asked.worth.worth},
                                 {"net", asked.worth.net},    {"replaced", asked.worth.replaced},
                                 {"error", asked.worth.error}};
+  }
+  if (!decisions.months.empty()) {
+    const FleetCounting& counting = decisions.counting;
+    json["counting"] = {{"independent", counting.populations == 0}};
+    if (counting.populations > 0) {
+      json["counting"]["populations"] = counting.populations;
+      json["counting"]["effective"] = counting.effective;
+    } else {
+      json["counting"]["why"] = counting.why_independent;
+    }
   }
   json["service"] = question.service;
   json["months"] = std::move(months);

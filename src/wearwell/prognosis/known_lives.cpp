@@ -23,7 +23,8 @@ const Column* optional_column(const Table& table, std::string_view name) {
 
 std::string word(const Column* column, std::size_t row) {
   if (!column) return "";
-  return column->is_number ? fmt::format("{}", column->numbers[row]) : column->text[row];
+  if (!column->is_number) return column->text[row];
+  return std::isnan(column->numbers[row]) ? "" : fmt::format("{}", column->numbers[row]);
 }
 
 void refuse_other_columns(const Table& table, const Column& life) {
@@ -53,6 +54,8 @@ struct Points {
   WeightedLives lives() const { return {life, weight}; }
 };
 
+const History nothing_read = [](const std::function<void(const Reading&)>&) {};
+
 // One place for all is known to the day: what chance leaves is not.
 void refuse_one_place(const Table& table, const Points& points) {
   const auto [least, most] = std::minmax_element(points.life.begin(), points.life.end());
@@ -67,6 +70,76 @@ double sum(const std::vector<double>& all) {
   double total = 0;
   for (const double each : all) total += each;
   return total;
+}
+
+using Populations = std::map<std::string, Points>;
+
+struct TabledUnit {
+  std::string name;
+  Populations rows;  // by population
+  bool apart() const { return rows.size() > 1 || !rows.begin()->first.empty(); }
+  Points together() const {
+    Points all;
+    for (const auto& [_, points] : rows) {
+      all.life.insert(all.life.end(), points.life.begin(), points.life.end());
+      all.weight.insert(all.weight.end(), points.weight.begin(), points.weight.end());
+    }
+    return all;
+  }
+};
+
+double share_of(const Populations& rows, const std::string& population) {
+  const auto at = rows.find(population);
+  double all = 0;
+  for (const auto& [_, points] : rows) all += sum(points.weight);
+  return at == rows.end() ? 0 : sum(at->second.weight) / all;
+}
+
+// A population is as likely whichever unit is looked at: what all units show is in its weight.
+void refuse_other_shares(const Table& table, const TabledUnit& unit, const Populations& fresh) {
+  Populations named = fresh;
+  named.insert(unit.rows.begin(), unit.rows.end());
+  for (const auto& [name, _] : named) {
+    const double own = share_of(unit.rows, name), all = share_of(fresh, name);
+    if (std::abs(own - all) <= 1e-6) continue;
+    throw InputError(fmt::format(
+        "{}: the population '{}' has {:.6g} of the weight of the unit '{}' and {:.6g} of that of "
+        "new ones; units share the population, so that it must weigh the same in each, or leave "
+        "out the population of all rows of that unit",
+        table.source, printable(name), own, printable(unit.name), all));
+  }
+}
+
+// What running units share: where their rows say it.
+void add_populations(const Table& table, const std::vector<TabledUnit>& units,
+                     const Populations& fresh, KnownLives& known) {
+  if (std::none_of(units.begin(), units.end(), [](const auto& each) { return each.apart(); }))
+    return;
+  for (const auto& [_, points] : fresh) {
+    if (sum(points.weight) > 0) known.populations.push_back(sum(points.weight));
+  }
+  const std::size_t count = known.populations.size();
+  const double all = sum(known.populations);
+  for (double& each : known.populations) each /= all;
+  for (std::size_t u = 0; u < units.size(); ++u) {
+    InPopulations unit{std::vector<double>(count), std::vector<double>(count), {}};
+    if (units[u].apart()) {
+      refuse_other_shares(table, units[u], fresh);
+      for (const auto& [_, points] : units[u].rows)
+        if (sum(points.weight) > 0) unit.remaining.push_back(points.lives());
+    } else {
+      unit.remaining.assign(count, known.units[u].remaining);
+    }
+    known.units[u].in_populations = [unit = std::move(unit)] { return std::optional(unit); };
+  }
+}
+
+KnownUnit unit_of_rows(const Table& table, const TabledUnit& unit) {
+  const Points points = unit.together();
+  if (sum(points.weight) <= 0)
+    throw InputError(
+        fmt::format("{}: the unit '{}' has no weight", table.source, printable(unit.name)));
+  return {unit.name, std::numeric_limits<double>::quiet_NaN(), 0, points.lives()};
 }
 
 }  // namespace
@@ -90,13 +163,14 @@ KnownLives lives_of_table(const Table& table) {
   const Column* weight = optional_column(table, "weight");
   const Column* name = optional_column(table, "unit");
   const Column* population = optional_column(table, "population");
-  std::map<std::string, Points> fresh;
-  std::vector<std::pair<std::string, Points>> units;
+  Populations fresh;
+  std::vector<TabledUnit> units;
   std::map<std::string, std::size_t> place_of;
   for (std::size_t row = 0; row < table.rows; ++row) {
     const std::string who = word(name, row);
     if (!who.empty() && place_of.emplace(who, units.size()).second) units.push_back({who, {}});
-    Points& points = who.empty() ? fresh[word(population, row)] : units[place_of.at(who)].second;
+    Populations& rows = who.empty() ? fresh : units[place_of.at(who)].rows;
+    Points& points = rows[word(population, row)];
     points.life.push_back(known.unit.scale * number_at(table, life, row, 0));
     points.weight.push_back(weight ? number_at(table, *weight, row, 0) : 1);
   }
@@ -107,12 +181,8 @@ KnownLives lives_of_table(const Table& table) {
     known.fresh.lives.push_back(points.lives());
     known.fresh.weight.push_back(sum(points.weight));
   }
-  for (const auto& [who, points] : units) {
-    if (sum(points.weight) <= 0)
-      throw InputError(
-          fmt::format("{}: the unit '{}' has no weight", table.source, printable(who)));
-    known.units.push_back({who, std::numeric_limits<double>::quiet_NaN(), 0, points.lives()});
-  }
+  for (const TabledUnit& each : units) known.units.push_back(unit_of_rows(table, each));
+  add_populations(table, units, fresh, known);
   return known;
 }
 
@@ -130,20 +200,29 @@ KnownLives lives_of_new(const Tracker& tracker, const std::string& title, bool t
   known.axis = tracker.axis().name;
   known.unit = tracker.axis().unit;
   known.trusted = trusted;
-  WeightedLives lives = tracker.begin(new_name(tracker))->forecast().remaining;
-  if (!lives.points().empty()) known.fresh = PopulationLives(std::move(lives));
+  const auto fresh = tracker.begin(new_name(tracker));
+  known.populations = tracker.populations();
+  if (std::optional<InPopulations> apart = fresh->in_populations(nothing_read)) {
+    known.fresh = PopulationLives(std::move(apart->remaining), known.populations);
+  } else if (WeightedLives lives = fresh->forecast().remaining; !lives.points().empty()) {
+    known.fresh = PopulationLives(std::move(lives));
+  }
   return known;
 }
 
-KnownUnit known_unit(const std::string& name, const TrackedUnit& unit) {
-  Forecast forecast = unit.forecast();
-  return {name, forecast.now, forecast.passed, std::move(forecast.remaining)};
+KnownUnit known_unit(const std::string& name, std::shared_ptr<const TrackedUnit> unit,
+                     History history) {
+  Forecast forecast = unit->forecast();
+  return {name, forecast.now, forecast.passed, std::move(forecast.remaining),
+          [unit = std::move(unit), history = std::move(history)] {
+            return unit->in_populations(history ? history : nothing_read);
+          }};
 }
 
 KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bool trusted) {
   KnownLives known = lives_of_new(tracker, title, trusted);
   for (const std::string& each : tracker.seen())
-    known.units.push_back(known_unit(each, *tracker.begin(each)));
+    known.units.push_back(known_unit(each, tracker.begin(each)));
   return known;
 }
 

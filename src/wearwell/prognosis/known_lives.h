@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +20,8 @@ struct KnownUnit {
   double now = 0;           ///< where it stands along the axis, SI; NaN where that is not known
   double passed = 0;        ///< the probability that its limit is behind it
   WeightedLives remaining;  ///< from now on, given that it is not, SI
+  /// The same population by population, asked for where units are counted; none where this is all there is.
+  std::function<std::optional<InPopulations>()> in_populations = {};
 };
 
 /// Lives that decisions are made upon: of a new unit, and of those that run.
@@ -28,11 +33,14 @@ struct KnownLives {
   bool trusted = true;        ///< the fit that they come from
   PopulationLives fresh;      ///< of a new one; none where it is not known
   std::vector<KnownUnit> units;
+  std::vector<double> populations =
+      {};  ///< that units may share: their weights; none: not told apart
 };
 
 /// Lives as a table has them: a column `life`, with its unit in the heading ("life [h]"), and, where there are such,
-/// `weight` of each (1 without), `unit` (a name, whose rows are what remains to it; empty: of a new one) and `population` (rows of
-/// new units that share one). "inf" is a life that never ends. Throws InputError naming row, column and value.
+/// `weight` of each (1 without), `unit` (a name, whose rows are what remains to it; empty: of a new one) and `population` (rows that
+/// hold if units are of that one; of running units in all populations or in none). "inf" is a life that never ends. Throws InputError
+/// naming row, column and value.
 KnownLives lives_of_table(const Table& table);
 
 /// Lives of the units that a study has seen, and of a new one, averaged over what is not known of the population.
@@ -40,7 +48,9 @@ KnownLives lives_of_tracker(const Tracker& tracker, const std::string& title, bo
 
 /// A new unit's lives alone, to which units can be added.
 KnownLives lives_of_new(const Tracker& tracker, const std::string& title, bool trusted);
-KnownUnit known_unit(const std::string& name, const TrackedUnit& unit);
+/// `unit` is kept, to be asked population by population with what it has read since the study.
+KnownUnit known_unit(const std::string& name, std::shared_ptr<const TrackedUnit> unit,
+                     History history = {});
 
 /// A name that none of the study's units has.
 std::string new_name(const Tracker& tracker);

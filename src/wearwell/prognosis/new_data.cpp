@@ -299,6 +299,16 @@ Table read_new_data(const Source& source, const std::filesystem::path& file) {
       file, {}, {}, alike ? read_table_settings(root.required_table("data")) : TableSettings{});
 }
 
+Table joined_table(const Table& was, const std::vector<std::string>& needed,
+                   const std::vector<Table>& fresh, Repeated repeated, JoinedData& joined) {
+  Joining joining(was, joined.roles, repeated);
+  joined.before += was.rows;
+  for (const Table& each : fresh) joining.add(each, needed, joined);
+  Table now = in_order(joining.table(), joined.roles);
+  compare(was, now, joined);
+  return now;
+}
+
 JoinedData joined_data(const Source& source, const std::vector<Table>& fresh, Repeated repeated) {
   const TableSection section = data_section(source);
   const auto found = source.tables.find(section.as_read);

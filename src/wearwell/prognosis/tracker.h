@@ -45,6 +45,15 @@ struct Forecast {
   double effective = 0;     ///< nodes that carry this: 1 / sum of squares
 };
 
+/// What is known of a unit if its population is one or another of those that are possible (`Tracker::populations`), in their
+/// order. Units share the population and nothing else: given it they are independent.
+struct InPopulations {
+  std::vector<double>
+      log_likelihood;          ///< of all that the unit showed since the study, up to a constant
+  std::vector<double> passed;  ///< Forecast::passed
+  std::vector<WeightedLives> remaining;  ///< Forecast::remaining
+};
+
 /// What the limit is of at a place ahead, SI: quantiles over all that is not known of the unit, and over
 /// the chance to come where increments are random. NaN where too much of it is no number there.
 struct LevelAhead {
@@ -77,6 +86,12 @@ class TrackedUnit {
   /// The path ahead at these places, ascending, none before where the unit is now: whatever becomes of it, so
   /// a path that has passed the limit goes on. Dearer than a forecast.
   virtual std::vector<LevelAhead> ahead(std::span<const double> places) const = 0;
+  /// The same forecast population by population; dearer than a forecast. Nothing where only that is at hand: of a model that
+  /// does not take them apart, or of a unit whose readings left the populations behind that all have in common.
+  virtual std::optional<InPopulations> in_populations(const History& history) const {
+    static_cast<void>(history);
+    return {};
+  }
   virtual std::size_t readings() const = 0;
   virtual std::string save() const = 0;  ///< bytes for `Tracker::restore`
 };
@@ -94,6 +109,8 @@ class Tracker {
   virtual const Quantity& limit() const = 0;
   virtual bool rising() const = 0;              ///< whether the limit is reached from below
   virtual const std::string& noun() const = 0;  ///< what a unit is: "machine"
+  /// Weights of the populations that are possible, as the study left them; sum to 1. None: not told apart.
+  virtual std::vector<double> populations() const { return {}; }
   /// The units that the study has seen.
   virtual std::span<const std::string> seen() const = 0;
   /// Why there can be no unit of that name; empty where there can be: of a study of one joint there is that one.

@@ -21,6 +21,8 @@
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/life_levels.h"
 
+// Longer than others: each kind of study tells lives in its own way, and all are one question.
+
 namespace wearwell::prognosis {
 namespace {
 

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <memory>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/bayes/normal_score.h"
 #include "wearwell/present/section.h"
+#include "wearwell/present/text_table.h"
 
 namespace wearwell::prognosis {
 namespace {
@@ -162,6 +164,27 @@ PosteriorStudy updated_study(const PosteriorStudy& study, JoinedData joined,
     return all;
   };
   return updated;
+}
+
+void add_new_data(const JoinedData& joined, const std::string& files, Result& result) {
+  const Check check = check_of(joined, files);
+  const TradeAddition added = addition_of(joined, files);
+  result.header.checks.insert(result.header.checks.begin(), check);
+  for (const auto& [key, value] : added.body.items()) result.body[key] = value;
+  if (!result.sections.empty()) {
+    present::Section section{"new-data", "New data"};
+    section.add(present::Prose{check.detail + ". " + check.advice});
+    for (const auto& [_, blocks] : added.blocks) {
+      for (const auto& each : blocks) section.add(each);
+    }
+    result.sections.push_back(std::move(section));
+  }
+  if (!result.text) return;
+  const std::string told =
+      wrapped((check.verdict == Verdict::pass ? "New data: " : "New data, WARN: ") +
+                  printable(check.detail),
+              0, 2);
+  result.text = [told, own = result.text](const TerminalStyle& style) { return own(style) + told; };
 }
 
 }  // namespace wearwell::prognosis

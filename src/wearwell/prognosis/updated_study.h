@@ -6,6 +6,7 @@
 
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/study/posterior_study.h"
+#include "wearwell/study/result.h"
 
 namespace wearwell::prognosis {
 
@@ -23,5 +24,8 @@ void judge_new_data(const PosteriorStudy& study, const WeightedDraws& before, Jo
 /// The study with a check `new-data` more, which says what became of the rows; summary.json has it under `update`.
 PosteriorStudy updated_study(const PosteriorStudy& study, JoinedData joined,
                              const std::string& files);
+
+/// The same of a result that has no posterior: a check `new-data`, `update` in summary.json, and a section of the report.
+void add_new_data(const JoinedData& joined, const std::string& files, Result& result);
 
 }  // namespace wearwell::prognosis

@@ -97,6 +97,8 @@ void expect_followed(const Kind& kind) {
   const std::string unit = whole.design.law->units[last];
   const std::vector<Reading> readings = readings_of(whole, last);
   const Watched part(kind.study, without_last(kind.columns, readings.size()), posterior);
+  // Laws of life by population are of some forty points each.
+  const double apart = std::max(kind.tolerance, 0.015);
   {
     SCOPED_TRACE("seen");
     const LimitedLives fit = lives_of_fit(whole, posterior, !whole.design.law->has_process());
@@ -105,6 +107,8 @@ void expect_followed(const Kind& kind) {
     if (!whole.design.law->has_process()) {  // dear in a fit
       expect_alike(whole.tracker->begin("new")->forecast(), fit.next, 0, kind.tolerance);
     }
+    expect_populations(*whole.tracker, Followed(*whole.tracker, unit), apart);
+    expect_populations(*whole.tracker, Followed(*whole.tracker, "new"), apart);
   }
   const LimitedLives fit = lives_of_fit(whole, given_unit(whole, posterior, last));
   std::vector<std::size_t> order(readings.size());
@@ -125,6 +129,7 @@ void expect_followed(const Kind& kind) {
     expect_alike(followed.unit->forecast(), fit.remaining[last], fit.passed[last], kind.tolerance);
     const bool both_ways = kind.study.find("wiener") != std::string::npos;
     expect_path_ahead(*part.tracker, *followed.unit, both_ways, 0.03 + kind.tolerance);
+    if (!late) expect_populations(*part.tracker, followed, apart);
   }
 }
 

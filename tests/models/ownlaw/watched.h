@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -148,6 +149,35 @@ inline void expect_path_ahead(const prognosis::Tracker& tracker, const prognosis
   EXPECT_NEAR(path.front().level05, forecast.level05, 1e-6 * wide);
   EXPECT_NEAR(path.front().level50, forecast.level50, 1e-6 * wide);
   EXPECT_NEAR(path.front().level95, forecast.level95, 1e-6 * wide);
+}
+
+// Populations, mixed by their weights and what the unit showed in each, are the forecast.
+inline void expect_populations(const prognosis::Tracker& tracker, const Followed& followed,
+                               double tolerance) {
+  const auto apart = followed.unit->in_populations(
+      [&](const std::function<void(const prognosis::Reading&)>& visit) {
+        for (const prognosis::Reading& each : followed.taken) visit(each);
+      });
+  if (!apart) return;  // it has left the populations behind that all have in common
+  const std::vector<double> weight = tracker.populations();
+  ASSERT_EQ(apart->log_likelihood.size(), weight.size());
+  ASSERT_EQ(apart->passed.size(), weight.size());
+  ASSERT_EQ(apart->remaining.size(), weight.size());
+  const prognosis::Forecast forecast = followed.unit->forecast();
+  const double top = *std::max_element(apart->log_likelihood.begin(), apart->log_likelihood.end());
+  for (const double p : {0.0, 0.05, 0.25, 0.5, 0.75, 0.95}) {
+    const double after = p > 0 ? forecast.remaining.quantile(p) : 0;
+    if (!std::isfinite(after)) continue;
+    double sum = 0, mass = 0;
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+      const double share = weight[k] * std::exp(apart->log_likelihood[k] - top);
+      if (!(share > 0)) continue;
+      mass += share;
+      sum += share * (apart->passed[k] + (1 - apart->passed[k]) * apart->remaining[k].cdf(after));
+    }
+    const double expected = forecast.passed + (1 - forecast.passed) * forecast.remaining.cdf(after);
+    EXPECT_NEAR(sum / mass, expected, tolerance) << "at " << p;
+  }
 }
 
 // Where the fit's quantiles lie in the forecast.

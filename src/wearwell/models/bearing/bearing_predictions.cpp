@@ -11,6 +11,8 @@
 #include "wearwell/models/bearing/wear_number.h"
 #include "wearwell/study/life_levels.h"
 
+// Longer than others: all that [predict] of a bearing may ask for shares what it is asked of.
+
 namespace wearwell {
 namespace {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "wearwell/math/constants.h"
+// Longer than others: the integral, its panels and their nodes see one integrand.
 
 namespace wearwell::bearing {
 namespace {

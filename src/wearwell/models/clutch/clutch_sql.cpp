@@ -24,7 +24,13 @@ SqlWriter::SqlWriter(const WearModel& model, const std::string& id, fleet::Diale
       replicates_(replicates ? model.replicates.size() : 0),
       model_table_(fleet::table_identifier(dialect, source.prefix + "_model")),
       sums_table_(fleet::table_identifier(dialect, source.prefix + "_sums")),
-      fresh_table_(source.staged ? "wearwell_fresh_sums" : sums_table_) {}
+      fresh_table_(source.staged ? "wearwell_fresh_sums" : sums_table_) {
+  std::vector<std::string> names = {source.unit.name, source.cycle.name, source.energy.name};
+  for (const SqlColumn& each : source.inputs) names.push_back(each.name);
+  for (const std::string& each : {source.time, source.per_day})
+    if (!each.empty()) names.push_back(each);
+  fleet::refuse_alike(dialect, names);
+}
 
 /// What is summed for each unit, after the counts.
 std::vector<std::string> SqlWriter::sum_names() const {
@@ -320,6 +326,7 @@ ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Diale
   sql.totals = writer.totals();
   sql.size = writer.size();
   sql.late = writer.late();
+  sql.times = writer.times();
   sql.keep = writer.keep();
   sql.check = writer.check();
   sql.offender = writer.offender();
@@ -328,7 +335,9 @@ ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Diale
   sql.known = writer.known();
   sql.fresh = writer.fresh();
   sql.gather = writer.gather();
-  sql.kept = writer.kept();
+  sql.columns = writer.sums_columns();
+  sql.layout = writer.layout();
+  sql.exists = writer.exists();
   sql.others = writer.others();
   return sql;
 }

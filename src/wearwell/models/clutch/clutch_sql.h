@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "wearwell/fleet/dialect.h"
 #include "wearwell/models/clutch/wear_model.h"
@@ -22,6 +23,9 @@ struct SqlSource {
   SqlColumn unit, cycle;
   std::array<SqlColumn, 4> inputs;  ///< as `inputs`; the temperature in degrees Celsius
   SqlColumn energy;
+  /// When the cycle was, a day or a moment of it; or how many a day its unit makes. Empty: nothing tells.
+  std::string time, per_day;
+  bool is_date = false;             ///< days alone
   std::string prefix = "wearwell";  ///< of the tables that the statements make
   bool first = false;               ///< nothing was counted before: all rows are new
   /// ClickHouse has no transactions: new sums go to a temporary table until `keep`.
@@ -60,6 +64,9 @@ struct ClutchSql {
   /// SELECT: units whose rows up to the last cycle that was counted are not as many as were
   /// counted, and how many of both.
   std::string late;
+  /// SELECT: unit, first and last moment (seconds since 1970), rows that have one, mean of `per_day`; what the table does not
+  /// have is nothing. Empty where it has neither.
+  std::string times;
   std::string keep;   ///< what is new stays; empty where a transaction does that
   std::string check;  ///< SELECT: rows, rows without a value that can be, range of each input
   /// SELECT: of a row that has no value that can be: unit, cycle, the four inputs, energy.
@@ -68,8 +75,10 @@ struct ClutchSql {
   /// and cycle; of each unit the last cycle that was counted, and its energy so far, halves of
   /// 32 bits each; a temporary table that takes sums, and the statement that adds them to those kept.
   std::string stream, sorted, known, fresh, gather;
-  /// SELECT: units of this model of which sums are kept, and those whose replicates are. Not of ClickHouse.
-  std::string kept;
+  /// Columns of the table of sums, as this run has them; SELECT: those of the table that is there, each with 1 where it
+  /// is of the key. Of ClickHouse the table may be missing, which `exists` tells (elsewhere empty).
+  std::vector<std::string> columns;
+  std::string layout, exists;
   std::string
       others;  ///< SELECT: another model of which sums are kept, where there are none of this
 };

@@ -7,11 +7,7 @@ namespace wearwell::clutch {
 
 using fleet::number;
 
-namespace {
-
-constexpr int newton_steps = 8;
-
-}  // namespace
+static constexpr int newton_steps = 8;
 
 /// The sums of each unit over all runs, in SI.
 std::string SqlWriter::unit_sums() const {
@@ -246,6 +242,39 @@ std::string SqlWriter::offender() const {
                      columns.text(), si(false), refused());
 }
 
+std::string SqlWriter::times() const {
+  if (source_.time.empty() && source_.per_day.empty()) return "";
+  const std::string unit = this->unit();
+  const std::string nothing = clickhouse() ? "nan" : fmt::format("cast(null as {})", types_.real);
+  SqlColumns columns;
+  columns.add(
+      clickhouse() ? fmt::format("ifNull(toString({}), '')", unit) : fleet::text(dialect_, unit),
+      "wearwell_unit");
+  if (source_.time.empty()) {
+    for (const char* each : {"first_time", "last_time", "timed"}) columns.add(nothing, each);
+  } else {
+    std::string time = "t." + fleet::identifier(dialect_, source_.time);
+    if (dialect_ == fleet::Dialect::duckdb) time = fmt::format("cast({} as timestamp)", time);
+    columns.add(fleet::seconds(dialect_, fmt::format("min({})", time)), "first_time");
+    columns.add(fleet::seconds(dialect_, fmt::format("max({})", time)), "last_time");
+    columns.add(fleet::real(dialect_, fmt::format("count({})", time)), "timed");
+  }
+  // Texts that are dates have no other moment of the day than its begin.
+  columns.add(!source_.time.empty() && dialect_ == fleet::Dialect::duckdb
+                  ? fmt::format("cast(max(epoch(cast({0} as timestamp)) % 86400) as double)",
+                                "t." + fleet::identifier(dialect_, source_.time))
+                  : nothing,
+              "clock");
+  const std::string rate =
+      "t." +
+      fleet::identifier(dialect_, source_.per_day.empty() ? source_.cycle.name : source_.per_day);
+  columns.add(
+      source_.per_day.empty() ? nothing : fleet::real(dialect_, fmt::format("avg({})", rate)),
+      "per_day");
+  return fmt::format("select\n  {}\nfrom {} as t group by {}", columns.text(), source_.table,
+                     clickhouse() ? "wearwell_unit" : unit);
+}
+
 std::string SqlWriter::stream() const {
   SqlColumns columns;
   columns.add(unit(), "unit");
@@ -286,13 +315,28 @@ std::string SqlWriter::gather() const {
                      adding());
 }
 
-/// Where the table has no column v1 the name is that of the row outside, which is nothing.
-std::string SqlWriter::kept() const {
-  const std::string count = fmt::format("(select {} from {} where model = {}",
-                                        fleet::real(dialect_, "count(*)"), sums_table_, id_);
-  return fmt::format(
-      "select {0}), {0} and v1 is not null) from (select cast(null as {1}) as v1) as outside",
-      count, types_.whole);
+std::string SqlWriter::layout() const {
+  const std::string table = fleet::literal(dialect_, sums_table_);
+  switch (dialect_) {
+    case fleet::Dialect::duckdb:
+      return fmt::format("select name, cast(pk as double) from pragma_table_info({})", table);
+    case fleet::Dialect::postgresql:
+      return fmt::format(
+          "select cast(a.attname as text), case when a.attnum = any(i.indkey) then 1e0 else 0e0 "
+          "end "
+          "from pg_catalog.pg_attribute as a left join pg_catalog.pg_index as i on i.indrelid = "
+          "a.attrelid and i.indisprimary where a.attrelid = to_regclass({}) and a.attnum > 0 and "
+          "not "
+          "a.attisdropped",
+          table);
+    case fleet::Dialect::clickhouse:
+      break;
+  }
+  return "describe table " + sums_table_;
+}
+
+std::string SqlWriter::exists() const {
+  return clickhouse() ? "exists table " + sums_table_ : "";
 }
 
 std::string SqlWriter::others() const {

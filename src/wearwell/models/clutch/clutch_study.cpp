@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/as_read.h"
 #include "wearwell/input/fingerprint.h"
 #include "wearwell/input/source.h"
 #include "wearwell/input/toml_reader.h"
@@ -39,6 +40,14 @@ void read_simulation(const TomlReader& table, ClutchStudy& study) {
   for (const ReadFile& file : read) study.sha1s.push_back(file.sha1());
 }
 
+/// What `wearwell update` goes on from: a path and lines of a file mean nothing there.
+void keep_table(const std::string& name, const std::string& source, Table table, bool by_sql,
+                ClutchStudy& study) {
+  table.source = source;
+  table.lines.clear();
+  if (by_sql || !study.tables.emplace(name, std::move(table)).second) study.carried = false;
+}
+
 /// One table of [data]: KEY = "file", or a table [data.KEY] with file, sql, columns and the rest.
 CampaignTable open_table(const TomlReader& data, const char* key, const Source& source,
                          ClutchStudy& study) {
@@ -46,19 +55,22 @@ CampaignTable open_table(const TomlReader& data, const char* key, const Source& 
   const TomlReader section = is_name ? data : data.required_table(key);
   const char* const file_key = is_name ? key : "file";
   const std::string name = section.required_text(file_key);
-  const auto in_memory = source.tables.find(name);
-  study.files.push_back(in_memory == source.tables.end()
-                            ? required_file(section, file_key, source.folder())
-                            : fs::path(name));
+  const auto named = source.tables.find(name);
+  const Table* const in_memory = !is_name                       ? table_in_memory(section, source)
+                                 : named == source.tables.end() ? nullptr
+                                                                : &named->second;
+  study.files.push_back(in_memory ? fs::path(name)
+                                  : required_file(section, file_key, source.folder()));
   const ReadFile read(study.files.back());
-  CampaignTable table{is_name
-                          ? in_memory != source.tables.end()
-                                ? in_memory->second
-                                : read_table(study.files.back(), {}, {}, read_table_settings(data))
-                          : read_table(section, source),
-                      is_name ? std::nullopt : section.table("columns")};
-  study.sha1s.push_back(in_memory == source.tables.end() ? read.sha1() : "");
+  CampaignTable table{
+      is_name ? in_memory ? *in_memory
+                          : read_table(study.files.back(), {}, {}, read_table_settings(data))
+              : read_table(section, source),
+      is_name ? std::nullopt : section.table("columns")};
+  study.sha1s.push_back(in_memory ? "" : read.sha1());
   study.layouts.push_back(table.table.layout);
+  keep_table(is_name ? name : as_read_name(section), name, table.table,
+             !is_name && section.has("sql"), study);
   return table;
 }
 

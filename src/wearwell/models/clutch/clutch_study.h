@@ -33,6 +33,10 @@ struct ClutchStudy {
   bool simulated = false;
   std::optional<Truth> truth;            ///< of a simulated campaign
   std::vector<DataColumn> data_columns;  ///< of a rig's tables, as they were read
+  /// A rig's tables as `Source::tables` hands them over again, to go on from; none where that cannot be: one is asked for by sql, or two
+  /// are of one file.
+  std::map<std::string, Table> tables;
+  bool carried = true;  ///< whether they are there
   Campaign campaign;
   std::vector<Realized> realized;  ///< likewise
   std::vector<double> plate_factors;

@@ -16,8 +16,9 @@
 namespace wearwell::clutch {
 namespace {
 
-const std::vector<std::string> names = {"unit",        "cycle",        "slip_speed", "torque",
-                                        "temperature", "closing_time", "energy"};
+const std::vector<std::string> names = {"unit",   "cycle",       "slip_speed",
+                                        "torque", "temperature", "closing_time",
+                                        "energy", "time",        "cycles_per_day"};
 
 /// By name, as they were given.
 std::map<std::string, std::string> split(const std::vector<std::string>& options) {
@@ -115,6 +116,30 @@ void read_fleet_columns(const std::vector<std::string>& options,
     if (inputs[i].value == &OperatingPoint::temperature) source.inputs[i].offset -= celsius_zero;
   }
   source.energy = quantity("energy", "J");
+  for (const char* name : {"time", "cycles_per_day"}) {
+    const auto at = given.find(name);
+    if (at == given.end()) continue;
+    if (known.empty())
+      throw InputError(
+          fmt::format("--columns: '{}' is of wearwell fleet alone: the statements tell wear and "
+                      "life in cycles",
+                      name));
+    const bool rate = std::string_view(name) == "cycles_per_day";
+    require_known(known, at->second, table, rate);
+    (rate ? source.per_day : source.time) = at->second;
+  }
+  if (!source.time.empty() && !source.per_day.empty())
+    throw InputError(
+        "--columns: 'time' and 'cycles_per_day' both tell how many cycles a day a unit makes: name "
+        "one of them");
+  for (const auto& each : known) {
+    if (each.name != source.time) continue;
+    source.is_date = each.is_date;
+    // Texts, as CSV has them, are read by the engine, or refused.
+    if (each.is_number)
+      throw InputError(fmt::format("{}: column '{}' holds neither dates nor times", table,
+                                   printable(source.time)));
+  }
 }
 
 }  // namespace wearwell::clutch

@@ -27,7 +27,7 @@ struct FleetOptions {
   std::filesystem::path result, output = "fleet-results", state;
   std::vector<std::string> engines = {"duckdb"}, files, columns;
   std::string table, prefix = "wearwell";
-  std::vector<double> levels = {25, 50, 75, 100}, horizons;
+  std::vector<double> levels = {25, 50, 75, 100}, horizons, days;
   int threads = 0;
   long memory = 0;
   bool scatter_only = false, statements = false, json = false, quiet = false;
@@ -89,7 +89,8 @@ void run_fleet(const FleetOptions& options, int& exit_code) {
                        .replicates = !options.scatter_only,
                        .statements = options.statements,
                        .levels = options.levels,
-                       .horizons = options.horizons},
+                       .horizons = options.horizons,
+                       .days = options.days},
                       monitor);
   }();
   write_result(result, "", folder);
@@ -133,7 +134,8 @@ void add_fleet_command(CLI::App& app, int& exit_code) {
       ->add_option(
           "--columns", options->columns,
           "unit, cycle, slip_speed, torque, temperature, closing_time, energy: NAME=COLUMN "
-          "or NAME=COLUMN:UNIT, where files call them otherwise")
+          "or NAME=COLUMN:UNIT, where files call them otherwise; and time (dates or times) or "
+          "cycles_per_day, for an answer in days")
       ->type_name("NAME=COLUMN:UNIT");
   command->add_option("--state", options->state,
                       "a database of DuckDB: go on from the sums in it, and leave the sums in it");
@@ -147,6 +149,12 @@ void add_fleet_command(CLI::App& app, int& exit_code) {
           "further cycles after which units are counted (default: parts of the mean so far)")
       ->delimiter(',')
       ->check(number_between(0, 1e15));
+  command
+      ->add_option("--days", options->days,
+                   "further days after which units are counted, each at its own cycles a day, "
+                   "where --columns has time or cycles_per_day (default there: 30, 90, 365)")
+      ->delimiter(',')
+      ->check(number_between(0, 1e6));
   command->add_flag("--scatter-only", options->scatter_only,
                     "without what is not known of map and run-in; much faster");
   command->add_flag("--statements", options->statements,

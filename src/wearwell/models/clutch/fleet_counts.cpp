@@ -4,37 +4,51 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/workers.h"
 
 namespace wearwell::clutch {
 
 FleetCounts::FleetCounts(const WearModel& model, bool replicates, std::vector<double> levels,
-                         std::vector<double> horizons)
+                         std::vector<double> horizons, std::vector<double> days)
     : model_(model),
       models_(1 + (replicates ? model.replicates.size() : 0)),
       levels_(std::move(levels)),
       horizons_(std::move(horizons)),
-      sums_(levels_.size() * horizons_.size() * models_) {}
+      days_(std::move(days)),
+      sums_(levels_.size() * (horizons_.size() + days_.size()) * models_) {}
 
-UnitRow FleetCounts::add(const UnitSums& sums) {
-  if (!std::isfinite(sums.volume) || !std::isfinite(sums.variance) ||
-      !sums.volumes.isFinite().all())
-    throw InputError(fmt::format("unit {} has no finite wear", printable(sums.unit)));
-  const UnitForecast forecast(model_, sums);
-  for (std::size_t h = 0; h < horizons_.size(); ++h) {
-    for (std::size_t b = 0; b < models_; ++b) {
-      const UnitForecast::Ahead ahead = forecast.ahead(b, horizons_[h]);
-      for (std::size_t l = 0; l < levels_.size(); ++l) {
-        const double p = ahead.reached(levels_[l] * model_.worn_out);
-        Sum& sum = at(l, h, b);
-        sum.mean += std::llround(p / probability_unit);
-        sum.variance += std::llround(p * (1 - p) / probability_unit);
-      }
-    }
+std::vector<UnitRow> FleetCounts::add(std::span<const UnitSums> units,
+                                      std::span<const double> per_day, int threads) {
+  for (const UnitSums& each : units) {
+    if (!std::isfinite(each.volume) || !std::isfinite(each.variance) ||
+        !each.volumes.isFinite().all())
+      throw InputError(fmt::format("unit {} has no finite wear", printable(each.unit)));
   }
+  std::vector<UnitRow> rows(units.size());
+  constexpr std::size_t together = 64;
+  std::mutex mutex;
+  run_tasks(static_cast<int>((units.size() + together - 1) / together), threads, [&](int task) {
+    const std::size_t from = static_cast<std::size_t>(task) * together;
+    std::vector<Sum> sums(sums_.size());
+    for (std::size_t i = from; i < std::min(units.size(), from + together); ++i)
+      rows[i] = forecast(units[i], per_day.empty() ? NAN : per_day[i], sums);
+    const std::lock_guard lock(mutex);
+    for (std::size_t s = 0; s < sums.size(); ++s) {
+      sums_[s].mean += sums[s].mean;
+      sums_[s].variance += sums[s].variance;
+    }
+  });
+  for (const UnitSums& each : units) describe(each);
+  return rows;
+}
+
+/// What needs no forecast.
+void FleetCounts::describe(const UnitSums& sums) {
   ++units_;
   for (std::size_t i = 0; i < 4; ++i) {
     duty_[i].push_back(static_cast<float>(sums.inputs[i] / sums.cycles));
@@ -47,7 +61,23 @@ UnitRow FleetCounts::add(const UnitSums& sums) {
   outside_any_ += sums.outside_any;
   negative_ += sums.negative;
   units_outside_ += sums.outside_any > 0;
+}
 
+UnitRow FleetCounts::forecast(const UnitSums& sums, double per_day,
+                              std::vector<Sum>& reached) const {
+  const UnitForecast forecast(model_, sums);
+  for (std::size_t h = 0; h < horizons_.size() + days_.size(); ++h) {
+    const double more = h < horizons_.size() ? horizons_[h] : days_[h - horizons_.size()] * per_day;
+    for (std::size_t b = 0; b < models_; ++b) {
+      const UnitForecast::Ahead ahead = forecast.ahead(b, more);
+      for (std::size_t l = 0; l < levels_.size(); ++l) {
+        const double p = ahead.reached(levels_[l] * model_.worn_out);
+        Sum& sum = reached[place(l, h) + b];
+        sum.mean += std::llround(p / probability_unit);
+        sum.variance += std::llround(p * (1 - p) / probability_unit);
+      }
+    }
+  }
   UnitRow row{sums.unit, sums.cycles, sums.energy, sums.volume};
   row.sd = forecast.scatter_sd(0);
   row.full_sd = forecast.full_sd(0);
@@ -59,11 +89,12 @@ UnitRow FleetCounts::add(const UnitSums& sums) {
                                 : (to_go <= 0 ? 1.0 : 0.0);
   row.outside_any = sums.outside_any;
   row.negative = sums.negative;
+  row.per_day = per_day;
   return row;
 }
 
 UnitCount FleetCounts::reached(std::size_t level, std::size_t horizon) const {
-  const Sum* const sums = &sums_[(level * horizons_.size() + horizon) * models_];
+  const Sum* const sums = &sums_[place(level, horizon)];
   const auto mean = [&](std::size_t b) {
     return static_cast<double>(sums[b].mean) * probability_unit;
   };

@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct UnitRow {
   LifeInterval scatter = {}, full = {};
   double reached = 0;  ///< probability that it is worn out already
   double outside_any = 0, negative = 0;
+  double per_day = std::numeric_limits<double>::quiet_NaN();  ///< cycles; NaN where nothing tells
 };
 
 /// All units together, added one after the other. What is not known of the model is the same for all of
@@ -31,17 +34,22 @@ struct UnitRow {
 /// replicate; it does not shrink with the number of units.
 class FleetCounts {
  public:
-  /// `levels`: shares of the worn-out volume; `horizons`: cycles from now on, 0 among them.
+  /// `levels`: shares of the worn-out volume; `horizons`: cycles from now on, 0 among them; `days`: further horizons, in days, which
+  /// take what a unit makes in them.
   FleetCounts(const WearModel& model, bool replicates, std::vector<double> levels,
-              std::vector<double> horizons);
+              std::vector<double> horizons, std::vector<double> days = {});
 
-  /// Throws InputError for sums that are not finite.
-  UnitRow add(const UnitSums& sums);
+  /// `per_day`: cycles a day of each unit; empty where there are no days. The same whatever the number of threads. Throws
+  /// InputError for sums that are not finite.
+  std::vector<UnitRow> add(std::span<const UnitSums> units, std::span<const double> per_day,
+                           int threads);
+  UnitRow add(const UnitSums& sums) { return add({&sums, 1}, {}, 1).front(); }
 
   const std::vector<double>& levels() const { return levels_; }
   const std::vector<double>& horizons() const { return horizons_; }
+  const std::vector<double>& days() const { return days_; }
   std::size_t units() const { return units_; }
-  /// Units that have reached the level after that horizon.
+  /// Units that have reached the level after that horizon; those in days stand behind those in cycles.
   UnitCount reached(std::size_t level, std::size_t horizon) const;
 
   /// Means over the cycles of each unit, for quantiles over units: slip speed, torque, temperature, closing
@@ -62,13 +70,15 @@ class FleetCounts {
     std::int64_t mean = 0, variance = 0;
   };
   static constexpr double probability_unit = 0x1p-36, energy_unit = 0x1p-8;
-  Sum& at(std::size_t level, std::size_t horizon, std::size_t b) {
-    return sums_[(level * horizons_.size() + horizon) * models_ + b];
+  std::size_t place(std::size_t level, std::size_t horizon) const {
+    return (level * (horizons_.size() + days_.size()) + horizon) * models_;
   }
+  UnitRow forecast(const UnitSums& sums, double per_day, std::vector<Sum>& reached) const;
+  void describe(const UnitSums& sums);
 
   const WearModel& model_;
   std::size_t models_;
-  std::vector<double> levels_, horizons_;
+  std::vector<double> levels_, horizons_, days_;
   std::vector<Sum> sums_;
   std::size_t units_ = 0, units_outside_ = 0;
   std::array<std::vector<float>, duties> duty_;

@@ -9,6 +9,7 @@
 #include "wearwell/input/parquet_writer.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/models/clutch/fleet_day_report.h"
 #include "wearwell/present/plot.h"
 
 namespace wearwell::clutch {
@@ -178,20 +179,25 @@ nlohmann::ordered_json body_of(const WearModel& model, const FleetCounts& counts
                      {"interval_full", {u.full.low, u.full.high}},
                      {"outside_any", u.outside_any},
                      {"negative", u.negative}});
+    if (!found.days.known) continue;
+    add_days(worst.back(), u);
   }
-  return {{"fleet",
-           {{"units", counts.units()},
-            {"cycles", counts.cycles()},
-            {"energy", counts.energy()},
-            {"outside_any", counts.outside_any()},
-            {"negative", counts.negative()},
-            {"engine", found.engine},
-            {"rows", found.rows},
-            {"model", found.model_id},
-            {"worn_out", model.worn_out / mm3},
-            {"replicates", found.replicates ? model.replicates.size() : 0}}},
-          {"levels", std::move(levels)},
-          {"worst", std::move(worst)}};
+  nlohmann::ordered_json body = {{"fleet",
+                                  {{"units", counts.units()},
+                                   {"cycles", counts.cycles()},
+                                   {"energy", counts.energy()},
+                                   {"outside_any", counts.outside_any()},
+                                   {"negative", counts.negative()},
+                                   {"engine", found.engine},
+                                   {"rows", found.rows},
+                                   {"model", found.model_id},
+                                   {"worn_out", model.worn_out / mm3},
+                                   {"replicates", found.replicates ? model.replicates.size() : 0}}},
+                                 {"levels", std::move(levels)},
+                                 {"worst", std::move(worst)}};
+  if (!found.days.known) return body;
+  add_days(body, counts, found.days);
+  return body;
 }
 
 std::string units_file(const WearModel& model, const FleetFindings& found) {
@@ -203,13 +209,31 @@ std::string units_file(const WearModel& model, const FleetFindings& found) {
                                        {"left_scatter_low", {}}, {"left_scatter_high", {}},
                                        {"left_full_low", {}},    {"left_full_high", {}},
                                        {"outside_any", {}},      {"negative", {}}};
+  if (found.days.known)
+    for (const char* name :
+         {"cycles_per_day", "days_left", "days_left_full_low", "days_left_full_high"})
+      columns.push_back({name, {}});
   for (const UnitRow& u : found.units) {
     names.values.push_back(u.unit);
-    const double row[] = {u.cycles,       u.energy,        u.volume / mm3,
-                          u.sd / mm3,     u.full_sd / mm3, u.volume / model.worn_out,
-                          u.reached,      u.left,          u.scatter.low,
-                          u.scatter.high, u.full.low,      u.full.high,
-                          u.outside_any,  u.negative};
+    const double row[] = {u.cycles,
+                          u.energy,
+                          u.volume / mm3,
+                          u.sd / mm3,
+                          u.full_sd / mm3,
+                          u.volume / model.worn_out,
+                          u.reached,
+                          u.left,
+                          u.scatter.low,
+                          u.scatter.high,
+                          u.full.low,
+                          u.full.high,
+                          u.outside_any,
+                          u.negative,
+                          u.per_day,
+                          days_of(u, u.left),
+                          days_of(u, u.full.low),
+                          days_of(u, u.full.high)};
+    static_assert(std::size(row) == 18);
     for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(row[c]);
   }
   return parquet_of({names}, columns);
@@ -271,15 +295,19 @@ Result fleet_result(const WearModel& model, const FleetCounts& counts, const Fle
                   counts.units(), now.expected, now.low, now.high, 100 * counts.levels()[last]),
       true});
   levels.add(level_table(counts));
+  if (found.days.known) levels.add(day_table(counts, found.days));
   levels.add(present::Figures{{level_figure(counts)}});
   Section worst{"worst", "Worst units"};
   worst.add(worst_table(found));
+  if (found.days.known)
+    worst.add(worst_day_table(found, std::min(worst_shown, found.units.size())));
   Section fleet{"fleet", "Fleet"};
   fleet.add(spread_table(counts));
   fleet.add(outside_table(model, counts));
   Section how{"how", "How"};
   how.add(present::Facts{{{"engine", found.engine},
                           {"cycles read", fmt::format("{:.0f}", found.rows)},
+                          {"by when", time_in_words(found)},
                           {"model", found.model_id}}});
   how.add(present::Details{"The statements", {{present::Verbatim{found.statements}}}});
   result.sections = {std::move(levels), std::move(worst), std::move(fleet), std::move(how)};

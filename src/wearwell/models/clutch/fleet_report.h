@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wearwell/models/clutch/fleet_counts.h"
+#include "wearwell/models/clutch/fleet_days.h"
 #include "wearwell/study/result.h"
 
 namespace wearwell::clutch {
@@ -16,7 +17,8 @@ struct FleetFindings {
   double rows = 0;  ///< looked at in this run
   bool replicates = true;
   std::vector<UnitRow> units;  ///< worst first
-  std::string statements;      ///< that were run
+  FleetDays days;
+  std::string statements;  ///< that were run
 };
 
 /// The units whose full interval comes to its end first stand first; ties by what is left, then by name.

@@ -6,13 +6,16 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <thread>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/workers.h"
 #include "wearwell/models/clutch/clutch_sql.h"
 #include "wearwell/models/clutch/fleet_columns.h"
+#include "wearwell/models/clutch/fleet_days.h"
 #include "wearwell/models/clutch/fleet_loop.h"
+#include "wearwell/models/clutch/kept_sums.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -71,27 +74,6 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
   return check;
 }
 
-void refuse_late(fleet::Engine& engine, const ClutchSql& sql) {
-  engine.rows(sql.late, 1, [&](const fleet::Row& row) {
-    throw InputError(
-        fmt::format("{}: unit {} has {:.0f} cycles up to the last one that was counted, of which "
-                    "{:.0f} were counted: "
-                    "rows came late or went; sum them all anew, without --state",
-                    engine.source(), printable(row.texts.front()), row.numbers[0], row.numbers[1]));
-  });
-}
-
-/// Files hold what is new, as a rule: to begin anew beside another model's sums would lose what that has
-/// counted.
-void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::string& model) {
-  engine.rows(sql.others, 1, [&](const fleet::Row& row) {
-    throw InputError(
-        fmt::format("{}: --state holds the sums of another model ({}; this is {}), which cannot go "
-                    "on: sum all cycles anew, into another file",
-                    engine.source(), printable(row.texts.front()), model));
-  });
-}
-
 void refuse_repeated(const fleet::Engine& engine, const UnitSums& sums) {
   if (sums.repeated > 0)
     throw InputError(fmt::format("{}: unit {} has {:.0f} cycles whose number stands there twice",
@@ -113,22 +95,10 @@ std::vector<double> horizons_of(double mean_cycles) {
 struct Shard {
   fleet::Engine& engine;
   ClutchSql sql = {};
+  SqlSource source = {};
   double rows = 0;
   std::string ranges = {};
 };
-
-/// The sums of a run with another option lack what this one adds to, or would stay behind.
-void refuse_other_option(fleet::Engine& engine, const ClutchSql& sql, const FleetRequest& request,
-                         bool full) {
-  if (engine.dialect() == fleet::Dialect::clickhouse) return;
-  engine.rows(sql.kept, 0, [&](const fleet::Row& row) {
-    if (row.numbers[0] > 0 && (row.numbers[1] > 0) != full)
-      throw InputError(fmt::format(
-          "{}: the sums kept in {}_sums were made {} --scatter-only: go on with the same option, "
-          "or elsewhere",
-          engine.source(), request.prefix, full ? "with" : "without"));
-  });
-}
 
 /// Where a summand does not fit its column.
 [[noreturn]] void explain(Shard& shard, const InputError& error) {
@@ -185,6 +155,7 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
   engine.refuse_torn_units(source.unit.name);
   shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
+  shard.source = source;
   fleet::ColumnEngine* const columns = columns_of(engine, request);
   if (!columns) {
     const FleetCheck check = check_rows(engine, shard.sql);
@@ -192,11 +163,15 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
     shard.ranges = check.ranges;
   }
   try {
+    // ClickHouse has no transaction that would take the tables away again.
+    const bool before = engine.dialect() == fleet::Dialect::clickhouse;
+    if (before) refuse_other_layout(engine, shard.sql, request.prefix);
     engine.run(shard.sql.setup, {}, "", 0);
-    if (!request.first && dynamic_cast<fleet::ColumnEngine*>(&engine))
-      refuse_others(engine, shard.sql, model.id);
-    if (!request.first) refuse_other_option(engine, shard.sql, request, full);
-    if (!request.first) refuse_late(engine, shard.sql);
+    if (!request.first) {
+      if (!before) refuse_other_layout(engine, shard.sql, request.prefix);
+      if (dynamic_cast<fleet::ColumnEngine*>(&engine)) refuse_others(engine, shard.sql, model.id);
+      refuse_late(engine, shard.sql);
+    }
     if (columns) {
       sum_shard_by_loop(shard, *columns, model, request, full, monitor);
     } else {
@@ -237,6 +212,32 @@ std::vector<double> horizons_for(const FleetRequest& request, const std::vector<
   return horizons;
 }
 
+/// Forecasts of many units at a time.
+void count_units(std::vector<Shard>& shards, std::size_t replicates, FleetDays& days,
+                 FleetCounts& counts, std::vector<UnitRow>& rows, const Monitor& monitor) {
+  constexpr std::size_t together = 8192;
+  const int threads = monitor.threads > 0
+                          ? monitor.threads
+                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  std::vector<UnitSums> units;
+  std::vector<double> per_day;
+  const auto count = [&] {
+    if (monitor.stop.stop_requested()) throw Cancelled();
+    for (UnitRow& each : counts.add(units, per_day, threads)) rows.push_back(std::move(each));
+    units.clear();
+    per_day.clear();
+  };
+  for (Shard& shard : shards) {
+    shard.engine.rows(shard.sql.totals, 1, [&](const fleet::Row& row) {
+      units.push_back(unit_sums(row, replicates));
+      refuse_repeated(shard.engine, units.back());
+      if (days.known) per_day.push_back(days.of(units.back().unit));
+      if (units.size() == together) count();
+    });
+    count();
+  }
+}
+
 void refuse_torn(const std::vector<UnitRow>& units) {
   std::vector<const std::string*> names;
   for (const UnitRow& each : units) names.push_back(&each.unit);
@@ -270,6 +271,7 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
                       .rows = 0,
                       .replicates = full,
                       .units = {},
+                      .days = {},
                       .statements = shards.front().sql.setup + shards.front().sql.query};
   if (columns_of(*engines.front(), request))
     found.statements =
@@ -282,15 +284,17 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   }
   std::vector<double> levels;
   for (const double percent : request.levels) levels.push_back(percent / 100);
-  FleetCounts counts(model.model, full, levels, horizons_for(request, shards));
-  const std::size_t replicates = full ? model.model.replicates.size() : 0;
-  for (const Shard& shard : shards) {
-    shard.engine.rows(shard.sql.totals, 1, [&](const fleet::Row& row) {
-      const UnitSums sums = unit_sums(row, replicates);
-      refuse_repeated(shard.engine, sums);
-      found.units.push_back(counts.add(sums));
-    });
-  }
+  for (const Shard& shard : shards) found.days.read(shard.engine, shard.sql, shard.source);
+  found.days.finish();
+  if (!request.days.empty() && !found.days.known)
+    throw InputError(
+        "--days: nothing tells how many cycles a day units make: say with --columns time=COLUMN "
+        "when a cycle was, or cycles_per_day=COLUMN");
+  FleetCounts counts(
+      model.model, full, levels, horizons_for(request, shards),
+      found.days.known && request.days.empty() ? std::vector<double>{30, 90, 365} : request.days);
+  count_units(shards, full ? model.model.replicates.size() : 0, found.days, counts, found.units,
+              monitor);
   refuse_torn(found.units);
   worst_first(found.units);
   Result result = fleet_result(model.model, counts, found);

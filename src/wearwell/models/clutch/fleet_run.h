@@ -22,7 +22,9 @@ struct FleetRequest {
   std::size_t units_in_memory = 0;    ///< of which sums are held; 0: as many as sum_by_loop has it
   std::vector<double> levels;         ///< % of the worn-out volume
   std::vector<double> horizons = {};  ///< further cycles; empty: parts of the mean so far
-  double portion_rows = 1e7;          ///< that ClickHouse sorts at once, in some GB
+  std::vector<double> days =
+      {};  ///< horizons in days, where the data tell how many cycles a day units make
+  double portion_rows = 1e7;  ///< that ClickHouse sorts at once, in some GB
 };
 
 /// Sums what is new in each engine, all at once, and makes the fleet's report of the sums of all. Units must not

@@ -5,6 +5,7 @@
 #include "wearwell/models/clutch/clutch_keys.h"
 #include "wearwell/models/clutch/clutch_result.h"
 #include "wearwell/models/clutch/commands.h"
+#include "wearwell/prognosis/carried_state.h"
 
 namespace wearwell {
 namespace resource {
@@ -17,6 +18,12 @@ std::string_view clutch_truth();
 
 namespace clutch {
 namespace {
+
+/// The study and its data: what `wearwell update` joins rows to. There is no posterior to go on from.
+std::string state_of(const ClutchStudy& study, bool trusted) {
+  return prognosis::state_bytes(
+      {"clutch-wear", trusted, {{study.file.filename(), study.file_text}, study.tables}, {}, {}});
+}
 
 /// A chain of least squares, exact searches and likelihoods: it has no posterior.
 class CampaignStudy : public Study {
@@ -31,7 +38,11 @@ class CampaignStudy : public Study {
           "--method, --chains, --draws, --warmup and --seed are for studies that sample a "
           "posterior; a clutch study has its seeds in the study file");
     Progress progress(monitor, "exact searches");
-    return result_of(study_, run_clutch_study(study_, monitor.threads, &progress), options.report);
+    Result result =
+        result_of(study_, run_clutch_study(study_, monitor.threads, &progress), options.report);
+    if (study_.carried && !study_.simulated)
+      result.files.emplace_back("state.bin", state_of(study_, result.header.trusted));
+    return result;
   }
 
  private:

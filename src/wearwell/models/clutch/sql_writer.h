@@ -48,6 +48,7 @@ class SqlWriter {
   std::string totals() const;
   std::string size() const;
   std::string late() const;
+  std::string times() const;
   std::string keep() const;
   std::string check() const;
   std::string offender() const;
@@ -55,7 +56,9 @@ class SqlWriter {
   std::string known() const;
   std::string fresh() const;
   std::string gather() const;
-  std::string kept() const;
+  std::vector<std::string> sums_columns() const;
+  std::string layout() const;
+  std::string exists() const;
   std::string others() const;
 
  private:
@@ -71,7 +74,6 @@ class SqlWriter {
   /// PostgreSQL would put expressions into each other, and compute them as often as they are used.
   const char* fence() const { return dialect_ == fleet::Dialect::postgresql ? "\noffset 0" : ""; }
   std::vector<std::string> sum_names() const;
-  std::vector<std::string> sums_columns() const;
   std::string kept_names() const;
   std::string adding() const;
   std::string parameters() const;

@@ -85,103 +85,167 @@ NodeRow NodeLives::conditions(const NodeRow& last) const {
   return ahead;
 }
 
-prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<double>& weight,
-                                        const UnitReading& last,
-                                        const std::vector<NodePath>& paths) const {
-  prognosis::Forecast forecast;
-  forecast.now = last.place;
-  const double sign = path_.rising ? 1 : -1;
+namespace {
+
+// What nodes of a unit come to, all of them together.
+struct OfAll {
   std::vector<double> levels, level_weight, lives, life_weight;
-  for (auto* each : {&levels, &level_weight, &lives, &life_weight})
-    each->reserve(parts * nodes.count());
+  double left_over = 0, all = 0;
+
+  void level(double weight, double value) {
+    levels.push_back(value);
+    level_weight.push_back(weight);
+  }
+  void stands(std::size_t, double weight) { all += weight; }
+  void lasts(std::size_t, double weight, double life) {
+    left_over += weight;
+    lives.push_back(life);
+    life_weight.push_back(weight);
+  }
+};
+
+// The same line by line, lives alone.
+struct OfLines {
+  struct Line {
+    std::vector<double> lives, weight;
+    double left_over = 0, all = 0;
+  };
+  std::size_t per_line;
+  std::vector<Line> lines;
+
+  void level(double, double) {}
+  void stands(std::size_t node, double weight) { lines[node / per_line].all += weight; }
+  void lasts(std::size_t node, double weight, double life) {
+    Line& line = lines[node / per_line];
+    line.left_over += weight;
+    line.lives.push_back(life);
+    line.weight.push_back(weight);
+  }
+};
+
+double passed_of(double left_over, double all) {
+  return all > 0 ? std::clamp(1 - left_over / all, 0.0, 1.0) : std::nan("");
+}
+
+}  // namespace
+
+// Paths whose increments are random: where each stands, and the law of its first passage from there.
+template <class Sums>
+void NodeLives::pass(Ahead& ahead, std::span<const double> own, const double* start,
+                     const NodePath& path, std::size_t points, Sums& sums) const {
+  const double sign = path_.rising ? 1 : -1;
+  double far[most_crossings], scale[most_crossings], place[most_crossings];
+  std::fill_n(far, ahead.count, std::max(ahead.last.place, path_.begin + path_.scale));
+  ahead.evaluate(ahead.ahead, far);
+  for (std::size_t i = 0; i < ahead.count; ++i) {
+    const double spread = ahead.at(1, i);
+    scale[i] = process_->by_sd ? spread * spread / std::abs(ahead.at(0, i)) : spread;
+  }
+  const bool noisy = path.measured && !path.variance.empty();
+  for (std::size_t k = 0; k < points; ++k) {
+    double target[most_crossings];
+    std::vector<double> share(ahead.count);
+    for (std::size_t i = 0; i < ahead.count; ++i) {
+      const std::size_t node = ahead.begin + i;
+      const double one = own[i] / static_cast<double>(points);
+      sums.stands(node, one);
+      const double p = (static_cast<double>(k) + fraction(node, 0.6180339887498949)) /
+                       static_cast<double>(points);
+      const double stands = !path.measured ? 0 : noisy ? path.at[node] : path.reading;
+      const double sd = noisy ? std::sqrt(path.variance[node]) : 0;
+      double left = sign * (path_.limit - stands);
+      sums.level(one, stands + (sd > 0 ? sd * normal_quantile(p) : 0));
+      const double below = sd > 0 ? normal_cdf(left / sd) : left > 0 ? 1 : 0;
+      share[i] = one * below;
+      target[i] = path.measured ? path.mean[node] : 0;
+      if (!(share[i] > 1e-14)) continue;
+      if (sd > 0) {  // where it stands, given that it is not there
+        const double q = fraction(points * node + k, 0.7548776662466927);
+        left -= sd * normal_quantile(std::max(q * below, 1e-300));
+      }
+      double values[ScoreTable::edges];
+      ScoreTable::passages(process_->process).look_up(std::max(left, 1e-300), scale[i], values);
+      target[i] += sign * at_score(values, normal_quantile(p));
+    }
+    ahead.cross(target, place);
+    for (std::size_t i = 0; i < ahead.count; ++i) {
+      // Passed since its last reading, where the last row has none.
+      if (!(share[i] > 1e-14) || place[i] < start[i]) continue;
+      sums.lasts(ahead.begin + i, share[i], place[i] - start[i]);
+    }
+  }
+}
+
+// `points`: of the law of a first passage, of each node.
+template <class Sums>
+void NodeLives::look_ahead(const Nodes& nodes, const std::vector<double>& weight,
+                           const UnitReading& last, const std::vector<NodePath>& paths,
+                           std::size_t points, Sums& sums) const {
   Ahead ahead(*this, nodes, last, paths.back());
-  double square = 0, left_over = 0, all = 0;
-  for (const double each : weight) square += each * each;
   const std::size_t line = law_->effects.size() == 1 ? nodes.per_line : 1;
-  const std::size_t pass = most_crossings / line * line;  // whole lines
-  for (std::size_t begin = 0; begin < nodes.count(); begin += pass) {
+  const std::size_t most = most_crossings / line * line;  // whole lines
+  for (std::size_t begin = 0; begin < nodes.count(); begin += most) {
     ahead.begin = begin;
-    ahead.count = std::min(pass, nodes.count() - begin);
+    ahead.count = std::min(most, nodes.count() - begin);
     const std::span<const double> own = std::span(weight).subspan(begin, ahead.count);
     if (std::all_of(own.begin(), own.end(), [](double w) { return w < 1e-14; })) continue;
     double level[most_crossings], start[most_crossings], place[most_crossings];
     ahead.now(0, level);
     std::fill_n(start, ahead.count, last.place);
     if (ahead.changes) ahead.cross(level, start);
-    if (!process_) {
-      double limit[most_crossings];
-      std::fill_n(limit, ahead.count, path_.limit);
-      ahead.cross(limit, place);
-      ahead.count_from(start, place);
-      const DrawnLines drawn(own, line);
-      drawn.put({level, ahead.count}, [&](double w, double value) {
-        levels.push_back(value);
-        level_weight.push_back(w);
-      });
-      drawn.put({place, ahead.count}, [&](double w, double life) {
-        all += w;
-        if (!(life > 0)) return;
-        lives.push_back(life);
-        life_weight.push_back(w);
-        left_over += w;
-      });
+    if (process_) {
+      pass(ahead, own, start, paths[column_], points, sums);
       continue;
     }
-    // A path whose increments are random: where it stands, and the law of its first passage from there.
-    const NodePath& path = paths[column_];
-    double far[most_crossings], scale[most_crossings];
-    std::fill_n(far, ahead.count, std::max(last.place, path_.begin + path_.scale));
-    ahead.evaluate(ahead.ahead, far);
-    for (std::size_t i = 0; i < ahead.count; ++i) {
-      const double spread = ahead.at(1, i);
-      scale[i] = process_->by_sd ? spread * spread / std::abs(ahead.at(0, i)) : spread;
-    }
-    const bool noisy = path.measured && !path.variance.empty();
-    for (std::size_t k = 0; k < points_of_node; ++k) {
-      double target[most_crossings];
-      std::vector<double> share(ahead.count);
-      for (std::size_t i = 0; i < ahead.count; ++i) {
-        const std::size_t node = begin + i;
-        const double one = own[i] / points_of_node;
-        all += one;
-        const double p =
-            (static_cast<double>(k) + fraction(node, 0.6180339887498949)) / points_of_node;
-        const double stands = !path.measured ? 0 : noisy ? path.at[node] : path.reading;
-        const double sd = noisy ? std::sqrt(path.variance[node]) : 0;
-        double left = sign * (path_.limit - stands);
-        levels.push_back(stands + (sd > 0 ? sd * normal_quantile(p) : 0));
-        level_weight.push_back(one);
-        const double below = sd > 0 ? normal_cdf(left / sd) : left > 0 ? 1 : 0;
-        share[i] = one * below;
-        target[i] = path.measured ? path.mean[node] : 0;
-        if (!(share[i] > 1e-14)) continue;
-        if (sd > 0) {  // where it stands, given that it is not there
-          const double q = fraction(points_of_node * node + k, 0.7548776662466927);
-          left -= sd * normal_quantile(std::max(q * below, 1e-300));
-        }
-        double values[ScoreTable::edges];
-        ScoreTable::passages(process_->process).look_up(std::max(left, 1e-300), scale[i], values);
-        target[i] += sign * at_score(values, normal_quantile(p));
-      }
-      ahead.cross(target, place);
-      for (std::size_t i = 0; i < ahead.count; ++i) {
-        // Passed since its last reading, where the last row has none.
-        if (!(share[i] > 1e-14) || place[i] < start[i]) continue;
-        left_over += share[i];
-        lives.push_back(place[i] - start[i]);
-        life_weight.push_back(share[i]);
-      }
-    }
+    double limit[most_crossings];
+    std::fill_n(limit, ahead.count, path_.limit);
+    ahead.cross(limit, place);
+    ahead.count_from(start, place);
+    const DrawnLines drawn(own, line);
+    drawn.put({level, ahead.count},
+              [&](std::size_t, double w, double value) { sums.level(w, value); });
+    drawn.put({place, ahead.count}, [&](std::size_t k, double w, double life) {
+      sums.stands(begin + k, w);
+      if (life > 0) sums.lasts(begin + k, w, life);
+    });
   }
+}
+
+prognosis::Forecast NodeLives::forecast(const Nodes& nodes, const std::vector<double>& weight,
+                                        const UnitReading& last,
+                                        const std::vector<NodePath>& paths) const {
+  prognosis::Forecast forecast;
+  forecast.now = last.place;
+  OfAll sums;
+  for (auto* each : {&sums.levels, &sums.level_weight, &sums.lives, &sums.life_weight})
+    each->reserve(parts * nodes.count());
+  look_ahead(nodes, weight, last, paths, points_of_node, sums);
+  double square = 0;
+  for (const double each : weight) square += each * each;
   const std::vector<double> level =
-      prognosis::weighted_quantiles(levels, level_weight, std::array{0.05, 0.5, 0.95});
+      prognosis::weighted_quantiles(sums.levels, sums.level_weight, std::array{0.05, 0.5, 0.95});
   forecast.level05 = level[0];
   forecast.level50 = level[1];
   forecast.level95 = level[2];
-  forecast.passed = all > 0 ? std::clamp(1 - left_over / all, 0.0, 1.0) : std::nan("");
-  forecast.remaining = prognosis::WeightedLives(lives, life_weight);
+  forecast.passed = passed_of(sums.left_over, sums.all);
+  forecast.remaining = prognosis::WeightedLives(sums.lives, sums.life_weight);
   forecast.effective = square > 0 ? 1 / square : 0;
   return forecast;
+}
+
+prognosis::InPopulations NodeLives::by_line(const Nodes& nodes, const std::vector<double>& weight,
+                                            const UnitReading& last,
+                                            const std::vector<NodePath>& paths) const {
+  constexpr std::size_t most_points = 160;  // of one line: they make a law of life of its own
+  OfLines sums{nodes.per_line, std::vector<OfLines::Line>(nodes.lines())};
+  look_ahead(nodes, weight, last, paths, std::max(points_of_node, most_points / nodes.per_line),
+             sums);
+  prognosis::InPopulations found;
+  for (const OfLines::Line& line : sums.lines) {
+    found.passed.push_back(passed_of(line.left_over, line.all));
+    found.remaining.emplace_back(line.lives, line.weight);
+  }
+  return found;
 }
 
 }  // namespace wearwell::ownlaw

@@ -39,6 +39,10 @@ class NodeLives {
   /// Of nodes with weights that sum to 1, whose paths stand at `paths` (NodeRows) after their last row.
   prognosis::Forecast forecast(const Nodes& nodes, const std::vector<double>& weight,
                                const UnitReading& last, const std::vector<NodePath>& paths) const;
+  /// The same of each line by itself; `weight` sums to 1 over each line, or is 0 all along it. `log_likelihood` is not filled.
+  prognosis::InPopulations by_line(const Nodes& nodes, const std::vector<double>& weight,
+                                   const UnitReading& last,
+                                   const std::vector<NodePath>& paths) const;
   /// Of the same nodes: what is limited at these places, ascending and none before the last row.
   std::vector<prognosis::LevelAhead> ahead(const Nodes& nodes, const std::vector<double>& weight,
                                            const UnitReading& last,
@@ -48,6 +52,12 @@ class NodeLives {
  private:
   struct Ahead;
   NodeRow conditions(const NodeRow& last) const;
+  template <class Sums>
+  void look_ahead(const Nodes& nodes, const std::vector<double>& weight, const UnitReading& last,
+                  const std::vector<NodePath>& paths, std::size_t points, Sums& sums) const;
+  template <class Sums>
+  void pass(Ahead& ahead, std::span<const double> own, const double* start, const NodePath& path,
+            std::size_t points, Sums& sums) const;
 
   std::shared_ptr<const OwnLaw> law_;
   Conditions given_;

@@ -92,7 +92,8 @@ std::vector<prognosis::LevelAhead> NodeLives::ahead(const Nodes& nodes,
       ahead.evaluate(ahead.ahead, place);
       for (std::size_t i = 0; i < ahead.count; ++i) level[i] = ahead.at(0, i);
       if (!process_) {
-        drawn->put({level, ahead.count}, [&](double w, double value) { levels[k].add(w, value); });
+        drawn->put({level, ahead.count},
+                   [&](std::size_t, double w, double value) { levels[k].add(w, value); });
         continue;
       }
       for (std::size_t i = 0; i < ahead.count; ++i) {

@@ -43,19 +43,19 @@ class DrawnLines {
   /// Whole lines of so many nodes. `weight` outlives it.
   DrawnLines(std::span<const double> weight, std::size_t line);
 
-  /// Of one number of each node.
+  /// Of one number of each node: calls back with the node, a share of its weight and the number there.
   template <class Put>
   void put(std::span<const double> number, const Put& put) const {
     for (std::size_t k = 0; k < weight_.size(); ++k) {
       if (!(weight_[k] > negligible)) continue;
       if (!inner_[k] || !std::isfinite(number[k - 1] + number[k] + number[k + 1])) {
-        put(weight_[k], number[k]);
+        put(k, weight_[k], number[k]);
         continue;
       }
       const double below = number[k - 1] - number[k], above = number[k + 1] - number[k];
       for (std::size_t part = 0; part < parts; ++part) {
         const double t = (static_cast<double>(part) + 0.5) / parts - 0.5;
-        put(share_[k][part], number[k] + 0.5 * t * ((above - below) + t * (above + below)));
+        put(k, share_[k][part], number[k] + 0.5 * t * ((above - below) + t * (above + below)));
       }
     }
   }

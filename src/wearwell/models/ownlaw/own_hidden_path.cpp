@@ -35,19 +35,19 @@ struct StepLaw {
     }
   }
 
-  double density(double x) const {
-    const double log_x = std::log(x);
+  double density(double x, double log_x) const {
     if (gamma) {
       return std::exp((shape - 1) * (log_x - log_scale) - x / scale - log_scale + rest);
     }
     return std::exp(rest - 1.5 * log_x - (x - mean) * (x - mean) / (2 * scale * x));
   }
-  double log_by_mean(double x) const {
-    if (gamma) return (std::log(x) - log_scale - digamma) / scale;
+  // Of the log density.
+  double by_mean(double x, double log_x) const {
+    if (gamma) return (log_x - log_scale - digamma) / scale;
     return 1 / mean + (x - mean) / (scale * x);
   }
-  double log_by_scale(double x) const {
-    if (gamma) return -shape * log_by_mean(x) + (x / scale - shape) / scale;
+  double by_scale(double x, double slope_by_mean) const {
+    if (gamma) return -shape * slope_by_mean + (x / scale - shape) / scale;
     const double off = x - mean;
     return -0.5 / scale + off * off / (2 * scale * scale * x);
   }
@@ -77,8 +77,10 @@ struct StepNodes {
     for (int i = 0; i < 4; ++i) {
       for (const double side : {-1.0, 1.0}) {
         const double at = middle + side * half * gauss_x[i];
-        const double w = half * gauss_w[i] * law.density(at);
-        if (w > 0) add(at, w, w * law.log_by_mean(at), w * law.log_by_scale(at));
+        const double log_at = std::log(at), w = half * gauss_w[i] * law.density(at, log_at);
+        if (!(w > 0)) continue;
+        const double slope = law.by_mean(at, log_at);
+        add(at, w, w * slope, w * law.by_scale(at, slope));
       }
     }
   }

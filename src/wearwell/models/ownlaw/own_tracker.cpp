@@ -32,6 +32,11 @@ class OwnTracker final : public prognosis::Tracker {
   const Quantity& limit() const override { return tracked_->lives.limit(); }
   bool rising() const override { return tracked_->lives.rising(); }
   const std::string& noun() const override { return tracked_->lives.noun(); }
+  std::vector<double> populations() const override {
+    std::vector<double> weight;
+    normalize(tracked_->population.few.log_weight, weight);
+    return weight;
+  }
   std::span<const std::string> seen() const override { return seen_; }
 
   std::unique_ptr<prognosis::TrackedUnit> begin(const std::string& unit) const override {

@@ -82,6 +82,7 @@ std::vector<std::string> SqlStatements::kept() const {
   };
   add(unit_column);
   for (const SqlInput& each : inputs) add(each.column);
+  fleet::refuse_alike(choice.dialect, names);
   for (std::string& each : names) {
     if (each.starts_with("law_"))
       throw InputError(

@@ -65,14 +65,7 @@ void TrackedUnit::lay(std::vector<UnitReading> all) {
   sort_along(all);
   nodes_ = lay_nodes(tracked_->population, seen_, all, nodes_);
   log_weight_ = std::move(nodes_.log_before);
-  paths_ = tracked_->rows.paths();
-  std::vector<double> value(log_weight_.size());
-  std::vector<NodePath> after = paths_;
-  for (const UnitReading& each : all) {
-    tracked_->rows.look(nodes_.nodes, each, paths_, &after, value, nullptr, nullptr);
-    for (std::size_t i = 0; i < value.size(); ++i) log_weight_[i] += value[i];
-    std::swap(paths_, after);
-  }
+  paths_ = look_at_all(nodes_, all, log_weight_);
   if (!all.empty()) {
     last_ = all.back();
     any_row_ = true;
@@ -80,6 +73,20 @@ void TrackedUnit::lay(std::vector<UnitReading> all) {
   ++laid_;
   weigh();
   laid_effective_ = effective_;
+}
+
+// Adds to weights what all rows, along the axis, say of nodes; where their paths stand then.
+std::vector<NodePath> TrackedUnit::look_at_all(const UnitNodes& nodes,
+                                               const std::vector<UnitReading>& all,
+                                               std::vector<double>& log_weight) const {
+  std::vector<NodePath> paths = tracked_->rows.paths(), after = paths;
+  std::vector<double> value(log_weight.size());
+  for (const UnitReading& each : all) {
+    tracked_->rows.look(nodes.nodes, each, paths, &after, value, nullptr, nullptr);
+    for (std::size_t i = 0; i < value.size(); ++i) log_weight[i] += value[i];
+    std::swap(paths, after);
+  }
+  return paths;
 }
 
 // Sums of the weights as they are now: how many nodes carry them, and which stand for all.

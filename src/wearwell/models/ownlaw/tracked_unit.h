@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,8 @@ class TrackedUnit final : public prognosis::TrackedUnit {
                         const prognosis::History& history) override;
   prognosis::Forecast forecast() const override;
   std::vector<prognosis::LevelAhead> ahead(std::span<const double> places) const override;
+  std::optional<prognosis::InPopulations> in_populations(
+      const prognosis::History& history) const override;
   std::size_t readings() const override { return readings_; }
   std::string save() const override;
 
@@ -53,6 +56,8 @@ class TrackedUnit final : public prognosis::TrackedUnit {
   TrackedUnit(std::shared_ptr<const Tracked> tracked, Bare) : tracked_(std::move(tracked)) {}
 
   void lay(std::vector<UnitReading> all);
+  std::vector<NodePath> look_at_all(const UnitNodes& nodes, const std::vector<UnitReading>& all,
+                                    std::vector<double>& log_weight) const;
   bool lay_with(const UnitReading& reading, const prognosis::History& history);
   void weigh();
   double surprise_at(const UnitReading& reading, std::span<double> value,

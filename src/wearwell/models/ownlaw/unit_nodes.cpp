@@ -13,7 +13,9 @@
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr std::size_t few_lines = 256, most_lines = 600, many_lines = 2000, per_line = 10;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double log_two_pi = 1.8378770664093454836;
+constexpr std::size_t few_lines = 256, most_lines = 600, many_lines = 2000;
 constexpr std::size_t few_alone = 2000, many_alone = 20'000;  // where nothing varies
 constexpr double tail = 1e-5;      // of a line: beyond its nodes lies as much on either side
 constexpr double least_few = 0.3;  // of the few points' effective number: then others are chosen
@@ -161,7 +163,7 @@ double normal_quantile(double p) {
 
 void shape_of(const AtPoint& at, std::size_t effects, std::size_t line, double* shape) {
   if (effects == 1) {
-    const double step = (at.high - at.low) / per_line;
+    const double step = (at.high - at.low) / UnitNodes::usual_per_line;
     shape[0] = at.low + step * fraction(line, 0.6180339887498949);
     shape[1] = step;
   }
@@ -205,7 +207,7 @@ NodePopulation::NodePopulation(std::shared_ptr<const OwnLaw> own_law,
   many = PopulationPoints(FewPoints(posterior, alone ? many_alone : many_lines));
 }
 
-void UnitNodes::fill(const OwnLaw& law) {
+void UnitNodes::fill(const OwnLaw& law, std::size_t per_line) {
   const std::size_t lines = nodes.lines(), d = law.effects.size(), size = shape_size(d);
   nodes.per_line = d == 0 ? 1 : per_line;
   log_before.resize(nodes.count());

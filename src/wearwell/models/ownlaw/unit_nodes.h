@@ -46,7 +46,10 @@ struct UnitNodes {
   std::vector<double> log_before;  ///< of each node: its weight before readings; from these
 
   /// Computes effects and weights of nodes from points and shapes: the same bits whenever that is done.
-  void fill(const OwnLaw& law);
+  void fill(const OwnLaw& law) { fill(law, usual_per_line); }
+  /// The same lattice of two effects with so many nodes a line.
+  void fill(const OwnLaw& law, std::size_t per_line);
+  static constexpr std::size_t usual_per_line = 10;
   static std::size_t shape_size(std::size_t effects) { return effects == 2 ? 5 : 2 * effects; }
 };
 

@@ -1,0 +1,68 @@
+#include "wearwell/models/clutch/fleet_days.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+
+namespace wearwell::clutch {
+
+void FleetDays::read(fleet::Engine& engine, const ClutchSql& sql, const SqlSource& source) {
+  if (sql.times.empty()) return;
+  known = true;
+  engine.rows(sql.times, 1, [&](const fleet::Row& row) {
+    const double first = row.numbers[0], last = row.numbers[1], rows = row.numbers[2];
+    if (std::isfinite(last) && rows > 0) now = std::isnan(now) ? last : std::max(now, last);
+    double rate = row.numbers[4];
+    if (!source.time.empty()) {
+      const double days = (last - first) / day;
+      // Dates are whole days, the last of them among these.
+      const bool dates = source.is_date || row.numbers[3] == 0;
+      rate = dates ? rows / (days + 1) : days > 0 ? (rows - 1) / days : NAN;
+      if (!(rows > 0)) rate = NAN;
+    }
+    if (std::isnan(rate)) return;
+    if (!(rate >= 0) || !std::isfinite(rate))
+      throw InputError(fmt::format("{}: unit {} makes {:g} cycles a day", engine.source(),
+                                   printable(row.texts.front()), rate));
+    per_day[row.texts.front()] = rate;
+  });
+}
+
+void FleetDays::finish() {
+  if (!known) return;
+  if (per_day.empty())
+    throw InputError(
+        "no unit has cycles at two moments, or a number of cycles a day: leave 'time' and "
+        "'cycles_per_day' out of --columns, and all is told in cycles");
+  double sum = 0;
+  std::vector<double> all;  // in an order of their own, whatever that of the table
+  for (const auto& [unit, rate] : per_day) all.push_back(rate);
+  std::sort(all.begin(), all.end());
+  for (const double rate : all) sum += rate;
+  mean = sum / static_cast<double>(all.size());
+}
+
+double FleetDays::of(const std::string& unit) {
+  const auto at = per_day.find(unit);
+  if (at != per_day.end()) return at->second;
+  ++borrowed;
+  return mean;
+}
+
+std::string day_in_words(double seconds) {
+  constexpr double end = 253402300800.0;  // of the year 9999
+  if (!(seconds >= 0 && seconds < end)) return "";
+  const std::chrono::sys_days at{
+      std::chrono::days{static_cast<int>(std::floor(seconds / FleetDays::day))}};
+  const std::chrono::year_month_day date{at};
+  return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),
+                     static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+}
+
+}  // namespace wearwell::clutch

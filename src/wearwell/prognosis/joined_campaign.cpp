@@ -1,0 +1,167 @@
+#include "wearwell/prognosis/joined_campaign.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/input/as_read.h"
+#include "wearwell/input/heading.h"
+
+namespace wearwell::prognosis {
+namespace {
+
+// What columns of a table are to a campaign, by the names that it has for them.
+struct KindOfTable {
+  const char* key;
+  std::vector<std::string> columns;
+  std::optional<std::string> unit;
+  std::string axis;
+  std::vector<std::string> measured;
+};
+
+const std::vector<KindOfTable>& kinds() {
+  static const std::vector<KindOfTable> all = {
+      {"design",
+       {"point", "role", "slip_speed", "torque", "temperature", "closing_time"},
+       std::nullopt,
+       "point",
+       {}},
+      {"cycles",
+       {"plate", "cycle", "slip_speed", "torque", "temperature", "closing_time", "energy"},
+       "plate",
+       "cycle",
+       {"energy"}},
+      {"weighings", {"plate", "cycle", "block", "mass"}, "plate", "cycle", {"mass"}},
+      {"traces",
+       {"plate", "time", "slip_speed", "torque", "temperature"},
+       "plate",
+       "time",
+       {"torque"}}};
+  return all;
+}
+
+// One of them as the study names it and the state keeps it.
+struct CampaignTable {
+  const KindOfTable* kind = nullptr;
+  std::string name;  ///< in Source::tables
+  TableSettings settings;
+  DataRoles roles = {};
+  std::vector<Table> fresh = {};
+};
+
+const Column* column_of(const Table& table, const std::string& heading, const std::string& name) {
+  for (const Column& each : table.columns)
+    if (each.name == heading) return &each;
+  for (const Column& each : table.columns)
+    if (read_heading(each.name, "").name == name) return &each;
+  return nullptr;
+}
+
+DataRoles roles_of(const KindOfTable& kind, const std::optional<TomlReader>& columns,
+                   const Table& table) {
+  DataRoles roles;
+  roles.noun = kind.unit.value_or("row");
+  roles.one = !kind.unit;
+  for (const std::string& name : kind.columns) {
+    DataRoles::Named named{name, name};
+    if (columns && columns->has(name) && columns->is_text(name)) {
+      named.column = columns->required_text(name);
+    } else if (columns && columns->has(name)) {
+      const TomlReader choice = columns->required_table(name);
+      named.column = choice.required_text("column");
+      named.unit = choice.text("unit").value_or("");
+    }
+    const Column* const found = column_of(table, named.column, named.column);
+    if (!found)
+      throw InputError(fmt::format("{} has no column '{}'", table.source, printable(named.column)));
+    named.column = found->name;
+    if (name == kind.unit) roles.unit = named.column;
+    if (name == kind.axis) roles.axis = named.column;
+    if (name == kind.unit || name == "role" || name == "block") roles.words.push_back(named.column);
+    if (std::find(kind.measured.begin(), kind.measured.end(), name) != kind.measured.end())
+      roles.measured.push_back(named.column);
+    roles.used.push_back(std::move(named));
+  }
+  return roles;
+}
+
+std::vector<CampaignTable> tables_of(const Source& source) {
+  const TomlReader data = TomlReader::parse(source.study).required_table("data");
+  std::vector<CampaignTable> tables;
+  for (const KindOfTable& kind : kinds()) {
+    if (!data.has(kind.key)) continue;
+    const bool is_name = data.is_text(kind.key);
+    const TomlReader section = is_name ? data : data.required_table(kind.key);
+    CampaignTable table{&kind, is_name ? section.required_text(kind.key) : as_read_name(section),
+                        read_table_settings(section)};
+    const auto kept = source.tables.find(table.name);
+    if (kept == source.tables.end())
+      throw InputError(fmt::format("the state holds no table of data.{}", kind.key));
+    table.roles = roles_of(kind, is_name ? std::nullopt : section.table("columns"), kept->second);
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+// Its columns that a table lacks.
+std::vector<std::string> missing(const CampaignTable& kept, const Table& table) {
+  std::vector<std::string> names;
+  for (const DataRoles::Named& each : kept.roles.used)
+    if (!column_of(table, each.column, read_heading(each.column, "").name) &&
+        !column_of(table, each.name, each.name))
+      names.push_back(each.column);
+  return names;
+}
+
+// Reads a file as that of the tables whose columns it has.
+void add_file(const std::filesystem::path& file, std::vector<CampaignTable>& tables) {
+  std::vector<std::string> why;
+  CampaignTable* of = nullptr;
+  std::optional<Table> read;
+  for (CampaignTable& each : tables) {
+    Table table = wearwell::read_table(file, {}, {}, each.settings);
+    const std::vector<std::string> names = missing(each, table);
+    if (!names.empty()) {
+      why.push_back(fmt::format("{} ({})", each.kind->key, fmt::join(names, ", ")));
+      continue;
+    }
+    if (of)
+      throw InputError(
+          fmt::format("{} has all columns of the {} and all of the {}: leave out those "
+                      "of one",
+                      table.source, of->kind->key, each.kind->key));
+    of = &each;
+    read = std::move(table);
+  }
+  if (!of)
+    throw InputError(fmt::format("{} is none of the campaign's tables; it lacks of {}",
+                                 valid_utf8(file.string()), fmt::join(why, ", of ")));
+  of->fresh.push_back(std::move(*read));
+}
+
+}  // namespace
+
+JoinedData joined_campaign(const Source& source, const std::vector<std::filesystem::path>& files) {
+  std::vector<CampaignTable> tables = tables_of(source);
+  for (const auto& file : files) add_file(file, tables);
+  JoinedData joined{source, {}};
+  std::vector<std::size_t> fresh;
+  for (const CampaignTable& each : tables) {
+    joined.roles = each.roles;
+    joined.fresh.clear();  // rows of the table before
+    std::vector<std::string> needed;
+    for (const DataRoles::Named& used : each.roles.used) needed.push_back(used.column);
+    joined.source.tables[each.name] =
+        joined_table(source.tables.at(each.name), needed, each.fresh, Repeated::once, joined);
+    fresh.insert(fresh.end(), joined.fresh.begin(), joined.fresh.end());
+  }
+  joined.fresh = std::move(fresh);
+  return joined;
+}
+
+}  // namespace wearwell::prognosis
