@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell::prognosis {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Populations that have to carry what all units have shown, if any has shown something; where there were few, half of those.
 constexpr double least_effective = 50;
 

@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "wearwell/math/constants.h"
+
 // Longer than others: the integral, its panels and their nodes see one integrand.
 
 namespace wearwell::bearing {

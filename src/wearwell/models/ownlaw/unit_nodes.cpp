@@ -13,8 +13,6 @@
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double log_two_pi = 1.8378770664093454836;
 constexpr std::size_t few_lines = 256, most_lines = 600, many_lines = 2000;
 constexpr std::size_t few_alone = 2000, many_alone = 20'000;  // where nothing varies
 constexpr double tail = 1e-5;      // of a line: beyond its nodes lies as much on either side

@@ -1,14 +1,14 @@
 // One unit in each of the populations that are possible: its lines, each by itself.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "wearwell/models/ownlaw/tracked_unit.h"
+
+#include "wearwell/math/constants.h"
 
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t dense =
     160;  // nodes of a line over two effects, whose few serve only all together
 
