@@ -27,7 +27,7 @@ struct PadRow {
 inline const std::vector<PadRow>& pad_rows() {
   static const std::vector<PadRow> rows = {
       {1, "m0", "PTFE", 20, 3},  {2, "m1", "steel", -40, 5},    {3, "m2", "PA 6'6", 0, 1},
-      {4, "new", "PTFE", 80, 7}, {5, "m1", "glass", 20, 2},     {6, "m2", "PA 6'6", -273.15, 4},
+      {4, "new", "PTFE", 80, 7}, {5, "m1", "glass", 20, 2},     {6, "m2", "PA 6'6", -200, 4},
       {7, "m0", "steel", 31, 6}, {8, "another", "steel", 55, 2}};
   return rows;
 }
@@ -122,7 +122,8 @@ inline void expect_pads(fleet::Engine& engine, const std::string& table) {
     SqlExportChoice choice;
     choice.dialect = engine.dialect();
     choice.table = table;
-    choice.columns = {"time=hours:h"};
+    if (asked.value.empty() || asked.value.find("time") != std::string::npos)
+      choice.columns = {"time=hours:h"};
     if (asked.fahrenheit) choice.columns.push_back("temperature=TF:degF");
     choice.keep = {"id"};
     choice.value = asked.value;

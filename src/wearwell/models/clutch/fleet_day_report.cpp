@@ -20,6 +20,13 @@ std::string day_after(const FleetDays& days, double count) {
   return day.empty() ? "-" : day;
 }
 
+Table when(const std::string& text) {
+  Table table{"when", "How \"by when\" is told", {{"In"}}};
+  table.words = true;
+  table.rows.push_back({text});
+  return table;
+}
+
 }  // namespace
 
 double days_of(const UnitRow& unit, double cycles) {
@@ -66,11 +73,12 @@ Table worst_day_table(const FleetFindings& found, std::size_t shown) {
   return table;
 }
 
-std::string time_in_words(const FleetFindings& found) {
+Table when_table(const FleetFindings& found) {
   const FleetDays& days = found.days;
   if (!days.known)
-    return "cycles: nothing here tells how many a day a unit makes (--columns time=COLUMN or "
-           "cycles_per_day=COLUMN)";
+    return when(
+        "cycles: nothing here tells how many a day a unit makes (--columns time=COLUMN or "
+        "cycles_per_day=COLUMN)");
   std::string text =
       std::isnan(days.now)
           ? fmt::format("days from now on, at {:.4g} cycles a day in the mean", days.mean)
@@ -81,7 +89,7 @@ std::string time_in_words(const FleetFindings& found) {
                 day_in_words(days.now), days.mean);
   if (days.borrowed > 0)
     text += fmt::format("; {} units do not tell, and have the mean", days.borrowed);
-  return text;
+  return when(text);
 }
 
 void add_days(nlohmann::ordered_json& worst, const UnitRow& u) {

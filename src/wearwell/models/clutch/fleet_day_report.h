@@ -18,7 +18,7 @@ present::Table day_table(const FleetCounts& counts, const FleetDays& days);
 /// When the first `shown` units are worn out.
 present::Table worst_day_table(const FleetFindings& found, std::size_t shown);
 /// What "by when" stands on.
-std::string time_in_words(const FleetFindings& found);
+present::Table when_table(const FleetFindings& found);
 
 /// Of a unit in summary.json, and of the whole.
 void add_days(nlohmann::ordered_json& worst, const UnitRow& unit);

@@ -15,30 +15,37 @@ namespace wearwell::clutch {
 void FleetDays::read(fleet::Engine& engine, const ClutchSql& sql, const SqlSource& source) {
   if (sql.times.empty()) return;
   known = true;
+  std::vector<fleet::Row> rows;
+  bool dates = true;  // no row is at another moment than the begin of a day
   engine.rows(sql.times, 1, [&](const fleet::Row& row) {
-    const double first = row.numbers[0], last = row.numbers[1], rows = row.numbers[2];
-    if (std::isfinite(last) && rows > 0) now = std::isnan(now) ? last : std::max(now, last);
+    dates = dates && (row.numbers[3] == 0 || row.numbers[2] == 0);
+    rows.push_back(row);
+  });
+  dates = dates || source.is_date;
+  for (const fleet::Row& row : rows) {
+    const double first = row.numbers[0], last = row.numbers[1], count = row.numbers[2];
     double rate = row.numbers[4];
     if (!source.time.empty()) {
+      if (!(count > 0)) continue;
+      now = std::isnan(now) ? last : std::max(now, last);
       const double days = (last - first) / day;
-      // Dates are whole days, the last of them among these.
-      const bool dates = source.is_date || row.numbers[3] == 0;
-      rate = dates ? rows / (days + 1) : days > 0 ? (rows - 1) / days : NAN;
-      if (!(rows > 0)) rate = NAN;
+      // Where there are dates alone, or hours of one day: by the days that have any.
+      const double calendar = std::floor(last / day) - std::floor(first / day) + 1;
+      rate = count < 2 ? NAN : dates || days < 1 ? count / calendar : (count - 1) / days;
     }
-    if (std::isnan(rate)) return;
+    if (std::isnan(rate)) continue;
     if (!(rate >= 0) || !std::isfinite(rate))
       throw InputError(fmt::format("{}: unit {} makes {:g} cycles a day", engine.source(),
                                    printable(row.texts.front()), rate));
     per_day[row.texts.front()] = rate;
-  });
+  }
 }
 
 void FleetDays::finish() {
   if (!known) return;
   if (per_day.empty())
     throw InputError(
-        "no unit has cycles at two moments, or a number of cycles a day: leave 'time' and "
+        "no unit has two cycles with a moment, or a number of cycles a day: leave 'time' and "
         "'cycles_per_day' out of --columns, and all is told in cycles");
   double sum = 0;
   std::vector<double> all;  // in an order of their own, whatever that of the table

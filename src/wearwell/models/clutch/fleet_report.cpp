@@ -296,6 +296,7 @@ Result fleet_result(const WearModel& model, const FleetCounts& counts, const Fle
       true});
   levels.add(level_table(counts));
   if (found.days.known) levels.add(day_table(counts, found.days));
+  levels.add(when_table(found));
   levels.add(present::Figures{{level_figure(counts)}});
   Section worst{"worst", "Worst units"};
   worst.add(worst_table(found));
@@ -307,7 +308,6 @@ Result fleet_result(const WearModel& model, const FleetCounts& counts, const Fle
   Section how{"how", "How"};
   how.add(present::Facts{{{"engine", found.engine},
                           {"cycles read", fmt::format("{:.0f}", found.rows)},
-                          {"by when", time_in_words(found)},
                           {"model", found.model_id}}});
   how.add(present::Details{"The statements", {{present::Verbatim{found.statements}}}});
   result.sections = {std::move(levels), std::move(worst), std::move(fleet), std::move(how)};
