@@ -265,48 +265,6 @@ TEST(Distribution, WideNodesWithWeightDoNotMoveTheBulk) {
   EXPECT_TRUE(std::isnan(Distribution(cells_of(cells), itself).mean()));
 }
 
-// A normal density on a lattice of four axes, of which one moves the number: within a layer of cells the mass goes as the
-// density does. Spread evenly, the quantile at 1 % of so wide cells is wrong by 0.06.
-TEST(Distribution, LayersOfALatticeMakeNoStairs) {
-  constexpr double step = 0.8;
-  constexpr int reach = 9, side = 2 * reach + 1;
-  for (const double shift : {0.0, 0.3, 0.5}) {
-    WeightedDraws draws{Points(side, 1), Eigen::VectorXd(side), {}, {}};
-    draws.lower.assign(4, Points(side, 1));
-    draws.upper = draws.lower;
-    draws.cells = {Eigen::VectorXd(side), Points::Zero(side, 4), Points::Zero(side, 4),
-                   Points::Constant(side, 4, 1.0 / 12)};
-    for (int i = 0; i < side; ++i) {
-      const double x = step * (i - reach + shift);
-      double sums[3] = {};  // over the cell, of the density and of it by place and its square
-      constexpr int parts = 2000;
-      for (int k = 0; k < parts; ++k) {
-        const double t = (k + 0.5) / parts - 0.5, y = x + step * t, mass = std::exp(-0.5 * y * y);
-        sums[0] += mass;
-        sums[1] += mass * t;
-        sums[2] += mass * t * t;
-      }
-      draws.values(i, 0) = x;
-      draws.weights[i] = std::exp(-0.5 * x * x);
-      draws.cells.mass[i] = sums[0];
-      draws.cells.mean(i, 0) = sums[1] / sums[0];
-      draws.cells.square(i, 0) = sums[2] / sums[0];
-      for (std::size_t a = 0; a < 4; ++a) {
-        draws.lower[a](i, 0) = a == 0 ? x - 0.5 * step : x;
-        draws.upper[a](i, 0) = a == 0 ? x + 0.5 * step : x;
-      }
-    }
-    draws.weights /= draws.weights.sum();
-    draws.cells.mass /= draws.cells.mass.sum();
-    const Distribution d(draws, [](const double* x) { return x[0]; });
-    EXPECT_NEAR(d.mean(), 0, 1e-6);
-    EXPECT_NEAR(d.quantile(0.01), -2.326347874, 0.004);
-    EXPECT_NEAR(d.quantile(0.05), -1.644853627, 0.004);
-    EXPECT_NEAR(d.quantile(0.5), 0, 0.004);
-    EXPECT_NEAR(d.quantile(0.9), 1.281551566, 0.004);
-  }
-}
-
 // A normal density of two axes on a grid, of a number that both move: layers along the first, each wider than their distance.
 TEST(CellShares, LayersFitTogether) {
   constexpr double step = 0.5, second = 0.3;

@@ -42,10 +42,6 @@ struct Spread {
   // Of the half widths along the axes the largest, the squares of the others, and how far the mass lies from the
   // middle of the largest.
   double widest = 0, others = 0, off = 0;
-  // Along which axis that is, and the number at both of its ends.
-  std::size_t widest_axis = 0;
-  double below = 0, above = 0,
-         bow = 0;  // bow: how far their middle lies from the node, of the half width
 
   Spread(const WeightedDraws& draws, Eigen::Index i, double at_node,
          const std::function<double(const double* x)>& quantity)
@@ -74,10 +70,6 @@ struct Spread {
         others += widest * widest;
         widest = std::abs(half);
         off = moved - middle;
-        widest_axis = axis;
-        below = a;
-        above = b;
-        bow = middle / half;
       } else {
         others += half * half;
       }
@@ -85,62 +77,16 @@ struct Spread {
   }
 };
 
-struct Point {
-  double center, half_width, weight;
-};
-
-// Cuts a cell into pieces along its widest axis, among which its mass goes as the parabola tells that has its mean and
-// mean square; the other axes spread each of them. So the layers of a lattice, whose cells are wide, make no stairs.
-void cut(const WeightedDraws& draws, Eigen::Index i, double at_node, const Spread& spread,
-         std::vector<Point>& points) {
-  constexpr double most = 16, finer = 2;  // than what the other axes blur
-  const Along along(draws, i, spread.widest_axis);
-  const double stretch = 12 * (along.square - along.mean * along.mean),
-               own = spread.widest * spread.widest * stretch,
-               others = std::sqrt(std::max(0.0, spread.half_width * spread.half_width - own));
-  const auto pieces =
-      static_cast<int>(others * most > finer * spread.widest
-                           ? std::max(2.0, std::ceil(finer * spread.widest / others))
-                           : most);
-  const double tilt = 12 * along.mean, bend = 180 * (along.square - 1.0 / 12);
-  const auto mass_until = [&](double t) {
-    return t + 0.5 * tilt * t * t + bend * t * (t * t / 3 - 1.0 / 12);
-  };
-  const auto number_at = [&](double t) {
-    return at_node + along.of_lower(t, t * t) * (spread.below - at_node) +
-           along.of_upper(t, t * t) * (spread.above - at_node);
-  };
-  const std::size_t first = points.size();
-  double mass = 0, sum = 0;
-  for (int k = 0; k < pieces; ++k) {
-    const double from = -0.5 + static_cast<double>(k) / pieces,
-                 until = -0.5 + static_cast<double>(k + 1) / pieces,
-                 share = mass_until(until) - mass_until(from);
-    if (!(share > 0)) continue;
-    const double center = number_at(0.5 * (from + until));
-    points.push_back({center, std::hypot(0.5 * (number_at(until) - number_at(from)), others),
-                      draws.cell_weight(i) * share});
-    mass += share;
-    sum += share * center;
-  }
-  // The cell keeps its mass and its mean.
-  for (std::size_t k = first; k < points.size(); ++k) {
-    points[k].center += spread.center - sum / mass;
-    points[k].weight /= mass;
-  }
-}
-
 }  // namespace
 
 Distribution::Distribution(const WeightedDraws& draws,
                            const std::function<double(const double* x)>& quantity)
     : cells_(!draws.lower.empty()) {
+  struct Point {
+    double center, half_width, weight;
+  };
   // Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
   constexpr double negligible = 1e-8;
-  // Boxes, of up to three parameters, have narrow cells; of a lattice those matter that anything is seen of.
-  constexpr std::size_t axes_of_lattice = 4;
-  constexpr double least_cut = 1e-6;
-  const bool wide = draws.has_cells() && draws.lower.size() == axes_of_lattice;
   const double least = cells_ ? negligible / static_cast<double>(draws.values.rows()) : 0;
   std::vector<Point> points;
   double total = 0, undefined = 0;
@@ -159,10 +105,6 @@ Distribution::Distribution(const WeightedDraws& draws,
       half_width = 0;
     }
     total += weight;
-    if (wide && weight > least_cut && half_width > 1e-150 && half_width < 1e150) {
-      cut(draws, i, at_node, spread, points);
-      continue;
-    }
     points.push_back({center, half_width, weight});
   }
   if (undefined > negligible * (total + undefined)) points.clear();  // it has no distribution
@@ -243,27 +185,17 @@ std::vector<double> cell_shares(const WeightedDraws& draws,
       spread.center = at_node;
       spread.half_width = spread.widest = spread.others = 0;
     }
-    // Along the widest axis the density is the parabola about its middle that has the mean and the mean square of the
-    // mass where the number runs straight along it, else the line with its mean; s runs from -1/2 to 1/2.
+    // Along the widest axis the density is a straight line about its middle, with the mean of the mass.
     const double a = spread.widest, b = std::sqrt(spread.others),
                  off = std::clamp(spread.off, -a / 3, a / 3), middle = spread.center - off;
-    const double tilt = a > 0 ? 6 * off / a : 0,
-                 straight = std::max(0.0, 1 - std::abs(spread.bow) / 0.02),
-                 bend = straight *
-                        std::clamp(180 * (Along(draws, i, spread.widest_axis).square - 1.0 / 12),
-                                   -6.0, 6.0);
     // The integral up to x of its distribution.
-    const auto integral = [=](double x) {
+    const auto integral = [a, off](double x) {
       if (!(x < a)) return x - off;
       if (!(x > -a)) return 0.0;
-      const double s = 0.5 * x / a, s2 = s * s;
-      return 2 * a *
-             (0.5 * (s + 0.5) * (s + 0.5) + 0.5 * tilt * (s * (s2 / 3 - 0.25) - 1.0 / 12) +
-              bend * (s2 * (s2 - 0.5) / 12 + 1.0 / 192));
+      return (x + a) * (x + a) / (4 * a) + off * (0.25 * x * (x * x / (a * a) - 3) / a - 0.5);
     };
-    const auto distribution = [=](double x) {
-      const double s = std::clamp(0.5 * x / a, -0.5, 0.5);
-      return s + 0.5 + 0.5 * tilt * (s * s - 0.25) + bend * s * (s * s / 3 - 1.0 / 12);
+    const auto distribution = [a, off](double x) {
+      return std::clamp(0.5 * (1 + x / a) + 0.75 * off / a * (x * x / (a * a) - 1), 0.0, 1.0);
     };
     const auto first = std::upper_bound(edges.begin(), edges.end(), middle - a - b);
     auto edge = static_cast<std::size_t>(first - edges.begin());

@@ -31,9 +31,7 @@ constexpr int farthest = 3000;  // steps along an axis: beyond, the mass has no 
 constexpr double widest_told = 0.55;
 constexpr int most_across = 80;  // steps along a line on either side of its mode
 // Of the step between lines that along them: half the lines are a lattice of finer dual than every second node of a line.
-constexpr double line_share = 0.95, longest_on_line = 0.7;
-// Where a line is thinner than this share of what its parameter spreads over, no quantile needs all of its nodes.
-constexpr double thin_share = 1.0 / 3;
+constexpr double line_share = 0.8, longest_on_line = 0.7;
 
 std::uint64_t key(const Index& index) {
   std::uint64_t packed = 0;
@@ -48,8 +46,6 @@ class Chart {
   /// On the real line; returns the log of the volume of z by that of u, less log_scale().
   virtual double to_real(const Eigen::Vector4d& u, Z& z) const = 0;
   virtual double log_scale() const = 0;
-  /// Whether lines end within a small part of what their parameter spreads over.
-  virtual bool thin_lines() const { return false; }
 };
 
 // Of a parameter between two bounds the density on the real line falls no faster than exp(-|z|), so that a lattice has to
@@ -113,7 +109,6 @@ class Straight final : public Chart {
         line_ = i;
       }
     }
-    thin_ = least < thin_share * thin_share;
     for (int i = 0, at = 0; i < d; ++i) {
       if (i != line_) rest_[static_cast<std::size_t>(at++)] = i;
     }
@@ -140,12 +135,10 @@ class Straight final : public Chart {
   double log_scale() const override {
     return std::log(std::abs(scale_.determinant()) * line_scale_);
   }
-  bool thin_lines() const override { return thin_; }
 
  private:
   Bending bending_;
   int line_ = 0;
-  bool thin_ = false;
   std::array<int, outer> rest_{};
   Eigen::Vector3d center_;
   Eigen::Matrix3d scale_;
@@ -290,14 +283,9 @@ class Lattice {
 
   long nodes() const { return nodes_; }
 
-  // Relative, the largest of mass and second moments.
-  struct Errors {
-    double of_lines = 0, along_lines = 0;
-    double worst() const { return std::max(of_lines, along_lines); }
-  };
-
-  // Differences of sums over the half lattices: of the lines by the parity of their index, and along the lines.
-  Errors errors(bool moments) const {
+  // Sums of mass and second moments over the half lattices: of the lines by the parity of their
+  // index, and along the lines. Relative differences, the largest.
+  double error(bool moments) const {
     Eigen::Matrix<double, 2 * d + 1, 4> sums = Eigen::Matrix<double, 2 * d + 1, 4>::Zero();
     const Eigen::Vector4d middle = natural(at(lines_.front(), 0));
     for (const Line& line : lines_) {
@@ -318,19 +306,19 @@ class Lattice {
       }
     }
     const Eigen::Matrix<double, 2 * d + 1, 1> all = sums.col(0) + sums.col(1);
-    Errors worst;
+    double worst = 0;
     for (int i = 0; i < 2 * d + 1; ++i) {
       // First moments are judged by the size of the second.
       const double size = i == 0 || i > d ? all[i] : std::sqrt(all[0] * all[i + d]);
       if (!(size > 0)) continue;
-      worst.of_lines = std::max(worst.of_lines, std::abs(sums(i, 0) - sums(i, 1)) / size);
-      worst.along_lines = std::max(worst.along_lines, std::abs(sums(i, 2) - sums(i, 3)) / size);
+      for (const int pair : {0, 2}) {
+        worst = std::max(worst, std::abs(sums(i, pair) - sums(i, pair + 1)) / size);
+      }
     }
     return worst;
   }
 
-  // Nodes that are told: every `stride`-th of a line.
-  ExactPosterior result(bool moments, int stride) const {
+  ExactPosterior result(bool moments) const {
     double mass = 0;
     for (const Line& line : lines_) {
       for (const double v : line.values) mass += std::exp(v) * line.width;
@@ -345,7 +333,7 @@ class Lattice {
         const double here = std::exp(line.values[j]) * line.width;
         if (here == 0) continue;
         const int t = line.first + static_cast<int>(j);
-        if (t % stride == 0 && stride * here > negligible_share * mass) kept.emplace_back(&line, t);
+        if (here > negligible_share * mass) kept.emplace_back(&line, t);
         const Place there = at(line, t);
         highest = std::max(highest, reference_ + line.values[j] - there.log_jacobian);
         const Eigen::Vector4d x = natural(there) - middle;
@@ -372,9 +360,9 @@ class Lattice {
         nodes.values.row(row) = natural(at(*line, t));
         const double weight = node_mass(*line, t);
         CellShape shape(weight);
-        shape.along(outer, node_mass(*line, t - stride), node_mass(*line, t + stride));
-        nodes.lower[outer].row(row) = natural(at(*line, t - 0.5 * stride));
-        nodes.upper[outer].row(row) = natural(at(*line, t + 0.5 * stride));
+        shape.along(outer, node_mass(*line, t - 1), node_mass(*line, t + 1));
+        nodes.lower[outer].row(row) = natural(at(*line, t - 0.5));
+        nodes.upper[outer].row(row) = natural(at(*line, t + 0.5));
         for (int a = 0; a < outer; ++a) {
           const Line &below = neighbour(*line, a, -1), &above = neighbour(*line, a, 1);
           shape.along(a, mass_in(below, *line, t), mass_in(above, *line, t));
@@ -531,7 +519,6 @@ struct Filled {
   std::unique_ptr<Lattice> lattice;
   std::string failure;
   double error = INFINITY;  // where it was filled
-  int stride = 1;           // of the nodes along a line that suffice
 
   Filled(const Posterior& posterior, const Chart& chart, double step, long most,
          const ExactSettings& settings)
@@ -539,11 +526,7 @@ struct Filled {
                                           std::min(line_share * step, longest_on_line),
                                           log_negligible(settings.tolerance))),
         failure(lattice->fill(most)) {
-    if (!failure.empty()) return;
-    const Lattice::Errors errors = lattice->errors(settings.second_moments);
-    error = errors.worst();
-    // Every second node sums as well as all do, to this difference.
-    if (chart.thin_lines() && errors.along_lines <= settings.tolerance) stride = 2;
+    if (failure.empty()) error = lattice->error(settings.second_moments);
   }
 };
 
@@ -614,7 +597,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     filled.reset();
   }
   if (best) {
-    exact = best->lattice->result(settings.second_moments, best->stride);
+    exact = best->lattice->result(settings.second_moments);
     exact.error = best->error;
   }
   exact.evaluations = evaluations;

@@ -12,8 +12,7 @@ namespace wearwell {
 /// are bent, so that tails as exp(-|z|) become normal ones. One direction is
 /// integrated out along lines about their own modes; the lattice of the other three is filled
 /// outward from the mode as long as there is density, and refined until its two half lattices agree to `tolerance`. Cells hold the
-/// parabola through the log density of their neighbours. Where lines are thin beside what their parameter
-/// spreads over, every second node of a line is told, of which both halves sum alike to the tolerance.
+/// parabola through the log density of their neighbours.
 ///
 /// Limits: density and moments converge exponentially, cells by the fourth power of the step, so that
 /// quantiles keep an error of some thousandths of a standard deviation (two hundredths on a bent
