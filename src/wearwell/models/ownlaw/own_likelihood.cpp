@@ -87,10 +87,7 @@ BoundColumn bind_column(const OwnLaw& law, const Measured& measured, std::size_t
   }
   bound.data = measured.program.bind(columns.rows);
   bound.responses = ResponseColumn(std::move(responses));
-  const bool noisy = std::count(measured.slot.begin(), measured.slot.end(), 2) > 0;
-  if (measured.process && measured.process->process != Process::wiener && !noisy) {
-    note_growth(bound);
-  }
+  if (measured.process && measured.process->process != Process::wiener) note_growth(bound);
   return bound;
 }
 

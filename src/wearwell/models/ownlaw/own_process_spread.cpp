@@ -92,19 +92,8 @@ class Part {
       } else if (grown > 0) {
         ScoreTable::increments(form_.process).look_up(grown, scale, step);
       }
-      // Where it stands is not known exactly where readings have noise: nodes of Gauss and Hermite's rule.
-      const bool spread_out = form_.process != Process::wiener && stands.variance > 0;
-      constexpr double nodes[] = {-2.85697001387280, -1.35562617997427, 0, 1.35562617997427,
-                                  2.85697001387280};
-      constexpr double shares[] = {0.0112574113277207, 0.222075922005613, 0.533333333333333,
-                                   0.222075922005613, 0.0112574113277207};
-      for (int m = 0; m < (spread_out ? 5 : 1); ++m) {
-        double place_of[edges];
-        const double from = stands.at + (spread_out ? nodes[m] * std::sqrt(stands.variance) : 0);
-        for (int e = 0; e < edges; ++e) place_of[e] = from + step[e];
-        found.paths[p].ahead[k].add_curve(weight * (spread_out ? shares[m] : 1),
-                                          ScoreTable::shares(), place_of);
-      }
+      for (double& each : step) each += stands.at;
+      found.paths[p].ahead[k].add_curve(weight, ScoreTable::shares(), step);
     }
   }
 

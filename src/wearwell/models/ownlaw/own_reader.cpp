@@ -132,6 +132,11 @@ class Reader {
     };
     for (const ResponseForm& each : response_forms()) look_at(each, nullptr);
     for (const ProcessForm& each : process_forms()) look_at(each.form, &each);
+    if (process && process->process != Process::wiener && table.has("noise")) {
+      table.fail("noise", fmt::format("is not integrated out of a {}: readings are taken as they "
+                                      "are; a wiener-process has noise",
+                                      *family));
+    }
     if (!form) {
       table.fail("family", fmt::format("{} needs {}", *family, fmt::join(ways, ", or ")));
     }
