@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "fleet/postgres_server.h"
+#include "support/free_port.h"
 #include "support/run_command.h"
 
 namespace wearwell {
@@ -123,6 +124,11 @@ class ClickhouseServer {
       _exit(127);
     }
     for (int i = 0; i < 300; ++i) {
+      // Another's server may answer where this one could not begin.
+      if (waitpid(process_, nullptr, WNOHANG) != 0) {
+        process_ = 0;
+        break;
+      }
       if (sql("select 1").exit_code == 0) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(200));
     }

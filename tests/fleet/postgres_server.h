@@ -1,11 +1,8 @@
 #pragma once
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <netinet/in.h>
 #include <pwd.h>
 #include <signal.h>
-#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,23 +13,10 @@
 #include <string>
 #include <thread>
 
+#include "support/free_port.h"
 #include "support/run_command.h"
 
 namespace wearwell {
-
-/// A port of the loopback that nobody listens at.
-inline int free_port() {
-  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  const bool good = bind(socket, reinterpret_cast<sockaddr*>(&address), size) == 0 &&
-                    getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0;
-  close(socket);
-  if (!good) throw std::runtime_error("no free port");
-  return ntohs(address.sin_port);
-}
 
 /// A server of PostgreSQL in a folder of its own on the loopback, ended by its own process id. As root it
 /// runs as `postgres`, since it refuses root.

@@ -19,23 +19,10 @@
 #include <utility>
 #include <vector>
 
+#include "support/free_port.h"
 #include "support/run_command.h"
 
 namespace wearwell {
-
-/// A port of loopback that is free now.
-inline int free_port() {
-  const int fd = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  if (bind(fd, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
-      getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0)
-    throw std::runtime_error("no free port");
-  close(fd);
-  return ntohs(address.sin_port);
-}
 
 inline bool is_listening(int port) {
   const int fd = socket(AF_INET, SOCK_STREAM, 0);

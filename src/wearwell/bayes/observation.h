@@ -1,10 +1,10 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "wearwell/bayes/normal_score.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/prob/lognormal.h"
 #include "wearwell/prob/normal.h"
 
@@ -24,7 +24,7 @@ struct ObservationLaw {
     if (family == ObservationFamily::lognormal) {
       // A lognormal quantity vanishes with its mean: the median is mean^2/sqrt(mean^2 + sd^2).
       if (!(mean > 1e-150 * sd)) {
-        location = -std::numeric_limits<double>::infinity();
+        location = -infinity;
         return;
       }
       if (!std::isfinite(mean)) return;  // beyond all that can be read
@@ -45,6 +45,12 @@ struct ObservationLaw {
     return 0.5 * std::erfc(z);
   }
 };
+
+/// Log density of one measurement; `t` is it, or its logarithm for the lognormal family. -infinity where that has no mean.
+inline double log_density(ObservationFamily family, double t, double mean, double sd) {
+  if (family == ObservationFamily::normal) return normal_log_density(t, mean, 1 / sd, std::log(sd));
+  return mean > 0 ? lognormal_log_density(t, mean, sd) : -infinity;
+}
 
 /// Measurements of one quantity, all with the same standard deviation, in SI.
 class Observations {
@@ -72,7 +78,7 @@ class Observations {
     } else {
       for (std::size_t i = 0; i < y_.size(); ++i) {
         const T mu = mean(i);
-        if (!(mu > 0.0)) return T(-std::numeric_limits<double>::infinity());
+        if (!(mu > 0.0)) return T(-infinity);
         sum += lognormal_log_density(y_[i], mu, sd);
       }
     }
@@ -84,11 +90,7 @@ class Observations {
   std::vector<double> pointwise(const Mean& mean, double sd) const {
     std::vector<double> terms;
     for (std::size_t i = 0; i < y_.size(); ++i) {
-      const double mu = mean(i);
-      terms.push_back(family_ == ObservationFamily::normal
-                          ? normal_log_density(y_[i], mu, 1 / sd, std::log(sd))
-                      : mu > 0 ? lognormal_log_density(y_[i], mu, sd)
-                               : -std::numeric_limits<double>::infinity());
+      terms.push_back(log_density(family_, y_[i], mean(i), sd));
     }
     return terms;
   }

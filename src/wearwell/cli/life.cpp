@@ -144,10 +144,9 @@ present::Table path_ahead(const LifeOptions& options, Models models,
   const std::string bare = options.unit.starts_with(named) && !is_known(options.unit)
                                ? options.unit.substr(named.size())
                                : options.unit;
-  const bool only = state.model == "archard-joint";  // a study of one
-  const auto unit = tracker->begin(only             ? seen.front()
-                                   : is_known(bare) ? bare
-                                                    : prognosis::new_name(*tracker));
+  std::string name = is_known(bare) ? bare : prognosis::new_name(*tracker);
+  if (!tracker->refusal(name).empty()) name = seen.front();  // a study of one
+  const auto unit = tracker->begin(name);
   const Unit &along = tracker->axis().unit, &level = tracker->limit().unit;
   present::Table table{"path",
                        "Path ahead",

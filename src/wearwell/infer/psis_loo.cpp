@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "wearwell/infer/left_out.h"
 #include "wearwell/infer/loo_of_many.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/pareto_smoothing.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/math/log_sum_exp.h"
 #include "wearwell/math/view.h"
 
@@ -57,8 +57,7 @@ class Without final : public LogDensity {
     for (std::size_t i = 0; i < each.size(); ++i) {
       if (counts_[i] > 0) sum += counts_[i] * each[i];
     }
-    return sum < std::numeric_limits<double>::infinity() ? sum
-                                                         : -std::numeric_limits<double>::infinity();
+    return sum < infinity ? sum : -infinity;
   }
   // By differences: no likelihood tells the gradients of its terms. Only searches for a peak ask.
   double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {

@@ -56,12 +56,13 @@ class NutsChain {
     nuts_.find_reasonable_step_size(rng_);
   }
 
-  // So many iterations of the warm-up; keeps the second half of them.
-  void warm_up(int iterations) {
-    late_.values.resize(iterations - iterations / 2, posterior_.dimension());
+  // So many iterations of the warm-up; keeps the second half of them where that is wanted.
+  void warm_up(int iterations, bool keeps) {
+    const int first = keeps ? iterations / 2 : iterations;
+    late_.values.resize(iterations - first, posterior_.dimension());
     for (int i = 0; i < iterations; ++i) {
       warmup_.adapt(warmed_++, nuts_.step(rng_), nuts_, rng_);
-      if (i >= iterations / 2) late_.values.row(i - iterations / 2) = natural();
+      if (i >= first) late_.values.row(i - first) = natural();
       steps_.step();
     }
     if (warmed_ > 0 && warmed_ == settings_.warmup) warmup_.finish(nuts_);
@@ -130,7 +131,7 @@ Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
     tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t c) {
       if (!chains[c])
         chains[c] = std::make_unique<NutsChain<N>>(posterior, whitening, options, settings, c);
-      chains[c]->warm_up(iterations);
+      chains[c]->warm_up(iterations, may_leap);
     });
     if (!may_leap) continue;
     Draws late;

@@ -20,6 +20,8 @@ struct TableSettings {
   std::optional<std::string> comment = {};     ///< lines that begin so are left out
   std::optional<std::string> sheet = {};       ///< of a workbook: its name, or its number from 1
   std::optional<std::string> range = {};       ///< of a sheet: "B3:F20"
+
+  bool operator==(const TableSettings&) const = default;
 };
 
 }  // namespace wearwell

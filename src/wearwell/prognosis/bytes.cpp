@@ -34,6 +34,9 @@ void ByteWriter::u64(std::uint64_t value) {
 void ByteWriter::number(double value) {
   put(std::bit_cast<std::uint64_t>(value), bytes_);
 }
+void ByteWriter::single(double value) {
+  u32(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+}
 void ByteWriter::text(std::string_view value) {
   u64(value.size());
   bytes_ += value;
@@ -67,6 +70,9 @@ std::uint64_t ByteReader::u64() {
 }
 double ByteReader::number() {
   return std::bit_cast<double>(u64());
+}
+double ByteReader::single() {
+  return std::bit_cast<float>(u32());
 }
 std::string ByteReader::text() {
   return std::string(take(count(1)));

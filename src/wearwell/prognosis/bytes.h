@@ -13,6 +13,7 @@ class ByteWriter {
   void u32(std::uint32_t value);
   void u64(std::uint64_t value);
   void number(double value);
+  void single(double value);          ///< rounded to single precision
   void text(std::string_view value);  ///< its length (u64), then it
   std::string take() { return std::move(bytes_); }
 
@@ -31,6 +32,7 @@ class ByteReader {
   std::uint32_t u32();
   std::uint64_t u64();
   double number();
+  double single();
   std::string text();
   /// A number of things (u64) each of which takes `each` bytes at least.
   std::size_t count(std::size_t each);

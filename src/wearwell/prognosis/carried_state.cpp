@@ -235,6 +235,23 @@ CarriedState state_of_bytes(std::string_view bytes, const std::string& name) {
   return state_of(unpacked(signed_part.substr(head), size, name), name);
 }
 
+std::string population_fingerprint(const CarriedState& state) {
+  std::string print = state.source.study.text;
+  const auto add = [&](const double* values, Eigen::Index count) {
+    print.append(reinterpret_cast<const char*>(values),
+                 static_cast<std::size_t>(count) * sizeof(double));
+  };
+  add(state.posterior.values.data(), state.posterior.values.size());
+  add(state.posterior.weights.data(), state.posterior.weights.size());
+  return sha1_of(print);
+}
+
+void require_parameters(const CarriedState& state, const std::vector<std::string>& names) {
+  if (names != state.parameters)
+    throw InputError(fmt::format("{}: the posterior that was carried on has other parameters",
+                                 state.source.study.path.string()));
+}
+
 CarriedState read_state(const std::filesystem::path& result) {
   std::error_code error;
   const bool folder = std::filesystem::is_directory(result, error);

@@ -27,6 +27,12 @@ std::string state_bytes(const CarriedState& state);
 /// Reads them; `name` is what messages call them. Throws InputError where they are of another version, or damaged.
 CarriedState state_of_bytes(std::string_view bytes, const std::string& name);
 
+/// Of the study's text and the posterior: what a unit's state must agree in with the tracker that takes it.
+std::string population_fingerprint(const CarriedState& state);
+
+/// Throws InputError where the posterior is not of these parameters.
+void require_parameters(const CarriedState& state, const std::vector<std::string>& names);
+
 /// Reads RESULT/state.bin or such a file. Throws InputError where there is none, it is of another version, or damaged.
 CarriedState read_state(const std::filesystem::path& result);
 

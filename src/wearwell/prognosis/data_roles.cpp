@@ -67,18 +67,17 @@ void read_law_roles(const TomlReader& root, const Table& table, DataRoles& roles
 
 }  // namespace
 
+DataRoles::Named named_column(const TomlReader& columns, const std::string& name) {
+  if (columns.is_text(name)) return {name, columns.required_text(name)};
+  const TomlReader choice = columns.required_table(name);
+  return {name, choice.required_text("column"), choice.text("unit").value_or("")};
+}
+
 DataRoles data_roles(const TomlReader& root, const Table& table) {
   DataRoles roles;
   const TomlReader columns = root.required_table("data").required_table("columns");
   for (const std::string& name : columns.keys()) {
-    DataRoles::Named named{name, {}};
-    if (columns.is_text(name)) {
-      named.column = columns.required_text(name);
-    } else {
-      const TomlReader choice = columns.required_table(name);
-      named.column = choice.required_text("column");
-      named.unit = choice.text("unit").value_or("");
-    }
+    DataRoles::Named named = named_column(columns, name);
     named.column = table.column(named.column).name;
     roles.used.push_back(std::move(named));
   }

@@ -29,6 +29,9 @@ struct DataRoles {
   bool same_is_same() const { return (unit || one) && axis; }
 };
 
+/// An entry of [data.columns], which it has: "heading" or { column, unit }.
+DataRoles::Named named_column(const TomlReader& columns, const std::string& name);
+
 /// Of [data.columns] of a study that was read with this table. Throws InputError.
 DataRoles data_roles(const TomlReader& root, const Table& table);
 

@@ -54,14 +54,6 @@ struct CampaignTable {
   std::vector<Table> fresh = {};
 };
 
-const Column* column_of(const Table& table, const std::string& heading, const std::string& name) {
-  for (const Column& each : table.columns)
-    if (each.name == heading) return &each;
-  for (const Column& each : table.columns)
-    if (read_heading(each.name, "").name == name) return &each;
-  return nullptr;
-}
-
 DataRoles roles_of(const KindOfTable& kind, const std::optional<TomlReader>& columns,
                    const Table& table) {
   DataRoles roles;
@@ -69,17 +61,8 @@ DataRoles roles_of(const KindOfTable& kind, const std::optional<TomlReader>& col
   roles.one = !kind.unit;
   for (const std::string& name : kind.columns) {
     DataRoles::Named named{name, name};
-    if (columns && columns->has(name) && columns->is_text(name)) {
-      named.column = columns->required_text(name);
-    } else if (columns && columns->has(name)) {
-      const TomlReader choice = columns->required_table(name);
-      named.column = choice.required_text("column");
-      named.unit = choice.text("unit").value_or("");
-    }
-    const Column* const found = column_of(table, named.column, named.column);
-    if (!found)
-      throw InputError(fmt::format("{} has no column '{}'", table.source, printable(named.column)));
-    named.column = found->name;
+    if (columns && columns->has(name)) named = named_column(*columns, name);
+    named.column = table.column(named.column).name;
     if (name == kind.unit) roles.unit = named.column;
     if (name == kind.axis) roles.axis = named.column;
     if (name == kind.unit || name == "role" || name == "block") roles.words.push_back(named.column);
@@ -108,23 +91,32 @@ std::vector<CampaignTable> tables_of(const Source& source) {
   return tables;
 }
 
-// Its columns that a table lacks.
+bool has(const Table& table, const std::string& name) {
+  return std::ranges::any_of(table.columns, [&](const Column& each) {
+    return each.name == name || read_heading(each.name, "").name == name;
+  });
+}
+
+// Its columns that a table lacks, by the names of its own headings or by those that the campaign has for them.
 std::vector<std::string> missing(const CampaignTable& kept, const Table& table) {
   std::vector<std::string> names;
   for (const DataRoles::Named& each : kept.roles.used)
-    if (!column_of(table, each.column, read_heading(each.column, "").name) &&
-        !column_of(table, each.name, each.name))
+    if (!has(table, each.column) && !has(table, read_heading(each.column, "").name) &&
+        !has(table, each.name))
       names.push_back(each.column);
   return names;
 }
 
-// Reads a file as that of the tables whose columns it has.
+// Reads a file as that of the tables whose columns it has; anew only where they are written otherwise.
 void add_file(const std::filesystem::path& file, std::vector<CampaignTable>& tables) {
   std::vector<std::string> why;
   CampaignTable* of = nullptr;
-  std::optional<Table> read;
+  const TableSettings* settings = nullptr;
+  Table table, read;
   for (CampaignTable& each : tables) {
-    Table table = wearwell::read_table(file, {}, {}, each.settings);
+    if (!settings || *settings != each.settings)
+      table = wearwell::read_table(file, {}, {}, each.settings);
+    settings = &each.settings;
     const std::vector<std::string> names = missing(each, table);
     if (!names.empty()) {
       why.push_back(fmt::format("{} ({})", each.kind->key, fmt::join(names, ", ")));
@@ -136,12 +128,12 @@ void add_file(const std::filesystem::path& file, std::vector<CampaignTable>& tab
                       "of one",
                       table.source, of->kind->key, each.kind->key));
     of = &each;
-    read = std::move(table);
+    read = table;
   }
   if (!of)
     throw InputError(fmt::format("{} is none of the campaign's tables; it lacks of {}",
                                  valid_utf8(file.string()), fmt::join(why, ", of ")));
-  of->fresh.push_back(std::move(*read));
+  of->fresh.push_back(std::move(read));
 }
 
 }  // namespace
@@ -154,10 +146,8 @@ JoinedData joined_campaign(const Source& source, const std::vector<std::filesyst
   for (const CampaignTable& each : tables) {
     joined.roles = each.roles;
     joined.fresh.clear();  // rows of the table before
-    std::vector<std::string> needed;
-    for (const DataRoles::Named& used : each.roles.used) needed.push_back(used.column);
     joined.source.tables[each.name] =
-        joined_table(source.tables.at(each.name), needed, each.fresh, Repeated::once, joined);
+        joined_table(source.tables.at(each.name), each.fresh, Repeated::once, joined);
     fresh.insert(fresh.end(), joined.fresh.begin(), joined.fresh.end());
   }
   joined.fresh = std::move(fresh);

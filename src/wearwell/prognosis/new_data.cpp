@@ -299,10 +299,11 @@ Table read_new_data(const Source& source, const std::filesystem::path& file) {
       file, {}, {}, alike ? read_table_settings(root.required_table("data")) : TableSettings{});
 }
 
-Table joined_table(const Table& was, const std::vector<std::string>& needed,
-                   const std::vector<Table>& fresh, Repeated repeated, JoinedData& joined) {
+Table joined_table(const Table& was, const std::vector<Table>& fresh, Repeated repeated,
+                   JoinedData& joined) {
   Joining joining(was, joined.roles, repeated);
   joined.before += was.rows;
+  const std::vector<std::string> needed = used_columns(joined.roles);
   for (const Table& each : fresh) joining.add(each, needed, joined);
   Table now = in_order(joining.table(), joined.roles);
   compare(was, now, joined);
@@ -317,22 +318,25 @@ JoinedData joined_data(const Source& source, const std::vector<Table>& fresh, Re
   const Table& was = found->second;
   const TomlReader root = TomlReader::parse(source.study);
   JoinedData joined{source, data_roles(root, was)};
-  const auto raw = section.sql ? source.tables.find(section.before_sql) : found;
+  if (!section.sql) {
+    joined.source.tables[section.as_read] = joined_table(was, fresh, repeated, joined);
+    return joined;
+  }
+  const auto raw = source.tables.find(section.before_sql);
   if (raw == source.tables.end())
     throw InputError(fmt::format("the state holds no table '{}'", printable(section.file)));
   DataRoles of_file = joined.roles;  // a query gives columns of its own
-  if (section.sql) of_file.used.clear(), of_file.words.clear();
-  const std::vector<std::string> needed =
-      section.sql ? named_in(*section.sql, raw->second) : used_columns(joined.roles);
+  of_file.used.clear(), of_file.words.clear();
+  const std::vector<std::string> needed = named_in(*section.sql, raw->second);
   Joining joining(raw->second, of_file, repeated);
   joined.before = raw->second.rows;
   for (const Table& each : fresh) joining.add(each, needed, joined);
-  const Table file = in_order(joining.table(), section.sql ? DataRoles{} : joined.roles);
-  const Table now = in_order(
-      section.sql ? asked_anew(section, raw->second, was, file, joined.roles) : file, joined.roles);
+  const Table file = in_order(joining.table(), DataRoles{});
+  const Table now =
+      in_order(asked_anew(section, raw->second, was, file, joined.roles), joined.roles);
   compare(was, now, joined);
   joined.source.tables[section.as_read] = now;
-  if (section.sql) joined.source.tables[section.before_sql] = file;
+  joined.source.tables[section.before_sql] = file;
   return joined;
 }
 

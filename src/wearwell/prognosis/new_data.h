@@ -36,10 +36,9 @@ struct JoinedData {
 /// (`ask`), an sql that does not give the same of the rows that were kept.
 JoinedData joined_data(const Source& source, const std::vector<Table>& fresh, Repeated repeated);
 
-/// The same of one table, whose rows in canonical order are given back; `joined.roles` are its own, counts are added to. `needed`:
-/// headings that new rows must have.
-Table joined_table(const Table& was, const std::vector<std::string>& needed,
-                   const std::vector<Table>& fresh, Repeated repeated, JoinedData& joined);
+/// The same of one table, whose rows in canonical order are given back; `joined.roles` are its own, counts are added to.
+Table joined_table(const Table& was, const std::vector<Table>& fresh, Repeated repeated,
+                   JoinedData& joined);
 
 /// New rows in files, written as the study says of its own where the ending is the same.
 Table read_new_data(const Source& source, const std::filesystem::path& file);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
@@ -33,17 +32,23 @@ bool carries(double log_weight) {
 
 class NodeUnit final : public TrackedUnit {
  public:
-  NodeUnit(Model model, std::string unit) : model_(std::move(model)), unit_(std::move(unit)) {
+  // Without nodes: they are laid, loaded, or another's.
+  NodeUnit(Model model, const std::string& unit) : model_(std::move(model)) { rename(unit); }
+
+  void rename(const std::string& unit) {
+    unit_ = unit;
     refusal_ = model_->refusal(unit_);
-    if (refusal_.empty()) lay({});
   }
+  bool lay(std::vector<Reading> all);
+  bool is_refused() const { return !refusal_.empty(); }
+  Eigen::Index columns() const { return nodes_.values.cols(); }
 
   Taken take(const Reading& reading, const History& history) override;
   Forecast forecast() const override;
   std::vector<LevelAhead> ahead(std::span<const double> places) const override;
   std::size_t readings() const override { return readings_; }
   std::string save() const override;
-  void load(ByteReader& from);
+  void load(ByteReader& from, Eigen::Index columns);
 
  private:
   const double* node(std::size_t i) const {
@@ -53,7 +58,6 @@ class NodeUnit final : public TrackedUnit {
   std::optional<NodeCourse> course() const {
     return model_->course(unit_, last_.numbers.empty() ? nullptr : &last_);
   }
-  bool lay(std::vector<Reading> all);
   bool lay_with(const Reading& reading, const History& history);
   void weigh();
   double surprise(const NodeReading& law) const;
@@ -176,7 +180,7 @@ Forecast NodeUnit::forecast() const {
   Forecast forecast;
   forecast.effective = effective_;
   const std::optional<NodeCourse> course =
-      refusal_.empty() ? this->course() : std::optional<NodeCourse>();
+      is_refused() ? std::optional<NodeCourse>() : this->course();
   if (!course) {  // nothing says how it goes on
     forecast.level05 = forecast.level50 = forecast.level95 = forecast.passed =
         std::numeric_limits<double>::quiet_NaN();
@@ -208,7 +212,7 @@ Forecast NodeUnit::forecast() const {
 
 std::vector<LevelAhead> NodeUnit::ahead(std::span<const double> places) const {
   const std::optional<NodeCourse> course =
-      refusal_.empty() ? this->course() : std::optional<NodeCourse>();
+      is_refused() ? std::optional<NodeCourse>() : this->course();
   if (!course) return {};
   if (!places.empty() && places.front() < course->now)
     throw std::invalid_argument("a path ahead begins where the unit is");
@@ -223,14 +227,6 @@ std::vector<LevelAhead> NodeUnit::ahead(std::span<const double> places) const {
   return path;
 }
 
-std::uint32_t bits_of(double value) {
-  return std::bit_cast<std::uint32_t>(static_cast<float>(value));
-}
-
-double number_of(std::uint32_t bits) {
-  return std::bit_cast<float>(bits);
-}
-
 std::string NodeUnit::save() const {
   ByteWriter to;
   to.text(mark);
@@ -240,8 +236,8 @@ std::string NodeUnit::save() const {
   to.number(laid_effective_);
   to.u64(nodes_.log_weight.size());
   to.u64(static_cast<std::uint64_t>(nodes_.values.cols()));
-  for (const double each : nodes_.values.reshaped<Eigen::RowMajor>()) to.u32(bits_of(each));
-  for (const double each : nodes_.log_weight) to.u32(bits_of(each));
+  for (const double each : nodes_.values.reshaped<Eigen::RowMajor>()) to.single(each);
+  for (const double each : nodes_.log_weight) to.single(each);
   to.u64(last_.numbers.size());
   for (const double each : last_.numbers) to.number(each);
   for (std::size_t i = 0; !last_.numbers.empty() && i < last_.labels.size(); ++i)
@@ -250,23 +246,25 @@ std::string NodeUnit::save() const {
   return sha1_of(bytes) + bytes;
 }
 
-void NodeUnit::load(ByteReader& from) {
+// `columns`: of the nodes of every unit that is followed.
+void NodeUnit::load(ByteReader& from, Eigen::Index columns) {
   readings_ = from.u64();
   laid_effective_ = from.number();
-  const std::size_t count = from.count(sizeof(float)), columns = from.u64();
-  if (columns != static_cast<std::size_t>(nodes_.values.cols()))
+  const std::size_t count = from.count(sizeof(float));
+  if (is_refused()) columns = 0;
+  if (from.u64() != static_cast<std::size_t>(columns))
     from.fail("its nodes have another number of numbers");
-  from.require(count, sizeof(float) * (columns + 1));
-  nodes_.values.resize(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(columns));
+  from.require(count, sizeof(float) * (static_cast<std::size_t>(columns) + 1));
+  nodes_.values.resize(static_cast<Eigen::Index>(count), columns);
   nodes_.log_weight.resize(count);
   for (Eigen::Index i = 0; i < nodes_.values.rows(); ++i) {
     for (Eigen::Index j = 0; j < nodes_.values.cols(); ++j) {
-      nodes_.values(i, j) = number_of(from.u32());
+      nodes_.values(i, j) = from.single();
       if (!std::isfinite(nodes_.values(i, j))) from.fail("a node is no number");
     }
   }
   for (double& each : nodes_.log_weight) {
-    each = number_of(from.u32());
+    each = from.single();
     if (!(each < infinity)) from.fail("a weight is no number");
   }
   const std::size_t numbers = from.count(sizeof(double));
@@ -278,18 +276,19 @@ void NodeUnit::load(ByteReader& from) {
   from.end();
   if (numbers > 0 && !model_->problem(last_).empty()) from.fail("its last reading is none");
   weigh();
-  if (refusal_.empty() && !(effective_ > 0)) from.fail("no node carries anything");
+  if (!is_refused() && !(effective_ > 0)) from.fail("no node carries anything");
 }
 
 class NodeTracker final : public Tracker {
  public:
   explicit NodeTracker(NodeModel model)
-      : model_(std::make_shared<const NodeModel>(std::move(model))) {
-    const NodeCloud nodes = model_->lay(model_->seen.empty() ? "" : model_->seen.front(), {});
-    if (std::none_of(nodes.log_weight.begin(), nodes.log_weight.end(), carries))
+      : model_(std::make_shared<const NodeModel>(std::move(model))), fresh_(model_, "") {
+    NodeUnit first(model_, model_->seen.empty() ? "" : model_->seen.front());
+    if (!first.lay({}) || (!fresh_.is_refused() && !fresh_.lay({})))
       throw InputError(
           "the posterior that was carried on gives the units of its study no weight: it is "
           "damaged");
+    columns_ = first.columns();
   }
 
   std::span<const ReadingColumn> columns() const override { return model_->columns; }
@@ -304,7 +303,11 @@ class NodeTracker final : public Tracker {
   std::string refusal(const std::string& unit) const override { return model_->refusal(unit); }
 
   std::unique_ptr<TrackedUnit> begin(const std::string& unit) const override {
-    return std::make_unique<NodeUnit>(model_, unit);
+    const bool own = fresh_.is_refused() || std::ranges::find(seen(), unit) != seen().end();
+    auto begun = std::make_unique<NodeUnit>(own ? NodeUnit(model_, unit) : fresh_);
+    begun->rename(unit);
+    if (own && !begun->is_refused()) begun->lay({});
+    return begun;
   }
 
   std::unique_ptr<TrackedUnit> restore(const std::string& bytes) const override {
@@ -318,29 +321,20 @@ class NodeTracker final : public Tracker {
       throw InputError(
           "the state of a unit is of another population: the study was fitted anew since");
     auto unit = std::make_unique<NodeUnit>(model_, from.text());
-    unit->load(from);
+    unit->load(from, columns_);
     return unit;
   }
 
  private:
   std::shared_ptr<const NodeModel> model_;
+  NodeUnit fresh_;  // without a name: of every unit that the study has not seen
+  Eigen::Index columns_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<const Tracker> node_tracker(NodeModel model) {
   return std::make_unique<const NodeTracker>(std::move(model));
-}
-
-std::string population_fingerprint(const std::string& study, const WeightedDraws& posterior) {
-  std::string print = study;
-  const auto add = [&](const double* values, Eigen::Index count) {
-    print.append(reinterpret_cast<const char*>(values),
-                 static_cast<std::size_t>(count) * sizeof(double));
-  };
-  add(posterior.values.data(), posterior.values.size());
-  add(posterior.weights.data(), posterior.weights.size());
-  return sha1_of(print);
 }
 
 }  // namespace wearwell::prognosis

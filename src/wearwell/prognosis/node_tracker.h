@@ -48,7 +48,7 @@ struct NodeModel {
   std::function<std::string(const Reading& reading)> problem;
   std::function<NodeReading(const Reading& reading)> reading;
   /// Nodes of a unit that has shown `readings` since the study, along the axis: their weights have the study's rows and
-  /// these readings in them. None where no unit can show that.
+  /// these readings in them. None where no unit can show that. Of a unit that the study has not seen whatever its name.
   std::function<NodeCloud(const std::string& unit, std::span<const Reading> readings)> lay;
   /// `last`: its farthest reading since the study; null where there is none. Nothing where no reading and no word of the
   /// study says how it goes on.
@@ -57,8 +57,5 @@ struct NodeModel {
 
 /// What follows the units of such a trade.
 std::unique_ptr<const Tracker> node_tracker(NodeModel model);
-
-/// Of a study's text and its posterior: what a state must agree in with the tracker that takes it.
-std::string population_fingerprint(const std::string& study, const WeightedDraws& posterior);
 
 }  // namespace wearwell::prognosis

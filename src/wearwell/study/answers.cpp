@@ -79,10 +79,6 @@ class Clauses {
   }
 
  private:
-  static std::string of_whom(const LifeSummary& summary) {
-    return summary.of.empty() ? "" : (summary.now > 0 ? " of " : " of a ") + summary.of;
-  }
-
   std::string unit(const std::string& text) const {
     if (page_) return html::unit(text);
     return text == "1" ? "" : text.starts_with("1e") ? "x " + text : text;
@@ -139,6 +135,10 @@ std::vector<const QuantitySummary*> headlines(const PosteriorSummary& result) {
     if (each->is_life) return {&*each};
   }
   return found;
+}
+
+std::string of_whom(const LifeSummary& summary) {
+  return summary.of.empty() ? "" : (summary.now > 0 ? " of " : " of a ") + summary.of;
 }
 
 std::vector<std::string> answers(const PosteriorSummary& result, Wording wording) {

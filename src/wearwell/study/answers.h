@@ -14,6 +14,9 @@ enum class Wording { page, plain };
 /// curve or the first parameter. Clauses without capital and full stop, the most wanted first.
 std::vector<std::string> answers(const PosteriorSummary& result, Wording wording);
 
+/// " of bearing B at 1 MPa" of one that is known, " of a bearing at 1 MPa" of one to come; empty where nothing is said.
+std::string of_whom(const LifeSummary& summary);
+
 /// The quantities whose answer comes first: those that the trade marks, else the last life.
 std::vector<const QuantitySummary*> headlines(const PosteriorSummary& result);
 

@@ -263,9 +263,8 @@ std::string life_lines(const LifeSummary& summary) {
   };
   const std::string lives = fmt::format(
       "{}{} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})", unit,
-      summary.of.empty() ? "" : (summary.now > 0 ? " of " : " of a ") + printable(summary.of),
-      plain_number(summary.limit), printable(summary.limit_unit), count(life.b1), count(life.b10),
-      count(life.b50), count(life.q05), count(life.q95));
+      printable(of_whom(summary)), plain_number(summary.limit), printable(summary.limit_unit),
+      count(life.b1), count(life.b10), count(life.b50), count(life.q05), count(life.q95));
   const std::string passed = fmt::format(
       "after {} {} the limit is passed already with a probability of {}{}",
       whole ? fmt::format("{}", summary.now) : plain_number(summary.now, 6), unit,

@@ -210,13 +210,7 @@ class Predictions {
   // its last inspection.
   void life_of_seen(const std::string& name, const Quantity& limit) {
     const std::size_t number = bearing_named(name);
-    std::size_t last = data_.inspections.bearing.size();
-    for (std::size_t i = 0; i < data_.inspections.bearing.size(); ++i) {
-      if (data_.inspections.bearing[i] != number) continue;
-      if (last == data_.inspections.bearing.size() ||
-          data_.inspections.duty[i].revolutions >= data_.inspections.duty[last].revolutions)
-        last = i;
-    }
+    const std::size_t last = bearing::last_inspection(data_.inspections, number);
     bearing::GoingOn going{data_.inspections.duty[last], 0, 0, 0, 1};
     const Duty& now = going.now;
     const Unit& of_pressure = data_.pressure_unit;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -112,15 +111,13 @@ struct Population {
   // Its farthest row in the study.
   std::optional<ReadingRow> last_seen(const std::string& unit) const {
     const auto at = number(unit);
-    std::optional<ReadingRow> last;
-    for (std::size_t i = 0; at && i < data.inspections.depth.size(); ++i) {
-      const Duty& duty = data.inspections.duty[i];
-      if (data.inspections.bearing[i] != *at) continue;
-      if (last && duty.revolutions < last->duty.revolutions) continue;
-      last = ReadingRow{duty, data.inspections.depth[i], duty.revolutions, {}};
-      if (data.speed.empty()) continue;
-      last->speed = data.speed[i];
-      if (rows.in_time()) last->place = duty.revolutions / data.speed[i];
+    if (!at) return {};
+    const std::size_t i = last_inspection(data.inspections, *at);
+    const Duty& duty = data.inspections.duty[i];
+    ReadingRow last{duty, data.inspections.depth[i], duty.revolutions, {}};
+    if (!data.speed.empty()) {
+      last.speed = data.speed[i];
+      if (rows.in_time()) last.place = duty.revolutions / data.speed[i];
     }
     return last;
   }
@@ -152,7 +149,7 @@ prognosis::NodeCloud lay(const Population& population, const std::string& unit,
     rows.duty.push_back(row.duty);
     rows.depth.push_back(row.depth);
   }
-  own.all = inspected(population, rows);
+  own.all = readings.empty() ? own.seen : inspected(population, rows);
   RateGrid grid = rate_grid(population.model, population.few, own);
   if (grid.effective < least_few * effective_of(population.few))
     grid = rate_grid(population.model, population.many, own);
@@ -164,17 +161,11 @@ prognosis::NodeReading reading_law(const Population& population, const Reading& 
   population.rows.read(reading, row);
   const DepthLaw law = population.curves.law(row.duty);
   const ObservationFamily family = population.model.family;
-  const auto sigma = [known = population.model.depth_error](const double* node) {
-    return known ? *known : node[1];
-  };
+  const auto sigma = [model = population.model](const double* node) { return model.sigma(node); };
   const double at = family == ObservationFamily::normal ? row.depth : std::log(row.depth);
   return {[=](const double* node) {
             if (!(node[0] <= law.limit())) return -infinity;
-            const double mean = law.depth(node[0]), sd = sigma(node);
-            if (family == ObservationFamily::lognormal)
-              return mean > 0 ? lognormal_log_density(at, mean, sd) : -infinity;
-            const double score = (at - mean) / sd;
-            return -0.5 * score * score - std::log(sd) - half_log_two_pi;
+            return log_density(family, at, law.depth(node[0]), sigma(node));
           },
           [=](const double* node) {
             if (!(node[0] <= law.limit())) return 0.0;
@@ -233,9 +224,7 @@ std::unique_ptr<const prognosis::Tracker> track_bearings(const prognosis::Carrie
   std::vector<std::string> names = {"k"};
   if (!population->model.depth_error) names.emplace_back("sigma");
   if (population->model.has_scatter) names.emplace_back("k_scatter");
-  if (names != state.parameters)
-    throw InputError(fmt::format("{}: the posterior that was carried on has other parameters",
-                                 state.source.study.path.string()));
+  prognosis::require_parameters(state, names);
   prognosis::NodeModel model;
   model.columns = population->rows.columns();
   model.labels = population->rows.labels();
@@ -244,7 +233,7 @@ std::unique_ptr<const prognosis::Tracker> track_bearings(const prognosis::Carrie
   model.noun = "bearing";
   model.limit = population->ahead.limit;
   model.seen = population->data.names;
-  model.fingerprint = prognosis::population_fingerprint(state.source.study.text, state.posterior);
+  model.fingerprint = prognosis::population_fingerprint(state);
   model.refusal = [](const std::string&) { return std::string(); };
   model.problem = [population](const Reading& reading) {
     ReadingRow row;

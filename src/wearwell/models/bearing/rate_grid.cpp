@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,13 +20,20 @@ constexpr std::size_t sigma_classes = 32;
 
 // One point of the posterior, and what the bearing's rows make of it.
 struct PointOf {
-  double log_k, sigma, scatter;
+  double log_k, sigma, scatter, log_scatter;
   double
       log_weight;  // before rows that the posterior does not have, over what it has of this bearing's
   double log_all = 0;      // the integral over all rows
   double from, to, width;  // of ln k
   double total() const { return log_weight + log_all; }
 };
+
+// Fractions of multiples of the golden ratio lie evenly.
+double fraction(std::size_t i) {
+  constexpr double golden = 0.6180339887498949;
+  const double x = golden * static_cast<double>(i);
+  return x - std::floor(x);
+}
 
 double log_sum(const std::vector<RateNode>& nodes, double top) {
   double sum = 0;
@@ -75,6 +81,7 @@ std::vector<PointOf> points_of(const WearModel& model, const FewPoints& points,
     PointOf point{std::log(x[0]),
                   model.sigma(x),
                   model.scatter(x),
+                  std::log(model.scatter(x)),
                   std::log(points.weights[i]),
                   0,
                   std::log(x[0]),
@@ -128,8 +135,7 @@ void lay_class(const std::span<const PointOf> points, const OwnRows& rows, doubl
         of_sigma = point.sigma;
       }
       const double z = (u - point.log_k) / point.scatter;
-      term[i] =
-          point.log_weight + likelihood - 0.5 * z * z - std::log(point.scatter) - half_log_two_pi;
+      term[i] = point.log_weight + likelihood - 0.5 * z * z - point.log_scatter - half_log_two_pi;
       highest = std::max(highest, term[i]);
     }
     if (!(highest > -infinity)) continue;

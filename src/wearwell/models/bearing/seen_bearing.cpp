@@ -22,10 +22,14 @@ Inspections inspections_of(const Inspections& all, std::size_t bearing) {
   return own;
 }
 
-double fraction(std::size_t i) {
-  constexpr double golden = 0.6180339887498949;
-  const double x = golden * static_cast<double>(i);
-  return x - std::floor(x);
+std::size_t last_inspection(const Inspections& all, std::size_t bearing) {
+  std::size_t last = all.bearing.size();
+  for (std::size_t i = 0; i < all.bearing.size(); ++i) {
+    if (all.bearing[i] != bearing) continue;
+    if (last == all.bearing.size() || all.duty[i].revolutions >= all.duty[last].revolutions)
+      last = i;
+  }
+  return last;
 }
 
 namespace {

@@ -13,6 +13,9 @@ namespace wearwell::bearing {
 /// The inspections of one of many bearings.
 Inspections inspections_of(const Inspections& all, std::size_t bearing);
 
+/// The row of a bearing's farthest inspection, the last of those; it has one.
+std::size_t last_inspection(const Inspections& all, std::size_t bearing);
+
 /// The wear rate of one bearing that was inspected, over all that the posterior leaves open: ln k with
 /// weights.
 struct OwnRate {
@@ -36,9 +39,6 @@ struct GoingOn {
   double begin = 0;        ///< what its life is by now, in the unit in which lives are told
   double per_turn = 1;     ///< that unit over one revolution to come
 };
-
-/// Fractions that lie evenly, whatever their number.
-double fraction(std::size_t i);
 
 /// When a bearing of this rate reaches the limit. What wears is the pressure summed over all
 /// revolutions: k sum(p_a dn) is the wear number. Before now it had worn evenly.

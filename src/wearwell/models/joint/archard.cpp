@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 
 namespace wearwell::joint {
@@ -104,8 +105,7 @@ class SummedLikelihood final : public LogDensity {
       const T dv = x[2] - constant_guess_;
       squares += dv * (dv * n_ + 2.0 * (dk * w1_ - r_));
     }
-    constexpr double log_sqrt_2_pi = 0.918938533204672741780329736406;
-    return -n_ * (log(x[1]) + log_sqrt_2_pi) - 0.5 * squares / (x[1] * x[1]);
+    return -n_ * (log(x[1]) + half_log_two_pi) - 0.5 * squares / (x[1] * x[1]);
   }
 
   ArchardLikelihood rows_;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -141,10 +140,8 @@ prognosis::NodeReading reading_law(const Followed& joint, const Reading& reading
   joint.read(reading, inspection);
   const bool normal = joint.family == ObservationFamily::normal;
   const double at = normal ? inspection.volume : std::log(inspection.volume);
-  return {[=, law = joint.law](const double* x) {
-            const double mean = law.mean_volume(x, inspection.work);
-            if (normal) return normal_log_density(at, mean, 1 / x[1], std::log(x[1]));
-            return mean > 0 ? lognormal_log_density(at, mean, x[1]) : -infinity;
+  return {[=, law = joint.law, family = joint.family](const double* x) {
+            return log_density(family, at, law.mean_volume(x, inspection.work), x[1]);
           },
           [=, law = joint.law, family = joint.family](const double* x) {
             return ObservationLaw(family, law.mean_volume(x, inspection.work), x[1]).cdf(at);
@@ -170,9 +167,7 @@ std::unique_ptr<const prognosis::Tracker> track_joint(const prognosis::CarriedSt
   const auto joint = std::make_shared<const Followed>(root, state);
   std::vector<std::string> names;
   for (const Parameter& each : joint->parameters) names.push_back(each.name);
-  if (names != state.parameters)
-    throw InputError(fmt::format("{}: the posterior that was carried on has other parameters",
-                                 state.source.study.path.string()));
+  prognosis::require_parameters(state, names);
   prognosis::NodeModel model;
   model.columns = joint->columns;
   model.axis = joint->cycles;
@@ -180,7 +175,7 @@ std::unique_ptr<const prognosis::Tracker> track_joint(const prognosis::CarriedSt
   model.noun = "joint";
   model.limit = joint->limit;
   model.seen = {joint->data.name};
-  model.fingerprint = prognosis::population_fingerprint(state.source.study.text, state.posterior);
+  model.fingerprint = prognosis::population_fingerprint(state);
   model.refusal = [only = joint->data.name](const std::string& unit) {
     return unit == only ? std::string()
                         : fmt::format(

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/sha1.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_reader.h"
 #include "wearwell/models/ownlaw/tracked_unit.h"
@@ -75,20 +74,9 @@ std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedSt
   refuse_drawn_effects(*law, "followed on line");
   std::vector<std::string> names;
   for (const Parameter& each : law->parameters) names.push_back(each.name);
-  if (names != state.parameters) {
-    throw InputError(fmt::format("{}: the posterior that was carried on has other parameters",
-                                 state.source.study.path.string()));
-  }
-  std::string print = state.source.study.text;
-  const WeightedDraws& posterior = state.posterior;
-  const auto add = [&](const double* values, Eigen::Index count) {
-    print.append(reinterpret_cast<const char*>(values),
-                 static_cast<std::size_t>(count) * sizeof(double));
-  };
-  add(posterior.values.data(), posterior.values.size());
-  add(posterior.weights.data(), posterior.weights.size());
-  return std::make_unique<const OwnTracker>(
-      std::make_shared<const Tracked>(root, law, posterior, sha1_of(print)));
+  prognosis::require_parameters(state, names);
+  return std::make_unique<const OwnTracker>(std::make_shared<const Tracked>(
+      root, law, state.posterior, prognosis::population_fingerprint(state)));
 }
 
 }  // namespace wearwell::ownlaw

@@ -1,13 +1,12 @@
 #include "wearwell/models/ownlaw/unit_nodes.h"
 
-#include <boost/math/special_functions/erf.hpp>
-
 #include <algorithm>
 #include <cmath>
 
 #include "wearwell/law/kernels.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/lanes.h"
+#include "wearwell/models/ownlaw/node_points.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
 namespace wearwell::ownlaw {
@@ -147,16 +146,6 @@ std::vector<double> weights_of(const PopulationPoints& points, const UnitAt& see
     log_weight.push_back(std::isnan(weight) ? -infinity : weight);
   }
   return log_weight;
-}
-
-// Low numbers of a shift that lie evenly: the fractions of multiples of the golden ratio.
-double fraction(std::size_t i, double of) {
-  const double x = (static_cast<double>(i) + 0.5) * of;
-  return x - std::floor(x);
-}
-
-double normal_quantile(double p) {
-  return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
 }
 
 void shape_of(const AtPoint& at, std::size_t effects, std::size_t line, double* shape) {
