@@ -35,7 +35,7 @@ function(wearwell_batches target)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # What a neighbour names is no global that a local would hide, nor does its source become a header.
-  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> -Wno-subobject-linkage)
+  target_compile_options(${target} PRIVATE -Wno-shadow "$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local;-Wno-subobject-linkage>")
   set(at 0)
   foreach(source ${ARG_SOURCES})
     if(NOT source IN_LIST ARG_ALONE)
