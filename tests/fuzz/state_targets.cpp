@@ -15,6 +15,7 @@
 #include "wearwell/prognosis/bytes.h"
 #include "wearwell/prognosis/carried_state.h"
 #include "wearwell/prognosis/tracker.h"
+#include "wearwell/study/inference_data.h"
 
 // States are signed, so that bytes which were mutated by chance never come farther than the checksum. Here they are signed again.
 namespace wearwell::fuzz {
@@ -98,6 +99,7 @@ e = { law = "half-normal", scale = "0.2 um" }
 [predict]
 along = "time"
 limit = { wear = "12 um" }
+given = { material = "PTFE", step = "1 h" }
 [varies.unit]
 b = { law = "lognormal", log_sd = "0.3" }
 )toml";
@@ -110,17 +112,47 @@ std::vector<Column> data() {
           numbers("depth", {0.9, 2.2, 3.1, 1.3, 2.4, 3.9})};
 }
 
+// One joint, whose inspections are few; its units are points that the engine weighs.
+const char* joint = R"toml(model = "archard-joint"
+[data]
+file = "data.csv"
+[data.columns]
+cycles = "cycles"
+volume = { column = "volume", unit = "mm^3" }
+[conditions]
+work_per_cycle = "6 N m"
+[likelihood]
+family = "normal"
+[prior]
+k = { law = "lognormal", median = "1e-3 mm^3/(N m)", log_sd = 1.5 }
+sigma = { law = "half-normal", scale = "8 mm^3" }
+[predict]
+limit = "100 mm^3"
+)toml";
+
+Source study_of_joint() {
+  Table table;
+  table.source = "data.csv";
+  table.rows = 3;
+  table.columns = {ownlaw::numbers("cycles", {100, 1000, 5000}),
+                   ownlaw::numbers("volume", {5.1, 8.8, 24.2})};
+  return {{"study.toml", joint}, {{"data.csv", table}}};
+}
+
 // What follows units of a population of a few points, and how the bytes of any of them begin.
 struct Population {
   std::unique_ptr<const prognosis::Tracker> tracker;
   std::string begin;
+  bool sum_before = false;  ///< the checksum stands before what it is of; else behind
 
-  Population(const char* study, const std::map<std::string, double>& middle) {
-    const ownlaw::OwnDesign design(study, data());
+  Population(const std::string& model_key, const Source& source, const std::string& unit,
+             const std::map<std::string, double>& middle) {
     CarriedState state;
-    state.model = "law";
-    state.source = design.source;
-    for (const Parameter& each : design.law->parameters) state.parameters.push_back(each.name);
+    state.model = model_key;
+    state.source = source;
+    const auto study = read_study(source, all_models());
+    for (const Parameter& each : require_posterior_study(*study).parameters)
+      state.parameters.push_back(each.name);
     constexpr Eigen::Index points = 4;
     const auto width = static_cast<Eigen::Index>(state.parameters.size());
     state.posterior.values.resize(points, width);
@@ -135,10 +167,33 @@ struct Population {
     for (const Model& model : all_models()) {
       if (model.key == state.model) tracker = model.track(state);
     }
-    constexpr std::size_t mark = 16, length = 8, fingerprint = 40;
-    begin = tracker->begin("new")->save().substr(0, mark + length + fingerprint);
+    constexpr std::size_t length = 8, digest = 40;
+    const std::string saved = tracker->begin(unit)->save();
+    sum_before = state.model != "law";
+    const std::size_t mark = sum_before ? length + std::string_view("wearwell nodes 1").size() : 16;
+    begin = saved.substr(sum_before ? digest : 0, mark + length + digest);
+  }
+
+  std::string whole(std::string_view rest) const {
+    const std::string all = begin + std::string(rest);
+    constexpr std::size_t check = 16;
+    return sum_before ? sha1_of(all) + all : all + sha1_of(all).substr(0, check);
   }
 };
+
+const Population& population_of(char which) {
+  static const Population of[] = {
+      {"law",
+       ownlaw::OwnDesign(hidden, data()).source,
+       "new",
+       {{"b", 3e-10}, {"s", 2e-7}, {"e", 1e-7}, {"scatter", 0.3}}},
+      {"law",
+       ownlaw::OwnDesign(summed, data()).source,
+       "new",
+       {{"b", 3e-10}, {"q[PEEK]", 1}, {"q[PTFE]", 1.1}, {"e", 2e-7}}},
+      {"archard-joint", study_of_joint(), "joint", {{"k", 8e-13}, {"sigma", 3e-9}}}};
+  return of[which == '1' ? 1 : which == '2' ? 2 : 0];
+}
 
 }  // namespace
 
@@ -149,15 +204,10 @@ void carried(std::string_view bytes) {
 
 // The first byte says of which population.
 void tracked(std::string_view bytes) {
-  static const Population of[] = {
-      {hidden, {{"b", 3e-10}, {"s", 2e-7}, {"e", 1e-7}, {"scatter", 0.3}}},
-      {summed, {{"b", 3e-10}, {"q[PEEK]", 1}, {"q[PTFE]", 1.1}, {"e", 2e-7}}}};
   if (bytes.empty()) return;
-  const Population& population = of[bytes.front() == '1'];
-  const std::string all = population.begin + std::string(bytes.substr(1));
-  constexpr std::size_t check = 16;
+  const Population& population = population_of(bytes.front());
   try {
-    const auto unit = population.tracker->restore(all + sha1_of(all).substr(0, check));
+    const auto unit = population.tracker->restore(population.whole(bytes.substr(1)));
     const std::string again = unit->save();
     demand(population.tracker->restore(again)->save() == again, "a unit goes on as it was saved");
     const prognosis::Forecast forecast = unit->forecast();
@@ -166,9 +216,11 @@ void tracked(std::string_view bytes) {
     prognosis::Reading reading{
         {}, std::vector<std::string>(population.tracker->labels().size(), "PTFE")};
     for (const prognosis::ReadingColumn& each : population.tracker->columns())
-      reading.numbers.push_back(each.name == "time"   ? 4 * 3600.0
-                                : each.name == "step" ? 3600.0
-                                                      : 4e-6);
+      reading.numbers.push_back(each.name == "time"     ? 4 * 3600.0
+                                : each.name == "step"   ? 3600.0
+                                : each.name == "cycles" ? 6000.0
+                                : each.name == "volume" ? 2.8e-8
+                                                        : 4e-6);
     unit->take(reading, [](const auto&) {});
   } catch (const InputError& refused) {
     demand(*refused.what() != '\0', "a refusal says why");
