@@ -8,6 +8,10 @@
 
 namespace wearwell {
 
+int threads_or_all(int wanted) {
+  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 void run_workers(int threads, const std::function<void(int)>& work) {
   std::vector<std::exception_ptr> failures(threads);
   const auto guarded = [&](int worker) {

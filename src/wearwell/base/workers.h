@@ -4,6 +4,9 @@
 
 namespace wearwell {
 
+/// `wanted`, or where that is 0 as many as the machine runs at once.
+int threads_or_all(int wanted);
+
 /// Runs work(0), ..., work(threads - 1), each on a thread of its own (the first on the caller's), and
 /// waits for all. Rethrows the exception of the lowest worker that threw; the others run to their
 /// end. Throws std::system_error when the machine gives no more threads, after those that did start

@@ -157,7 +157,11 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
     }
     const bool may = settings.extend && !fit.exact && proper(fit) && doubling < most_doublings;
     if (!may || mixed(fit)) return;
-    if (!leaps) longer.run.warmup *= 2;
+    // Of random numbers of their own: the pilot has used those.
+    if (leaps)
+      longer.run.first_stream += 1ULL << 42;
+    else
+      longer.run.warmup *= 2;
     longer.run.draws *= 2;
     longer.run.progress = nullptr;
   }

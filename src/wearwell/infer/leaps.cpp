@@ -19,7 +19,7 @@ constexpr int deepest = 3;     // of a transition: at most 7 steps
 constexpr int adapting = 100;  // transitions in which steps adapt
 constexpr int learning = 300;  // draws of each chain about which the final mixture lies
 constexpr double near_share = 0.6, middle_share = 0.3, middle_factor = 2.5, wide_scale = 1.5;
-constexpr std::uint64_t own_streams = 1ULL << 40;  // random numbers that the pilot did not use
+constexpr std::uint64_t own_streams = 1ULL << 40;  // random numbers that NUTS does not use
 
 // A multivariate Student law with a scale in every direction alike. Its degrees of freedom are such that the density
 // is a whole power.
@@ -193,7 +193,6 @@ Pilot pilot_of(const Posterior& posterior, const Draws& draws) {
   return {std::move(bent), {center, scale}, std::move(all), std::move(last)};
 }
 
-template <int N>
 class LeapingChain {
  public:
   LeapingChain(const Posterior& posterior, const Pilot& pilot, const Mixture& mixture,
@@ -260,19 +259,18 @@ class LeapingChain {
   const Pilot& pilot_;
   const Mixture& mixture_;
   WhitenedDensity density_;
-  Nuts<N> nuts_;
+  Nuts<Eigen::Dynamic> nuts_;
   Rng rng_;
   int taken_ = 0;
 };
 
-template <int N>
 Draws chains(const Posterior& posterior, const Pilot& pilot, const NutsSettings& options,
              const RunSettings& settings) {
   const Mixture mixture(pilot.places);
   Draws draws(pilot.last.size());
   tbb::parallel_for(std::size_t{0}, draws.size(), [&](std::size_t c) {
     const Rng rng(settings.seed, settings.first_stream + c + own_streams);
-    LeapingChain<N> chain(posterior, pilot, mixture, options, pilot.last[c], rng);
+    LeapingChain chain(posterior, pilot, mixture, options, pilot.last[c], rng);
     draws[c] = chain.drawn(settings);
   });
   return draws;
@@ -286,8 +284,8 @@ Draws run_leaps(const Posterior& posterior, const Draws& pilot, const NutsSettin
   few.draws = learning;
   few.first_stream += own_streams;
   few.progress = nullptr;
-  const Draws learned = chains<Eigen::Dynamic>(posterior, pilot_of(posterior, pilot), nuts, few);
-  return chains<Eigen::Dynamic>(posterior, pilot_of(posterior, learned), nuts, settings);
+  const Draws learned = chains(posterior, pilot_of(posterior, pilot), nuts, few);
+  return chains(posterior, pilot_of(posterior, learned), nuts, settings);
 }
 
 }  // namespace wearwell

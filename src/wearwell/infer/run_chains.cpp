@@ -9,6 +9,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/infer/diagnostics.h"
+#include "wearwell/infer/fit.h"
 #include "wearwell/infer/leaps.h"
 #include "wearwell/infer/metropolis.h"
 #include "wearwell/infer/nuts.h"
@@ -111,10 +112,7 @@ bool promising(const Draws& late, int draws) {
   constexpr double most_rhat = 1.05, least = 125;  // effective draws a chain
   const auto length = static_cast<double>(late.front().values.rows());
   for (Eigen::Index i = 0; i < late.front().values.cols(); ++i) {
-    Chains chains;
-    for (const Chain& chain : late)
-      chains.draws.emplace_back(chain.values.col(i).data(), chain.values.rows());
-    const Diagnostics d = diagnose(chains);
+    const Diagnostics d = diagnose(chains_of(late, i));
     const double expected = std::min(d.ess_bulk, d.ess_tail) / length * draws;
     if (!(d.rhat <= most_rhat && expected >= least * static_cast<double>(late.size())))
       return false;

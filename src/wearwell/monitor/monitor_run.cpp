@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/workers.h"
 #include "wearwell/monitor/http_server.h"
 #include "wearwell/monitor/intake.h"
 #include "wearwell/monitor/publisher.h"
@@ -229,9 +230,7 @@ void run_monitor(const MonitorConfig& config, const Population& population,
       open_store(config.store, config.folder, store_columns(config, population.tracker),
                  Access::write, [&](const std::string& what) { notices.tell("store", what); });
   FleetSettings settings{config.title, population.trusted, population.fingerprint, config.alarm,
-                         options.threads
-                             ? options.threads
-                             : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()))};
+                         threads_or_all(options.threads)};
   const bool tells = !options.once;
   settings.on_alarm = [&](const AlarmChange& change, Alarm before) {
     if (tells)

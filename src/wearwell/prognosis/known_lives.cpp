@@ -88,19 +88,28 @@ struct TabledUnit {
   }
 };
 
-double share_of(const Populations& rows, const std::string& population) {
-  const auto at = rows.find(population);
+using Shares = std::map<std::string, double>;
+
+Shares shares_of(const Populations& rows) {
+  Shares shares;
   double all = 0;
-  for (const auto& [_, points] : rows) all += sum(points.weight);
-  return at == rows.end() ? 0 : sum(at->second.weight) / all;
+  for (const auto& [name, points] : rows) all += shares[name] = sum(points.weight);
+  for (auto& [_, share] : shares) share /= all;
+  return shares;
+}
+
+double share_in(const Shares& shares, const std::string& population) {
+  const auto at = shares.find(population);
+  return at == shares.end() ? 0 : at->second;
 }
 
 // A population is as likely whichever unit is looked at: what all units show is in its weight.
-void refuse_other_shares(const Table& table, const TabledUnit& unit, const Populations& fresh) {
-  Populations named = fresh;
-  named.insert(unit.rows.begin(), unit.rows.end());
+void refuse_other_shares(const Table& table, const TabledUnit& unit, const Shares& fresh) {
+  const Shares of_unit = shares_of(unit.rows);
+  Shares named = fresh;
+  named.insert(of_unit.begin(), of_unit.end());
   for (const auto& [name, _] : named) {
-    const double own = share_of(unit.rows, name), all = share_of(fresh, name);
+    const double own = share_in(of_unit, name), all = share_in(fresh, name);
     if (std::abs(own - all) <= 1e-6) continue;
     throw InputError(fmt::format(
         "{}: the population '{}' has {:.6g} of the weight of the unit '{}' and {:.6g} of that of "
@@ -115,16 +124,15 @@ void add_populations(const Table& table, const std::vector<TabledUnit>& units,
                      const Populations& fresh, KnownLives& known) {
   if (std::none_of(units.begin(), units.end(), [](const auto& each) { return each.apart(); }))
     return;
-  for (const auto& [_, points] : fresh) {
-    if (sum(points.weight) > 0) known.populations.push_back(sum(points.weight));
+  const Shares shares = shares_of(fresh);
+  for (const auto& [_, share] : shares) {
+    if (share > 0) known.populations.push_back(share);
   }
   const std::size_t count = known.populations.size();
-  const double all = sum(known.populations);
-  for (double& each : known.populations) each /= all;
   for (std::size_t u = 0; u < units.size(); ++u) {
     InPopulations unit{std::vector<double>(count), std::vector<double>(count), {}};
     if (units[u].apart()) {
-      refuse_other_shares(table, units[u], fresh);
+      refuse_other_shares(table, units[u], shares);
       for (const auto& [_, points] : units[u].rows)
         if (sum(points.weight) > 0) unit.remaining.push_back(points.lives());
     } else {

@@ -250,27 +250,29 @@ std::string SqlWriter::times() const {
   columns.add(
       clickhouse() ? fmt::format("ifNull(toString({}), '')", unit) : fleet::text(dialect_, unit),
       "wearwell_unit");
+  const std::string own_time =
+      source_.time.empty() ? "" : "t." + fleet::identifier(dialect_, source_.time);
   if (source_.time.empty()) {
     for (const char* each : {"first_time", "last_time", "timed"}) columns.add(nothing, each);
   } else {
-    std::string time = "t." + fleet::identifier(dialect_, source_.time);
-    if (dialect_ == fleet::Dialect::duckdb) time = fmt::format("cast({} as timestamp)", time);
+    const std::string time = dialect_ == fleet::Dialect::duckdb
+                                 ? fmt::format("cast({} as timestamp)", own_time)
+                                 : own_time;
     columns.add(fleet::seconds(dialect_, fmt::format("min({})", time)), "first_time");
     columns.add(fleet::seconds(dialect_, fmt::format("max({})", time)), "last_time");
     columns.add(fleet::real(dialect_, fmt::format("count({})", time)), "timed");
   }
   // Texts that are dates have no other moment of the day than its begin.
-  columns.add(!source_.time.empty() && dialect_ == fleet::Dialect::duckdb
-                  ? fmt::format("cast(max(epoch(cast({0} as timestamp)) % 86400) as double)",
-                                "t." + fleet::identifier(dialect_, source_.time))
-                  : nothing,
-              "clock");
-  const std::string rate =
-      "t." +
-      fleet::identifier(dialect_, source_.per_day.empty() ? source_.cycle.name : source_.per_day);
   columns.add(
-      source_.per_day.empty() ? nothing : fleet::real(dialect_, fmt::format("avg({})", rate)),
-      "per_day");
+      !source_.time.empty() && dialect_ == fleet::Dialect::duckdb
+          ? fmt::format("cast(max(epoch(cast({0} as timestamp)) % 86400) as double)", own_time)
+          : nothing,
+      "clock");
+  columns.add(source_.per_day.empty()
+                  ? nothing
+                  : fleet::real(dialect_, fmt::format("avg(t.{})", fleet::identifier(
+                                                                       dialect_, source_.per_day))),
+              "per_day");
   return fmt::format("select\n  {}\nfrom {} as t group by {}", columns.text(), source_.table,
                      clickhouse() ? "wearwell_unit" : unit);
 }

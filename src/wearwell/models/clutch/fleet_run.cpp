@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
-#include <thread>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
@@ -216,9 +215,7 @@ std::vector<double> horizons_for(const FleetRequest& request, const std::vector<
 void count_units(std::vector<Shard>& shards, std::size_t replicates, FleetDays& days,
                  FleetCounts& counts, std::vector<UnitRow>& rows, const Monitor& monitor) {
   constexpr std::size_t together = 8192;
-  const int threads = monitor.threads > 0
-                          ? monitor.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = threads_or_all(monitor.threads);
   std::vector<UnitSums> units;
   std::vector<double> per_day;
   const auto count = [&] {

@@ -21,12 +21,6 @@ double rounded(double x, double per_unit) {
   return std::round(x * per_unit) / per_unit;
 }
 
-double power(double x, int n) {
-  double result = 1;
-  for (; n > 0; --n) result *= x;
-  return result;
-}
-
 /// One plate on the rig.
 class Plate {
  public:

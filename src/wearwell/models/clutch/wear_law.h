@@ -9,6 +9,13 @@
 
 namespace wearwell::clutch {
 
+/// x^n of a term, n >= 0.
+inline double power(double x, int n) {
+  double result = 1;
+  for (; n > 0; --n) result *= x;
+  return result;
+}
+
 /// Run-in (Haramina et al. 2025, section 3.2): w(Ec) = w0 + w1 exp(-Ec/eps1) + w2 exp(-Ec/eps2)
 /// over the energy Ec that a plate has taken up. g = w/w0 is at least 1.
 struct RunIn {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <mutex>
 #include <numeric>
-#include <thread>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/workers.h"
@@ -54,10 +53,6 @@ WearMap fit_terms(WearMap map, const WearPoints& points, const Eigen::MatrixXd& 
 }
 
 const char* const temperature_map = "temperature";
-
-int threads_of(int wanted) {
-  return wanted > 0 ? wanted : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
 
 /// By r, then by q; nothing is known of them yet.
 std::vector<PairBest> pairs_of(const std::vector<double>& exponents) {
@@ -174,7 +169,7 @@ ExponentSearch search_exponents(const WearPoints& points, Surrogate surrogate,
       if (progress) progress->advance(1);
     }
   };
-  run_tasks(static_cast<int>(exponents.size()), threads_of(threads), solve_row);
+  run_tasks(static_cast<int>(exponents.size()), threads_or_all(threads), solve_row);
   for (std::size_t i = 1; i < search.pairs.size(); ++i) {
     if (search.pairs[i].press < search.pairs[search.best].press) search.best = i;
   }
@@ -215,7 +210,7 @@ PairBest best_exponents(const WearPoints& points, Surrogate surrogate,
     const std::lock_guard lock(mutex);
     least = std::min(least, pair.press);
   };
-  run_tasks(static_cast<int>(pairs.size()), threads_of(threads), solve);
+  run_tasks(static_cast<int>(pairs.size()), threads_or_all(threads), solve);
   return *std::min_element(pairs.begin(), pairs.end(),
                            [](const PairBest& a, const PairBest& b) { return a.press < b.press; });
 }

@@ -20,12 +20,6 @@ using Eigen::VectorXd;
 constexpr double outlier_level = 0.05;
 constexpr std::size_t bootstrap_exponents = 6;
 
-double power(double x, int n) {
-  double result = 1;
-  for (; n > 0; --n) result *= x;
-  return result;
-}
-
 /// How often each input stands in a term.
 std::array<int, 3> powers_of(const Term& term) {
   std::array<int, 3> powers{};

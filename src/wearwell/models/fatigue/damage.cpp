@@ -13,7 +13,7 @@ namespace {
 constexpr double crack_slope = 3.6;
 
 double power(double log10) {
-  return std::exp(log10 * 2.302585092994045684);
+  return std::exp(log10 * ln10);
 }
 
 }  // namespace
