@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace wearwell::ownlaw {
 namespace {
@@ -21,6 +22,32 @@ void fill_normal(double step, double reach, std::vector<double>& z, std::vector<
 }
 
 }  // namespace
+
+NormalNodes::NormalNodes(std::size_t effects, double reach) {
+  if (effects > 2) throw std::logic_error("nodes of more than two effects");
+  if (effects == 0) {
+    weight = {1};
+    return;
+  }
+  const double step = effects == 1 ? 0.5 : 0.75;
+  const int most = static_cast<int>(reach / step);
+  const auto density = [&](int i) { return std::exp(-0.5 * i * i * step * step); };
+  double sum = 0;
+  for (int i = -most; i <= most; ++i) {
+    if (effects == 1) {
+      z.push_back(i * step);
+      weight.push_back(density(i));
+      continue;
+    }
+    for (int j = -most; j <= most; ++j) {
+      z.push_back(i * step);
+      z.push_back(j * step);
+      weight.push_back(density(i) * density(j));
+    }
+  }
+  for (const double each : weight) sum += each;
+  for (double& each : weight) each /= sum;
+}
 
 EffectLines lines_of_new_unit(std::size_t effects, double step, double reach) {
   EffectLines lines;

@@ -26,6 +26,14 @@ struct EffectLines {
   }
 };
 
+/// Places of a unit's effects, none, one or two, with weights that sum to 1: a trapezoidal rule over the standard normal
+/// law, cut at `reach`, whose error is e^-80 of a smooth function.
+struct NormalNodes {
+  NormalNodes(std::size_t effects, double reach);
+  std::vector<double> z;  ///< nodes x effects
+  std::vector<double> weight;
+};
+
 /// Effects of a unit not yet seen, none, one or two: standard normal, as far as `reach`. Of two the lines lie along the
 /// first, or as they are turned.
 EffectLines lines_of_new_unit(std::size_t effects, double step = 0.25, double reach = 8.25);

@@ -11,10 +11,13 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/infer/prior_checks.h"
+#include "wearwell/law/no_columns.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell::ownlaw {
 namespace {
+
+constexpr double drawn_reach = 4.5;  // of effects of a new unit
 
 // Whether all rows of a level of `inner` are of one level of `outer`.
 bool lies_within(const LabelColumn& inner, const LabelColumn& outer) {
@@ -51,14 +54,10 @@ Parameter standard_normal(std::string name) {
 // Scatters of drawn effects and their correlations; one thread's.
 class ScattersAt {
  public:
-  explicit ScattersAt(const OwnLaw& law) : law_(law) {
-    law::Rows rows;
-    rows.count = 1;
-    rows.columns.resize(law.symbols.columns.size());
-    rows.labels.resize(law.symbols.labels.size());
-    data_ = law.drawn_scatter.bind(rows);
-    workspace_ = law.drawn_scatter.workspace(1);
-  }
+  explicit ScattersAt(const OwnLaw& law)
+      : law_(law),
+        data_(law::bind_no_columns(law.drawn_scatter, law.symbols)),
+        workspace_(law.drawn_scatter.workspace(1)) {}
 
   // Of level `i` of effect `e`.
   double value(std::size_t e, std::size_t i, const double* x) {
@@ -266,32 +265,27 @@ void refuse_drawn_effects(const OwnLaw& law, const std::string& what) {
       law.drawn.front().label, law.drawn.front().name, law.drawn.front().label, what));
 }
 
-NewUnits::NewUnits(const OwnLaw& law) {
+namespace {
+
+// Of the effects of units, those that are drawn.
+std::vector<std::size_t> drawn_of_units(const OwnLaw& law) {
+  std::vector<std::size_t> places;
   for (const DrawnEffect& each : law.drawn) {
-    if (law.label == each.label) place_.push_back(each.first + each.seen);
+    if (law.label == each.label) places.push_back(each.first + each.seen);
   }
-  share = {1};
-  const double step = place_.size() > 1 ? 0.75 : 0.5;
-  const int most = static_cast<int>(4.5 / step);
-  for (std::size_t k = 0; k < place_.size(); ++k) {
-    std::vector<double> all, shares;
-    for (std::size_t i = 0; i < share.size(); ++i) {
-      for (int j = -most; j <= most; ++j) {
-        const double z = j * step;
-        for (std::size_t m = 0; m < k; ++m) all.push_back(z_[i * k + m]);
-        all.push_back(z);
-        shares.push_back(share[i] * step * std::exp(-0.5 * z * z) * 0.3989422804014327);
-      }
-    }
-    z_ = std::move(all);
-    share = std::move(shares);
-  }
+  return places;
 }
+
+}  // namespace
+
+NewUnits::NewUnits(const OwnLaw& law)
+    : place_(drawn_of_units(law)), nodes_(place_.size(), drawn_reach) {}
 
 const double* NewUnits::at(std::size_t i, const double* x, std::size_t parameters) {
   if (place_.empty()) return x;
   moved_.assign(x, x + parameters);
-  for (std::size_t k = 0; k < place_.size(); ++k) moved_[place_[k]] = z_[i * place_.size() + k];
+  for (std::size_t k = 0; k < place_.size(); ++k)
+    moved_[place_[k]] = nodes_.z[i * place_.size() + k];
   return moved_.data();
 }
 

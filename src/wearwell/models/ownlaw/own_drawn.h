@@ -9,9 +9,13 @@
 
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/models/ownlaw/effect_lines.h"
 #include "wearwell/models/ownlaw/own_law.h"
 #include "wearwell/predict/prediction.h"
-#include "wearwell/study/posterior_study.h"
+
+namespace wearwell {
+struct PosteriorStudy;
+}
 
 /// Effects that are drawn with the parameters of a study: those of every label but that of the units, and of the
 /// units those beyond what is integrated out. k of each operator, lognormal about k_middle, is
@@ -21,10 +25,6 @@
 /// which is written into the law's lines, so that a program sees a parameter for each level (non-centred; Papaspiliopoulos,
 /// Roberts and Skold 2007, Statistical Science 22, 59-73). One level more, `new operator`, is no row's: its z is drawn from
 /// N(0, 1) by the posterior itself, and what is told of a new one is told at it.
-namespace wearwell {
-struct PosteriorStudy;
-}
-
 namespace wearwell::ownlaw {
 
 /// A parameter under [varies.LABEL], as it is written.
@@ -65,15 +65,15 @@ void tell_drawn_effects(std::shared_ptr<const OwnLaw> law, PosteriorStudy& study
 class NewUnits {
  public:
   explicit NewUnits(const OwnLaw& law);
-  std::size_t count() const { return share.size(); }
+  std::size_t count() const { return nodes_.weight.size(); }
+  double share(std::size_t i) const { return nodes_.weight[i]; }  ///< of a node; they sum to 1
   /// Valid until the next call.
   const double* at(std::size_t i, const double* x, std::size_t parameters);
 
-  std::vector<double> share;  ///< of each node; sum to 1
-
  private:
   std::vector<std::size_t> place_;  // among the parameters
-  std::vector<double> z_, moved_;   // nodes x places
+  NormalNodes nodes_;               // of these
+  std::vector<double> moved_;
 };
 
 /// What each unit's rows add to the likelihood at x where it is left out: log p(rows | x), with those of its effects that

@@ -14,36 +14,6 @@ namespace {
 // Of items that come so far more rarely nothing is known from there on.
 constexpr double least_survival = 1e-3;
 
-// Places of a unit's effects, with weights: a trapezoidal rule over the standard normal law, whose
-// error is e^-80 of a smooth function.
-struct NormalNodes {
-  std::vector<double> z, weight;
-
-  explicit NormalNodes(std::size_t effects) {
-    if (effects == 0) {
-      weight = {1};
-      return;
-    }
-    const double step = effects == 1 ? 0.5 : 0.75;
-    const int most = static_cast<int>(6.5 / step);
-    const auto density = [&](int i) {
-      return step * std::exp(-0.5 * i * i * step * step) * 0.3989422804014327;
-    };
-    for (int i = -most; i <= most; ++i) {
-      if (effects == 1) {
-        z.push_back(i * step);
-        weight.push_back(density(i));
-        continue;
-      }
-      for (int j = -most; j <= most; ++j) {
-        z.push_back(i * step);
-        z.push_back(j * step);
-        weight.push_back(density(i) * density(j));
-      }
-    }
-  }
-};
-
 double probability(ResponseFamily family, double life, const double* slots) {
   return std::exp(log_cdf(family, life, slots));
 }
@@ -94,7 +64,7 @@ class LifeLaw::AtPoint {
   std::size_t size() const { return nodes_.weight.size() * new_units_.count(); }
   double weight(std::size_t i) const {
     const std::size_t count = nodes_.weight.size();
-    return nodes_.weight[i % count] * new_units_.share[i / count];
+    return nodes_.weight[i % count] * new_units_.share(i / count);
   }
   const double* slots(std::size_t i) const { return &slots_[i * most_response_slots]; }
 

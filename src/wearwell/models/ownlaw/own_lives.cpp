@@ -61,7 +61,7 @@ class Part {
   void add_next(const double* x, double weight) {
     CellMixture units;
     for (std::size_t i = 0; i < new_units_.count(); ++i) {
-      add_some(new_units_.at(i, x, rows_.law().parameters.size()), weight * new_units_.share[i],
+      add_some(new_units_.at(i, x, rows_.law().parameters.size()), weight * new_units_.share(i),
                units);
     }
     found.next.add(units);

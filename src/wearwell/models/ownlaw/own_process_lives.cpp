@@ -70,7 +70,7 @@ class Part {
       for (std::size_t i = 0; i < fresh_.count(); ++i) {
         const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
         add_passage(*next_, z, limit_.path.begin, 0, sign_ * limit_.path.limit,
-                    weight * new_units_.share[k] * fresh_.share[i], false, units);
+                    weight * new_units_.share(k) * fresh_.share[i], false, units);
       }
     }
     found.next.add(units);

@@ -61,10 +61,10 @@ void StepUnits::log_densities(const Unit& unit, const double* z, double* log_f) 
 }
 
 // Nodes on both sides of the middle, until the integrand is e^-30 of its highest; false where there are too many.
-bool StepUnits::lay(const Unit& unit, const Bell& about, double width, double& highest) {
+bool StepUnits::lay(const Unit& unit, const Bell& about, double width) {
   constexpr std::size_t n = Nodes::together;
   nodes_.count = 0;
-  highest = -infinity;
+  double highest = -infinity;
   for (const int way : {1, -1}) {
     for (int first = way > 0 ? 0 : 1;; first += static_cast<int>(n)) {
       if (nodes_.count + n > Nodes::most) return false;
@@ -90,8 +90,7 @@ std::optional<double> StepUnits::integral(const Unit& unit) {
   if (!about) return {};
   for (const double gap : rule_gaps) {
     const double width = gap * about->width;
-    double highest = 0;
-    if (!lay(unit, *about, width, highest)) return {};
+    if (!lay(unit, *about, width)) return {};
     if (const auto log_integral = settled(nodes_, width)) return *log_integral - half_log_two_pi;
   }
   return {};

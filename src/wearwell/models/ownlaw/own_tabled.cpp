@@ -291,18 +291,18 @@ std::optional<double> TabledUnits::integral(std::size_t unit, Moments* moments) 
     }
     const auto log_integral = settled(nodes_, width / scatter_);
     if (!log_integral) continue;
-    if (moments) add_moments(unit, 1, *moments);
+    if (moments) add_moments(unit, *moments);
     return constant(unit) + *log_integral - half_log_two_pi;
   }
   return {};
 }
 
 // Means under the unit's posterior, of derivatives by what its integrand depends on.
-void TabledUnits::add_moments(std::size_t unit, double sum, Moments& moments) {
+void TabledUnits::add_moments(std::size_t unit, Moments& moments) {
   constexpr double negligible = 1e-12;
   const double per_square = 0.5 / (size_ * size_);
   for (std::size_t i = 0; i < nodes_.count; ++i) {
-    const double weight = nodes_.f[i] / sum;
+    const double weight = nodes_.f[i];
     if (!(weight > negligible)) continue;
     const double x = nodes_.x[i], z = (x - middle_) / scatter_;
     const MismatchSlice::Place place = slice_.place(unit, x);

@@ -68,7 +68,7 @@ class TabledUnits final : public latent::UnitTerms {
   double x_of(double z) const { return middle_ + scatter_ * z; }
   std::optional<Bell> bell(std::size_t unit);
   std::optional<double> integral(std::size_t unit, Moments* moments);
-  void add_moments(std::size_t unit, double sum, Moments& moments);
+  void add_moments(std::size_t unit, Moments& moments);
   double constant(std::size_t unit) const;
 
   UnitRows& rows_;
