@@ -175,8 +175,8 @@ FLEET(fleet_in_order, scatter_only, Way::scatter_only)
 FLEET(fleet_in_order, full, Way::full)->Arg(million)->Arg(10 * million)->Arg(100 * million);
 FLEET(fleet_in_order, statements_scatter_only, Way::statements_scatter_only)->Arg(10 * million);
 FLEET(fleet_in_order, statements_full, Way::statements_full)->Arg(million);
-// A large fleet, as a manufacturer's would write it: readings of 12 bits, energy in J, files of 10^8 cycles of their own units, some
-// 10 bytes a cycle on disk. In the temporary folder (TMPDIR), gone at the end.
+// A large fleet, as a manufacturer's would write it: readings of 12 bits, energy in J, files of 10^8 cycles of their own units,
+// 13.5 bytes a cycle on disk. In the temporary folder (TMPDIR), gone at the end.
 void large_fleet(benchmark::State& state, Way way) {
   const long long cycles = state.range(0), part = std::min(cycles, 100 * million);
   if (!std::getenv("WEARWELL_BENCH_LARGE")) {

@@ -8,9 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "calibration/own_design.h"
+#include "calibration/tracker_coverage.h"
 #include "wearwell/base/rng.h"
-#include "wearwell/models/ownlaw/own_tracker.h"
 #include "wearwell/prognosis/common_population.h"
 #include "wearwell/prognosis/fleet_risk.h"
 
@@ -54,15 +53,8 @@ Place replication(std::uint64_t stream) {
     rate.push_back(x[0] * std::exp(x[1] * rng.normal()));
   for (std::size_t i = 0; i < depth.size(); ++i)
     depth[i] = (rate[i / rows] * time[i] * h + x[2] * rng.normal()) / um;
-  const OwnDesign design(straight, columns());
-  const ExactPosterior exact =
-      exact_posterior(std::make_shared<const OwnRows>(design.law, depth.size()), 3e-3);
-  if (!exact.failure.empty()) return {};
-  prognosis::CarriedState state;
-  state.source = design.source;
-  for (const Parameter& each : design.law->parameters) state.parameters.push_back(each.name);
-  state.posterior = exact.nodes;
-  const auto tracker = track_units(state);
+  const auto tracker = tracker_of(columns());
+  if (!tracker) return {};
   prognosis::KnownLives lives = prognosis::lives_of_tracker(*tracker, "fit", true);
   const double after = tracker->begin("new")->forecast().remaining.quantile(0.4);
   for (std::size_t u = 0; u < fresh; ++u) {

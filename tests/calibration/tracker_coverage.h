@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibration/own_design.h"
+#include "support/followed_unit.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/models/ownlaw/own_tracker.h"
 
@@ -28,6 +29,19 @@ struct TrackedCoverage {
 
 /// Where the truth lies in what is said after 3, 5 and 10 readings; NaN of a unit that was at its limit by then.
 using TrackedPlaces = std::array<double, 3>;
+
+/// What follows units of the population of `straight` that these rows tell; none where its posterior could not be integrated.
+inline std::unique_ptr<const prognosis::Tracker> tracker_of(const std::vector<Column>& columns) {
+  const OwnDesign design(straight, columns);
+  const ExactPosterior exact = exact_posterior(
+      std::make_shared<const OwnRows>(design.law, design.law->data.table.rows), 3e-3);
+  if (!exact.failure.empty()) return nullptr;
+  prognosis::CarriedState state;
+  state.source = design.source;
+  for (const Parameter& each : design.law->parameters) state.parameters.push_back(each.name);
+  state.posterior = exact.nodes;
+  return track_units(state);
+}
 
 /// One population: truth `fixed` (SI), or drawn from the priors where that is empty. Empty where its posterior
 /// could not be integrated.
@@ -56,32 +70,20 @@ inline std::vector<TrackedPlaces> follow_units(const std::vector<double>& fixed,
       depth[5 * u + i] = (b * time[5 * u + i] * h + x[2] * rng.normal()) / um;
     }
   }
-  const OwnDesign design(straight,
-                         {numbers("depth", depth), numbers("time", time), texts("unit", unit)});
-  const ExactPosterior exact =
-      exact_posterior(std::make_shared<const OwnRows>(design.law, depth.size()), 3e-3);
-  if (!exact.failure.empty()) return {};
-  prognosis::CarriedState state;
-  state.source = design.source;
-  for (const Parameter& each : design.law->parameters) state.parameters.push_back(each.name);
-  state.posterior = exact.nodes;
-  const auto tracker = track_units(state);
+  const auto tracker =
+      tracker_of({numbers("depth", depth), numbers("time", time), texts("unit", unit)});
+  if (!tracker) return {};
   std::vector<TrackedPlaces> all;
   for (int u = 0; u < units; ++u) {
     const double b = rate();
-    const auto followed = tracker->begin("new");
-    std::vector<prognosis::Reading> taken;
+    FollowedUnit followed(*tracker, "new");
     all.push_back({NAN, NAN, NAN});
     for (int i = 1; i <= TrackedCoverage::shown.back(); ++i) {
       const double t = 0.5 * i * h;
-      const prognosis::Reading reading{{b * t + x[2] * rng.normal(), t}, {}};
-      followed->take(reading, [&](const auto& visit) {
-        for (const auto& each : taken) visit(each);
-      });
-      taken.push_back(reading);
+      followed.take({b * t + x[2] * rng.normal(), t});
       for (std::size_t s = 0; s < TrackedCoverage::shown.size(); ++s) {
         if (TrackedCoverage::shown[s] != i || b * t >= limit) continue;
-        all.back()[s] = followed->forecast().remaining.cdf(limit / b - t);
+        all.back()[s] = followed.unit->forecast().remaining.cdf(limit / b - t);
       }
     }
   }

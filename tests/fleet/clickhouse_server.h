@@ -1,23 +1,17 @@
 #pragma once
 
 #include <fmt/format.h>
-#include <pwd.h>
-#include <signal.h>
-#include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "fleet/postgres_server.h"
 #include "support/free_port.h"
 #include "support/run_command.h"
+#include "support/servers.h"
 
 namespace wearwell {
 
@@ -67,9 +61,6 @@ class ClickhouseServer {
                     shards, cluster.zookeeper, shard, replica, ports_.between),
         "<skip_unavailable_shards>1</skip_unavailable_shards>");
   }
-  ~ClickhouseServer() { stop(); }
-  ClickhouseServer(const ClickhouseServer&) = delete;
-  ClickhouseServer& operator=(const ClickhouseServer&) = delete;
 
   CommandResult sql(const std::string& statements) const {
     const std::filesystem::path file = folder_ / "statements.sql";
@@ -85,12 +76,7 @@ class ClickhouseServer {
   const ClickhousePorts& ports() const { return ports_; }
 
   /// As a machine dies: at once.
-  void stop() {
-    if (process_ <= 0) return;
-    kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-    process_ = 0;
-  }
+  void stop() { process_.end(SIGKILL); }
 
  private:
   void start(const std::string& more, const std::string& profile = "") {
@@ -114,30 +100,20 @@ class ClickhouseServer {
         "</profiles><users>{}{}</users><quotas><default></default></quotas></yandex>",
         profile, user("default", ""), user("reader", "se cret/@%"));
     // It refuses data of another user than its own.
-    process_ = fork();
-    if (process_ == 0) {
-      const std::string line = fmt::format(
-          "cd '{0}' && PATH=$PATH:/usr/sbin exec clickhouse-server --config-file='{0}/config.xml' "
-          ">'{0}/out' 2>&1",
-          here);
-      execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-      _exit(127);
-    }
-    for (int i = 0; i < 300; ++i) {
-      // Another's server may answer where this one could not begin.
-      if (waitpid(process_, nullptr, WNOHANG) != 0) {
-        process_ = 0;
-        break;
-      }
-      if (sql("select 1").exit_code == 0) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    }
-    throw std::runtime_error("the server does not answer");
+    process_ = ChildProcess({"sh", "-c",
+                             fmt::format("cd '{0}' && PATH=$PATH:/usr/sbin exec clickhouse-server "
+                                         "--config-file='{0}/config.xml' </dev/null",
+                                         here)},
+                            folder_ / "out");
+    // Another's server may answer where this one could not begin.
+    if (!eventually([&] { return !process_.runs() || sql("select 1").exit_code == 0; }) ||
+        !process_.runs())
+      throw std::runtime_error("the server does not answer");
   }
 
   std::filesystem::path folder_;
   ClickhousePorts ports_;
-  pid_t process_ = 0;
+  ChildProcess process_;
 };
 
 /// A server of ZooKeeper on the loopback, which tables of several replicas want.
@@ -158,40 +134,26 @@ class ZookeeperServer {
         "tickTime=500\ndataDir={}/data\nclientPort={}\nclientPortAddress=127.0.0.1\n"
         "admin.enableServer=false\n",
         here, port_);
-    process_ = fork();
-    if (process_ == 0) {
-      const std::string line = fmt::format(
-          "exec java -Xmx96m -XX:+UseSerialGC -XX:TieredStopAtLevel=1 -cp "
-          "/usr/share/java/zookeeper.jar org.apache.zookeeper.server.ZooKeeperServerMain "
-          "'{0}/zoo.cfg' >'{0}/out' 2>&1",
-          here);
-      execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-      _exit(127);
-    }
-    for (int i = 0; i < 300; ++i) {
-      // It listens before it serves: until then `srvr` has another answer.
-      const std::string answer =
-          run_command(fmt::format("bash -c 'exec 3<>/dev/tcp/127.0.0.1/{} && echo srvr >&3 && "
-                                  "timeout 5 cat <&3'",
-                                  port_))
-              .out;
-      if (answer.find("Mode: standalone") != std::string::npos) return;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-    throw std::runtime_error("ZooKeeper does not answer");
+    process_ = ChildProcess(
+        {"sh", "-c",
+         fmt::format("exec java -Xmx96m -XX:+UseSerialGC -XX:TieredStopAtLevel=1 -cp "
+                     "/usr/share/java/zookeeper.jar "
+                     "org.apache.zookeeper.server.ZooKeeperServerMain '{0}/zoo.cfg' </dev/null",
+                     here)},
+        folder_ / "out");
+    // It listens before it serves: until then `srvr` has another answer.
+    const std::string ask = fmt::format(
+        "bash -c 'exec 3<>/dev/tcp/127.0.0.1/{} && echo srvr >&3 && timeout 5 cat <&3'", port_);
+    if (!eventually(
+            [&] { return run_command(ask).out.find("Mode: standalone") != std::string::npos; }))
+      throw std::runtime_error("ZooKeeper does not answer");
   }
-  ~ZookeeperServer() {
-    kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-  }
-  ZookeeperServer(const ZookeeperServer&) = delete;
-  ZookeeperServer& operator=(const ZookeeperServer&) = delete;
   int port() const { return port_; }
 
  private:
   std::filesystem::path folder_;
   int port_;
-  pid_t process_ = 0;
+  ChildProcess process_;
 };
 
 }  // namespace wearwell

@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 
 #include "fleet/clickhouse_server.h"
-#include "fleet/postgres_server.h"
 #include "fleet/sample_fleet.h"
 #include "fleet/sample_kinds.h"
 #include "fleet/sample_law.h"
 #include "support/scratch.h"
+#include "support/servers.h"
 #include "wearwell/fleet/postgres_engine.h"
 
 namespace wearwell::clutch {
@@ -56,11 +56,10 @@ class Cluster : public ScratchTest {
 };
 
 TEST_F(Cluster, PostgresHasTheNumbersOfPredictAndOfDuckdb) {
-  const PostgresServer server(folder());
+  const PostgresServer server(folder() / "postgres");
   ASSERT_EQ(server.sql(create).exit_code, 0);
   load(server, shuffled({cycles_.begin(), cycles_.begin() + 1500}, 3));
-  const std::string engine =
-      " --engine " + server.address() + " --table cycles" + output() + columns;
+  const std::string engine = " --engine " + server.url() + " --table cycles" + output() + columns;
   fleet_summary(model_ + engine);
   load(server, shuffled({cycles_.begin() + 1500, cycles_.end()}, 4));
   const json fleet = fleet_summary(model_ + engine);
@@ -72,8 +71,8 @@ TEST_F(Cluster, PostgresHasTheNumbersOfPredictAndOfDuckdb) {
                      "hour' as moment from cycles")
                 .exit_code,
             0);
-  expect_hours(fleet_summary(model_ + " --engine " + server.address() + " --table dated" +
-                             output() + columns + " time=moment --horizon 0 --days 30"),
+  expect_hours(fleet_summary(model_ + " --engine " + server.url() + " --table dated" + output() +
+                             columns + " time=moment --horizon 0 --days 30"),
                cycles_);
   const json duckdb = fleet_summary(model_ + " " + table_file() + output());
   for (std::size_t i = 0; i < fleet["levels"].size(); ++i)
@@ -83,7 +82,7 @@ TEST_F(Cluster, PostgresHasTheNumbersOfPredictAndOfDuckdb) {
 
 // The three statements as a user runs them, by any client.
 TEST_F(Cluster, PrintedStatementsRunInPsql) {
-  const PostgresServer server(folder());
+  const PostgresServer server(folder() / "postgres");
   ASSERT_EQ(server.sql(create).exit_code, 0);
   load(server, cycles_);
   const std::string options = "sql " + model_ + " --dialect postgresql --table cycles" + columns;
@@ -118,11 +117,10 @@ TEST_F(Cluster, PrintedStatementsRunInPsql) {
 
 // Also where only another model has sums there; and those of a version that kept a row for each run.
 TEST_F(Cluster, SumsOfAnotherOptionOrVersionAreRefusedInPostgres) {
-  const PostgresServer server(folder());
+  const PostgresServer server(folder() / "postgres");
   ASSERT_EQ(server.sql(create).exit_code, 0);
   load(server, cycles_);
-  const std::string engine =
-      " --engine " + server.address() + " --table cycles" + output() + columns;
+  const std::string engine = " --engine " + server.url() + " --table cycles" + output() + columns;
   fleet_summary(model_ + engine);
   fleet_summary(model_ + engine + " --scatter-only --prefix plain");
   std::filesystem::remove_all(folder() / "results");
@@ -152,24 +150,24 @@ TEST_F(Cluster, SumsOfAnotherOptionOrVersionAreRefusedInPostgres) {
 }
 
 TEST_F(Cluster, ALawInPostgresHasTheNumbersOfTheLibrary) {
-  const PostgresServer server(folder());
+  const PostgresServer server(folder() / "postgres");
   const CommandResult made = server.sql(
       "create table liners (id integer, machine text, \"F\" float8, s float8);\ninsert "
       "into liners values" +
       ownlaw::law_row_values("''") + ";\n");
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  const auto engine = fleet::postgres_engine(server.address(), "liners");
+  const auto engine = fleet::postgres_engine(server.url(), "liners");
   ownlaw::expect_library(ownlaw::law_state(folder()), *engine, "liners", ownlaw::law_values());
   const CommandResult pads = server.sql(
       "create table pads (id integer, machine text, mat text, \"T\" float8, \"TF\" float8, hours "
       "float8);\ninsert into pads values" +
       ownlaw::pad_row_values("''") + ";\n");
   ASSERT_EQ(pads.exit_code, 0) << pads.err;
-  ownlaw::expect_pads(*fleet::postgres_engine(server.address(), "pads"), "pads");
+  ownlaw::expect_pads(*fleet::postgres_engine(server.url(), "pads"), "pads");
 }
 
 TEST_F(Cluster, HostileNamesAreHarmlessInPostgres) {
-  const PostgresServer server(folder());
+  const PostgresServer server(folder() / "postgres");
   const std::string table = "a\"\"b'; drop table c; --";
   ASSERT_EQ(server
                 .sql("create table \"" + table +
@@ -181,8 +179,7 @@ TEST_F(Cluster, HostileNamesAreHarmlessInPostgres) {
   for (FleetCycle& each : cycles) each.unit = "x''; drop table wearwell_sums; -- " + each.unit;
   load(server, cycles, "\"" + table + "\"");
   const json fleet = fleet_summary(
-      model_ + " --engine " + server.address() + " --table \"a\\\"b'; drop table c; --\"" +
-      output() +
+      model_ + " --engine " + server.url() + " --table \"a\\\"b'; drop table c; --\"" + output() +
       " --columns unit=select cycle=order slip_speed=n:rad/s 'torque=m:N m' temperature=temp:degC "
       "closing_time=t:s \"energy=e';--:J\"");
   ASSERT_EQ(fleet["worst"].size(), 6u);
@@ -264,8 +261,9 @@ class Sharded : public Cluster {
   void SetUp() override {
     Cluster::SetUp();
     if (IsSkipped()) return;
-    for (auto* each : {&first_, &second_, &head_})
-      *each = std::make_unique<PostgresServer>(folder());
+    first_ = std::make_unique<PostgresServer>(folder() / "first");
+    second_ = std::make_unique<PostgresServer>(folder() / "second");
+    head_ = std::make_unique<PostgresServer>(folder() / "head");
     std::string foreign =
         "create extension postgres_fdw;\n" + create + " partition by hash (vin);\n";
     int part = 0;
@@ -287,10 +285,10 @@ class Sharded : public Cluster {
   }
 
   std::string through_head() const {
-    return model_ + " --engine " + head_->address() + " --table cycles" + output() + columns;
+    return model_ + " --engine " + head_->url() + " --table cycles" + output() + columns;
   }
   std::string side_by_side() const {
-    return model_ + " --engine " + first_->address() + " --engine " + second_->address() +
+    return model_ + " --engine " + first_->url() + " --engine " + second_->url() +
            " --table cycles" + output() + columns;
   }
 
@@ -322,7 +320,7 @@ TEST_F(Sharded, AUnitOnTwoShardsIsRefused) {
 }
 
 TEST_F(Sharded, ADeadShardIsAnErrorAndNoPartOfAnAnswer) {
-  second_->stop();
+  second_->kill();
   for (const std::string& way : {through_head(), side_by_side()}) {
     const CommandResult run = run_wearwell("fleet " + way);
     EXPECT_EQ(run.exit_code, 2);

@@ -19,7 +19,7 @@ class FleetInDays : public ScratchTest {
  protected:
   std::string path(const std::string& name) const { return "'" + (folder() / name).string() + "'"; }
   std::string output() const { return " -o " + path("results"); }
-  /// Cycles of three units, 40 a day of each, unit 3 twice as many; the last but `alone` of unit 4 there is one.
+  /// Cycles of three units, 40 a day of each, unit 3 twice as many; of unit 4 there is one.
   std::string fleet() {
     write("model.json", to_json(fleet_model(ScatterKind::linear)).dump(1));
     auto cycles = fleet_cycles(3000, 3, 31);

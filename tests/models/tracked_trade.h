@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -67,22 +66,6 @@ struct TrackedTrade {
     return prognosis::unit_life(
         state.source, [](const Source& source) { return read_study(source, all_models()); },
         state.posterior, question);
-  }
-};
-
-// A unit with all that it was given.
-struct FollowedUnit {
-  std::unique_ptr<prognosis::TrackedUnit> unit;
-  std::vector<prognosis::Reading> taken = {};
-
-  prognosis::Taken take(const std::vector<double>& numbers) {
-    const prognosis::Reading reading{numbers, {}};
-    const prognosis::Taken result =
-        unit->take(reading, [&](const std::function<void(const prognosis::Reading&)>& visit) {
-          for (const prognosis::Reading& each : taken) visit(each);
-        });
-    if (result.counted) taken.push_back(reading);
-    return result;
   }
 };
 

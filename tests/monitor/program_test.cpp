@@ -184,7 +184,8 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
 class PostgresPrograms : public Programs {
  protected:
   void SetUp() override {
-    if (!PostgresServer::installed()) GTEST_SKIP() << "PostgreSQL is not installed";
+    const std::string missing = PostgresServer::missing();
+    if (!missing.empty()) GTEST_SKIP() << missing;
     server_ = std::make_unique<PostgresServer>(folder() / "postgres");
   }
   std::unique_ptr<PostgresServer> server_;
@@ -367,7 +368,8 @@ TEST_F(BrokerPrograms, KilledLoseNothingThatTheBrokerHas) {
 }
 
 TEST_F(BrokerPrograms, AcknowledgeNothingThatIsNotStored) {
-  if (!PostgresServer::installed()) GTEST_SKIP() << "PostgreSQL is not installed";
+  const std::string missing = PostgresServer::missing();
+  if (!missing.empty()) GTEST_SKIP() << missing;
   PostgresServer server(folder() / "postgres");
   const auto config = configure_mqtt("", server.url());
   ChildProcess monitor = start(config);

@@ -15,7 +15,8 @@ class Stores : public ScratchTest, public testing::WithParamInterface<const char
  protected:
   void SetUp() override {
     if (GetParam() != std::string("postgres")) return;
-    if (!PostgresServer::installed()) GTEST_SKIP() << "PostgreSQL is not installed";
+    const std::string missing = PostgresServer::missing();
+    if (!missing.empty()) GTEST_SKIP() << missing;
     server_ = std::make_unique<PostgresServer>(folder() / "postgres");
   }
   std::string url() const { return server_ ? server_->url() : "fleet.sqlite"; }

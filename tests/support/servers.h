@@ -1,7 +1,5 @@
 #pragma once
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <pwd.h>
 #include <signal.h>
 #include <sys/socket.h>
@@ -26,11 +24,8 @@ namespace wearwell {
 
 inline bool is_listening(int port) {
   const int fd = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  const bool there = connect(fd, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+  const sockaddr_in address = loopback(port);
+  const bool there = connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   close(fd);
   return there;
 }
@@ -146,13 +141,15 @@ class Broker {
   ChildProcess process_;
 };
 
-/// The PostgreSQL of Debian on a port of its own, with a new cluster in a folder of its own; not as root, which it refuses.
+/// A server of PostgreSQL on a port of its own, with a new cluster in a folder of its own. As root it runs as `postgres`, since it
+/// refuses root.
 class PostgresServer {
  public:
-  static std::string binaries() { return "/usr/lib/postgresql/15/bin/"; }
-  static bool installed() {
-    return std::filesystem::exists(binaries() + "postgres") &&
-           (geteuid() != 0 || getpwnam("postgres") != nullptr);
+  /// What is missing; empty where nothing is.
+  static std::string missing() {
+    if (programs().empty()) return "no server of PostgreSQL is installed";
+    if (geteuid() == 0 && !getpwnam("postgres")) return "there is no user postgres to run it as";
+    return "";
   }
 
   explicit PostgresServer(const std::filesystem::path& folder)
@@ -163,29 +160,21 @@ class PostgresServer {
     for (auto at = folder_.parent_path(); geteuid() == 0 && at != at.root_path() && at != "/tmp";
          at = at.parent_path())
       run_or_throw("chmod a+x '" + at.string() + "'");
-    run_or_throw(as_user() + binaries() + "initdb -D '" + data() +
-                 "' -A trust -U wearwell --no-sync -E UTF8 --locale=C > /dev/null");
+    run_or_throw("cd / && " + as_user() + programs() + "/initdb -D '" + data() +
+                 "' -A trust -U wearwell --no-sync -E UTF8 --locale=C");
     start();
-    run_or_throw(as_user() + binaries() + "createdb -h 127.0.0.1 -p " + std::to_string(port_) +
-                 " -U wearwell fleet");
   }
+  ~PostgresServer() { process_.end(SIGQUIT); }
+  PostgresServer(const PostgresServer&) = delete;
+  PostgresServer& operator=(const PostgresServer&) = delete;
+
   void start() {
-    std::vector<std::string> command = {"postgres"};
-    command = {binaries() + "postgres",
-               "-D",
-               data(),
-               "-p",
-               std::to_string(port_),
-               "-c",
-               "listen_addresses=127.0.0.1",
-               "-c",
-               "unix_socket_directories="};
-    if (geteuid() == 0)
-      command.insert(command.begin(),
-                     {"setpriv", "--reuid=postgres", "--regid=postgres", "--clear-groups"});
-    process_ = ChildProcess(command, "/dev/null");
-    const std::string ready = binaries() + "pg_isready -q -h 127.0.0.1 -p " + std::to_string(port_);
-    if (!eventually([&] { return run_command(ready).exit_code == 0; }))
+    process_ = ChildProcess(
+        {"sh", "-c",
+         "cd / && exec " + as_user() + programs() + "/postgres -D '" + data() + "' -p " +
+             std::to_string(port_) + " -h 127.0.0.1 -k '' -c shared_buffers=32MB </dev/null"},
+        folder_ / "log");
+    if (!eventually([&] { return sql("select 1").exit_code == 0; }))
       throw std::runtime_error("postgres does not start");
   }
   /// All of it at once, as when the machine loses its power. Its children see their parent go and end.
@@ -193,11 +182,25 @@ class PostgresServer {
     process_.end(SIGKILL);
     std::filesystem::remove(data() + "/postmaster.pid");
   }
+  int port() const { return port_; }
   std::string url() const {
-    return "postgresql://wearwell@127.0.0.1:" + std::to_string(port_) + "/fleet";
+    return "postgresql://wearwell@127.0.0.1:" + std::to_string(port_) + "/postgres";
+  }
+  CommandResult sql(const std::string& statements) const {
+    const std::filesystem::path file = folder_ / "statements.sql";
+    std::ofstream(file, std::ios::binary) << statements;
+    return run_command("psql -X -q -A -t -v ON_ERROR_STOP=1 '" + url() + "' -f '" + file.string() +
+                       "'");
   }
 
  private:
+  static std::string programs() {
+    for (int version = 20; version >= 12; --version) {
+      const std::string folder = "/usr/lib/postgresql/" + std::to_string(version) + "/bin";
+      if (std::filesystem::exists(folder + "/postgres")) return folder;
+    }
+    return "";
+  }
   std::string data() const { return (folder_ / "data").string(); }
   static std::string as_user() {
     return geteuid() == 0 ? "setpriv --reuid=postgres --regid=postgres --clear-groups " : "";

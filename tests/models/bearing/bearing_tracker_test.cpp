@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "models/tracked_trade.h"
+#include "support/followed_unit.h"
 #include "wearwell/base/error.h"
 
 namespace wearwell::bearing {
@@ -93,7 +94,7 @@ TEST_P(OfBearing, ASeenBearingGoesOnAsTheFitSays) {
 
 TEST_P(OfBearing, ReadingsOneByOneAreTheFitOfAll) {
   const TrackedTrade known(study(), headings, rows);
-  FollowedUnit bearing{known.tracker->begin("Z")};
+  FollowedUnit bearing(*known.tracker, "Z");
   const Forecast fresh = bearing.unit->forecast();
   expect_life(fresh, known.life({}), 1, 0.01);
   Rows all = rows;
@@ -121,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, OfBearing, testing::Values(0, 1, 2, 3));
 TEST(BearingTracker, ALateReadingOfASeenBearing) {
   const std::string study = study_with("depth_error = \"2 um\"", scatter);
   const TrackedTrade known(study, headings, rows);
-  FollowedUnit bearing{known.tracker->begin("B")};
+  FollowedUnit bearing(*known.tracker, "B");
   ASSERT_TRUE(bearing.take(numbers(35, 300'000, 60.5)).counted);
   ASSERT_TRUE(bearing.take(numbers(35, 250'000, 50.2)).counted);
   Rows all = rows;
@@ -154,7 +155,7 @@ TEST(BearingTracker, LivesInHoursWhereTheSpeedIsKnown) {
 TEST(BearingTracker, RefusesWhatIsNoReading) {
   const std::string study = study_with("depth_error = \"2 um\"", scatter);
   const TrackedTrade known(study, headings, rows);
-  FollowedUnit bearing{known.tracker->begin("Z")};
+  FollowedUnit bearing(*known.tracker, "Z");
   EXPECT_THAT(bearing.take({std::nan(""), 1e5, 1e-5}).problem, HasSubstr("clearance is missing"));
   EXPECT_THAT(bearing.take(numbers(30, -5, 20)).problem, HasSubstr("revolutions must be positive"));
   EXPECT_THAT(bearing.take(numbers(30, 5e4, 3e4)).problem, HasSubstr("diameter"));

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "models/tracked_trade.h"
+#include "support/followed_unit.h"
 #include "wearwell/base/error.h"
 
 namespace wearwell::joint {
@@ -58,7 +59,7 @@ class OfJoint : public testing::TestWithParam<const char*> {
 
 TEST_P(OfJoint, InspectionsOneByOneAreTheFitOfAll) {
   const TrackedTrade known(study, {"cycles", "volume"}, first(2));
-  FollowedUnit joint{known.tracker->begin("joint")};
+  FollowedUnit joint(*known.tracker, "joint");
   for (std::size_t i = 2; i < 5; ++i) {
     ASSERT_TRUE(joint.take(numbers(i)).counted) << i;
     const TrackedTrade all(study, {"cycles", "volume"}, first(i + 1));
@@ -72,7 +73,7 @@ TEST_P(OfJoint, InspectionsOneByOneAreTheFitOfAll) {
 
 TEST_P(OfJoint, LateReadingsAndSavedStatesChangeNothing) {
   const TrackedTrade known(study, {"cycles", "volume"}, first(2));
-  FollowedUnit late{known.tracker->begin("joint")};
+  FollowedUnit late(*known.tracker, "joint");
   for (const std::size_t i : {4, 2, 3}) {
     ASSERT_TRUE(late.take(numbers(i)).counted) << i;
     const std::string bytes = late.unit->save();
@@ -91,7 +92,7 @@ TEST(JointTracker, FollowsVolumesBeforeAnyWorkToo) {
   const std::string study =
       study_with("normal", "V0 = { law = \"normal\", mean = \"0 mm^3\", sd = \"10 mm^3\" }\n");
   const TrackedTrade known(study, {"cycles", "volume"}, first(3));
-  FollowedUnit joint{known.tracker->begin("joint")};
+  FollowedUnit joint(*known.tracker, "joint");
   ASSERT_TRUE(joint.take(numbers(3)).counted);
   ASSERT_TRUE(joint.take(numbers(4)).counted);
   const TrackedTrade all(study, {"cycles", "volume"}, first(5));
@@ -110,13 +111,13 @@ TEST(JointTracker, RefusesOtherJointsAndWhatIsNoReading) {
   const TrackedTrade known(study_with("lognormal"), {"cycles", "volume"}, first(4));
   EXPECT_THAT(known.tracker->refusal("J7"), HasSubstr("one joint, called 'joint'"));
   EXPECT_EQ(known.tracker->refusal("joint"), "");
-  FollowedUnit other{known.tracker->begin("J7")};
+  FollowedUnit other(*known.tracker, "J7");
   EXPECT_THAT(other.take(numbers(4)).problem, HasSubstr("one joint"));
   EXPECT_TRUE(other.unit->forecast().remaining.points().empty());
   EXPECT_TRUE(std::isnan(other.unit->forecast().passed));
   const std::string bytes = other.unit->save();
   EXPECT_EQ(known.tracker->restore(bytes)->save(), bytes);
-  FollowedUnit joint{known.tracker->begin("joint")};
+  FollowedUnit joint(*known.tracker, "joint");
   EXPECT_THAT(joint.take({8000, std::nan("")}).problem, HasSubstr("volume is missing"));
   EXPECT_THAT(joint.take({-1, 1e-9}).problem, HasSubstr("cycles must be 0 or more"));
   EXPECT_THAT(joint.take({8000, -1e-9}).problem, HasSubstr("must be positive"));

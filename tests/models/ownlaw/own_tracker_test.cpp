@@ -37,7 +37,7 @@ TEST(OwnTracker, ASmallCaseByBruteForce) {
   const std::vector<std::vector<double>> x = {
       {1 * um / h, 0.3, 0.3 * um}, {1.2 * um / h, 0.5, 0.2 * um}, {0.9 * um / h, 0.2, 0.4 * um}};
   const Watched watched(straight, lines(rates, 5, 0.3), points(x));
-  Followed unit(*watched.tracker, "new");
+  FollowedUnit unit(*watched.tracker, "new");
   const std::vector<std::pair<double, double>> readings = {
       {1.9 * um, 1 * h}, {3.4 * um, 2 * h}, {5.0 * um, 3 * h}};
   for (std::size_t shown = 0; shown <= readings.size(); ++shown) {
@@ -85,7 +85,7 @@ TEST(OwnTracker, ThePathAheadByBruteForce) {
   const std::vector<double> x = {1 * um / h, 0.3, 0.3 * um};
   const Watched watched(straight, lines(rates, 5, 0.3),
                         points(std::vector<std::vector<double>>(40, x)));
-  Followed unit(*watched.tracker, "new");
+  FollowedUnit unit(*watched.tracker, "new");
   const std::vector<std::pair<double, double>> readings = {{1.9 * um, 1 * h}, {3.4 * um, 2 * h}};
   for (const auto& [depth, time] : readings) unit.take({depth, time});
   std::vector<std::pair<double, double>> rate;
@@ -134,7 +134,7 @@ TEST(OwnTracker, ThePathAheadOfAProcess) {
     const double b = 1 * um / h, s = 0.2 * um;
     const Watched watched(study, lines(rates, 5, 0.1),
                           points(std::vector<std::vector<double>>(200, {b, 1e-6, s})));
-    Followed unit(*watched.tracker, "new");
+    FollowedUnit unit(*watched.tracker, "new");
     ASSERT_TRUE(unit.take({3 * um, 3 * h}).counted);
     const double places[] = {3 * h, 4 * h, 9 * h};
     const std::vector<prognosis::LevelAhead> path = unit.unit->ahead(places);
@@ -164,7 +164,7 @@ TEST(OwnTracker, BandsAheadHold) {
   int held[2] = {};
   for (int u = 0; u < units; ++u) {
     const double own = b * std::exp(scatter * rng.normal());
-    Followed unit(*watched.tracker, "new");
+    FollowedUnit unit(*watched.tracker, "new");
     for (int i = 1; i <= 3; ++i) {
       ASSERT_TRUE(unit.take({own * i * 0.5 * h + sigma * rng.normal(), i * 0.5 * h}).counted);
     }
@@ -197,7 +197,7 @@ TEST(OwnTracker, FollowingAUnitIsFittingItsRowsToo) {
       each.text.resize(25);
   }
   const Watched whole(straight, all), part(straight, known);
-  Followed unit(*part.tracker, "u5");
+  FollowedUnit unit(*part.tracker, "u5");
   for (std::size_t i = 25; i < 30; ++i) {
     const Taken taken = unit.take({all[0].numbers[i] * um, all[1].numbers[i] * h});
     EXPECT_TRUE(taken.counted);
@@ -209,7 +209,7 @@ TEST(OwnTracker, FollowingAUnitIsFittingItsRowsToo) {
 
 TEST(OwnTracker, SavedStatesGoOnWithTheSameBits) {
   const Watched watched(straight, lines(rates, 5, 0.3));
-  Followed unit(*watched.tracker, "new"), other(*watched.tracker, "new");
+  FollowedUnit unit(*watched.tracker, "new"), other(*watched.tracker, "new");
   for (int i = 1; i <= 12; ++i) {
     const std::vector<double> reading = {(0.9 * i + 0.2 * std::sin(i)) * um, i * h};
     unit.take(reading);
@@ -234,7 +234,7 @@ TEST(OwnTracker, TheOrderOfReadingsDoesNotMatter) {
   std::vector<std::vector<double>> readings;
   for (int i = 1; i <= 20; ++i)
     readings.push_back({(0.36 * i + 0.3 * std::sin(7.0 * i)) * um, 0.4 * i * h});
-  Followed in_order(*watched.tracker, "new"), reversed(*watched.tracker, "new");
+  FollowedUnit in_order(*watched.tracker, "new"), reversed(*watched.tracker, "new");
   for (const auto& each : readings) in_order.take(each);
   std::reverse(readings.begin(), readings.end());
   for (const auto& each : readings) reversed.take(each);
@@ -248,7 +248,7 @@ TEST(OwnTracker, TheOrderOfReadingsDoesNotMatter) {
 // Ever more readings: nodes are laid anew again and again, parameters that all share are learned from it.
 TEST(OwnTracker, ManyReadingsOfOneUnit) {
   const Watched watched(straight, lines(rates, 5, 0.3));
-  Followed unit(*watched.tracker, "new");
+  FollowedUnit unit(*watched.tracker, "new");
   Rng rng(3, 0);
   for (int i = 1; i <= 400; ++i) {
     const double t = 0.025 * i;
@@ -276,7 +276,7 @@ TEST(OwnTracker, IntervalsHoldTheTruth) {
 
 TEST(OwnTracker, WhatCannotBeTaken) {
   const Watched watched(straight, lines(rates, 5, 0.3));
-  Followed unit(*watched.tracker, "new");
+  FollowedUnit unit(*watched.tracker, "new");
   EXPECT_EQ(unit.take({NAN, 1 * h}).problem, "depth is missing");
   EXPECT_EQ(unit.take({1 * um, NAN}).problem, "time is missing");
   EXPECT_EQ(unit.take({INFINITY, 1 * h}).problem, "depth is not finite");
@@ -302,7 +302,7 @@ TEST(OwnTracker, AProcessThatOnlyRises) {
   change("limit = { wear", "limit = { depth");
   const Watched watched(study, lines(rates, 5, 0.1),
                         points({{1 * um / h, 0.3, 0.05 * um}, {1.1 * um / h, 0.4, 0.1 * um}}));
-  Followed unit(*watched.tracker, "new");
+  FollowedUnit unit(*watched.tracker, "new");
   EXPECT_TRUE(unit.take({1 * um, 1 * h}).counted);
   EXPECT_TRUE(unit.take({3 * um, 3 * h}).counted);
   const std::string before = unit.unit->save();

@@ -107,8 +107,8 @@ void expect_followed(const Kind& kind) {
     if (!whole.design.law->has_process()) {  // dear in a fit
       expect_alike(whole.tracker->begin("new")->forecast(), fit.next, 0, kind.tolerance);
     }
-    expect_populations(*whole.tracker, Followed(*whole.tracker, unit), apart);
-    expect_populations(*whole.tracker, Followed(*whole.tracker, "new"), apart);
+    expect_populations(*whole.tracker, FollowedUnit(*whole.tracker, unit), apart);
+    expect_populations(*whole.tracker, FollowedUnit(*whole.tracker, "new"), apart);
   }
   const LimitedLives fit = lives_of_fit(whole, given_unit(whole, posterior, last));
   std::vector<std::size_t> order(readings.size());
@@ -117,7 +117,7 @@ void expect_followed(const Kind& kind) {
     SCOPED_TRACE(late ? "late" : "in order");
     if (late) std::swap(order[1], order.back());
     if (late) std::swap(order[0], order[2]);
-    Followed followed(*part.tracker, unit);
+    FollowedUnit followed(*part.tracker, unit);
     for (const std::size_t i : order) {
       const Taken taken = followed.take(readings[i]);
       EXPECT_TRUE(taken.counted) << taken.problem;

@@ -78,7 +78,7 @@ TEST(UnitPopulations, AreSumsOverGridsByBruteForce) {
   const std::vector<std::pair<double, double>> since = {{6 * h, 7.1 * um}, {7 * h, 8.0 * um}};
   for (const bool seen : {false, true}) {
     SCOPED_TRACE(seen ? "seen" : "new");
-    Followed unit(*watched.tracker, seen ? "u2" : "new");
+    FollowedUnit unit(*watched.tracker, seen ? "u2" : "new");
     for (std::size_t shown = 0; shown <= since.size(); ++shown) {
       if (shown > 0) unit.take({since[shown - 1].second, since[shown - 1].first});
       const auto apart = unit.unit->in_populations([](const auto&) {});

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibration/own_design.h"
+#include "support/followed_unit.h"
 #include "wearwell/models/ownlaw/own_limit.h"
 #include "wearwell/models/ownlaw/own_lives.h"
 #include "wearwell/models/ownlaw/own_process_lives.h"
@@ -51,29 +52,6 @@ struct Watched {
     return std::make_shared<const OwnRows>(design.law, design.law->data.table.rows);
   }
   WeightedDraws fitted() const { return exact_posterior(rows(), 1e-4).nodes; }
-};
-
-// A unit with all that it was given.
-struct Followed {
-  const prognosis::Tracker& tracker;
-  std::unique_ptr<prognosis::TrackedUnit> unit;
-  std::vector<prognosis::Reading> taken;
-
-  Followed(const prognosis::Tracker& of, const std::string& name)
-      : tracker(of), unit(of.begin(name)) {}
-
-  prognosis::Taken take(const prognosis::Reading& reading) {
-    const prognosis::Taken result =
-        unit->take(reading, [&](const std::function<void(const prognosis::Reading&)>& visit) {
-          for (const prognosis::Reading& each : taken) visit(each);
-        });
-    if (result.counted) taken.push_back(reading);
-    return result;
-  }
-  prognosis::Taken take(const std::vector<double>& numbers,
-                        const std::vector<std::string>& labels = {}) {
-    return take({numbers, labels});
-  }
 };
 
 // What a fit says of its units, and of a new one.
@@ -152,13 +130,16 @@ inline void expect_path_ahead(const prognosis::Tracker& tracker, const prognosis
 }
 
 // Populations, mixed by their weights and what the unit showed in each, are the forecast.
-inline void expect_populations(const prognosis::Tracker& tracker, const Followed& followed,
+inline void expect_populations(const prognosis::Tracker& tracker, const FollowedUnit& followed,
                                double tolerance) {
   const auto apart = followed.unit->in_populations(
       [&](const std::function<void(const prognosis::Reading&)>& visit) {
         for (const prognosis::Reading& each : followed.taken) visit(each);
       });
-  if (!apart) return;  // it has left the populations behind that all have in common
+  if (!apart) {  // by its readings it has left the populations behind that all have in common
+    EXPECT_FALSE(followed.taken.empty());
+    return;
+  }
   const std::vector<double> weight = tracker.populations();
   ASSERT_EQ(apart->log_likelihood.size(), weight.size());
   ASSERT_EQ(apart->passed.size(), weight.size());

@@ -29,7 +29,7 @@ void FleetDays::read(fleet::Engine& engine, const ClutchSql& sql, const SqlSourc
       if (!(count > 0)) continue;
       now = std::isnan(now) ? last : std::max(now, last);
       const double days = (last - first) / day;
-      // Where there are dates alone, or hours of one day: by the days that have any.
+      // Where there are dates alone, or hours of one day: by the days from the first to the last, both counted.
       const double calendar = std::floor(last / day) - std::floor(first / day) + 1;
       rate = count < 2 ? NAN : dates || days < 1 ? count / calendar : (count - 1) / days;
     }

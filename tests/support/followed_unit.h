@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wearwell/prognosis/tracker.h"
+
+namespace wearwell {
+
+/// A unit on line with all that it was given.
+struct FollowedUnit {
+  std::unique_ptr<prognosis::TrackedUnit> unit;
+  std::vector<prognosis::Reading> taken;
+
+  FollowedUnit(const prognosis::Tracker& tracker, const std::string& name)
+      : unit(tracker.begin(name)) {}
+
+  prognosis::Taken take(const prognosis::Reading& reading) {
+    const prognosis::Taken result =
+        unit->take(reading, [&](const std::function<void(const prognosis::Reading&)>& visit) {
+          for (const prognosis::Reading& each : taken) visit(each);
+        });
+    if (result.counted) taken.push_back(reading);
+    return result;
+  }
+  prognosis::Taken take(const std::vector<double>& numbers,
+                        const std::vector<std::string>& labels = {}) {
+    return take({numbers, labels});
+  }
+};
+
+}  // namespace wearwell
