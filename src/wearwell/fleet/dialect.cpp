@@ -159,7 +159,7 @@ std::string seconds(Dialect dialect, const std::string& moment) {
     case Dialect::clickhouse:
       break;
   }
-  return fmt::format("toFloat64(toUInt32(toDateTime({})))", moment);
+  return fmt::format("toFloat64(toUInt32(toDateTime({}, 'UTC')))", moment);
 }
 
 std::string text(Dialect dialect, const std::string& any) {

@@ -80,11 +80,12 @@ void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::strin
 
 void refuse_late(fleet::Engine& engine, const ClutchSql& sql) {
   engine.rows(sql.late, 1, [&](const fleet::Row& row) {
-    throw InputError(
-        fmt::format("{}: unit {} has {:.0f} cycles up to the last one that was counted, of which "
-                    "{:.0f} were counted: "
-                    "rows came late or went; sum them all anew, without --state",
-                    engine.source(), printable(row.texts.front()), row.numbers[0], row.numbers[1]));
+    throw InputError(fmt::format(
+        "{}: unit {} has {:.0f} cycles up to the last one that was counted, of which "
+        "{:.0f} were counted: "
+        "rows came late or went; sum them all anew, {}",
+        engine.source(), printable(row.texts.front()), row.numbers[0], row.numbers[1],
+        engine.dialect() == fleet::Dialect::duckdb ? "without --state" : "under another --prefix"));
   });
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "wearwell/math/root.h"
+#include "wearwell/models/ownlaw/effect_lines.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_lives.h"
 #include "wearwell/predict/few_points.h"
@@ -37,7 +38,7 @@ class LifeLaw::AtPoint {
  public:
   explicit AtPoint(const LifeLaw& life)
       : life_(life),
-        nodes_(life.slots_->law->effects.size()),
+        nodes_(life.slots_->law->effects.size(), 6.5),
         new_units_(*life.slots_->law),
         path_(*life.slots_) {
     slots_.resize(most_response_slots * size());
