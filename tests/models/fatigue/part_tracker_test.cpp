@@ -51,12 +51,11 @@ const std::string line =
     "log10_a = { law = \"normal\", mean = \"3.3 log10(MPa)\", sd = 0.3 }\n"
     "b = { law = \"normal\", mean = -0.1, sd = 0.04 }\n"
     "sigma = { law = \"half-normal\", scale = 0.3 }\n";
-const std::string knee =
-    "k = { law = \"normal\", mean = 8, sd = 2 }\n"
-    "log10_N_D = { law = \"normal\", mean = \"6 log10(cycles)\", sd = 0.3 }\n"
+const std::string below_a_limit =
+    "log10_a = { law = \"normal\", mean = \"3.6 log10(MPa)\", sd = 0.3 }\n"
+    "b = { law = \"normal\", mean = -0.2, sd = 0.06 }\n"
     "sigma = { law = \"half-normal\", scale = 0.3 }\n"
-    "log10_S_D = { law = \"normal\", mean = \"2.53 log10(MPa)\", sd = 0.05 }\n"
-    "sigma_limit = { law = \"half-normal\", scale = 0.05 }\n";
+    "log10_limit = { law = \"normal\", mean = \"2.48 log10(MPa)\", sd = 0.05 }\n";
 
 struct Chosen {
   const char* law;
@@ -91,7 +90,8 @@ void expect_same(const Forecast& forecast, const std::function<double(double)>& 
                  double tolerance) {
   for (const double p : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99}) {
     const double r = forecast.remaining.quantile(p);
-    if (std::isfinite(r)) EXPECT_NEAR(truth(r), p, tolerance) << p;
+    if (!std::isfinite(r)) continue;
+    EXPECT_NEAR(truth(r), p, tolerance) << p;
   }
 }
 
@@ -145,56 +145,96 @@ TEST(PartTracker, ARunoutCountsOnce) {
     EXPECT_TRUE(fresh.take({n, none}).counted);
     const Forecast a = known.unit->forecast(), b = fresh.unit->forecast();
     for (const double p : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99})
-      EXPECT_NEAR(a.remaining.cdf(b.remaining.quantile(p)), p, 3e-3) << n;
+      EXPECT_NEAR(a.remaining.cdf(b.remaining.quantile(p)), p, 4e-3) << n;
   }
 }
 
 TEST(PartTracker, LifeWithoutEndIsTold) {
-  const TrackedTrade trade(
-      part_study("curve = \"knee\"\nsecond_slope = \"infinite\"\nfatigue_limit = \"random\"",
-                 "log10-normal", knee),
-      headings, part_rows);
+  PartRows rows = part_rows;
+  rows.push_back({"250", "3000000", "runout", "k"});
+  const TrackedTrade trade(part_study("curve = \"stromeyer\"", "log10-normal", below_a_limit),
+                           headings, rows);
   const SnLaw law = law_of(trade);
+  const auto truth = [&](double n, double r) {
+    return ended(law, trade.state.posterior, under(250), 3e6, n, r);
+  };
   const prognosis::UnitLife life =
-      prognosis::tracked_life(*trade.tracker, "i", {.unit = "i", .survived = "4e6 cycles"});
+      prognosis::tracked_life(*trade.tracker, "k", {.unit = "k", .survived = "4e6 cycles"});
   ASSERT_TRUE(life.never);
-  const double never = 1 - ended(law, trade.state.posterior, under(320), 2e6, 4e6, 1e40);
+  const double never = 1 - truth(4e6, 1e40);
   EXPECT_GT(never, 0.01);
-  EXPECT_NEAR(*life.never, never, 3e-3);
+  EXPECT_NEAR(*life.never, never, 4e-3);
   ASSERT_TRUE(life.passed);
-  EXPECT_NEAR(*life.passed, ended(law, trade.state.posterior, under(320), 2e6, 2e6, 2e6), 2e-3);
-  for (const double p : {0.01, 0.1, 0.3})
-    EXPECT_NEAR(ended(law, trade.state.posterior, under(320), 2e6, 4e6, life.quantile(p)), p, 3e-3);
+  EXPECT_NEAR(*life.passed, truth(3e6, 1e6), 2e-3);
+  for (const double p : {0.01, 0.1, 0.3}) {
+    if (p > 0.9 * (1 - never)) continue;
+    EXPECT_NEAR(truth(4e6, life.quantile(p)), p, 4e-3);
+  }
+  EXPECT_EQ(life.quantile(std::min(0.9999, 1 - 0.5 * never)), infinity);
 }
 
-// Limits that scatter below Basquin's line: slices against the integral, far out as well.
-TEST(StressLives, OfARandomLimitAreItsIntegral) {
-  SnLaw law;
-  law.correction = MeanStress::none;
-  law.limit = StandardLaw::normal;
+// A posterior made by hand.
+WeightedDraws scattered(const std::vector<double>& middle, const std::vector<double>& width) {
+  constexpr Eigen::Index count = 200;
   WeightedDraws draws;
-  draws.values.resize(200, 5);
-  draws.weights.assign(200, 1.0 / 200);
-  for (Eigen::Index i = 0; i < 200; ++i) {
-    const double u = std::fmod(0.5 + 0.754877666 * double(i), 1),
-                 v = std::fmod(0.5 + 0.569840291 * double(i), 1);
-    draws.values.row(i) << 9.6 + 0.04 * (u - 0.5), -0.25 - 0.01 * (v - 0.5), 0.2 + 0.05 * (u - 0.5),
-        8.4 + 0.03 * (v - 0.5), 0.03 + 0.01 * (u - 0.5);
+  draws.values.resize(count, static_cast<Eigen::Index>(middle.size()));
+  draws.weights.setConstant(count, 1.0 / count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < middle.size(); ++j) {
+      const double place = std::fmod(0.5 + 0.7548776662 / std::pow(1.3, double(j)) * double(i), 1);
+      draws.values(i, static_cast<Eigen::Index>(j)) = middle[j] + width[j] * (place - 0.5);
+    }
   }
-  const FewPoints few(draws, 200);
+  return draws;
+}
+
+void expect_sums(const SnLaw& law, const WeightedDraws& draws) {
+  const FewPoints few(draws, 1000);
   for (const double mpa : {260.0, 300.0, 400.0}) {
     const StressLives lives(law, few, under(mpa));
     for (const double n : {0.0, 1e5, 1e7}) {
-      const std::vector<double> log = lives.log_survival(n, 0);
-      std::vector<double> weight;
-      for (std::size_t i = 0; i < log.size(); ++i)
-        weight.push_back(few.weights[i] * std::exp(log[i]));
+      if (1 - ended(law, draws, under(mpa), 0, 0, std::max(n, 1.0)) < 1e-6) continue;
+      std::vector<double> weight = lives.log_survival(n, 0);
+      for (std::size_t i = 0; i < weight.size(); ++i)
+        weight[i] = few.weights[i] * std::exp(weight[i]);
       const prognosis::WeightedLives remaining = lives.remaining(weight, n);
       for (const double r : {2e4, 3e5, 5e6, 1e9})
-        EXPECT_NEAR(remaining.cdf(r), ended(law, draws, under(mpa), 0, n, r), 2e-3)
+        EXPECT_NEAR(remaining.cdf(r), ended(law, draws, under(mpa), 0, n, r), 4e-3)
             << mpa << " " << n << " " << r;
     }
   }
+}
+
+// Limits that scatter: slices against the integral, far out as well.
+TEST(StressLives, OfARandomLimitAreItsIntegral) {
+  SnLaw law;
+  law.correction = MeanStress::none;
+  for (const auto family : {LifeFamily::log10_normal, LifeFamily::weibull}) {
+    law.family = family;
+    law.limit = StandardLaw::normal;
+    expect_sums(law, scattered({9.6, -0.25, 0.2, 8.4, 0.03}, {0.04, 0.01, 0.05, 0.03, 0.01}));
+  }
+}
+
+TEST(StressLives, BelowAKneeHaveNoEnd) {
+  SnLaw law;
+  law.correction = MeanStress::none;
+  law.curve = SnCurve::knee;
+  law.second_slope = SecondSlope::infinite;
+  law.limit = StandardLaw::normal;
+  expect_sums(law, scattered({8, 5.8, 0.2, 8.45, 0.04}, {1, 0.1, 0.05, 0.03, 0.02}));
+}
+
+TEST(StressLives, OfCurvesThatBend) {
+  SnLaw law;
+  law.correction = MeanStress::none;
+  law.curve = SnCurve::knee;
+  expect_sums(law, scattered({8, 5.8, 8.45, 15, 0.2}, {1, 0.1, 0.03, 2, 0.05}));
+  law.curve = SnCurve::bastenaire;
+  expect_sums(law, scattered({5.9, 8.3, 0.8, 8.1, 0.2}, {0.1, 0.1, 0.1, 0.03, 0.05}));
+  law.curve = SnCurve::basquin;
+  law.family = LifeFamily::normal;
+  expect_sums(law, scattered({9.35, -0.15, 1e5}, {0.05, 0.01, 5e4}));
 }
 
 TEST(PartTracker, OrderAndStatesChangeNoBit) {

@@ -139,36 +139,70 @@ std::vector<double> StressLives::log_survival(double n, double known) const {
   return log;
 }
 
+// Where what remains is told: close behind n in steps of what remains, beyond where the table has its places.
+std::vector<double> StressLives::places_beyond(double n) const {
+  const double from = n > 0 ? std::log10(n) : -infinity;
+  const auto first = std::upper_bound(at_.begin(), at_.end(), from);
+  std::vector<double> places;
+  if (n > 0 && first != at_.end()) {
+    constexpr double least = 1e-5, ratio = 1.09;  // of n
+    constexpr std::ptrdiff_t cells = 6;           // as far as even steps of log life are too wide
+    const auto end = first + std::min(cells, at_.end() - first - 1);
+    for (double r = least * n; std::log10(n + r) < *end; r *= ratio)
+      places.push_back(std::log10(n + r));
+    places.insert(places.end(), end, at_.end());
+    return places;
+  }
+  places.assign(first, at_.end());
+  return places;
+}
+
 prognosis::WeightedLives StressLives::remaining(std::span<const double> weight, double n) const {
   const double from = n > 0 ? std::log10(n) : -infinity;
-  const auto first =
-      static_cast<std::size_t>(std::upper_bound(at_.begin(), at_.end(), from) - at_.begin());
-  const std::size_t cells = at_.size() - first;
-  std::vector<double> left(cells, 0.0);  // who lives beyond place first + k
+  const std::vector<double> places = places_beyond(n);
+  struct Between {
+    std::size_t k;
+    double part;
+  };
+  std::vector<Between> between;
+  for (const double each : places) {
+    const auto above = static_cast<std::size_t>(
+        std::clamp<std::ptrdiff_t>(std::upper_bound(at_.begin(), at_.end(), each) - at_.begin(), 1,
+                                   static_cast<std::ptrdiff_t>(at_.size()) - 1));
+    between.push_back({above, (each - at_[above - 1]) / (at_[above] - at_[above - 1])});
+  }
+  std::vector<double> left(places.size(), 0.0);  // who lives beyond each place
   double all = 0;
   for (std::size_t i = 0; i < points_; ++i) {
     if (!(weight[i] > 0)) continue;
     const double now = n > 0 ? log_survival_at(i, from) : 0;
     if (now == -infinity) continue;
     all += weight[i];
-    for (std::size_t k = 0; k < cells; ++k)
-      left[k] += weight[i] * std::exp(std::min(0.0, log_[i * at_.size() + first + k] - now));
+    const double* own = log_.data() + i * at_.size();
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      const auto [k, part] = between[p];
+      // Before the first place hardly any life has ended.
+      const double log = part <= 0             ? own[k - 1]
+                         : part >= 1           ? own[k]
+                         : own[k] == -infinity ? own[k - 1]
+                                               : std::lerp(own[k - 1], own[k], part);
+      left[p] += weight[i] * std::exp(std::min(0.0, log - now));
+    }
   }
   std::vector<double> life, share;
+  constexpr double light = 1e-13;
   double before = all, begin = n;
-  for (std::size_t k = 0; k < cells; ++k) {
-    const double end = std::pow(10, at_[first + k]);
-    const double ended = before - left[k];
-    if (ended > 1e-13 * all) {
-      const double middle = begin > 0 ? std::sqrt(begin * end) : 0.5 * end;
-      life.push_back(middle - n);
-      share.push_back(ended);
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const double end = std::pow(10, places[p]);
+    if (before - left[p] > light * all) {
+      life.push_back((begin > 0 ? std::sqrt(begin * end) : 0.5 * end) - n);
+      share.push_back(before - left[p]);
     }
-    before = left[k];
+    before = left[p];
     begin = end;
   }
   // Beyond the last place no life has an end.
-  if (before > 1e-13 * all) {
+  if (before > light * all) {
     life.push_back(infinity);
     share.push_back(before);
   }

@@ -34,6 +34,7 @@ class StressLives {
   prognosis::WeightedLives remaining(std::span<const double> weight, double n) const;
 
  private:
+  std::vector<double> places_beyond(double n) const;
   double log_survival_at(std::size_t point, double log10_life) const;
 
   std::size_t points_ = 0;
