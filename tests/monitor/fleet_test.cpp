@@ -6,6 +6,9 @@
 
 #include "monitor/fleet_rig.h"
 #include "wearwell/base/rng.h"
+#include "wearwell/monitor/fleet_json.h"
+#include "wearwell/monitor/fleet_metrics.h"
+#include "wearwell/monitor/fleet_text.h"
 #include "wearwell/monitor/unit_record.h"
 
 namespace wearwell::monitor {
@@ -46,6 +49,73 @@ TEST_F(Fleets, TellWhatIsKnown) {
   EXPECT_GT(detail->survival.size(), 50U);
   EXPECT_EQ(detail->survival.front().survival, 1);
   EXPECT_FALSE(fleet_->unit("another"));
+}
+
+// Nothing is known of it before its second reading.
+class BlindUnit : public GrowthUnit {
+ public:
+  prognosis::Forecast forecast() const override {
+    if (readings() >= 2) return GrowthUnit::forecast();
+    prognosis::Forecast forecast;
+    forecast.level05 = forecast.level50 = forecast.level95 = forecast.passed =
+        std::numeric_limits<double>::quiet_NaN();
+    return forecast;
+  }
+};
+
+class BlindTracker : public GrowthTracker {
+ public:
+  std::unique_ptr<prognosis::TrackedUnit> begin(const std::string&) const override {
+    return std::make_unique<BlindUnit>();
+  }
+};
+
+class BlindFleets : public FleetRig {
+ protected:
+  std::unique_ptr<Fleet> make_fleet() override {
+    FleetSettings settings;
+    settings.population = "population";
+    settings.alarm = alarm_;
+    return std::make_unique<Fleet>(blind_, *store_, *tally_, quiet_, settings);
+  }
+  BlindTracker blind_;
+};
+
+TEST_F(BlindFleets, ShowNothingWhereNothingIsKnown) {
+  open();
+  deliver(message("dark", 1, 1));
+  for (int n = 1; n <= 3; ++n) deliver(message("seen", n, 0.5 * n));
+  catch_up();
+  const auto units = fleet_->units("", 0, 10);
+  ASSERT_EQ(units.size(), 2U);
+  EXPECT_EQ(units[0].unit, "seen");
+  EXPECT_TRUE(units[0].known);
+  EXPECT_FALSE(units[1].known);
+  EXPECT_EQ(units[1].alarm, Alarm::unknown);
+  const auto json = json_of(units[1]);
+  EXPECT_EQ(json["known"], false);
+  for (const char* key : {"at", "level", "remaining", "b10", "risk", "passed"})
+    EXPECT_TRUE(json[key].is_null()) << key;
+  EXPECT_EQ(json["quality"]["readings"], 1);
+  EXPECT_EQ(json_of(units[0])["known"], true);
+  EXPECT_TRUE(json_of(units[0])["risk"].is_number());
+  const std::string metrics = metrics_text(fleet_->fleet(), units, {});
+  EXPECT_THAT(metrics, HasSubstr("wearwell_unit_alarm{unit=\"dark\"} -1\n"));
+  EXPECT_THAT(metrics, HasSubstr("wearwell_unit_risk_ratio{unit=\"seen\"}"));
+  for (const char* name : {"risk_ratio", "passed_ratio", "position", "remaining_b10"})
+    EXPECT_THAT(metrics, Not(HasSubstr(fmt::format("wearwell_unit_{}{{unit=\"dark\"}}", name))));
+  EXPECT_THAT(metrics, Not(HasSubstr("{unit=\"dark\",percentile")));
+  const present::Table table = fleet_table(*fleet_, 10);
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(table.rows[1][7]));
+  const auto detail = fleet_->unit("dark");
+  ASSERT_TRUE(detail);
+  EXPECT_TRUE(detail->moments.empty());
+  EXPECT_TRUE(detail->path.empty());
+  EXPECT_TRUE(detail->survival.empty());
+  deliver(message("dark", 2, 2));
+  catch_up();
+  EXPECT_TRUE(fleet_->unit("dark")->view.known);
+  EXPECT_EQ(fleet_->unit("dark")->moments.size(), 1U);
 }
 
 TEST_F(Fleets, TellThePathAhead) {

@@ -13,14 +13,8 @@ std::unique_ptr<const prognosis::Tracker> tracker_of(const prognosis::CarriedSta
                                                      Models models) {
   for (const Model& model : models)
     if (model.key == state.model && model.track) return model.track(state);
-  const std::string instead =
-      state.model == "sn"
-          ? ": a part has shown nothing but that it survived so far; what remains to "
-            "it is wearwell life RESULT --unit STRESS --survived CYCLES"
-          : "";
-  throw InputError(
-      fmt::format("{}: units of a study of model \"{}\" cannot be followed one by one{}",
-                  result.string(), printable(state.model), instead));
+  throw InputError(fmt::format("{}: units of a study of model \"{}\" cannot be followed one by one",
+                               result.string(), printable(state.model)));
 }
 
 FollowedResult followed_result(const std::filesystem::path& result, Models models) {

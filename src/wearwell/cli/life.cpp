@@ -9,16 +9,19 @@
 #include <string>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/cli/carried.h"
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/input/option_value.h"
+#include "wearwell/input/toml_reader.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/table.h"
 #include "wearwell/prognosis/known_lives.h"
 #include "wearwell/prognosis/new_data.h"
 #include "wearwell/prognosis/reweighted.h"
+#include "wearwell/prognosis/tracked_life.h"
 #include "wearwell/prognosis/unit_life.h"
 #include "wearwell/prognosis/updated_study.h"
 #include "wearwell/study/inference_data.h"
@@ -98,6 +101,7 @@ ordered_json json_of(const UnitLife& life, const Moved& moved, bool trusted) {
                        {"trusted", trusted}};
   if (life.from) json["from"] = *life.from;
   if (life.passed) json["passed"] = *life.passed;
+  if (life.never) json["never"] = *life.never;
   for (const auto& [key, p] : {std::pair{"q05", 0.05},
                                {"q50", 0.5},
                                {"q95", 0.95},
@@ -176,6 +180,8 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
   if (life.passed)
     fmt::print("  the end lies before that with a probability of {}; given that it does not:\n",
                probability_in_words(*life.passed));
+  if (life.never)
+    fmt::print("  with a probability of {} it never ends\n", probability_in_words(*life.never));
   for (const prognosis::Contradiction& each : moved.contradictions)
     fmt::print("  look at {}: {}\n", each.place, each.why);
   fmt::print("  median {} {}, 90 % interval {} .. {}\n", shown(life.quantile(0.5)), life.unit,
@@ -189,6 +195,36 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
              shown(life.inspect_within), life.unit, probability_in_words(life.risk));
 }
 
+// A name of a part may be that of a stress as well.
+void refuse_two_meanings(const prognosis::CarriedState& state, const std::string& name,
+                         const std::string& asked) {
+  if (name != asked) return;  // "part shaft"
+  const auto predict = TomlReader::parse(state.source.study).table("predict");
+  const auto stresses = predict ? predict->table("stress") : std::nullopt;
+  if (stresses && stresses->has(name))
+    throw InputError(
+        fmt::format("--unit: '{0}' is a part of the data and a stress of [predict.stress]: write "
+                    "'part {0}' for "
+                    "the first, or give the stress another name",
+                    printable(name)));
+}
+
+// A part of an S-N study that has a name there is asked for by it; all else by what the study tells of lives.
+UnitLife life_asked(const LifeOptions& options, Models models, const prognosis::CarriedState& state,
+                    const prognosis::LifeQuestion& question) {
+  const prognosis::ReadAsked read = [&](const Source& source) {
+    return read_study(source, models);
+  };
+  if (state.model == "sn" && !question.unit.empty()) {
+    const auto tracker = tracker_of(state, options.result, models);
+    if (const auto name = prognosis::tracked_name(*tracker, question.unit)) {
+      refuse_two_meanings(state, *name, question.unit);
+      return prognosis::tracked_life(*tracker, *name, question);
+    }
+  }
+  return prognosis::unit_life(state.source, read, state.posterior, question);
+}
+
 int run_life(const LifeOptions& options, Models models) {
   refuse_overwriting({{"the result", options.result}, {"the readings", options.readings}},
                      {{"--output", options.output}, {"--path", options.path}});
@@ -200,9 +236,7 @@ int run_life(const LifeOptions& options, Models models) {
   prognosis::CarriedState state = read_carried(options.result);
   Moved moved;
   if (!options.readings.empty()) moved = take_readings(options, models, state);
-  const UnitLife life = prognosis::unit_life(
-      state.source, [&](const Source& source) { return read_study(source, models); },
-      state.posterior, question);
+  const UnitLife life = life_asked(options, models, state, question);
   std::string path;
   if (!options.path.empty()) path = present::csv(path_ahead(options, models, state));
   if (!options.output.empty()) write_file(options.output, present::csv(table_of(life)));
@@ -227,9 +261,9 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
   life->add_option("RESULT", options->result, "Folder that fit or update wrote, or its state.bin")
       ->required();
   life->add_option("--unit", options->unit,
-                   "Whose life: a label of the data (a machine, a bearing), or a stress of an S-N "
-                   "study (default: a "
-                   "new one; of a joint, the joint)");
+                   "Whose life: a label of the data (a machine, a bearing, a part that did not "
+                   "break), or a stress of an S-N study (default: a new one; of a joint, the "
+                   "joint)");
   life->add_option("--survived", options->survived,
                    "What it has come to, with its unit (default: its last reading)");
   life->add_option("--readings", options->readings, "Table of readings since then")
@@ -242,7 +276,7 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
       ->type_name("FILE");
   life->add_option("--path", options->path,
                    "Write the path ahead as CSV: what the limit is of, 5, 50 and 95 % (of a law, a "
-                   "bearing, a joint)")
+                   "bearing, a joint, a part)")
       ->type_name("FILE");
   life->add_flag("--json", options->json, "Print one JSON object and nothing else");
   life->footer(

@@ -180,6 +180,7 @@ void Fleet::forecast(Unit& unit) {
   UnitView& view = seen->view;
   const UnitRecord& record = unit.record;
   view.unit = record.unit;
+  view.known = known;
   view.at = told_.at(forecast.now);
   // No reading is younger than its message, whatever the clock of its sender says.
   view.last_reading_ms = record.last_time_ms

@@ -114,6 +114,7 @@
   const tile = (what, value, note) => element('div', {}, element('dt', {}, what), element('dd', {class: 'value'}, value), element('dd', {class: 'note'}, note));
 
   function lead(view) {
+    if (!view.known) return element('p', {class: 'lead'}, `Nothing is known of this ${fleet.noun} yet: no reading says how it goes on.`);
     const sure = view.passed > 0.5 ? `With probability ${probability(view.passed)} this ${fleet.noun} has reached its limit of ${given(fleet.limit, fleet.level_unit)} already.`
                                    : `This ${fleet.noun} reaches its limit of ${given(fleet.limit, fleet.level_unit)} within the next ${given(fleet.horizon, fleet.axis_unit)} with probability ${probability(view.risk)}.`;
     return element('p', {class: 'lead'}, sure);
@@ -121,6 +122,7 @@
 
   function tiles(view) {
     const last = view.last_reading_ms;
+    if (!view.known) return element('dl', {class: 'tiles'}, tile('Last reading', last ? `${wearwell.age(wearwell.now() - last)} ago` : 'none', last ? wearwell.clock(last) : 'none came yet'));
     return element('dl', {class: 'tiles'},
         tile('Remaining life', quantity(view.remaining.q50, fleet.axis_unit), `90 %: ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}${view.passed > 0.01 ? '; if the limit is not behind it' : ''}`),
         tile('B10', quantity(view.b10, fleet.axis_unit), '90 % of its like last longer'),
@@ -148,6 +150,7 @@
   const busy = () => detail.querySelector('svg.plot:hover, svg.plot:focus') !== null;
 
   function figures(view) {
+    if (!view.known) return element('div', {class: 'figures'});
     const room = detail.clientWidth - 2 * parseFloat(getComputedStyle(detail).paddingLeft);
     const half = room > 860 ? (room - 28) / 2 : room;
     const made = element('div', {class: 'figures'}, wearwell.plot(pathFigure(view), room));

@@ -16,6 +16,15 @@ Json json_of_interval(const Interval& interval) {
       {"q05", number(interval.q05)}, {"q50", number(interval.q50)}, {"q95", number(interval.q95)}};
 }
 
+// Of a unit of which nothing is known there is no number.
+Json json_of_known(const UnitView& unit, double x) {
+  return unit.known ? number(x) : Json(nullptr);
+}
+
+Json json_of_known(const UnitView& unit, const Interval& interval) {
+  return unit.known ? json_of_interval(interval) : Json(nullptr);
+}
+
 Json json_of_moment(const UnitMoment& moment) {
   return {{"time_ms", moment.time_ms},
           {"at", number(moment.at)},
@@ -56,13 +65,14 @@ Json json_of(const FleetView& fleet) {
 Json json_of(const UnitView& unit) {
   return {{"unit", unit.unit},
           {"alarm", name(unit.alarm)},
-          {"at", number(unit.at)},
+          {"known", unit.known},
+          {"at", json_of_known(unit, unit.at)},
           {"last_reading_ms", unit.last_reading_ms},
-          {"level", json_of_interval(unit.level)},
-          {"remaining", json_of_interval(unit.remaining)},
-          {"b10", number(unit.b10)},
-          {"risk", number(unit.risk)},
-          {"passed", number(unit.passed)},
+          {"level", json_of_known(unit, unit.level)},
+          {"remaining", json_of_known(unit, unit.remaining)},
+          {"b10", json_of_known(unit, unit.b10)},
+          {"risk", json_of_known(unit, unit.risk)},
+          {"passed", json_of_known(unit, unit.passed)},
           {"quality",
            {{"readings", unit.quality.readings},
             {"repeated", unit.quality.repeated},

@@ -37,12 +37,13 @@
     // What remains if the limit is not behind it says little where it most likely is.
     const past = each.passed > 0.5;
     const life = past ? `limit reached${each.passed > 0.99 ? '' : `, ${wearwell.probability(each.passed)}`}`
+                 : !each.known ? 'not known'
                       : wearwell.range(each.remaining.q05, each.remaining.q95, fleet.axis_unit);
     return [
       wearwell.badge(each.alarm),
       element('span', {class: 'name'}, each.unit),
-      element('span', {class: 'risk'}, element('span', {class: 'unseen'}, 'risk '), risk, wearwell.probability(each.risk)),
-      element('span', {class: past ? 'life past' : 'life'}, past ? null : interval(each.remaining),
+      element('span', {class: 'risk'}, element('span', {class: 'unseen'}, 'risk '), each.known ? risk : null, each.known ? wearwell.probability(each.risk) : '–'),
+      element('span', {class: past ? 'life past' : 'life'}, past || !each.known ? null : interval(each.remaining),
               element('span', {class: 'unseen'}, 'remaining life '), element('span', {class: 'range'}, life)),
       element('span', {class: 'age'}, element('span', {class: 'unseen'}, 'last reading '),
               each.last_reading_ms ? wearwell.age(wearwell.now() - each.last_reading_ms) : 'none')];

@@ -108,9 +108,17 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
     text->family(name, "gauge", help);
     for (std::size_t i = 0; i < units.size(); ++i) text->sample(labels[i], value(units[i]));
   };
+  // A sample that is missing is what is not known.
+  const auto known = [&](const char* name, const char* help,
+                         const std::function<double(const UnitView&)>& value) {
+    text->family(name, "gauge", help);
+    for (std::size_t i = 0; i < units.size(); ++i)
+      if (units[i].known) text->sample(labels[i], value(units[i]));
+  };
   const auto interval = [&](const char* name, const char* help, Interval UnitView::*of) {
     text->family(name, "gauge", help);
     for (std::size_t i = 0; i < units.size(); ++i) {
+      if (!units[i].known) continue;
       const Interval& value = units[i].*of;
       text->sample(labels[i] + ",percentile=\"5\"", value.q05);
       text->sample(labels[i] + ",percentile=\"50\"", value.q50);
@@ -122,15 +130,15 @@ void add_units(const std::vector<UnitView>& units, Text* text) {
   text->sample("", static_cast<double>(units.size()));
   gauge("wearwell_unit_alarm", "0: ok, 1: watch, 2: act, -1: unknown.",
         [](const UnitView& unit) { return code(unit.alarm); });
-  gauge("wearwell_unit_risk_ratio", "Probability that the limit is reached within the horizon.",
+  known("wearwell_unit_risk_ratio", "Probability that the limit is reached within the horizon.",
         [](const UnitView& unit) { return unit.risk; });
-  gauge("wearwell_unit_passed_ratio", "Probability that the limit is reached already.",
+  known("wearwell_unit_passed_ratio", "Probability that the limit is reached already.",
         [](const UnitView& unit) { return unit.passed; });
-  gauge("wearwell_unit_position", "How far the unit has come, in axis_unit.",
+  known("wearwell_unit_position", "How far the unit has come, in axis_unit.",
         [](const UnitView& unit) { return unit.at; });
   interval("wearwell_unit_level", "What the limit is of, now, in level_unit.", &UnitView::level);
   interval("wearwell_unit_remaining", "Remaining life, in axis_unit.", &UnitView::remaining);
-  gauge("wearwell_unit_remaining_b10", "Remaining life that 90 % exceed, in axis_unit.",
+  known("wearwell_unit_remaining_b10", "Remaining life that 90 % exceed, in axis_unit.",
         [](const UnitView& unit) { return unit.b10; });
   gauge("wearwell_unit_last_reading_timestamp_seconds",
         "When a reading last came, Unix time; 0: none yet.",

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <tuple>
 
 #include "wearwell/monitor/fleet.h"
 #include "wearwell/monitor/fleet_seen.h"
@@ -68,10 +69,12 @@ std::vector<UnitView> Fleet::units(const std::string& search, std::size_t offset
       if (wanted.empty() || lower(name).find(wanted) != std::string::npos) found.push_back(seen);
     }
   }
-  // Where risks are equal, who has less before it; then by name, as they stand.
+  // Where risks are equal, who has less before it; then by name, as they stand. Of whom nothing is known comes last.
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    return std::pair(-a->view.risk, a->view.remaining.q05) <
-           std::pair(-b->view.risk, b->view.remaining.q05);
+    const auto order = [](const UnitView& view) {
+      return std::tuple(!view.known, -view.risk, view.remaining.q05);
+    };
+    return order(a->view) < order(b->view);
   });
   if (matching) *matching = found.size();
   std::vector<UnitView> views;
@@ -96,7 +99,7 @@ std::optional<UnitDetail> Fleet::unit(const std::string& name) const {
   detail.moments = *seen->moments;
   // The last reading need not be among those that are kept; what is known now stands for it.
   const UnitView& view = seen->view;
-  if (detail.moments.empty() || detail.moments.back().at < view.at) {
+  if (view.known && (detail.moments.empty() || detail.moments.back().at < view.at)) {
     UnitMoment now;
     now.time_ms = view.last_reading_ms;
     now.at = view.at;

@@ -23,6 +23,18 @@ present::Table fleet_table(const FleetReader& reader, std::size_t most) {
   };
   constexpr double percent = 100;
   for (const UnitView& unit : reader.units("", 0, most)) {
+    if (!unit.known) {
+      table.rows.push_back({printable(unit.unit),
+                            std::string(name(unit.alarm)),
+                            {},
+                            {},
+                            {},
+                            {},
+                            {},
+                            {},
+                            present::count(unit.quality.readings)});
+      continue;
+    }
     table.rows.push_back({printable(unit.unit), std::string(name(unit.alarm)), unit.at,
                           unit.level.q50, Range{unit.level.q05, unit.level.q95}, unit.remaining.q50,
                           Range{unit.remaining.q05, unit.remaining.q95}, percent * unit.risk,

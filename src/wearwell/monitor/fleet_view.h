@@ -25,6 +25,9 @@ struct Quality {
 struct UnitView {
   std::string unit;
   Alarm alarm = Alarm::unknown;
+  /// False: no reading and no word of the study says how it goes on; then `at`, `level`, `remaining`, `b10`, `risk` and
+  /// `passed` mean nothing, and nobody shows them.
+  bool known = true;
   double at = 0;                     ///< along the axis
   std::int64_t last_reading_ms = 0;  ///< Unix time of its last message; 0: none
   Interval level;                    ///< wear, now

@@ -128,8 +128,10 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
     ++record.judged;
     record.held += taken.surprise >= outside;
   }
-  if (is_kept_moment(record.readings))
-    record.moments.push_back(moment_of(reading, record.state->forecast(), units));
+  if (!is_kept_moment(record.readings)) return;
+  const prognosis::Forecast forecast = record.state->forecast();
+  // Where nothing says how it goes on, nothing was forecast.
+  if (!std::isnan(forecast.passed)) record.moments.push_back(moment_of(reading, forecast, units));
 }
 
 UnitRecord begun_record(const std::string& unit, const prognosis::Tracker& tracker) {

@@ -82,7 +82,7 @@ DataRoles data_roles(const TomlReader& root, const Table& table) {
     roles.used.push_back(std::move(named));
   }
   const std::string model = root.required_text("model");
-  roles.words = columns_of(roles, {"bearing", "contact", "label", "status"});
+  roles.words = columns_of(roles, {"bearing", "contact", "label", "part", "status"});
   if (model == "law") {
     read_law_roles(root, table, roles);
   } else if (model == "archard-joint") {

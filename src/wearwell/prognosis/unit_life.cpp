@@ -30,42 +30,6 @@ double probit(double p) {
   return boost::math::quantile(boost::math::normal(), p);
 }
 
-// Percentages at which a life is told, and the risk that is asked for.
-std::vector<double> levels_of(double risk) {
-  std::vector<double> levels = {0.01, 0.03, 0.1, 0.3, 0.5, 1,  2,    3,    5,
-                                7,    93,   95,  97,  98,  99, 99.5, 99.9, 99.99};
-  for (int percent = 10; percent <= 90; percent += 5) levels.push_back(percent);
-  const double at = 100 * risk;
-  if (std::none_of(levels.begin(), levels.end(),
-                   [&](double each) { return std::abs(each - at) < 1e-9 * at; }))
-    levels.push_back(at);
-  std::sort(levels.begin(), levels.end());
-  return levels;
-}
-
-// A length along the axis of lives in the unit in which they are told.
-double along(const char* option, const std::string& text, const std::string& unit) {
-  const bool counted = unit == "cycles" || unit == "revolutions" || unit.ends_with(" cycles");
-  const std::string si = unit == "revolutions" ? "rev" : counted ? "cycle" : unit;
-  const double one = unit.ends_with(" cycles") ? read_unit(unit, "cycle").scale : 1;
-  try {
-    const Quantity given = read_quantity(text, si);
-    const double value = counted ? given.si() / one : from_si(read_unit(unit, si), given.si());
-    if (value >= 0 && std::isfinite(value)) return value;
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", option, error.what()));
-  }
-  throw InputError(fmt::format("{}: '{}' must not be negative", option, text));
-}
-
-void finish(const LifeQuestion& question, UnitLife& life) {
-  life.risk = question.risk.value_or(life.risk);
-  life.inspect_within = life.quantile(life.risk);
-  if (!question.horizon) return;
-  life.horizon = along("--horizon", *question.horizon, life.unit);
-  life.reached = life.cdf(*life.horizon);
-}
-
 // Of a study with one life: that of a joint, or of a new bearing.
 UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
                     const LifeQuestion& question) {
@@ -76,7 +40,7 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
   life.risk = request.risk;
   double from = request.now;
   if (question.survived) {
-    const double survived = along("--survived", *question.survived, life.unit);
+    const double survived = along_life("--survived", *question.survived, life.unit);
     if (survived < from)
       throw InputError(
           fmt::format("--survived: {} lies before the last inspection, after {:.6g} {}: leave it "
@@ -93,12 +57,12 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
         "the {} has reached its limit before {:.6g} {} with a probability of more than 99.9 %: "
         "of what would remain nothing is known",
         life.of, from, life.unit));
-  for (const double percent : levels_of(question.risk.value_or(life.risk))) {
+  for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
     const double p = percent / 100;
     life.share.push_back(p);
     life.life.push_back(std::max(0.0, law.quantile(before + p * (1 - before)) - from));
   }
-  finish(question, life);
+  answer(question, life);
   return life;
 }
 
@@ -107,7 +71,12 @@ struct Found {
   QuantityRequest request;
   std::map<double, double> by_percent;  // in its unit
   std::optional<double> survival;
+  std::optional<double> never;
 };
+
+// So far comes only what has no end.
+constexpr const char* for_ever = "1e300 cycles";
+constexpr const char* to_for_ever = "survival to 1e+300 cycles";
 
 std::string without_new(const std::string& of) {
   return of.starts_with("new ") ? of.substr(4) : of;
@@ -124,11 +93,15 @@ std::vector<Found> lives_of(const PosteriorStudy& study, const WeightedDraws& po
     const std::vector<QuantityQuantiles> answers = group.from_draws(posterior);
     for (const QuantityRequest& life : requests) {
       if (!life.is_life) continue;
-      Found each{life, {}, {}};
+      Found each{life, {}, {}, {}};
       for (std::size_t i = 0; i < requests.size(); ++i) {
         const QuantityRequest& other = requests[i];
         if (other.of != life.of && other.of != without_new(life.of)) continue;
-        if (other.name.starts_with("survival to ")) each.survival = answers[i].q50;
+        if (other.name == to_for_ever) {
+          each.never = answers[i].predictive;
+        } else if (study.model == "law" && other.name.starts_with("survival to ")) {
+          each.survival = answers[i].q50;
+        }
         if (other.at != life.at || !answers[i].predictive) continue;
         for (const double percent : levels) {
           if (other.name == b_life_name(percent, life.name))
@@ -276,6 +249,8 @@ UnitLife described(const Found& found) {
     life.life.push_back(before);
   }
   if (found.survival) life.passed = 1 - *found.survival;
+  constexpr double hardly = 1e-9;
+  if (found.never && *found.never > hardly) life.never = *found.never;
   return life;
 }
 
@@ -283,17 +258,18 @@ UnitLife described(const Found& found) {
 UnitLife of_tests(const Source& source, const ReadAsked& read, const WeightedDraws& posterior,
                   const LifeQuestion& question, UnitLife life) {
   if (!question.survived) return life;
-  const double from = along("--survived", *question.survived, life.unit);
+  const double from = along_life("--survived", *question.survived, life.unit);
   const double before = life.cdf(from);
   if (before > 1 - 1e-3)
     throw InputError(
         fmt::format("--survived: hardly any {} comes to {}", life.of, *question.survived));
   std::vector<double> levels, shares;
-  for (const double percent : levels_of(question.risk.value_or(life.risk))) {
+  for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
     shares.push_back(percent / 100);
     levels.push_back(100 * (before + percent / 100 * (1 - before)));
   }
   const auto asked = read(with_wishes(source, {{"b_lives", list_of(levels)}}));
+  if (life.never) *life.never /= 1 - before;
   const std::vector<Found> all = lives_of(require_posterior_study(*asked), posterior, levels);
   const UnitLife again =
       described(found_of(chosen(lives_asked(require_posterior_study(*asked)), question), all));
@@ -307,6 +283,40 @@ UnitLife of_tests(const Source& source, const ReadAsked& read, const WeightedDra
 }
 
 }  // namespace
+
+std::vector<double> life_percentages(double risk) {
+  std::vector<double> levels = {0.01, 0.03, 0.1, 0.3, 0.5, 1,  2,    3,    5,
+                                7,    93,   95,  97,  98,  99, 99.5, 99.9, 99.99};
+  for (int percent = 10; percent <= 90; percent += 5) levels.push_back(percent);
+  const double at = 100 * risk;
+  if (std::none_of(levels.begin(), levels.end(),
+                   [&](double each) { return std::abs(each - at) < 1e-9 * at; }))
+    levels.push_back(at);
+  std::sort(levels.begin(), levels.end());
+  return levels;
+}
+
+double along_life(const char* option, const std::string& text, const std::string& unit) {
+  const bool counted = unit == "cycles" || unit == "revolutions" || unit.ends_with(" cycles");
+  const std::string si = unit == "revolutions" ? "rev" : counted ? "cycle" : unit;
+  const double one = unit.ends_with(" cycles") ? read_unit(unit, "cycle").scale : 1;
+  try {
+    const Quantity given = read_quantity(text, si);
+    const double value = counted ? given.si() / one : from_si(read_unit(unit, si), given.si());
+    if (value >= 0 && std::isfinite(value)) return value;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
+  throw InputError(fmt::format("{}: '{}' must not be negative", option, text));
+}
+
+void answer(const LifeQuestion& question, UnitLife& life) {
+  life.risk = question.risk.value_or(life.risk);
+  life.inspect_within = life.quantile(life.risk);
+  if (!question.horizon) return;
+  life.horizon = along_life("--horizon", *question.horizon, life.unit);
+  life.reached = life.cdf(*life.horizon);
+}
 
 double UnitLife::quantile(double p) const {
   const auto above = std::lower_bound(share.begin(), share.end(), p * (1 - 1e-12));
@@ -349,8 +359,9 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
   }
   const bool law = study.model == "law";
   const double risk = question.risk.value_or(UnitLife{}.risk);
-  const std::vector<double> levels = levels_of(risk);
+  const std::vector<double> levels = life_percentages(risk);
   std::vector<std::pair<std::string, std::string>> keys = {{"b_lives", list_of(levels)}};
+  if (study.model == "sn") keys.emplace_back("survival_to", nlohmann::json(for_ever).dump());
   if (law && question.survived)
     keys.emplace_back("survived", nlohmann::json(*question.survived).dump());
   auto asked = read(with_wishes(source, keys));
@@ -366,7 +377,7 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
   const std::vector<Found> all = lives_of(require_posterior_study(*asked), posterior, levels);
   UnitLife life = described(found_of(mine, all));
   if (!law) life = of_tests(source, read, posterior, question, std::move(life));
-  finish(question, life);
+  answer(question, life);
   return life;
 }
 

@@ -25,6 +25,7 @@ struct UnitLife {
   std::string name = {};                    ///< "life", or "remaining life"
   std::optional<double> from = {};          ///< along the axis
   std::optional<double> passed = {};        ///< the probability that the end lies before that
+  std::optional<double> never = {};  ///< where that may be: the probability that life has no end
   /// Rising: the life by which so many have ended; the last may be infinite.
   std::vector<double> share = {}, life = {};
   double risk = 0.01, inspect_within = 0;
@@ -33,6 +34,13 @@ struct UnitLife {
   double quantile(double p) const;  ///< between the shares a straight line in probits of log life
   double cdf(double life_until) const;
 };
+
+/// Percentages at which lives are told, rising, with the risk of the question among them.
+std::vector<double> life_percentages(double risk);
+/// "1e4 cycles" in the unit in which lives are told. Throws InputError that names the option.
+double along_life(const char* option, const std::string& text, const std::string& unit);
+/// What follows from the shares: the next inspection, and what the horizon asks. Throws InputError.
+void answer(const LifeQuestion& question, UnitLife& life);
 
 /// Reads a study of the same data and law with other wishes.
 using ReadAsked = std::function<std::unique_ptr<const Study>(const Source& source)>;

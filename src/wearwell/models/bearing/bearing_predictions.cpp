@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/models/bearing/bearing_ahead.h"
 #include "wearwell/models/bearing/seen_bearing.h"
 #include "wearwell/models/bearing/wear_number.h"
 #include "wearwell/study/life_levels.h"
@@ -36,25 +37,14 @@ class Predictions {
   Predictions(const TomlReader& predict, const bearing::WearModel& model, const BearingData& data,
               double k, PosteriorStudy& study)
       : predict_(predict), model_(model), data_(data), k_(k), study_(study) {
-    contact_ = contact_in(predict).value_or(data.common.contact.value_or(Contact::stationary));
-    has_contact_ = predict.has("contact") || data.common.contact;
-    radius_ = mine("radius", "m", data.common.radius);
-    clearance_ = mine("clearance", "m", data.common.clearance);
-    speed_ = mine("speed", "rev/s", data.common.speed);
-    force_ = positive_quantity(predict, "force", "N");
-    const auto length = positive_quantity(predict, "length", "m");
-    pressure_ = mine("pressure", "Pa", data.common.pressure);
-    if (length) {
-      if (!force_) predict.fail("length", "needs predict.force: together they are a pressure");
-      if (predict.has("pressure")) {
-        predict.fail("pressure", "is given beside force and length; keep one way to say the load");
-      }
-      const Unit& unit = data.pressure_unit;
-      pressure_ = Quantity{
-          from_si(unit, force_->si() / (2 * need(radius_, "radius", "length").si() * length->si())),
-          unit};
-      force_.reset();  // its length is known
-    }
+    const BearingAhead ahead = read_bearing_ahead(predict, data);
+    contact_ = ahead.contact.value_or(Contact::stationary);
+    has_contact_ = ahead.contact.has_value();
+    radius_ = ahead.radius;
+    clearance_ = ahead.clearance;
+    speed_ = ahead.speed;
+    force_ = ahead.force;
+    pressure_ = ahead.pressure;
   }
 
   PredictedBearing read() {
@@ -95,12 +85,6 @@ class Predictions {
   }
 
  private:
-  std::optional<Quantity> mine(const char* name, const char* si,
-                               const std::optional<Quantity>& common) const {
-    const auto own = positive_quantity(predict_, name, si);
-    return own ? own : common;
-  }
-
   const Quantity& need(const std::optional<Quantity>& quantity, const char* name,
                        const char* key) const {
     if (!quantity) {

@@ -12,6 +12,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/math/constants.h"
+#include "wearwell/models/bearing/bearing_ahead.h"
 #include "wearwell/models/bearing/bearing_data.h"
 #include "wearwell/models/bearing/bearing_study.h"
 #include "wearwell/models/bearing/rate_grid.h"
@@ -51,34 +52,16 @@ class Curves {
   mutable std::map<std::pair<Contact, double>, std::shared_ptr<const DepthCurve>> curves_;
 };
 
-// What is said of the bearings to come, and else of none.
-struct Ahead {
-  std::optional<Contact> contact;
-  std::optional<double> radius, clearance, pressure, speed;
+// What is said of the bearings to come, and the limit.
+struct Ahead : BearingAhead {
   Quantity limit;
 };
 
-Ahead read_ahead(const TomlReader& root, const BearingCommon& common) {
+Ahead read_ahead(const TomlReader& root, const BearingData& data) {
   const auto predict = root.table("predict");
   const auto limit = predict ? positive_quantity(*predict, "limit", "m") : std::nullopt;
   if (!limit) root.fail("predict", "needs limit: bearings are followed until they are so deep");
-  const auto mine = [&](const char* name, const char* si, const std::optional<Quantity>& of_all) {
-    const auto own = positive_quantity(*predict, name, si);
-    return own || of_all ? std::optional((own ? *own : *of_all).si()) : std::nullopt;
-  };
-  Ahead ahead;
-  ahead.contact = contact_in(predict);
-  if (!ahead.contact) ahead.contact = common.contact;
-  ahead.radius = mine("radius", "m", common.radius);
-  ahead.clearance = mine("clearance", "m", common.clearance);
-  ahead.pressure = mine("pressure", "Pa", common.pressure);
-  ahead.speed = mine("speed", "rev/s", common.speed);
-  ahead.limit = *limit;
-  const auto length = positive_quantity(*predict, "length", "m");
-  const auto force = positive_quantity(*predict, "force", "N");
-  if (length && force && ahead.radius)
-    ahead.pressure = force->si() / (2 * *ahead.radius * length->si());
-  return ahead;
+  return {read_bearing_ahead(*predict, data), *limit};
 }
 
 struct Population {
@@ -93,7 +76,7 @@ struct Population {
       : model(read_wear_model(root)),
         data(read_bearing_data(root, state.source, model.family)),
         rows(root, data, model.family),
-        ahead(read_ahead(root, data.common)),
+        ahead(read_ahead(root, data)),
         few(state.posterior, model.has_scatter ? few_points : points_alone),
         many(state.posterior, many_points) {}
 
@@ -183,19 +166,20 @@ std::optional<prognosis::NodeCourse> course(const Shared& population, const std:
     last = row;
   GoingOn going;
   const double own_speed = last ? last->speed.value_or(0) : 0;
-  const double speed = ahead.speed.value_or(own_speed);
+  const double speed = ahead.speed ? ahead.speed->si() : own_speed;
   if (last) {
     going.now = last->duty;
     going.begin = last->place;
   } else {
     if (!ahead.contact || !ahead.radius || !ahead.clearance || !ahead.pressure) return {};
-    going.now = {*ahead.contact, *ahead.radius, *ahead.clearance, *ahead.pressure, 0};
+    going.now = {*ahead.contact, ahead.radius->si(), ahead.clearance->si(), ahead.pressure->si(),
+                 0};
   }
   if (population->rows.in_time()) {
     if (!(speed > 0)) return {};
     going.per_turn = 1 / speed;
   }
-  going.pressure = ahead.pressure.value_or(going.now.pressure);
+  going.pressure = ahead.pressure ? ahead.pressure->si() : going.now.pressure;
   const Duty& duty = going.now;
   try {
     going.wear_number =

@@ -157,12 +157,12 @@ double life_center(const SnLaw& law, const double* x, double log10_reversed) {
   return center(law, law.log10_life(x, log10_reversed));
 }
 
-void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x,
-              double log10_reversed, LimitStrata strata) {
+void each_life(const SnLaw& law, const double* x, double log10_reversed, LimitStrata strata,
+               const std::function<void(double share, double center, double sigma)>& take) {
   const double middle = life_center(law, x, log10_reversed);
   const double sigma = law.sigma_at(x, middle);
-  if (!law.limit || std::isinf(log10_reversed)) return lives.add(weight, middle, sigma);
-  if (!law.integrated()) return lives.add(weight * reached(law, x, log10_reversed), middle, sigma);
+  if (!law.limit || std::isinf(log10_reversed)) return take(1, middle, sigma);
+  if (!law.integrated()) return take(reached(law, x, log10_reversed), middle, sigma);
   // Slices of equal width reach into the tails, where the weak items are.
   constexpr double golden = 0.6180339887498949;  // its multiples are the most even modulo 1
   constexpr double negligible = 1e-9;
@@ -176,10 +176,17 @@ void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x
     // The first and the last slice hold what is beyond.
     const double until = first + (static_cast<double>(i) + shift) * width;
     const double through = i == strata.count ? 1 : wearwell::cdf(*law.limit, until);
-    lives.add(weight * (through - below),
-              center(law, law.log10_life_of_item(x, log10_reversed, until - 0.5 * width)), sigma);
+    take(through - below,
+         center(law, law.log10_life_of_item(x, log10_reversed, until - 0.5 * width)), sigma);
     below = through;
   }
+}
+
+void add_life(MixedLife& lives, double weight, const SnLaw& law, const double* x,
+              double log10_reversed, LimitStrata strata) {
+  each_life(law, x, log10_reversed, strata, [&](double share, double center, double sigma) {
+    lives.add(weight * share, center, sigma);
+  });
 }
 
 namespace {

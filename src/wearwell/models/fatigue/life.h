@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "wearwell/models/fatigue/sn_law.h"
@@ -52,6 +53,11 @@ double life_center(const SnLaw& law, const double* x, double log10_reversed);
 struct LimitStrata {
   std::size_t count = 200, index = 0;
 };
+
+/// The laws whose mixture is the life under a fully reversed stress whose logarithm [Pa] is given, at parameters x: their shares, and
+/// where they lie as `MixedLife::add` takes it. What is missing to 1 has no end.
+void each_life(const SnLaw& law, const double* x, double log10_reversed, LimitStrata strata,
+               const std::function<void(double share, double center, double sigma)>& take);
 
 /// Adds the life under a fully reversed stress whose logarithm [Pa] is given, for parameters x of
 /// this weight.

@@ -1,6 +1,7 @@
 #include "wearwell/models/fatigue/model.h"
 
 #include "wearwell/models/fatigue/commands.h"
+#include "wearwell/models/fatigue/part_tracker.h"
 #include "wearwell/models/fatigue/sn_first.h"
 #include "wearwell/models/fatigue/sn_keys.h"
 #include "wearwell/models/fatigue/sn_study.h"
@@ -40,7 +41,8 @@ Model model() {
           .read = read,
           .add_commands = add_commands,
           .keys = study_keys,
-          .first_study = first_study};
+          .first_study = first_study,
+          .track = track_parts};
 }
 
 Model staircase() {
@@ -64,15 +66,20 @@ Model strain_life() {
           .trade = "strain-life",
           .example = example,
           .read = read,
-          .add_commands = nullptr};
+          .add_commands = nullptr,
+          .track = track_parts};
 }
 
 Model spectrum() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::spectrum_study},
                                             {"tests.csv", resource::spectrum_data},
                                             {"loads.csv", resource::spectrum_loads}};
-  return {
-      .key = "sn", .trade = "spectrum", .example = example, .read = read, .add_commands = nullptr};
+  return {.key = "sn",
+          .trade = "spectrum",
+          .example = example,
+          .read = read,
+          .add_commands = nullptr,
+          .track = track_parts};
 }
 
 }  // namespace fatigue

@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/models/fatigue/read_outcome.h"
@@ -157,6 +158,27 @@ std::vector<Stress> read_stresses(const TomlReader& columns,
   return stresses;
 }
 
+// A part is one test of the table: what it shows later is told of it by name.
+void read_part(const Table& table, const ColumnChoice& choice, std::size_t row,
+               const LifeTest& test, std::vector<std::string>& parts) {
+  const std::string name = cell_word(table.column(choice.column), row);
+  if (name.empty())
+    throw InputError(
+        fmt::format("{}: no value; each part has a name of its own, or leave out "
+                    "data.columns.part",
+                    place(table, choice.column, row)));
+  if (test.count != 1)
+    throw InputError(fmt::format("{}: '{}' is one part, and its row stands for {}",
+                                 place(table, choice.column, row), printable(name), test.count));
+  const auto before = std::find(parts.begin(), parts.end(), name);
+  if (before != parts.end())
+    throw InputError(fmt::format(
+        "{}: '{}' is row {} already, and a part is one test here: keep the row that says most. One "
+        "that was tested on under more stress is not new, and no row of these",
+        place(table, choice.column, row), printable(name), before - parts.begin() + 1));
+  parts.push_back(name);
+}
+
 }  // namespace
 
 Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t row) {
@@ -287,6 +309,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   const auto status = read_word_column(columns, "status", table);
   const auto count = read_column(columns, "count", "1", table);
   const auto label = read_word_column(columns, "label", table);
+  const auto part = read_word_column(columns, "part", table);
   const std::vector<double> lives = si_numbers(table, life);
   data.columns.push_back({"life", "cycle", life.unit, lives});
   const std::vector<double> counts = count ? si_numbers(table, *count) : std::vector<double>();
@@ -328,6 +351,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
     any_broke = any_broke || test.outcome != Outcome::runout;
     data.tests.push_back(test);
     data.labels.push_back(label ? cell_word(table.column(label->column), i) : "");
+    if (part) read_part(table, *part, i, test, data.parts);
   }
   if (!any_broke) {
     throw InputError(fmt::format(

@@ -17,7 +17,8 @@ namespace wearwell {
 struct SnData {
   fatigue::LifeTests tests;         ///< one a row
   std::vector<std::string> labels;  ///< one a row: the type of specimen; empty where there is none
-  std::string stress_si = "Pa";     ///< what drives the lives: a stress, or a force, a strain, ...
+  std::vector<std::string> parts;  ///< one a row: its name; none where the study has no such column
+  std::string stress_si = "Pa";    ///< what drives the lives: a stress, or a force, a strain, ...
   Unit stress_unit;
   Unit life_unit;      ///< "cycles", "1e5 cycles"
   std::string source;  ///< the file, for messages

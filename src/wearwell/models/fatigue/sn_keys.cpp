@@ -142,6 +142,9 @@ StudyKeys study_keys() {
         "failure, runout, left or interval; without it all failed"},
        {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
        {"data.columns.label", "\"type\"", "a name, for predict.types and the report"},
+       {"data.columns.part", "\"part\"",
+        "a name of its own for each, so that run-outs can be followed "
+        "([tracking.md](tracking.md))"},
        needed_key("law.mean_stress", "\"goodman\"",
                   "how a mean stress shortens life ([fatigue.md](fatigue.md))"),
        {"law.fatigue_limit", "\"random\"", "whether there is a fatigue limit (none)"},

@@ -65,55 +65,6 @@ void read_curve(const TomlReader& table, bool random_limit, SnLaw& law) {
   }
 }
 
-SnLaw read_law(const TomlReader& root) {
-  SnLaw law;
-  const auto table = root.table("law");
-  const auto correction =
-      table ? table->choice("mean_stress", fatigue::mean_stress_names()) : std::nullopt;
-  if (!correction) {
-    root.fail("law",
-              "needs mean_stress: how does a mean stress shorten life? [law] mean_stress = "
-              "\"goodman\", \"gerber\", \"soderberg\", \"morrow\", \"swt\", \"walker\" or "
-              "\"none\"");
-  }
-  law.correction = *fatigue::mean_stress_named(*correction);
-  const auto limit = table->choice("fatigue_limit", {"none", "random"});
-  const std::vector<std::string> families = {"normal", "smallest-extreme-value"};
-  const auto limit_family = table->choice("limit_family", families);
-  if (limit == "random") {
-    law.limit =
-        limit_family == families[1] ? StandardLaw::smallest_extreme_value : StandardLaw::normal;
-  } else if (limit_family) {
-    table->fail("limit_family", "needs fatigue_limit = \"random\"");
-  }
-  read_curve(*table, limit == "random", law);
-  if (const auto likelihood = root.table("likelihood")) {
-    const auto family = likelihood->choice("family", {"log10-normal", "weibull", "normal"});
-    if (family == "weibull") law.family = LifeFamily::weibull;
-    if (family == "normal") law.family = LifeFamily::normal;
-    if (law.limit && law.family == LifeFamily::normal) {
-      likelihood->fail("family", "normal on life has no random fatigue limit; use log10-normal");
-    }
-    if (!law.straight() && law.family == LifeFamily::normal) {
-      likelihood->fail("family",
-                       "normal on life goes with a straight curve of constant scatter alone; use "
-                       "log10-normal or weibull");
-    }
-  }
-  const auto conditions = root.table("conditions");
-  const std::string strength = strength_name(law.correction);
-  if (conditions && !strength.empty()) {
-    if (const auto known = conditions->quantity(strength, "Pa")) {
-      if (!(known->si() > 0)) conditions->fail(strength, "must be positive");
-      law.strength = known->si();
-    }
-  }
-  if (conditions && law.correction == MeanStress::walker) {
-    if (const auto known = conditions->quantity("gamma", "1")) law.gamma = known->si();
-  }
-  return law;
-}
-
 std::string curve_in_words(const SnLaw& law) {
   switch (law.curve) {
     case SnCurve::knee:
@@ -260,8 +211,57 @@ FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Paramet
 
 }  // namespace
 
+SnLaw read_sn_law(const TomlReader& root) {
+  SnLaw law;
+  const auto table = root.table("law");
+  const auto correction =
+      table ? table->choice("mean_stress", fatigue::mean_stress_names()) : std::nullopt;
+  if (!correction) {
+    root.fail("law",
+              "needs mean_stress: how does a mean stress shorten life? [law] mean_stress = "
+              "\"goodman\", \"gerber\", \"soderberg\", \"morrow\", \"swt\", \"walker\" or "
+              "\"none\"");
+  }
+  law.correction = *fatigue::mean_stress_named(*correction);
+  const auto limit = table->choice("fatigue_limit", {"none", "random"});
+  const std::vector<std::string> families = {"normal", "smallest-extreme-value"};
+  const auto limit_family = table->choice("limit_family", families);
+  if (limit == "random") {
+    law.limit =
+        limit_family == families[1] ? StandardLaw::smallest_extreme_value : StandardLaw::normal;
+  } else if (limit_family) {
+    table->fail("limit_family", "needs fatigue_limit = \"random\"");
+  }
+  read_curve(*table, limit == "random", law);
+  if (const auto likelihood = root.table("likelihood")) {
+    const auto family = likelihood->choice("family", {"log10-normal", "weibull", "normal"});
+    if (family == "weibull") law.family = LifeFamily::weibull;
+    if (family == "normal") law.family = LifeFamily::normal;
+    if (law.limit && law.family == LifeFamily::normal) {
+      likelihood->fail("family", "normal on life has no random fatigue limit; use log10-normal");
+    }
+    if (!law.straight() && law.family == LifeFamily::normal) {
+      likelihood->fail("family",
+                       "normal on life goes with a straight curve of constant scatter alone; use "
+                       "log10-normal or weibull");
+    }
+  }
+  const auto conditions = root.table("conditions");
+  const std::string strength = strength_name(law.correction);
+  if (conditions && !strength.empty()) {
+    if (const auto known = conditions->quantity(strength, "Pa")) {
+      if (!(known->si() > 0)) conditions->fail(strength, "must be positive");
+      law.strength = known->si();
+    }
+  }
+  if (conditions && law.correction == MeanStress::walker) {
+    if (const auto known = conditions->quantity("gamma", "1")) law.gamma = known->si();
+  }
+  return law;
+}
+
 void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
-  const SnLaw law = read_law(root);
+  const SnLaw law = read_sn_law(root);
   const SnData data = read_sn_data(root, source, law.correction);
   if (law.curve == SnCurve::strain_life && data.stress_si != "1") {
     root.required_table("law").fail(

@@ -1,0 +1,315 @@
+// Parts on line against sums over all nodes of the posterior, and against a posterior that has not seen the part.
+#include "wearwell/models/fatigue/part_tracker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "models/tracked_trade.h"
+#include "wearwell/base/error.h"
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/math/constants.h"
+#include "wearwell/models/fatigue/life.h"
+#include "wearwell/models/fatigue/sn_study.h"
+#include "wearwell/models/fatigue/stress_lives.h"
+#include "wearwell/prognosis/tracked_life.h"
+
+namespace wearwell::fatigue {
+namespace {
+
+using prognosis::Forecast;
+using testing::HasSubstr;
+
+const std::vector<std::string> headings = {"S", "N", "status", "name"};
+using PartRows = std::vector<std::vector<std::string>>;
+
+const PartRows part_rows = {{"500", "45000", "failure", "a"},  {"500", "98000", "failure", "b"},
+                            {"430", "240000", "failure", "c"}, {"430", "330000", "failure", "d"},
+                            {"380", "610000", "failure", "e"}, {"380", "1300000", "failure", "f"},
+                            {"350", "900000", "failure", "g"}, {"350", "2000000", "runout", "h"},
+                            {"320", "2000000", "runout", "i"}, {"320", "1700000", "failure", "j"}};
+
+std::string part_study(const std::string& law, const std::string& likelihood,
+                       const std::string& prior, const std::string& predict = "") {
+  return R"toml(model = "sn"
+[data]
+file = "data.csv"
+[data.columns]
+alternating_stress = { column = "S", unit = "MPa" }
+life = "N"
+status = "status"
+part = "name"
+[law]
+mean_stress = "none"
+)toml" + law +
+         "\n[likelihood]\nfamily = \"" + likelihood + "\"\n[prior]\n" + prior + predict;
+}
+
+const std::string line =
+    "log10_a = { law = \"normal\", mean = \"3.3 log10(MPa)\", sd = 0.3 }\n"
+    "b = { law = \"normal\", mean = -0.1, sd = 0.04 }\n"
+    "sigma = { law = \"half-normal\", scale = 0.3 }\n";
+const std::string below_a_limit =
+    "log10_a = { law = \"normal\", mean = \"3.6 log10(MPa)\", sd = 0.3 }\n"
+    "b = { law = \"normal\", mean = -0.2, sd = 0.06 }\n"
+    "sigma = { law = \"half-normal\", scale = 0.3 }\n"
+    "log10_limit = { law = \"normal\", mean = \"2.48 log10(MPa)\", sd = 0.05 }\n";
+
+struct Chosen {
+  const char* law;
+  const char* likelihood;
+  const std::string* prior;
+};
+
+std::vector<Chosen> chosen() {
+  return {{"", "log10-normal", &line}, {"", "weibull", &line}};
+}
+
+Stress under(double mpa) {
+  return {mpa * 1e6, 0};
+}
+
+// P(N <= n + r | N > n) where the posterior has N > known already.
+double ended(const SnLaw& law, const WeightedDraws& posterior, const Stress& stress, double known,
+             double n, double r) {
+  double all = 0, left = 0;
+  for (Eigen::Index i = 0; i < posterior.values.rows(); ++i) {
+    const double* x = posterior.values.row(i).data();
+    const double before = known > 0 ? survival(law, x, stress, known) : 1;
+    if (!(before > 0)) continue;
+    const double weight = posterior.weights[i] / before;
+    all += weight * (n > 0 ? survival(law, x, stress, n) : 1);
+    left += weight * survival(law, x, stress, n + r);
+  }
+  return 1 - left / all;
+}
+
+void expect_same(const Forecast& forecast, const std::function<double(double)>& truth,
+                 double tolerance) {
+  for (const double p : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99}) {
+    const double r = forecast.remaining.quantile(p);
+    if (!std::isfinite(r)) continue;
+    EXPECT_NEAR(truth(r), p, tolerance) << p;
+  }
+}
+
+SnLaw law_of(const TrackedTrade& trade) {
+  return read_sn_law(TomlReader::parse(trade.state.source.study));
+}
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+TEST(PartTracker, IsTheSumOverAllNodes) {
+  for (const Chosen& each : chosen()) {
+    SCOPED_TRACE(each.likelihood);
+    const TrackedTrade trade(part_study(each.law, each.likelihood, *each.prior), headings,
+                             part_rows);
+    ASSERT_TRUE(trade.tracker);
+    EXPECT_THAT(std::vector(trade.tracker->seen().begin(), trade.tracker->seen().end()),
+                testing::ElementsAre("h", "i"));
+    const SnLaw law = law_of(trade);
+    FollowedUnit seen{trade.tracker->begin("h")};
+    EXPECT_EQ(seen.unit->forecast().now, 2e6);
+    expect_same(
+        seen.unit->forecast(),
+        [&](double r) { return ended(law, trade.state.posterior, under(350), 2e6, 2e6, r); }, 2e-3);
+    EXPECT_TRUE(seen.take({3.5e6, none}).counted);
+    expect_same(
+        seen.unit->forecast(),
+        [&](double r) { return ended(law, trade.state.posterior, under(350), 2e6, 3.5e6, r); },
+        2e-3);
+    FollowedUnit fresh{trade.tracker->begin("new")};
+    EXPECT_TRUE(std::isnan(fresh.unit->forecast().passed));  // its stress is not known
+    EXPECT_THAT(fresh.take({1e5, none}).problem, HasSubstr("alternating_stress is missing"));
+    const double chance = 1 - ended(law, trade.state.posterior, under(400), 0, 0, 4e5);
+    EXPECT_NEAR(fresh.take({4e5, 400e6}).surprise, chance, 2e-3);
+    expect_same(
+        fresh.unit->forecast(),
+        [&](double r) { return ended(law, trade.state.posterior, under(400), 0, 4e5, r); }, 2e-3);
+  }
+}
+
+// The study's own run-out is in the posterior: with it taken out of the data and followed instead it comes to the same.
+TEST(PartTracker, ARunoutCountsOnce) {
+  const std::string study = part_study("", "log10-normal", line);
+  const TrackedTrade whole(study, headings, part_rows);
+  PartRows others = part_rows;
+  others.erase(others.begin() + 7);
+  const TrackedTrade without(study, headings, others);
+  FollowedUnit known{whole.tracker->begin("h")}, fresh{without.tracker->begin("h")};
+  EXPECT_TRUE(fresh.take({2e6, 350e6}).counted);
+  for (const double n : {2e6, 3e6, 6e6}) {
+    EXPECT_TRUE(known.take({n, none}).counted);
+    EXPECT_TRUE(fresh.take({n, none}).counted);
+    const Forecast a = known.unit->forecast(), b = fresh.unit->forecast();
+    for (const double p : {0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99})
+      EXPECT_NEAR(a.remaining.cdf(b.remaining.quantile(p)), p, 4e-3) << n;
+  }
+}
+
+TEST(PartTracker, LifeWithoutEndIsTold) {
+  PartRows rows = part_rows;
+  rows.push_back({"250", "3000000", "runout", "k"});
+  const TrackedTrade trade(part_study("curve = \"stromeyer\"", "log10-normal", below_a_limit),
+                           headings, rows);
+  const SnLaw law = law_of(trade);
+  const auto truth = [&](double n, double r) {
+    return ended(law, trade.state.posterior, under(250), 3e6, n, r);
+  };
+  const prognosis::UnitLife life =
+      prognosis::tracked_life(*trade.tracker, "k", {.unit = "k", .survived = "4e6 cycles"});
+  ASSERT_TRUE(life.never);
+  const double never = 1 - truth(4e6, 1e40);
+  EXPECT_GT(never, 0.01);
+  EXPECT_NEAR(*life.never, never, 4e-3);
+  ASSERT_TRUE(life.passed);
+  EXPECT_NEAR(*life.passed, truth(3e6, 1e6), 2e-3);
+  for (const double p : {0.01, 0.1, 0.3}) {
+    if (p > 0.9 * (1 - never)) continue;
+    EXPECT_NEAR(truth(4e6, life.quantile(p)), p, 4e-3);
+  }
+  EXPECT_EQ(life.quantile(std::min(0.9999, 1 - 0.5 * never)), infinity);
+}
+
+// A posterior made by hand.
+WeightedDraws scattered(const std::vector<double>& middle, const std::vector<double>& width) {
+  constexpr Eigen::Index count = 200;
+  WeightedDraws draws;
+  draws.values.resize(count, static_cast<Eigen::Index>(middle.size()));
+  draws.weights.setConstant(count, 1.0 / count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < middle.size(); ++j) {
+      const double place = std::fmod(0.5 + 0.7548776662 / std::pow(1.3, double(j)) * double(i), 1);
+      draws.values(i, static_cast<Eigen::Index>(j)) = middle[j] + width[j] * (place - 0.5);
+    }
+  }
+  return draws;
+}
+
+void expect_sums(const SnLaw& law, const WeightedDraws& draws) {
+  const FewPoints few(draws, 1000);
+  for (const double mpa : {260.0, 300.0, 400.0}) {
+    const StressLives lives(law, few, under(mpa));
+    for (const double n : {0.0, 1e5, 1e7}) {
+      if (1 - ended(law, draws, under(mpa), 0, 0, std::max(n, 1.0)) < 1e-6) continue;
+      std::vector<double> weight = lives.log_survival(n, 0);
+      for (std::size_t i = 0; i < weight.size(); ++i)
+        weight[i] = few.weights[i] * std::exp(weight[i]);
+      const prognosis::WeightedLives remaining = lives.remaining(weight, n);
+      for (const double r : {2e4, 3e5, 5e6, 1e9})
+        EXPECT_NEAR(remaining.cdf(r), ended(law, draws, under(mpa), 0, n, r), 4e-3)
+            << mpa << " " << n << " " << r;
+    }
+  }
+}
+
+// Limits that scatter: slices against the integral, far out as well.
+TEST(StressLives, OfARandomLimitAreItsIntegral) {
+  SnLaw law;
+  law.correction = MeanStress::none;
+  for (const auto family : {LifeFamily::log10_normal, LifeFamily::weibull}) {
+    law.family = family;
+    law.limit = StandardLaw::normal;
+    expect_sums(law, scattered({9.6, -0.25, 0.2, 8.4, 0.03}, {0.04, 0.01, 0.05, 0.03, 0.01}));
+  }
+}
+
+TEST(StressLives, BelowAKneeHaveNoEnd) {
+  SnLaw law;
+  law.correction = MeanStress::none;
+  law.curve = SnCurve::knee;
+  law.second_slope = SecondSlope::infinite;
+  law.limit = StandardLaw::normal;
+  expect_sums(law, scattered({8, 5.8, 0.2, 8.45, 0.04}, {1, 0.1, 0.05, 0.03, 0.02}));
+}
+
+TEST(StressLives, OfCurvesThatBend) {
+  SnLaw law;
+  law.correction = MeanStress::none;
+  law.curve = SnCurve::knee;
+  expect_sums(law, scattered({8, 5.8, 8.45, 15, 0.2}, {1, 0.1, 0.03, 2, 0.05}));
+  law.curve = SnCurve::bastenaire;
+  expect_sums(law, scattered({5.9, 8.3, 0.8, 8.1, 0.2}, {0.1, 0.1, 0.1, 0.03, 0.05}));
+  law.curve = SnCurve::basquin;
+  law.family = LifeFamily::normal;
+  expect_sums(law, scattered({9.35, -0.15, 1e5}, {0.05, 0.01, 5e4}));
+}
+
+TEST(PartTracker, OrderAndStatesChangeNoBit) {
+  const TrackedTrade trade(part_study("", "weibull", line), headings, part_rows);
+  FollowedUnit in_order{trade.tracker->begin("x")}, late{trade.tracker->begin("x")};
+  for (const double n : {1e5, 2e5, 3e5}) in_order.take({n, 420e6});
+  for (const double n : {3e5, 1e5, 2e5}) EXPECT_TRUE(late.take({n, 420e6}).counted);
+  const auto restored = trade.tracker->restore(in_order.unit->save());
+  for (const auto* other : {late.unit.get(), restored.get()}) {
+    EXPECT_EQ(other->save(), in_order.unit->save());
+    EXPECT_EQ(other->forecast().remaining.quantile(0.5),
+              in_order.unit->forecast().remaining.quantile(0.5));
+  }
+  std::string damaged = in_order.unit->save();
+  damaged.back() ^= 1;
+  EXPECT_THROW(trade.tracker->restore(damaged), InputError);
+}
+
+// Population by population, mixed by likelihood, it is the forecast.
+TEST(PartTracker, PopulationsTogetherAreTheForecast) {
+  const TrackedTrade trade(part_study("", "log10-normal", line), headings, part_rows);
+  FollowedUnit seen{trade.tracker->begin("i")};
+  seen.take({5e6, none});
+  const Forecast forecast = seen.unit->forecast();
+  const auto apart = seen.unit->in_populations([](const auto&) {});
+  ASSERT_TRUE(apart);
+  const std::vector<double> before = trade.tracker->populations();
+  for (const double p : {0.05, 0.5, 0.95}) {
+    const double r = forecast.remaining.quantile(p);
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      const double weight = before[i] * std::exp(apart->log_likelihood[i]);
+      all += weight;
+      sum += weight * apart->remaining[i].cdf(r);
+    }
+    EXPECT_NEAR(sum / all, p, 2e-3);
+  }
+}
+
+TEST(PartTracker, SaysWhatCannotBe) {
+  const TrackedTrade trade(part_study("", "log10-normal", line), headings, part_rows);
+  EXPECT_THAT(trade.tracker->refusal("c"), HasSubstr("row 3 of data.csv, where it broke"));
+  FollowedUnit seen{trade.tracker->begin("h")};
+  EXPECT_THAT(seen.take({3e6, 360e6}).problem, HasSubstr("not, as before, under 350 MPa"));
+  EXPECT_THAT(seen.take({none, 350e6}).problem, HasSubstr("life is missing"));
+  EXPECT_THAT(seen.take({-1, 350e6}).problem, HasSubstr("0 or more"));
+  FollowedUnit fresh{trade.tracker->begin("z")};
+  EXPECT_TRUE(fresh.take({3e6, 500e6}).contradicts);
+  const auto life = [&](const std::string& survived) {
+    return prognosis::tracked_life(*trade.tracker, "h", {.unit = "h", .survived = survived});
+  };
+  EXPECT_THROW(life("1e6 cycles"), InputError);
+  EXPECT_THROW(prognosis::tracked_life(*trade.tracker, "c", {.unit = "c"}), InputError);
+  PartRows twice = part_rows;
+  twice[9][3] = "i";
+  EXPECT_THROW(TrackedTrade(part_study("", "log10-normal", line), headings, twice), InputError);
+}
+
+// What a study asks for beside lives changes none of them.
+TEST(PartTracker, SurvivalThatIsAskedForIsNoCondition) {
+  const auto study = [&](const std::string& more) {
+    return part_study(
+        "", "log10-normal", line,
+        "[predict]\n" + more + "[predict.stress]\nshaft = { alternating_stress = \"400 MPa\" }\n");
+  };
+  const TrackedTrade plain(study(""), headings, part_rows);
+  const TrackedTrade asked(study("survival_to = \"5e5 cycles\"\n"), headings, part_rows);
+  const prognosis::UnitLife a = plain.life({.unit = "shaft"}), b = asked.life({.unit = "shaft"});
+  EXPECT_FALSE(a.passed);
+  EXPECT_FALSE(b.passed);
+  EXPECT_EQ(a.quantile(0.1), b.quantile(0.1));
+  // The one stress that the study asks about is that of parts to come.
+  const Forecast fresh = plain.tracker->begin("new")->forecast();
+  expect_life(fresh, a, 1, 2e-3);
+}
+
+}  // namespace
+}  // namespace wearwell::fatigue
