@@ -278,9 +278,6 @@ TEST_F(OwnProcessStudy, WhatIsNoProcessIsRefused) {
     return message_of<InputError>(
         [&] { wearwell::read_posterior_study(write("study.toml", text)).in_words(); });
   };
-  EXPECT_NE(refusal(lasers("gamma-process", "scale = \"u\"\nnoise = \"0.1 [%]\"\n"))
-                .find("not integrated out"),
-            std::string::npos);
   EXPECT_NE(refusal(lasers("wiener-process", "scale = \"u\"\n", "limit = { rate = \"10 %/h\" }\n"))
                 .find("limits of this study are of increase"),
             std::string::npos);
@@ -291,6 +288,9 @@ TEST_F(OwnProcessStudy, WhatIsNoProcessIsRefused) {
   write("laser.csv", "laser,hours,increase_percent\n1,10,0.5\n1,20,0.4\n2,10,0.1\n2,20,0.3\n");
   EXPECT_NE(refusal(lasers("gamma-process", "scale = \"u\"\n")).find("0.4 % after 0.5: a gamma"),
             std::string::npos);
+  // Readings with an error of their own may fall.
+  EXPECT_NO_THROW(wearwell::read_posterior_study(
+      write("study.toml", lasers("gamma-process", "scale = \"u\"\nnoise = \"0.1 [%]\"\n"))));
 }
 
 }  // namespace
