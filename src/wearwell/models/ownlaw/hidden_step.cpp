@@ -11,7 +11,8 @@
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr int of_panel = 12, of_pole = 16, panel_width = 8, known_panels = 256, most_halves = 48;
+constexpr int of_panel = 12, of_pole = 16, panel_width = 8, known_panels = 256, known_lags = 2048,
+              most_halves = 48;
 constexpr int stencil = HiddenStep::stencil, before = HiddenStep::before;
 constexpr double smooth_shape = 6;  // from there on a gamma density is smooth enough at 0
 
@@ -67,7 +68,8 @@ Places places(int count, double low, double high) {
 struct Tables {
   Places panel = places(of_panel, 0, panel_width), pole = places(of_pole, 0, panel_width);
   std::vector<Places> halves;
-  std::vector<double> log_at;  // of the nodes of each panel
+  std::vector<double> log_at;   // of the nodes of each panel
+  std::vector<double> log_lag;  // of whole numbers
   // Of the pole's nodes: weight times (2n + 1) times Legendre's polynomial on [0, 1], by node, then n.
   std::array<std::array<double, of_pole>, of_pole> legendre{};
 
@@ -79,6 +81,7 @@ struct Tables {
     for (int p = 0; p < known_panels; ++p) {
       for (const double at : panel.at) log_at.push_back(std::log(at + panel_width * p));
     }
+    for (int k = 0; k < known_lags; ++k) log_lag.push_back(std::log(k));
     for (std::size_t q = 0; q < of_pole; ++q) {
       const double t = pole.at[q] / panel_width, x = 2 * t - 1;
       double last = 0, now = 1;
@@ -256,7 +259,9 @@ void HiddenStep::lay(Process process, double mean, double scale, double h, int l
     // Far from 0: the trapezoidal rule.
     const int end = static_cast<int>(high / h) + 1;
     for (int k = static_cast<int>(low / h); k <= end; ++k) {
-      add(law, k, std::log(k), 1, 1, k - before, itself.data());
+      const double log_k =
+          k < known_lags ? tables().log_lag[static_cast<std::size_t>(k)] : std::log(k);
+      add(law, k, log_k, 1, 1, k - before, itself.data());
     }
   } else {
     for (int p = panel; p < panels; ++p) {

@@ -126,7 +126,7 @@ void HiddenPath::smooth() {
 
 // The lattice, and how far each row looks: by its reading, and by what all readings say of the path were it normal.
 bool HiddenPath::place(double per_width) {
-  constexpr double reach = 5.8, own_reach = 6.5;
+  constexpr double reach = 7, own_reach = 7;
   smooth();
   // From the last row back: what is known of the path by that row and those after it. Steps of a small shape are mostly much
   // smaller than their standard deviation.
@@ -234,7 +234,9 @@ HiddenPath& mine() {
 }  // namespace
 
 bool is_hidden(const ProcessForm& form, const ProcessRows& rows) {
-  return form.process != Process::wiener && !rows.noise.empty();
+  // An error of 0 is none: where a search comes to that bound.
+  return form.process != Process::wiener &&
+         std::any_of(rows.noise.begin(), rows.noise.end(), [](double s) { return s != 0; });
 }
 
 void hidden_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,

@@ -13,7 +13,7 @@
 /// on a lattice common to the rows of a unit, a third as wide as what readings can tell of the path. Only functions that are as
 /// smooth as the errors of readings are ever summed: a step of law f enters as expectations of the lattice's interpolating
 /// polynomials (hidden_step.h), and p_i as what such functions have for a mean. Rows look as far about their reading, and about
-/// what all readings say of the path, as either could let it lie: beyond lies less than e^-16. A unit's log density is within
+/// what all readings say of the path, as either could let it lie: beyond lies less than e^-24. A unit's log density is within
 /// some 1e-6 of that of a lattice twice as fine (tests/models/ownlaw/own_hidden_path_test.cpp); `hidden_unsettled` tells.
 namespace wearwell::ownlaw {
 
