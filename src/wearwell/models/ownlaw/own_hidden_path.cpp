@@ -11,7 +11,7 @@ namespace wearwell::ownlaw {
 namespace {
 
 constexpr int most_nodes = 20'000;  // of a row: what looks farther is no density to compute with
-constexpr double usual_widths = 3;
+constexpr double usual_widths = 3, log_two = 0.693147180559945309;
 
 using Line = Eigen::Map<Eigen::ArrayXd>;
 using FixedLine = Eigen::Map<const Eigen::ArrayXd>;
@@ -68,7 +68,9 @@ class HiddenPath {
   bool read(const ProcessRows& rows);
   bool place(double per_width);
   void smooth();
+  double usual_step(const Row& row) const;
   bool pass();
+  void fill_density(Row& row) const;
   bool meet_reading(Row& row) const;
 
   Process process_ = Process::gamma;
@@ -124,19 +126,29 @@ void HiddenPath::smooth() {
   }
 }
 
+// The square of how large a step mostly is, over its mean: of a small shape that is much less than its variance. (Twice
+// the median of a gamma law, nearly, and the shape of an inverse Gaussian one.)
+double HiddenPath::usual_step(const Row& row) const {
+  const double shape = row.step_mean / row.scale;
+  if (!(shape < 1)) return row.scale;
+  const double usual =
+      process_ == Process::gamma
+          ? row.scale * std::exp((std::lgamma(1 + shape) - log_two) / shape + log_two)
+          : row.step_mean * shape;
+  return usual * usual / row.step_mean;
+}
+
 // The lattice, and how far each row looks: by its reading, and by what all readings say of the path were it normal.
 bool HiddenPath::place(double per_width) {
   constexpr double reach = 7, own_reach = 7;
   smooth();
-  // From the last row back: what is known of the path by that row and those after it. Steps of a small shape are mostly much
-  // smaller than their standard deviation.
+  // From the last row back: what is known of the path by that row and those after it.
   double finest = infinity, known = infinity;
   for (std::size_t i = count_; i-- > 0;) {
     const Row& row = rows_[i];
     known = 1 / (1 / (row.noise * row.noise) + 1 / known);
     finest = std::min(finest, known);
-    const double small = std::min(1.0, row.step_mean / row.scale);
-    known += row.step_mean * row.scale * small * small;
+    if (row.step_mean > 0) known += row.step_mean * usual_step(row);
   }
   h_ = std::sqrt(finest) / per_width;
   if (!std::isfinite(h_)) return false;
@@ -153,16 +165,32 @@ bool HiddenPath::place(double per_width) {
   return true;
 }
 
+// Of the reading at each place. Away from its middle by the ratio of neighbours, which itself falls by one ratio.
+void HiddenPath::fill_density(Row& row) const {
+  const double width = h_ / row.noise, falls = std::exp(-width * width);
+  const int middle = std::clamp(
+      static_cast<int>(std::lround(std::clamp(row.reading / h_, -1e9, 1e9))), row.low, row.high);
+  const double z = (row.reading - middle * h_) / row.noise;
+  const double there = std::exp(-0.5 * (z * z + log_two_pi)) / row.noise;
+  for (const int way : {1, -1}) {
+    double density = there, ratio = std::exp((way * z - 0.5 * width) * width);
+    for (int place = middle; place >= row.low && place <= row.high; place += way) {
+      row.density[static_cast<std::size_t>(place - row.low)] = density;
+      density *= ratio;
+      ratio *= falls;
+    }
+  }
+}
+
 bool HiddenPath::meet_reading(Row& row) const {
-  constexpr double negligible = 1e-13;
+  constexpr double negligible = 1e-12;
   const auto n = static_cast<std::size_t>(row.size());
   row.density.resize(n);
   row.filtered.resize(n);
   row.factor = 0;
   double largest = 0;
+  fill_density(row);
   for (std::size_t k = 0; k < n; ++k) {
-    const double z = (row.reading - (row.low + static_cast<int>(k)) * h_) / row.noise;
-    row.density[k] = std::exp(-0.5 * (z * z + log_two_pi)) / row.noise;
     row.filtered[k] = row.predicted[k] * row.density[k];
     row.factor += row.filtered[k];
     largest = std::max(largest, std::abs(row.filtered[k]));
@@ -181,6 +209,8 @@ bool HiddenPath::pass() {
   for (std::size_t i = 0; i < count_; ++i) {
     Row& row = rows_[i];
     const Row& earlier = or_start(row_before(i));
+    // Polynomials about places beside 0 reach below it.
+    if (row.low < 0) row.low = std::min(row.low, earlier.begin - HiddenStep::before);
     lay_step(row, row.low - earlier.end + 1, row.high - earlier.begin);
     row.predicted.assign(static_cast<std::size_t>(row.size()), 0.0);
     for (int j = earlier.begin; j < earlier.end; ++j) {
@@ -234,9 +264,16 @@ HiddenPath& mine() {
 }  // namespace
 
 bool is_hidden(const ProcessForm& form, const ProcessRows& rows) {
-  // An error of 0 is none: where a search comes to that bound.
-  return form.process != Process::wiener &&
-         std::any_of(rows.noise.begin(), rows.noise.end(), [](double s) { return s != 0; });
+  // Errors of next to nothing are none: where a search comes to that bound.
+  constexpr double nothing = 1e-6;
+  if (form.process == Process::wiener || rows.noise.empty()) return false;
+  double before = 0, least = infinity, most = 0;
+  for (std::size_t i = 0; i < rows.reading.size(); ++i) {
+    least = std::min(least, std::abs(rows.reading[i] - before));
+    before = rows.reading[i];
+    most = std::max(most, rows.noise[i]);
+  }
+  return most > nothing * least;
 }
 
 void hidden_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
