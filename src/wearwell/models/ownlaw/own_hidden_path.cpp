@@ -7,6 +7,7 @@
 #include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/hidden_step.h"
 
+// Longer than others: one lattice, the passes there and back, and what is told of it.
 namespace wearwell::ownlaw {
 namespace {
 
@@ -126,15 +127,15 @@ void HiddenPath::smooth() {
   }
 }
 
-// The square of how large a step mostly is, over its mean: of a small shape that is much less than its variance. (Twice
-// the median of a gamma law, nearly, and the shape of an inverse Gaussian one.)
+// The square of how large a step mostly is, over its mean: of a small shape that is much less than its variance. (The
+// median of a gamma law, nearly, and the shape of an inverse Gaussian one; without a leap at shape 1.)
 double HiddenPath::usual_step(const Row& row) const {
   const double shape = row.step_mean / row.scale;
   if (!(shape < 1)) return row.scale;
-  const double usual =
-      process_ == Process::gamma
-          ? row.scale * std::exp((std::lgamma(1 + shape) - log_two) / shape + log_two)
-          : row.step_mean * shape;
+  const double usual = process_ == Process::gamma
+                           ? row.scale * std::exp((std::lgamma(1 + shape) - log_two) / shape +
+                                                  log_two * std::pow(shape, 4))
+                           : row.step_mean * shape;
   return usual * usual / row.step_mean;
 }
 
