@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "wearwell/bayes/slow_density.h"
 #include "wearwell/infer/digits.h"
 #include "wearwell/infer/effects.h"
 #include "wearwell/infer/leaps.h"
@@ -170,6 +171,7 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
 }  // namespace
 
 Fit fit(const Posterior& whole, const FitSettings& settings) {
+  constexpr int most_slow_dimension = 2;
   Shape shape = examine(whole);
   Fit fit{settings.method,
           whitening_at(shape.mode),
@@ -197,6 +199,13 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
                                posterior.dimension(), max_exact_dimension);
   } else if (!all([](const Tail& t) { return t.integrable(); })) {
     fit.no_exact = "the posterior is improper";
+  } else if (posterior.dimension() > most_slow_dimension &&
+             dynamic_cast<const SlowDensity*>(posterior.likelihood().get())) {
+    fit.no_exact = fmt::format(
+        "each evaluation of this likelihood, which has paths to integrate out, takes long: too "
+        "long "
+        "for quadrature over {} parameters",
+        posterior.dimension());
   } else {
     ExactSettings exact = settings.exact;
     exact.second_moments = all([](const Tail& t) { return t.has_moment(2); });

@@ -12,6 +12,12 @@ bool OwnLaw::has_process() const {
                      [](const Measured& each) { return each.process != nullptr; });
 }
 
+bool OwnLaw::has_hidden_paths() const {
+  return std::any_of(measured.begin(), measured.end(), [](const Measured& each) {
+    return each.process && each.process->process != Process::wiener && each.wanted.size() > 2;
+  });
+}
+
 bool OwnLaw::is_drawn(const std::string& of) const {
   return std::any_of(drawn.begin(), drawn.end(),
                      [&](const DrawnEffect& each) { return each.label == of; });

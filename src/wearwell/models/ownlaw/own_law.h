@@ -89,6 +89,8 @@ struct OwnLaw {
   /// Where among the outputs of `drawn_scatter` the correlation stands of an effect that follows.
   std::size_t drawn_correlation(std::size_t effect) const;
   bool has_process() const;
+  /// Whether such is seen through errors of readings and is not normal (own_hidden_path.h): then all effects are drawn.
+  bool has_hidden_paths() const;
   /// Whether the likelihood's factors are units, not rows: where they differ, or a row's reading depends
   /// on those before it.
   bool by_unit() const { return varies() || has_process(); }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/bayes/slow_density.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
+#include "wearwell/models/ownlaw/own_hidden_path.h"
 
 // Longer than others: one likelihood: rows, effects integrated out, gradients of both.
 namespace wearwell::ownlaw {
@@ -87,7 +89,10 @@ BoundColumn bind_column(const OwnLaw& law, const Measured& measured, std::size_t
   }
   bound.data = measured.program.bind(columns.rows);
   bound.responses = ResponseColumn(std::move(responses));
-  if (measured.process && measured.process->process != Process::wiener) note_growth(bound);
+  const bool noisy = std::count(measured.slot.begin(), measured.slot.end(), 2) > 0;
+  if (measured.process && measured.process->process != Process::wiener && !noisy) {
+    note_growth(bound);
+  }
   return bound;
 }
 
@@ -249,6 +254,19 @@ std::vector<Standing> UnitRows::standings(std::span<const double> z, std::size_t
     });
   });
   return all;
+}
+
+double UnitRows::unsettled_paths() {
+  double worst = 0;
+  visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
+    const ProcessForm* form = chunk.column->measured->process;
+    if (!form) return;
+    run(chunk, {});
+    visit_processes(chunk, [&](std::size_t, auto, const ProcessRows& unit) {
+      if (is_hidden(*form, unit)) worst = std::max(worst, hidden_unsettled(*form, unit));
+    });
+  });
+  return worst;
 }
 
 std::vector<NormalScore> UnitRows::step_scores(std::span<const double> z, std::size_t c) {
@@ -450,7 +468,7 @@ std::vector<std::vector<double>> UnitRows::each_slot(std::span<const double> z) 
 
 namespace {
 
-class OwnLikelihood final : public LogDensity {
+class OwnLikelihood : public LogDensity {
  public:
   explicit OwnLikelihood(std::shared_ptr<const OwnRows> rows)
       : rows_(std::move(rows)),
@@ -558,9 +576,11 @@ class OwnLikelihood final : public LogDensity {
     return law_->varies() ? rows_->integrate(x.data()).unsettled : 0;
   }
 
- private:
+ protected:
   using Scratch = OwnRows::Scratch;
+  Scratch& mine() const { return rows_->mine(); }
 
+ private:
   static double number(double value) { return value < infinity ? value : -infinity; }
 
   // By a table or by sums over steps, each unit by a rule of its own.
@@ -586,12 +606,23 @@ class OwnLikelihood final : public LogDensity {
     return scratch.steps->each(each);
   }
 
-  Scratch& mine() const { return rows_->mine(); }
-
   std::shared_ptr<const OwnRows> rows_;
   const OwnLaw* law_;
   std::vector<std::uint8_t> all_;
   std::vector<double> ones_;
+};
+
+// Of paths under errors of their readings, row by row on a lattice.
+class HiddenLikelihood final : public OwnLikelihood, public SlowDensity {
+ public:
+  using OwnLikelihood::OwnLikelihood;
+  double unsettled(std::span<const double> x) const override {
+    constexpr double fine = 1e-4;
+    UnitRows& rows = mine().rows;
+    rows.move_to(x.data());
+    const double open = rows.unsettled_paths();
+    return open > fine ? open : 0;
+  }
 };
 
 }  // namespace
@@ -638,6 +669,9 @@ OwnRows::Scratch& OwnRows::mine() const {
 }
 
 std::shared_ptr<const LogDensity> own_likelihood(std::shared_ptr<const OwnRows> rows) {
+  if (rows->law().has_hidden_paths()) {
+    return std::make_shared<HiddenLikelihood>(std::move(rows));
+  }
   return std::make_shared<OwnLikelihood>(std::move(rows));
 }
 

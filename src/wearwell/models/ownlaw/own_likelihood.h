@@ -79,6 +79,10 @@ class UnitRows final : public latent::UnitTerms {
   /// The scores of its readings, each in the light of those before it, in the order of `Observed`.
   std::vector<NormalScore> step_scores(std::span<const double> z, std::size_t c);
 
+  /// The most that a finer lattice makes of any unit's log density where paths are hidden; of a law without
+  /// effects.
+  double unsettled_paths();
+
   /// The slots of each observation at z, three each, by column in the order of `Observed`.
   std::vector<std::vector<double>> each_slot(std::span<const double> z);
 

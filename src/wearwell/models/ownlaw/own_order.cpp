@@ -64,12 +64,14 @@ void require_rising(const OwnLaw& law) {
                         "has no error, and there is one path",
                         where, each.form->name));
       }
-      if (each.process->process != Process::wiener && !(y > (first ? 0 : column.values[*before]))) {
-        throw InputError(fmt::format(
-            "{}: {:.6g} {} after {:.6g}: a {} only rises from row to row of a unit, from 0 on; a "
-            "wiener-process may fall, and has noise",
-            where, from_si(each.unit, y), each.unit.text,
-            first ? 0.0 : from_si(each.unit, column.values[*before]), each.form->name));
+      if (!noisy && each.process->process != Process::wiener &&
+          !(y > (first ? 0 : column.values[*before]))) {
+        throw InputError(
+            fmt::format("{}: {:.6g} {} after {:.6g}: a {} only rises from row to row of a unit, "
+                        "from 0 on; where "
+                        "readings have an error of their own give it noise",
+                        where, from_si(each.unit, y), each.unit.text,
+                        first ? 0.0 : from_si(each.unit, column.values[*before]), each.form->name));
       }
       before = row;
     }

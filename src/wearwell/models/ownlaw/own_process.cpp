@@ -6,6 +6,8 @@
 
 #include "wearwell/math/constants.h"
 
+#include "wearwell/models/ownlaw/own_hidden_path.h"
+
 namespace wearwell::ownlaw {
 namespace {
 
@@ -206,10 +208,14 @@ std::span<const ProcessForm> process_forms() {
         {{"mean", place}, {"sd", size}, {"noise", size, true}}}},
       {Process::gamma,
        false,
-       {"gamma-process", ResponseFamily::normal, {{"mean", place}, {"scale", size}}}},
+       {"gamma-process",
+        ResponseFamily::normal,
+        {{"mean", place}, {"scale", size}, {"noise", size, true}}}},
       {Process::inverse_gaussian,
        false,
-       {"inverse-gaussian-process", ResponseFamily::normal, {{"mean", place}, {"scale", size}}}},
+       {"inverse-gaussian-process",
+        ResponseFamily::normal,
+        {{"mean", place}, {"scale", size}, {"noise", size, true}}}},
   };
   return forms;
 }
@@ -217,11 +223,13 @@ std::span<const ProcessForm> process_forms() {
 void process_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
                    std::span<double> slope) {
   if (rows.reading.empty()) return;
+  if (is_hidden(form, rows)) return hidden_terms(form, rows, value, slope);
   form.process == Process::wiener ? wiener_terms(form, rows, value, slope)
                                   : growing_terms(form, rows, value, slope);
 }
 
 Standing standing(const ProcessForm& form, const ProcessRows& rows) {
+  if (is_hidden(form, rows)) return hidden_standing(form, rows);
   Standing stands;
   for (std::size_t i = 0; i < rows.reading.size(); ++i) {
     stands.mean = rows.mean[i];
@@ -239,6 +247,7 @@ Standing standing(const ProcessForm& form, const ProcessRows& rows) {
 
 void process_scores(const ProcessForm& form, const ProcessRows& rows,
                     std::vector<NormalScore>& scores) {
+  if (is_hidden(form, rows)) return hidden_scores(form, rows, scores);
   scores.clear();
   double at = 0, variance = 0;
   for (std::size_t i = 0; i < rows.reading.size(); ++i) {

@@ -17,8 +17,8 @@ namespace wearwell::ownlaw {
 ///   gamma             gamma with variance scale * dm: only upwards
 ///   inverse_gaussian  inverse Gaussian with variance scale * dm: only upwards
 ///
-/// Of a Wiener process each reading may have an error of its own, normal with standard deviation `noise`: then
-/// the path is hidden, and all is normal (Kalman's recursion).
+/// Each reading may have an error of its own, normal with standard deviation `noise`: then the path is hidden. Of
+/// a Wiener process all is normal (Kalman's recursion); of the others see own_hidden_path.h.
 enum class Process { wiener, gamma, inverse_gaussian };
 
 struct ProcessForm {
@@ -30,11 +30,17 @@ struct ProcessForm {
 /// All there are; slots are mean, scale or sd, and noise. The Wiener process is there twice.
 std::span<const ProcessForm> process_forms();
 
-/// Where the path of a unit stands after its last row, given all of its readings: normal.
+/// Where the path of a unit stands after its last row, given all of its readings: normal, or in
+/// cells.
 struct Standing {
   double mean = 0;      ///< slot `mean` there
   double at = 0;        ///< the path: its mean
   double variance = 0;  ///< and variance; 0 where readings have no error
+  struct Cell {
+    double at, share;
+  };
+  std::vector<Cell> cells = {};  ///< of a path that is hidden and not normal; shares sum to 1
+  double width = 0;              ///< of each cell
 };
 
 /// The readings of one unit, along the axis.

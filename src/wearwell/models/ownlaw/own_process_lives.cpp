@@ -132,6 +132,19 @@ class Part {
     const double mean = sign_ * stands.mean, now = limit_.path.seen[u].now;
     const double left = sign_ * (limit_.path.limit - stands.at);
     const double sd = std::sqrt(stands.variance);
+    if (!stands.cells.empty()) {
+      for (const Standing::Cell& cell : stands.cells) {
+        // Evenly over the cell: what of it has not reached the limit, and its middle.
+        const double room = limit_.path.limit - cell.at, half = 0.5 * stands.width;
+        const double below = std::clamp((room + half) / stands.width, 0.0, 1.0);
+        const double share = weight * cell.share;
+        found.passed[u] += share * (1 - below);
+        const double distance = room + half * (1 - below);
+        if (!(below * cell.share > 1e-6 && distance > 0)) continue;
+        add_passage(ahead_[u], z, now, mean, distance, share * below, true, found.remaining[u]);
+      }
+      return;
+    }
     if (!(sd > 0)) {
       if (left <= 0) {
         found.passed[u] += weight;

@@ -92,8 +92,16 @@ class Part {
       } else if (grown > 0) {
         ScoreTable::increments(form_.process).look_up(grown, scale, step);
       }
-      for (double& each : step) each += stands.at;
-      found.paths[p].ahead[k].add_curve(weight, ScoreTable::shares(), step);
+      if (form_.process == Process::wiener || stands.cells.empty()) {
+        for (double& each : step) each += stands.at;
+        found.paths[p].ahead[k].add_curve(weight, ScoreTable::shares(), step);
+        continue;
+      }
+      for (const Standing::Cell& cell : stands.cells) {
+        double place_of[edges];
+        for (int e = 0; e < edges; ++e) place_of[e] = cell.at + step[e];
+        found.paths[p].ahead[k].add_curve(weight * cell.share, ScoreTable::shares(), place_of);
+      }
     }
   }
 

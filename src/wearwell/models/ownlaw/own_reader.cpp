@@ -132,11 +132,6 @@ class Reader {
     };
     for (const ResponseForm& each : response_forms()) look_at(each, nullptr);
     for (const ProcessForm& each : process_forms()) look_at(each.form, &each);
-    if (process && process->process != Process::wiener && table.has("noise")) {
-      table.fail("noise", fmt::format("is not integrated out of a {}: readings are taken as they "
-                                      "are; a wiener-process has noise",
-                                      *family));
-    }
     if (!form) {
       table.fail("family", fmt::format("{} needs {}", *family, fmt::join(ways, ", or ")));
     }
@@ -176,6 +171,16 @@ class Reader {
     varies_.push_back(std::move(written));
   }
 
+  // Whether paths are integrated out themselves: then effects of their units are drawn.
+  bool has_hidden_paths() const {
+    return std::any_of(written_.begin(), written_.end(), [](const WrittenLikelihood& each) {
+      return each.process && each.process->process != Process::wiener &&
+             std::any_of(each.slots.begin(), each.slots.end(), [](const auto& slot) {
+               return slot.first == 2;  // noise
+             });
+    });
+  }
+
   // Which label says of which unit a row is, and which effects are drawn.
   void choose_units() {
     if (varies_.empty()) return;
@@ -194,9 +199,13 @@ class Reader {
     for (std::size_t v = 0; v < varies_.size(); ++v) {
       if (v != unit) drawn_.push_back(varies_[v]);
     }
-    const std::size_t kept = effects_.size() == most_unit_effects ? latent_effects : integrated_;
-    if (effects_.size() <= latent_effects) return;
+    const bool hidden = has_hidden_paths();
+    if (effects_.size() <= latent_effects && !hidden) return;
+    const std::size_t kept = hidden                                 ? 0
+                             : effects_.size() == most_unit_effects ? latent_effects
+                                                                    : integrated_;
     WrittenVaries rest{units.label, {}, {}};
+    if (hidden) std::swap(rest.correlation, correlation_);
     rest.effects.assign(effects_.begin() + static_cast<std::ptrdiff_t>(kept), effects_.end());
     effects_.resize(kept);
     drawn_.push_back(std::move(rest));

@@ -72,6 +72,13 @@ std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedSt
   const TomlReader root = TomlReader::parse(state.source.study);
   const std::shared_ptr<const OwnLaw> law = read_own_law(root, state.source);
   refuse_drawn_effects(*law, "followed on line");
+  for (const Measured& each : law->measured) {
+    if (!each.process || each.process->process == Process::wiener || each.wanted.size() < 3)
+      continue;
+    throw InputError(
+        fmt::format("{}: a {} with noise is not followed on line; a wiener-process with noise is",
+                    each.column, each.form->name));
+  }
   std::vector<std::string> names;
   for (const Parameter& each : law->parameters) names.push_back(each.name);
   prognosis::require_parameters(state, names);
