@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace wearwell::ownlaw {
 namespace {
@@ -23,28 +22,23 @@ void fill_normal(double step, double reach, std::vector<double>& z, std::vector<
 
 }  // namespace
 
-NormalNodes::NormalNodes(std::size_t effects, double reach) {
-  if (effects > 2) throw std::logic_error("nodes of more than two effects");
-  if (effects == 0) {
-    weight = {1};
-    return;
-  }
-  const double step = effects == 1 ? 0.5 : 0.75;
+NormalNodes::NormalNodes(std::size_t effects, double reach) : weight{1} {
+  const double step = effects > 1 ? 0.75 : 0.5;
   const int most = static_cast<int>(reach / step);
-  const auto density = [&](int i) { return std::exp(-0.5 * i * i * step * step); };
-  double sum = 0;
-  for (int i = -most; i <= most; ++i) {
-    if (effects == 1) {
-      z.push_back(i * step);
-      weight.push_back(density(i));
-      continue;
+  for (std::size_t k = 0; k < effects; ++k) {
+    std::vector<double> places, weights;
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+      for (int j = -most; j <= most; ++j) {
+        places.insert(places.end(), z.begin() + static_cast<std::ptrdiff_t>(i * k),
+                      z.begin() + static_cast<std::ptrdiff_t>((i + 1) * k));
+        places.push_back(j * step);
+        weights.push_back(weight[i] * std::exp(-0.5 * j * j * step * step));
+      }
     }
-    for (int j = -most; j <= most; ++j) {
-      z.push_back(i * step);
-      z.push_back(j * step);
-      weight.push_back(density(i) * density(j));
-    }
+    z = std::move(places);
+    weight = std::move(weights);
   }
+  double sum = 0;
   for (const double each : weight) sum += each;
   for (double& each : weight) each /= sum;
 }

@@ -26,7 +26,7 @@ struct EffectLines {
   }
 };
 
-/// Places of a unit's effects, none, one or two, with weights that sum to 1: a trapezoidal rule over the standard normal
+/// Places of a unit's effects, with weights that sum to 1: a trapezoidal rule over the standard normal
 /// law, cut at `reach`, whose error is e^-80 of a smooth function.
 struct NormalNodes {
   NormalNodes(std::size_t effects, double reach);

@@ -645,8 +645,12 @@ law::Program compile_at(const TomlReader& table, const std::string& key,
 
 std::shared_ptr<OwnLaw> read_own_law(const TomlReader& root, const Source& source) {
   std::shared_ptr<OwnLaw> law = Reader(root, source, 2).read();
-  // Two effects in which paths are straight cost no more than one; else one alone is integrated out.
-  if (!law->draws_units() || is_linear(*law, bind_columns(*law, law->data.table.rows))) return law;
+  // Two effects in which paths are straight cost no more than one; else, of three, one alone is integrated out.
+  const auto drawn = std::ranges::count_if(
+      law->drawn, [&](const DrawnEffect& each) { return law->label == each.label; });
+  if (drawn != 1 || law->effects.empty() ||
+      is_linear(*law, bind_columns(*law, law->data.table.rows)))
+    return law;
   return Reader(root, source, 1).read();
 }
 
