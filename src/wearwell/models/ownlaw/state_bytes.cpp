@@ -1,8 +1,5 @@
 #include "wearwell/models/ownlaw/state_bytes.h"
 
-#include <bit>
-#include <cstdint>
-
 #include "wearwell/base/error.h"
 #include "wearwell/base/sha1.h"
 
@@ -38,8 +35,7 @@ void StateWriter::numbers(std::span<const double> values) {
 
 void StateWriter::short_numbers(std::span<const double> values) {
   number(values.size());
-  for (const double each : values)
-    bytes_.u32(std::bit_cast<std::uint32_t>(static_cast<float>(each)));
+  for (const double each : values) bytes_.single(each);
 }
 
 std::string StateWriter::done() {
@@ -61,7 +57,7 @@ std::vector<double> StateReader::numbers() {
 
 std::vector<double> StateReader::short_numbers() {
   std::vector<double> values(bytes_.count(4));
-  for (double& each : values) each = std::bit_cast<float>(bytes_.u32());
+  for (double& each : values) each = bytes_.single();
   return values;
 }
 
