@@ -21,17 +21,18 @@ namespace {
 constexpr int d = 4, outer = 3;
 using Index = std::array<std::int16_t, outer>;
 using Z = std::array<double, d>;
+using Steps = std::array<double, d>;  // of the lines along each axis, and along them
 
 constexpr double negligible_share = 1e-9;  // nodes with less of the mass are left out
-constexpr double good_enough = 1e-3;       // where evaluations end before the tolerance is met
+// Where evaluations end before the tolerance is met; what is taken, and told, where no more can be had.
+constexpr double good_enough = 1e-3, acceptable = 5e-3;
 constexpr long most_nodes = 6'000'000;
 constexpr int farthest = 3000;  // steps along an axis: beyond, the mass has no end
 // Finer than sums ask for: quantiles of a posterior whose cells are as wide as those that sum well are wrong by some
 // hundredths of a standard deviation, which falls with the fourth power of the step.
 constexpr double widest_told = 0.55;
 constexpr int most_across = 80;  // steps along a line on either side of its mode
-// Of the step between lines that along them: half the lines are a lattice of finer dual than every second node of a line.
-constexpr double line_share = 0.8, longest_on_line = 0.7;
+constexpr double longest_on_line = 0.7;
 
 std::uint64_t key(const Index& index) {
   std::uint64_t packed = 0;
@@ -228,16 +229,41 @@ class CellShape {
   std::array<Along, d> along_{};
 };
 
+// What sums over a lattice lack, relative to mass and second moments.
+struct Doubt {
+  double lacks = 0;  // by the width of steps
+  double fall =
+      1;  // of the transform of the terms, over the fourth of the lattice's frequency that was seen last
+};
+struct Doubts {
+  std::array<Doubt, d> along{};  // each axis, the worst direction that it has a part in
+  double steps = 0;              // of all directions
+  double beyond = 0;             // what lies where the lattice ends
+};
+
+// Mass, first and second moments, relative to their sizes: what is to be believed of them.
+using Terms = Eigen::Array<double, 2 * d + 1, 1>;
+
+// A sum over a lattice lacks what its terms' Fourier transform is at the lattice's own frequencies. Halves of the
+// lattice tell it at half of one, quarters at a fourth: beyond, it is taken to fall as between these, as exp(-c frequency);
+// that of smooth terms falls faster. Of one parameter's terms together: any of them may be zero where its sign changes.
+Doubt beyond_lattice(const Terms& quarter, const Terms& half) {
+  Doubt worst;
+  for (int i = 1; i <= d; ++i) {
+    const double at_quarter = std::max(quarter[0], quarter[i]),
+                 at_half = std::max(half[0], half[i]);
+    const double fall = at_quarter > at_half ? at_half / at_quarter : 1;
+    const double lacks = std::max(at_half, half[i + d]) * fall * fall;
+    if (lacks > worst.lacks) worst = {lacks, fall};
+  }
+  return worst;
+}
+
 class Lattice {
  public:
   /// Filled down to `log_negligible` of the highest density.
-  Lattice(const Posterior& posterior, const Chart& chart, double step, double line_step,
-          double log_negligible)
-      : posterior_(posterior),
-        chart_(chart),
-        step_(step),
-        line_step_(line_step),
-        log_negligible_(log_negligible) {
+  Lattice(const Posterior& posterior, const Chart& chart, const Steps& steps, double log_negligible)
+      : posterior_(posterior), chart_(chart), steps_(steps), log_negligible_(log_negligible) {
     reference_ = density(place({}, -1, 0, 0));
   }
 
@@ -283,39 +309,56 @@ class Lattice {
 
   long nodes() const { return nodes_; }
 
-  // Sums of mass and second moments over the half lattices: of the lines by the parity of their
-  // index, and along the lines. Relative differences, the largest.
-  double error(bool moments) const {
-    Eigen::Matrix<double, 2 * d + 1, 4> sums = Eigen::Matrix<double, 2 * d + 1, 4>::Zero();
-    const Eigen::Vector4d middle = natural(at(lines_.front(), 0));
+  double log_mass() const {
+    double mass = 0;
     for (const Line& line : lines_) {
-      const int parity = (line.index[0] + line.index[1] + line.index[2]) & 1;
-      for (std::size_t j = 0; j < line.values.size(); ++j) {
-        const int t = line.first + static_cast<int>(j);
-        const double mass = std::exp(line.values[j]) * line.width;
-        if (mass == 0) continue;
-        Eigen::Matrix<double, 2 * d + 1, 1> terms = Eigen::Matrix<double, 2 * d + 1, 1>::Zero();
-        terms[0] = mass;
-        if (moments) {
-          const Eigen::Vector4d x = natural(at(line, t)) - middle;
-          terms.segment<d>(1) = mass * x;
-          terms.segment<d>(1 + d) = mass * x.cwiseAbs2();
-        }
-        sums.col(parity) += terms;
-        sums.col(2 + (t & 1)) += terms;
+      for (const double v : line.values) mass += std::exp(v) * line.width;
+    }
+    for (const double step : steps_) mass *= step;
+    return reference_ + std::log(mass) + chart_.log_scale();
+  }
+
+  Doubts doubts(bool moments) const {
+    const std::vector<LineSums> sums = line_sums(moments);
+    Doubts doubts;
+    for (int direction = 0; direction < directions; ++direction) {
+      // Along an axis, and along diagonals, each once.
+      const std::array<int, outer> way = {direction % 3 - 1, direction / 3 % 3 - 1,
+                                          direction / 9 % 3 - 1};
+      if (direction <= directions / 2) continue;
+      Terms real = Terms::Zero(), imaginary = real, half = real;
+      for (std::size_t l = 0; l < lines_.size(); ++l) {
+        int phase = 0;
+        for (std::size_t a = 0; a < outer; ++a) phase += way[a] * lines_[l].index[a];
+        const Terms& line = sums[l].all;
+        ((phase & 1) != 0 ? imaginary : real) += (phase & 2) != 0 ? Terms(-line) : line;
+        half += (phase & 1) != 0 ? Terms(-line) : line;
+      }
+      const Doubt here = beyond_lattice((real.square() + imaginary.square()).sqrt(), half.abs());
+      doubts.steps += here.lacks;
+      for (std::size_t a = 0; a < outer; ++a) {
+        if (way[a] != 0 && here.lacks > doubts.along[a].lacks) doubts.along[a] = here;
       }
     }
-    const Eigen::Matrix<double, 2 * d + 1, 1> all = sums.col(0) + sums.col(1);
-    double worst = 0;
-    for (int i = 0; i < 2 * d + 1; ++i) {
-      // First moments are judged by the size of the second.
-      const double size = i == 0 || i > d ? all[i] : std::sqrt(all[0] * all[i + d]);
-      if (!(size > 0)) continue;
-      for (const int pair : {0, 2}) {
-        worst = std::max(worst, std::abs(sums(i, pair) - sums(i, pair + 1)) / size);
+    Terms quarter[2] = {Terms::Zero(), Terms::Zero()}, half = Terms::Zero(),
+          shell[2] = {half, half};
+    for (const LineSums& line : sums) {
+      for (const int i : {0, 1}) {
+        quarter[i] += line.quarter[i];
+        shell[i] += line.shell[i];
       }
+      half += line.half;
     }
-    return worst;
+    doubts.along[outer] =
+        beyond_lattice((quarter[0].square() + quarter[1].square()).sqrt(), half.abs());
+    doubts.steps += doubts.along[outer].lacks;
+    // Shells at the end hold less and less: as the last two do, so do all beyond.
+    for (const int i : {0, 5, 6, 7, 8}) {
+      if (!(shell[0][i] > 0)) continue;
+      const double falls = std::min(shell[0][i] / shell[1][i], 0.98);
+      doubts.beyond = std::max(doubts.beyond, shell[0][i] * falls / (1 - falls));
+    }
+    return doubts;
   }
 
   ExactPosterior result(bool moments) const {
@@ -383,13 +426,75 @@ class Lattice {
     bool proper = true;
     for (const Parameter& parameter : posterior_.parameters()) proper &= parameter.prior.proper;
     if (proper) {
-      exact.log_evidence =
-          reference_ + std::log(mass * line_step_) + outer * std::log(step_) + chart_.log_scale();
+      exact.log_evidence = log_mass();
     }
     return exact;
   }
 
  private:
+  static constexpr int directions = 27;     // of the outer axes, with their opposites and none
+  static constexpr double shell_depth = 3;  // of log density
+
+  // Of one line: its sum, the same with signs that alternate along it, and with those of a fourth of the
+  // frequency; of the two outermost shells.
+  struct LineSums {
+    Terms all = Terms::Zero(), half = all, quarter[2] = {all, all}, shell[2] = {all, all};
+  };
+
+  // Terms about the mean, by their sizes: first moments by that of the second.
+  std::vector<LineSums> line_sums(bool moments) const {
+    const Eigen::Vector4d middle = natural(at(lines_.front(), 0));
+    std::vector<LineSums> sums(lines_.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines_.size(), 64), [&](const auto& part) {
+      for (std::size_t i = part.begin(); i != part.end(); ++i)
+        sums[i] = sum_of(lines_[i], middle, moments);
+    });
+    Terms all = Terms::Zero();
+    for (const LineSums& line : sums) all += line.all;
+    const Eigen::Array4d mean = all.segment<d>(1) / all[0];
+    const auto about_mean = [&](Terms& terms) {
+      terms.segment<d>(1 + d) += mean * (mean * terms[0] - 2 * terms.segment<d>(1));
+      terms.segment<d>(1) -= mean * terms[0];
+    };
+    Terms size = all;
+    about_mean(size);
+    size.segment<d>(1) = (all[0] * size.segment<d>(1 + d)).sqrt();
+    for (int i = 0; i < 2 * d + 1; ++i) {
+      if (!(size[i] > 0)) size[i] = INFINITY;
+    }
+    for (LineSums& line : sums) {
+      for (Terms* terms : {&line.all, &line.half, &line.quarter[0], &line.quarter[1],
+                           &line.shell[0], &line.shell[1]}) {
+        about_mean(*terms);
+        *terms /= size;
+      }
+    }
+    return sums;
+  }
+
+  LineSums sum_of(const Line& line, const Eigen::Vector4d& middle, bool moments) const {
+    LineSums sums;
+    for (std::size_t j = 0; j < line.values.size(); ++j) {
+      const int t = line.first + static_cast<int>(j);
+      const double mass = std::exp(line.values[j]) * line.width;
+      if (mass == 0) continue;
+      Terms here = Terms::Zero();
+      here[0] = mass;
+      if (moments) {
+        const Eigen::Array4d x = (natural(at(line, t)) - middle).array();
+        here.segment<d>(1) = mass * x;
+        here.segment<d>(1 + d) = mass * x * x;
+      }
+      sums.all += here;
+      sums.half += (t & 1) != 0 ? Terms(-here) : here;
+      sums.quarter[t & 1] += (t & 2) != 0 ? Terms(-here) : here;
+      const double over_end = line.values[j] - highest_ - log_negligible_;
+      if (over_end > 0 && over_end < 2 * shell_depth)
+        sums.shell[over_end < shell_depth ? 0 : 1] += here;
+    }
+    return sums;
+  }
+
   // A point of a line, or beside it.
   struct Place {
     Z z;                      // on the real line
@@ -399,14 +504,15 @@ class Lattice {
   Place place(const Index& index, int axis, double shift, double on_line) const {
     Eigen::Vector4d along;
     for (int i = 0; i < outer; ++i)
-      along[i] = step_ * (index[static_cast<std::size_t>(i)] + (i == axis ? shift : 0));
+      along[i] = steps_[static_cast<std::size_t>(i)] *
+                 (index[static_cast<std::size_t>(i)] + (i == axis ? shift : 0));
     along[outer] = on_line;
     Place place;
     place.log_jacobian = chart_.to_real(along, place.z);
     return place;
   }
   Place at(const Line& line, double t) const {
-    return place(line.index, -1, 0, line.middle + line.width * line_step_ * t);
+    return place(line.index, -1, 0, line.middle + line.width * steps_[outer] * t);
   }
   double density(const Place& there) const {
     return posterior_.value(there.z) + there.log_jacobian;
@@ -420,7 +526,7 @@ class Lattice {
     };
     return place(line.index, axis, shift,
                  half_way(line.middle, other.middle, opposite.middle) +
-                     half_way(line.width, other.width, opposite.width) * line_step_ * t);
+                     half_way(line.width, other.width, opposite.width) * steps_[outer] * t);
   }
 
   Eigen::Vector4d natural(const Place& there) const {
@@ -488,7 +594,7 @@ class Lattice {
     for (const int way : {-1, 1}) {
       std::vector<double>& side = way < 0 ? below : line.values;
       for (int t = 1; t <= most_across; ++t) {
-        const double v = value(line.middle + way * t * line_step_ * line.width);
+        const double v = value(line.middle + way * t * steps_[outer] * line.width);
         side.push_back(v);
         line.highest = std::max(line.highest, v);
         if (!(v > std::max(line.highest, highest_) + log_negligible_)) break;
@@ -500,7 +606,8 @@ class Lattice {
 
   const Posterior& posterior_;
   const Chart& chart_;
-  double step_, line_step_, log_negligible_;
+  Steps steps_;
+  double log_negligible_;
   double reference_;
   double highest_ = -INFINITY;
   long nodes_ = 0;
@@ -514,30 +621,43 @@ double log_negligible(double tolerance) {
   return std::max(-22.0, -22 + std::log(tolerance / 1e-5));
 }
 
+Steps steps_of(double step) {
+  return {step, step, step, std::min(step, longest_on_line)};
+}
+
 // A lattice that is filled, or why it could not be.
 struct Filled {
   std::unique_ptr<Lattice> lattice;
   std::string failure;
+  Doubts doubts;
   double error = INFINITY;  // where it was filled
 
-  Filled(const Posterior& posterior, const Chart& chart, double step, long most,
-         const ExactSettings& settings)
-      : lattice(std::make_unique<Lattice>(posterior, chart, step,
-                                          std::min(line_share * step, longest_on_line),
-                                          log_negligible(settings.tolerance))),
+  Filled(const Posterior& posterior, const Chart& chart, const Steps& steps, double log_negligible,
+         long most, const ExactSettings& settings)
+      : lattice(std::make_unique<Lattice>(posterior, chart, steps, log_negligible)),
         failure(lattice->fill(most)) {
-    if (failure.empty()) error = lattice->error(settings.second_moments);
+    if (!failure.empty()) return;
+    doubts = lattice->doubts(settings.second_moments);
+    error = doubts.steps + doubts.beyond;
   }
 };
 
-// The next step, by how far the error is from the tolerance: it falls between exp(-c/step) and exp(-c/step^2) where the
-// density is smooth.
-double next_step(double step, double error, double tolerance, long nodes, long left) {
-  const double a_little = step / std::sqrt(2.0);
-  if (error >= 1) return a_little;
-  const double next =
-      step * std::clamp(std::pow(std::log(error) / std::log(tolerance), 0.67), 0.5, 0.95);
-  return next < a_little && 16 * nodes > left ? a_little : next;
+// Each axis by its own: one that is narrow makes no others finer. Doubts fall as exp(-c/step), those of coarse lattices faster.
+Steps next_steps(const Steps& steps, const Doubts& doubts, double tolerance, const Steps& widest) {
+  constexpr double share = 0.2, least = 1.15, most = 2.5, faster = 1.5;
+  Steps next;
+  for (std::size_t a = 0; a < d; ++a) {
+    const Doubt& doubt = doubts.along[a];
+    const double too_much = std::log(doubt.lacks / (share * tolerance));
+    const double finer = 1 + too_much / (-4 * faster * std::log(std::min(doubt.fall, 0.9)));
+    const double step = too_much > 0 ? steps[a] / std::clamp(finer, least, most) : steps[a];
+    next[a] = std::min(widest[a], step);
+  }
+  return next;
+}
+
+double mean_step(const Steps& steps) {
+  return std::pow(steps[0] * steps[1] * steps[2] * steps[3], 1.0 / d);
 }
 
 }  // namespace
@@ -551,49 +671,73 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   // soon.
   constexpr double coarsest = 1, telling = 0.7;
   constexpr long few_nodes = 140'000, enough_nodes = 400'000;
+  // Doubts of coarse lattices are several times too large.
+  const bool coarse = settings.tolerance >= good_enough;
+  const double enough = coarse ? 5 * settings.tolerance : settings.tolerance;
+  const double first_end = log_negligible(settings.tolerance);
+  double end = first_end;
+  bool may_deepen = true;
   const Chart* chart = &straight;
-  std::optional<Filled> filled(std::in_place, posterior, straight, coarsest, most_nodes, settings);
-  if (!map.affine() && !(filled->error <= settings.tolerance)) {
+  std::optional<Filled> filled(std::in_place, posterior, straight, steps_of(coarsest), end,
+                               most_nodes, settings);
+  if (!map.affine() && !(filled->error <= enough)) {
     const bool dear = !filled->failure.empty() || filled->lattice->nodes() > few_nodes;
-    const auto error = [&](const Chart& of) {
-      return Filled(posterior, of, telling, enough_nodes, settings).error;
+    const auto filled_on = [&](const Chart& of, double step, long most) {
+      return Filled(posterior, of, steps_of(step), end, most, settings);
     };
-    if (dear ? Filled(posterior, along, coarsest, few_nodes, settings).failure.empty()
-             : error(along) < error(straight)) {
+    if (dear ? filled_on(along, coarsest, few_nodes).failure.empty()
+             : filled_on(along, telling, enough_nodes).error <
+                   filled_on(straight, telling, enough_nodes).error) {
       chart = &along;
       filled.reset();
     }
   }
+  const Steps widest = steps_of(coarse ? coarsest : widest_told);
   ExactPosterior exact;
   std::optional<Filled> best;
   long evaluations = 0;
   double before = INFINITY, step_before = coarsest;
-  for (double step = coarsest; evaluations < settings.max_evaluations;) {
+  for (Steps steps = steps_of(coarsest); evaluations < settings.max_evaluations;) {
     if (settings.stop.stop_requested()) throw Cancelled();
-    if (!filled) filled.emplace(posterior, *chart, step, most_nodes, settings);
+    if (!filled) filled.emplace(posterior, *chart, steps, end, most_nodes, settings);
     const long nodes = filled->lattice->nodes();
     evaluations += nodes;
     if (!filled->failure.empty()) {
       exact.failure = filled->failure;
-      break;
+      if (end == first_end) break;
+      // Too many nodes so far out: what lies beyond is then told.
+      end = first_end;
+      may_deepen = false;
+      filled.reset();
+      continue;
     }
     const double error = filled->error;
-    const double widest = settings.tolerance < good_enough ? widest_told : coarsest;
-    if (error <= std::max(settings.tolerance, good_enough)) best = std::move(filled);
-    if (error <= settings.tolerance && step <= widest) break;
+    const Doubts doubts = filled->doubts;
+    if (error <= std::max(enough, acceptable) && !(best && best->error < error))
+      best = std::move(filled);
+    const bool fine = std::equal(steps.begin(), steps.end(), widest.begin(), std::less_equal<>());
+    if (error <= enough && fine) break;
     // Across a kink or a jump errors fall by a power of the step: what the evaluations will not suffice
     // for is not begun.
-    const double power = std::log(before / error) / std::log(step_before / step);
-    const bool hopeless = std::isfinite(before) &&
-                          (error >= before || std::pow(error / settings.tolerance, 4 / power) *
-                                                      static_cast<double>(evaluations) >
-                                                  static_cast<double>(settings.max_evaluations));
-    before = error;
+    const double step = mean_step(steps);
+    const double power = std::log(before / doubts.steps) / std::log(step_before / step);
+    const bool hopeless =
+        std::isfinite(before) && step < step_before &&
+        (doubts.steps >= before ||
+         std::pow(doubts.steps / enough, 4 / power) * static_cast<double>(evaluations) >
+             static_cast<double>(settings.max_evaluations));
+    before = doubts.steps;
     step_before = step;
-    if (hopeless && error <= good_enough) break;
+    if (hopeless && best && best->error <= good_enough) break;
     exact.failure = fmt::format("no convergence in {} evaluations", evaluations);
-    step = std::min(widest, next_step(step, error, settings.tolerance, nodes,
-                                      settings.max_evaluations - evaluations));
+    const Steps steps_now = steps;
+    const double end_now = end;
+    steps = next_steps(steps, doubts, enough, widest);
+    // What lies beyond falls about as the density at the end.
+    const double most_beyond = 0.5 * enough;
+    if (may_deepen && doubts.beyond > most_beyond)
+      end -= std::clamp(1.5 * std::log(doubts.beyond / most_beyond), 1.0, 4.0);
+    if (steps == steps_now && end == end_now) break;
     filled.reset();
   }
   if (best) {

@@ -11,13 +11,15 @@ namespace wearwell {
 /// parameter that the others hold closest: whichever a coarse lattice finds rounder. There parameters between two bounds
 /// are bent, so that tails as exp(-|z|) become normal ones. One direction is
 /// integrated out along lines about their own modes; the lattice of the other three is filled
-/// outward from the mode as long as there is density, and refined until its two half lattices agree to `tolerance`. Cells hold the
-/// parabola through the log density of their neighbours.
+/// outward from the mode as long as there is density, and refined, each axis by itself, until its error is below `tolerance`. That
+/// error is estimated: along every axis and diagonal sums over every second and every fourth node tell how the Fourier transform
+/// of density and moments falls, hence what it is where the lattice cannot see it; and what the outermost shells hold, how much lies
+/// beyond. Cells hold the parabola through the log density of their neighbours.
 ///
 /// Limits: density and moments converge exponentially, cells by the fourth power of the step, so that
 /// quantiles keep an error of some thousandths of a standard deviation (two hundredths on a bent
 /// ridge): a tolerance below 1e-3, of which curves are told, has steps finer than its sums ask for. A parameter that is cut by two bounds has long tails on the real line; with four of them
-/// the evaluations end at an estimated error of up to 1e-3, which is then accepted (`error` says
+/// the evaluations end at an estimated error of up to 5e-3, which is then accepted (`error` says
 /// so).
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
                                     const ExactSettings& settings);
