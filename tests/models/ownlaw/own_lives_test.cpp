@@ -234,7 +234,7 @@ y_path = "a + b*t"
     draws.values << 0.1, 1.1, 0.2, sa, sb;
     draws.weights.setOnes(1);
     const QuantityQuantiles life = study.quantity_groups.front().from_draws(draws).front();
-    const auto cdf = [&](double t) {
+    const auto cdf = [&, sa = sa, sb = sb](double t) {
       double sum = 0;
       for (int i = -400; i <= 400; ++i) {
         const double z = 0.02 * i, left = 10 - (0.1 + sa * z);
