@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "models/tracked_trade.h"
+#include "support/followed_unit.h"
 #include "wearwell/base/error.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/math/constants.h"
@@ -110,7 +111,7 @@ TEST(PartTracker, IsTheSumOverAllNodes) {
     EXPECT_THAT(std::vector(trade.tracker->seen().begin(), trade.tracker->seen().end()),
                 testing::ElementsAre("h", "i"));
     const SnLaw law = law_of(trade);
-    FollowedUnit seen{trade.tracker->begin("h")};
+    FollowedUnit seen(*trade.tracker, "h");
     EXPECT_EQ(seen.unit->forecast().now, 2e6);
     expect_same(
         seen.unit->forecast(),
@@ -120,7 +121,7 @@ TEST(PartTracker, IsTheSumOverAllNodes) {
         seen.unit->forecast(),
         [&](double r) { return ended(law, trade.state.posterior, under(350), 2e6, 3.5e6, r); },
         2e-3);
-    FollowedUnit fresh{trade.tracker->begin("new")};
+    FollowedUnit fresh(*trade.tracker, "new");
     EXPECT_TRUE(std::isnan(fresh.unit->forecast().passed));  // its stress is not known
     EXPECT_THAT(fresh.take({1e5, none}).problem, HasSubstr("alternating_stress is missing"));
     const double chance = 1 - ended(law, trade.state.posterior, under(400), 0, 0, 4e5);
@@ -138,7 +139,7 @@ TEST(PartTracker, ARunoutCountsOnce) {
   PartRows others = part_rows;
   others.erase(others.begin() + 7);
   const TrackedTrade without(study, headings, others);
-  FollowedUnit known{whole.tracker->begin("h")}, fresh{without.tracker->begin("h")};
+  FollowedUnit known(*whole.tracker, "h"), fresh(*without.tracker, "h");
   EXPECT_TRUE(fresh.take({2e6, 350e6}).counted);
   for (const double n : {2e6, 3e6, 6e6}) {
     EXPECT_TRUE(known.take({n, none}).counted);
@@ -239,7 +240,7 @@ TEST(StressLives, OfCurvesThatBend) {
 
 TEST(PartTracker, OrderAndStatesChangeNoBit) {
   const TrackedTrade trade(part_study("", "weibull", line), headings, part_rows);
-  FollowedUnit in_order{trade.tracker->begin("x")}, late{trade.tracker->begin("x")};
+  FollowedUnit in_order(*trade.tracker, "x"), late(*trade.tracker, "x");
   for (const double n : {1e5, 2e5, 3e5}) in_order.take({n, 420e6});
   for (const double n : {3e5, 1e5, 2e5}) EXPECT_TRUE(late.take({n, 420e6}).counted);
   const auto restored = trade.tracker->restore(in_order.unit->save());
@@ -256,7 +257,7 @@ TEST(PartTracker, OrderAndStatesChangeNoBit) {
 // Population by population, mixed by likelihood, it is the forecast.
 TEST(PartTracker, PopulationsTogetherAreTheForecast) {
   const TrackedTrade trade(part_study("", "log10-normal", line), headings, part_rows);
-  FollowedUnit seen{trade.tracker->begin("i")};
+  FollowedUnit seen(*trade.tracker, "i");
   seen.take({5e6, none});
   const Forecast forecast = seen.unit->forecast();
   const auto apart = seen.unit->in_populations([](const auto&) {});
@@ -277,11 +278,11 @@ TEST(PartTracker, PopulationsTogetherAreTheForecast) {
 TEST(PartTracker, SaysWhatCannotBe) {
   const TrackedTrade trade(part_study("", "log10-normal", line), headings, part_rows);
   EXPECT_THAT(trade.tracker->refusal("c"), HasSubstr("row 3 of data.csv, where it broke"));
-  FollowedUnit seen{trade.tracker->begin("h")};
+  FollowedUnit seen(*trade.tracker, "h");
   EXPECT_THAT(seen.take({3e6, 360e6}).problem, HasSubstr("not, as before, under 350 MPa"));
   EXPECT_THAT(seen.take({none, 350e6}).problem, HasSubstr("life is missing"));
   EXPECT_THAT(seen.take({-1, 350e6}).problem, HasSubstr("0 or more"));
-  FollowedUnit fresh{trade.tracker->begin("z")};
+  FollowedUnit fresh(*trade.tracker, "z");
   EXPECT_TRUE(fresh.take({3e6, 500e6}).contradicts);
   const auto life = [&](const std::string& survived) {
     return prognosis::tracked_life(*trade.tracker, "h", {.unit = "h", .survived = survived});
