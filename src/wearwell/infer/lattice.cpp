@@ -4,7 +4,6 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -12,6 +11,7 @@
 #include <unordered_map>
 
 #include "wearwell/base/monitor.h"
+#include "wearwell/infer/lattice_chart.h"
 #include "wearwell/infer/ridge_map.h"
 
 // Longer than others: one rule, whose lines are filled, judged and told in the same coordinates.
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int d = 4, outer = 3;
 using Index = std::array<std::int16_t, outer>;
-using Z = std::array<double, d>;
+using Z = LatticeChart::Z;
 using Steps = std::array<double, d>;  // of the lines along each axis, and along them
 
 constexpr double negligible_share = 1e-9;  // nodes with less of the mass are left out
@@ -39,136 +39,6 @@ std::uint64_t key(const Index& index) {
   for (const std::int16_t i : index) packed = packed << 16 | static_cast<std::uint16_t>(i);
   return packed;
 }
-
-// Coordinates in which the posterior is to be round and of unit size: lines run along the last one.
-class Chart {
- public:
-  virtual ~Chart() = default;
-  /// On the real line; returns the log of the volume of z by that of u, less log_scale().
-  virtual double to_real(const Eigen::Vector4d& u, Z& z) const = 0;
-  virtual double log_scale() const = 0;
-};
-
-// Of a parameter between two bounds the density on the real line falls no faster than exp(-|z|), so that a lattice has to
-// go 22 units out: z = w sqrt(1 + (w/5)^2) is nearly the normal quantile of its uniform share, scaled to slope 1, and makes
-// of that tail a normal one. Others stay as they are.
-class Bending {
- public:
-  explicit Bending(const Posterior& posterior) {
-    for (std::size_t i = 0; i < d; ++i) {
-      const Law& prior = posterior.parameters()[i].prior;
-      bent_[i] = std::isfinite(prior.lower) && std::isfinite(prior.upper);
-    }
-  }
-
-  double from_real(std::size_t i, double z) const {
-    if (!bent_[i]) return z;
-    const double square = 2 * z * z / (1 + std::sqrt(1 + 4 * z * z / (far * far)));
-    return std::copysign(std::sqrt(square), z);
-  }
-  double slope(std::size_t i, double w) const {
-    return bent_[i] ? (1 + 2 * square_of(w)) / std::sqrt(1 + square_of(w)) : 1;
-  }
-  // Makes z of w; returns the log of the product of the slopes.
-  double to_real(Z& w) const {
-    double slopes = 1;
-    for (std::size_t i = 0; i < d; ++i) {
-      if (!bent_[i]) continue;
-      const double square = square_of(w[i]), root = std::sqrt(1 + square);
-      slopes *= (1 + 2 * square) / root;
-      w[i] *= root;
-    }
-    return std::log(slopes);
-  }
-
- private:
-  static constexpr double far = 5;
-  static double square_of(double w) { return (w / far) * (w / far); }
-  std::array<bool, d> bent_{};
-};
-
-// Lines along the parameter that the others hold closest, so that they follow a narrow ridge in it
-// that bends; the others by their covariance.
-class Straight final : public Chart {
- public:
-  Straight(const Posterior& posterior, const Whitening& whitening) : bending_(posterior) {
-    Eigen::Vector4d center, slopes;
-    for (int i = 0; i < d; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      center[i] = bending_.from_real(at, whitening.center[i]);
-      slopes[i] = bending_.slope(at, center[i]);
-    }
-    const Eigen::Matrix4d scale = slopes.cwiseInverse().asDiagonal() * whitening.scale;
-    const Eigen::Matrix4d covariance = scale * scale.transpose();
-    const Eigen::Matrix4d precision = covariance.inverse();
-    // The smallest share of its variance that is left when the others are known.
-    double least = INFINITY;
-    for (int i = 0; i < d; ++i) {
-      const double share = 1 / (precision(i, i) * covariance(i, i));
-      if (share < least * (1 - 1e-9)) {
-        least = share;
-        line_ = i;
-      }
-    }
-    for (int i = 0, at = 0; i < d; ++i) {
-      if (i != line_) rest_[static_cast<std::size_t>(at++)] = i;
-    }
-    Eigen::Matrix3d block;
-    for (int i = 0; i < outer; ++i) {
-      center_[i] = center[rest_[static_cast<std::size_t>(i)]];
-      for (int j = 0; j < outer; ++j)
-        block(i, j) =
-            covariance(rest_[static_cast<std::size_t>(i)], rest_[static_cast<std::size_t>(j)]);
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(block);
-    scale_ = eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().asDiagonal();
-    line_center_ = center[line_];
-    line_scale_ = 1 / std::sqrt(precision(line_, line_));
-  }
-
-  double to_real(const Eigen::Vector4d& u, Z& z) const override {
-    const Eigen::Vector3d three = center_ + scale_ * u.head<outer>();
-    for (int i = 0; i < outer; ++i)
-      z[static_cast<std::size_t>(rest_[static_cast<std::size_t>(i)])] = three[i];
-    z[static_cast<std::size_t>(line_)] = line_center_ + line_scale_ * u[outer];
-    return bending_.to_real(z);
-  }
-  double log_scale() const override {
-    return std::log(std::abs(scale_.determinant()) * line_scale_);
-  }
-
- private:
-  Bending bending_;
-  int line_ = 0;
-  std::array<int, outer> rest_{};
-  Eigen::Vector3d center_;
-  Eigen::Matrix3d scale_;
-  double line_center_ = 0, line_scale_ = 1;
-};
-
-// Along the ridge of a funnel. The lattice stands askew in the coordinates of the map: along an axis
-// whole layers of cells would share one value of a parameter, whose distribution would have steps.
-class AlongRidge final : public Chart {
- public:
-  explicit AlongRidge(const RidgeMap& map) : map_(map) {
-    const Eigen::Vector4d v =
-        Eigen::Vector4d(1, std::sqrt(2), std::sqrt(3), std::sqrt(5)) / std::sqrt(11);
-    askew_ = Eigen::Matrix4d::Identity() - 2 * v * v.transpose();
-  }
-
-  double to_real(const Eigen::Vector4d& u, Z& z) const override {
-    RidgeMap::Coordinates turned;
-    Eigen::Map<Eigen::Vector4d>(turned.data()).noalias() = askew_ * u;
-    const RidgeMap::Frame frame = map_.at(turned[static_cast<std::size_t>(map_.axis())]);
-    map_.to_real(frame, turned, z);
-    return frame.log_jacobian;
-  }
-  double log_scale() const override { return map_.log_scale(); }
-
- private:
-  const RidgeMap& map_;
-  Eigen::Matrix4d askew_;
-};
 
 // One line: the fourth coordinate is middle + width t at t = 0, +-step, +-2 step, ...
 struct Line {
@@ -262,7 +132,8 @@ Doubt beyond_lattice(const Terms& quarter, const Terms& half) {
 class Lattice {
  public:
   /// Filled down to `log_negligible` of the highest density.
-  Lattice(const Posterior& posterior, const Chart& chart, const Steps& steps, double log_negligible)
+  Lattice(const Posterior& posterior, const LatticeChart& chart, const Steps& steps,
+          double log_negligible)
       : posterior_(posterior), chart_(chart), steps_(steps), log_negligible_(log_negligible) {
     reference_ = density(place({}, -1, 0, 0));
   }
@@ -605,7 +476,7 @@ class Lattice {
   }
 
   const Posterior& posterior_;
-  const Chart& chart_;
+  const LatticeChart& chart_;
   Steps steps_;
   double log_negligible_;
   double reference_;
@@ -632,8 +503,8 @@ struct Filled {
   Doubts doubts;
   double error = INFINITY;  // where it was filled
 
-  Filled(const Posterior& posterior, const Chart& chart, const Steps& steps, double log_negligible,
-         long most, const ExactSettings& settings)
+  Filled(const Posterior& posterior, const LatticeChart& chart, const Steps& steps,
+         double log_negligible, long most, const ExactSettings& settings)
       : lattice(std::make_unique<Lattice>(posterior, chart, steps, log_negligible)),
         failure(lattice->fill(most)) {
     if (!failure.empty()) return;
@@ -665,8 +536,7 @@ double mean_step(const Steps& steps) {
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
                                     const ExactSettings& settings) {
   const RidgeMap map(posterior, whitening);
-  const Straight straight(posterior, whitening);
-  const AlongRidge along(map);
+  const auto straight = straight_chart(posterior, whitening), along = ridge_chart(map);
   // Each chart is round where the other is not; lattices of middling steps tell. Where one is dear, the one that ends
   // soon.
   constexpr double coarsest = 1, telling = 0.7;
@@ -677,18 +547,18 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   const double first_end = log_negligible(settings.tolerance);
   double end = first_end;
   bool may_deepen = true;
-  const Chart* chart = &straight;
-  std::optional<Filled> filled(std::in_place, posterior, straight, steps_of(coarsest), end,
+  const LatticeChart* chart = straight.get();
+  std::optional<Filled> filled(std::in_place, posterior, *straight, steps_of(coarsest), end,
                                most_nodes, settings);
   if (!map.affine() && !(filled->error <= enough)) {
     const bool dear = !filled->failure.empty() || filled->lattice->nodes() > few_nodes;
-    const auto filled_on = [&](const Chart& of, double step, long most) {
+    const auto filled_on = [&](const LatticeChart& of, double step, long most) {
       return Filled(posterior, of, steps_of(step), end, most, settings);
     };
-    if (dear ? filled_on(along, coarsest, few_nodes).failure.empty()
-             : filled_on(along, telling, enough_nodes).error <
-                   filled_on(straight, telling, enough_nodes).error) {
-      chart = &along;
+    if (dear ? filled_on(*along, coarsest, few_nodes).failure.empty()
+             : filled_on(*along, telling, enough_nodes).error <
+                   filled_on(*straight, telling, enough_nodes).error) {
+      chart = along.get();
       filled.reset();
     }
   }

@@ -250,24 +250,20 @@ std::string SqlWriter::times() const {
   columns.add(
       clickhouse() ? fmt::format("ifNull(toString({}), '')", unit) : fleet::text(dialect_, unit),
       "wearwell_unit");
-  const std::string own_time =
-      source_.time.empty() ? "" : "t." + fleet::identifier(dialect_, source_.time);
   if (source_.time.empty()) {
-    for (const char* each : {"first_time", "last_time", "timed"}) columns.add(nothing, each);
+    for (const char* each : {"first_time", "last_time", "timed", "clock"})
+      columns.add(nothing, each);
   } else {
-    const std::string time = dialect_ == fleet::Dialect::duckdb
-                                 ? fmt::format("cast({} as timestamp)", own_time)
-                                 : own_time;
+    const bool duckdb = dialect_ == fleet::Dialect::duckdb;
+    std::string time = "t." + fleet::identifier(dialect_, source_.time);
+    if (duckdb) time = fmt::format("cast({} as timestamp)", time);
     columns.add(fleet::seconds(dialect_, fmt::format("min({})", time)), "first_time");
     columns.add(fleet::seconds(dialect_, fmt::format("max({})", time)), "last_time");
     columns.add(fleet::real(dialect_, fmt::format("count({})", time)), "timed");
+    // Texts that are dates have no other moment of the day than its begin.
+    columns.add(duckdb ? fmt::format("cast(max(epoch({}) % 86400) as double)", time) : nothing,
+                "clock");
   }
-  // Texts that are dates have no other moment of the day than its begin.
-  columns.add(
-      !source_.time.empty() && dialect_ == fleet::Dialect::duckdb
-          ? fmt::format("cast(max(epoch(cast({0} as timestamp)) % 86400) as double)", own_time)
-          : nothing,
-      "clock");
   columns.add(source_.per_day.empty()
                   ? nothing
                   : fleet::real(dialect_, fmt::format("avg(t.{})", fleet::identifier(
