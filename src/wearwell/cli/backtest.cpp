@@ -117,9 +117,9 @@ void add_backtest_command(CLI::App& app, Models models, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "backtest", "How often forecasts of remaining life have held, of units whose end is known");
   command
-      ->add_option(
-          "RESULT", options->result,
-          "Folder that wearwell fit wrote of a law, of bearings or of a joint, with a limit")
+      ->add_option("RESULT", options->result,
+                   "Folder that wearwell fit wrote of a law, of bearings or of a joint, with a "
+                   "limit, or of S-N parts")
       ->required();
   command
       ->add_option("READINGS", options->readings,

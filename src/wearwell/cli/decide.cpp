@@ -293,7 +293,8 @@ void add_decide_command(CLI::App& app, Models models, int& exit_code) {
   command
       ->add_option(
           "LIVES", options->lives,
-          "Folder that wearwell fit wrote of a law or of bearings, with a limit; configuration of "
+          "Folder that wearwell fit wrote of a law or of bearings, with a limit, or of S-N parts; "
+          "configuration of "
           "a "
           "monitor (.toml): the units of its store; or a table of lives: column 'life [h]', and "
           "weight, unit, population where there are such")
