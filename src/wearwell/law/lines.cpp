@@ -121,6 +121,7 @@ class Sorter {
                       text.where));
     lines_.beginning = {boost::algorithm::trim_copy(name.substr(0, bracket)), text,
                         tokens_of(text)};
+    check_name(lines_.beginning.name, "state");
     place_ = boost::algorithm::trim_copy(name.substr(bracket + 1, name.size() - bracket - 2));
   }
 

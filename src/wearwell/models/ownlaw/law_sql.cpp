@@ -151,6 +151,8 @@ class Printer {
     switch (node.op) {
       case Op::negate:
         return "-" + a;
+      case Op::opposite:
+        return choose(a + " <> 0e0", "0e0", "1e0");
       case Op::whole_power:
         return fmt::format("power({}, {}e0)", a, static_cast<long>(node.value));
       case Op::exp:
@@ -197,7 +199,14 @@ class Printer {
     }
   }
 
+  [[noreturn]] static void refuse_rows_before() {
+    throw InputError(
+        "the law depends on rows before its own (cum, step, a state by its rate): such a path is "
+        "not printed as SQL");
+  }
+
   std::string binary(const Node& node) const {
+    if (node.b < 0) refuse_rows_before();
     const auto sign = [&](const char* between) {
       return fmt::format("{} {} {}", of(node.a), between, of(node.b));
     };
@@ -236,15 +245,10 @@ class Printer {
         return truth(fmt::format("{} <> 0e0 and {} <> 0e0", a, b));
       case Op::either:
         return truth(fmt::format("{} <> 0e0 or {} <> 0e0", a, b));
-      case Op::opposite:
-        return choose(a + " <> 0e0", "0e0", "1e0");
       case Op::where:
         return choose(a + " <> 0e0", b, of(node.c));
       default:
-        throw InputError(
-            "the law depends on rows before its own (cum, step, a state by its rate): such a path "
-            "is "
-            "not printed as SQL");
+        refuse_rows_before();
     }
   }
 
