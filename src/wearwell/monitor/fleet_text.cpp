@@ -49,10 +49,10 @@ std::string fleet_text(const FleetReader& reader) {
   std::string text;
   if (!fleet.title.empty()) text += printable(fleet.title) + "\n";
   text += fmt::format(
-      "{} units: {} to act upon, {} to watch, {} ok, {} unknown. Risk: that {} reaches {} {} "
+      "{} units: {} to act upon, {} to watch, {} ok, {} unknown. Risk: that {} reaches {}{} "
       "within {} {}.\n",
       fleet.units, fleet.act, fleet.watch, fleet.ok, fleet.unknown, fleet.limited, fleet.limit,
-      fleet.level_unit, fleet.horizon, fleet.axis_unit);
+      fleet.level_unit == "1" ? "" : " " + fleet.level_unit, fleet.horizon, fleet.axis_unit);
   text += fmt::format("{} readings stored; of {} messages {} repeated, {} refused.\n", fleet.stored,
                       fleet.messages, fleet.repeated, fleet.refused);
   if (!fleet.trusted)
