@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "infer/normal_reference.h"
 #include "infer/test_posteriors.h"
 #include "support/formula.h"
 #include "wearwell/base/rng.h"
@@ -69,13 +70,6 @@ void compare(const std::string& what, const Posterior& posterior, const Moments&
     EXPECT_LE(of_mean, allowed * exact.error) << what << ", mean of parameter " << i;
     EXPECT_LE(of_square, allowed * exact.error) << what << ", variance of parameter " << i;
   }
-}
-
-double density(double z) {
-  return std::exp(-0.5 * z * z) / std::sqrt(2 * M_PI);
-}
-double below(double z) {
-  return 0.5 * std::erfc(-z / std::sqrt(2.0));
 }
 
 struct Range {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "infer/normal_reference.h"
 #include "infer/test_posteriors.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/lattice.h"
@@ -21,13 +22,6 @@ struct Range {
   double lower, upper;
   double at(double share) const { return lower + share * (upper - lower); }
 };
-
-double density(double z) {
-  return std::exp(-0.5 * z * z) / std::sqrt(2 * M_PI);
-}
-double below(double z) {
-  return 0.5 * std::erfc(-z / std::sqrt(2.0));
-}
 
 struct Moments {
   Four mean, sd;

@@ -204,8 +204,7 @@ void refuse_two_meanings(const prognosis::CarriedState& state, const std::string
   if (stresses && stresses->has(name))
     throw InputError(
         fmt::format("--unit: '{0}' is a part of the data and a stress of [predict.stress]: write "
-                    "'part {0}' for "
-                    "the first, or give the stress another name",
+                    "'part {0}' for the first, or give the stress another name",
                     printable(name)));
 }
 

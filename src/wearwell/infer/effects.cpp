@@ -25,8 +25,7 @@ std::vector<Shortfall> unsettled_effects(const Posterior& posterior, const Weigh
   return {
       {Stage::effects, worst > of_import ? Verdict::fail : Verdict::warn,
        fmt::format("in {} of {} points of the posterior looked at what differs from unit to unit, "
-                   "or a path "
-                   "under noise, is integrated out to {:.1g} of the log likelihood only",
+                   "or a path under noise, is integrated out to {:.1g} of the log likelihood only",
                    open, looked, worst),
        "An expression with a jump or a corner (where, min, max, abs) in what differs is hard to "
        "integrate: write it smoothly. Paths under noise are where errors are far from steps."}};

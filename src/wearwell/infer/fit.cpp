@@ -203,8 +203,7 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
              dynamic_cast<const SlowDensity*>(posterior.likelihood().get())) {
     fit.no_exact = fmt::format(
         "each evaluation of this likelihood, which has paths to integrate out, takes long: too "
-        "long "
-        "for quadrature over {} parameters",
+        "long for quadrature over {} parameters",
         posterior.dimension());
   } else {
     ExactSettings exact = settings.exact;
