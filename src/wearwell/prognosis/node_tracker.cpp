@@ -7,11 +7,11 @@
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/sha1.h"
 #include "wearwell/math/constants.h"
-#include "wearwell/prognosis/bytes.h"
+#include "wearwell/prognosis/unit_state.h"
 #include "wearwell/prognosis/weighted_quantiles.h"
 
 namespace wearwell::prognosis {
@@ -228,9 +228,7 @@ std::vector<LevelAhead> NodeUnit::ahead(std::span<const double> places) const {
 }
 
 std::string NodeUnit::save() const {
-  ByteWriter to;
-  to.text(mark);
-  to.text(model_->fingerprint);
+  ByteWriter to = unit_state(mark, model_->fingerprint);
   to.text(unit_);
   to.u64(readings_);
   to.number(laid_effective_);
@@ -242,8 +240,7 @@ std::string NodeUnit::save() const {
   for (const double each : last_.numbers) to.number(each);
   for (std::size_t i = 0; !last_.numbers.empty() && i < last_.labels.size(); ++i)
     to.text(last_.labels[i]);
-  std::string bytes = to.take();
-  return sha1_of(bytes) + bytes;
+  return signed_unit_state(std::move(to));
 }
 
 // `columns`: of the nodes of every unit that is followed.
@@ -311,15 +308,7 @@ class NodeTracker final : public Tracker {
   }
 
   std::unique_ptr<TrackedUnit> restore(const std::string& bytes) const override {
-    constexpr std::size_t digest = 40;
-    const std::string name = "the state of a unit";
-    if (bytes.size() < digest || sha1_of(bytes.substr(digest)) != bytes.substr(0, digest))
-      throw InputError(name + " is damaged, or of another version");
-    ByteReader from(std::string_view(bytes).substr(digest), name);
-    if (from.text() != mark) from.fail("of another version");
-    if (from.text() != model_->fingerprint)
-      throw InputError(
-          "the state of a unit is of another population: the study was fitted anew since");
+    ByteReader from = read_unit_state(bytes, mark, model_->fingerprint);
     auto unit = std::make_unique<NodeUnit>(model_, from.text());
     unit->load(from, columns_);
     return unit;

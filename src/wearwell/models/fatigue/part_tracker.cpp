@@ -8,17 +8,17 @@
 #include <map>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
-#include "wearwell/base/sha1.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/fatigue/part_reading.h"
 #include "wearwell/models/fatigue/sn_parameters.h"
 #include "wearwell/models/fatigue/sn_predictions.h"
 #include "wearwell/models/fatigue/sn_study.h"
 #include "wearwell/models/fatigue/stress_lives.h"
-#include "wearwell/prognosis/bytes.h"
+#include "wearwell/prognosis/unit_state.h"
 
 namespace wearwell::fatigue {
 namespace {
@@ -246,17 +246,14 @@ std::optional<prognosis::InPopulations> PartUnit::in_populations(const prognosis
 }
 
 std::string PartUnit::save() const {
-  prognosis::ByteWriter to;
-  to.text(part_mark);
-  to.text(parts_->fingerprint);
+  prognosis::ByteWriter to = prognosis::unit_state(part_mark, parts_->fingerprint);
   to.text(name_);
   to.u64(readings_);
   to.number(now_);
   to.byte(bound_);
   to.number(bound_ ? stress_->alternating : 0);
   to.number(bound_ ? stress_->mean : 0);
-  const std::string bytes = to.take();
-  return sha1_of(bytes) + bytes;
+  return prognosis::signed_unit_state(std::move(to));
 }
 
 void PartUnit::load(prognosis::ByteReader& from) {
@@ -297,15 +294,7 @@ class PartTracker final : public prognosis::Tracker {
   }
 
   std::unique_ptr<prognosis::TrackedUnit> restore(const std::string& bytes) const override {
-    constexpr std::size_t digest = 40;
-    const std::string name = "the state of a unit";
-    if (bytes.size() < digest || sha1_of(bytes.substr(digest)) != bytes.substr(0, digest))
-      throw InputError(name + " is damaged, or of another version");
-    prognosis::ByteReader from(std::string_view(bytes).substr(digest), name);
-    if (from.text() != part_mark) from.fail("of another version");
-    if (from.text() != parts_->fingerprint)
-      throw InputError(
-          "the state of a unit is of another population: the study was fitted anew since");
+    prognosis::ByteReader from = prognosis::read_unit_state(bytes, part_mark, parts_->fingerprint);
     auto unit = std::make_unique<PartUnit>(parts_, from.text());
     unit->load(from);
     return unit;
