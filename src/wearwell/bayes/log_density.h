@@ -36,6 +36,10 @@ class LogDensity {
   /// What is left open of the value at `x`, where integrals within it did not come to the tolerance that
   /// they promise; 0 elsewhere.
   virtual double unsettled(std::span<const double>) const { return 0; }
+
+  /// Whether one evaluation takes about as long as thousands of others (paths integrated out within it):
+  /// quadrature in more than two dimensions is then not for it, and polynomials in its place are worth trying.
+  virtual bool is_slow() const { return false; }
 };
 
 }  // namespace wearwell

@@ -21,6 +21,8 @@ struct Parameter {
       -std::numeric_limits<double>::infinity();  ///< bound set by physics, not by belief
   double natural_upper = std::numeric_limits<double>::infinity();
   bool is_default = false;  ///< nobody stated the prior: it is the model's own
+  bool of_model =
+      false;  ///< of one unit, in standard terms: its law is part of the model, no belief
 };
 
 }  // namespace wearwell

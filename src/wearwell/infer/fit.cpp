@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "wearwell/bayes/slow_density.h"
 #include "wearwell/infer/digits.h"
 #include "wearwell/infer/effects.h"
 #include "wearwell/infer/leaps.h"
@@ -199,8 +198,7 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
                                posterior.dimension(), max_exact_dimension);
   } else if (!all([](const Tail& t) { return t.integrable(); })) {
     fit.no_exact = "the posterior is improper";
-  } else if (posterior.dimension() > most_slow_dimension &&
-             dynamic_cast<const SlowDensity*>(posterior.likelihood().get())) {
+  } else if (posterior.dimension() > most_slow_dimension && posterior.likelihood()->is_slow()) {
     fit.no_exact = fmt::format(
         "each evaluation of this likelihood, which has paths to integrate out, takes long: too "
         "long for quadrature over {} parameters",

@@ -330,7 +330,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
     double of_effects = 0;
     for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
       const Parameter& each = posterior.parameters()[i];
-      if (each.law == law_of_effects) {
+      if (each.of_model) {
         of_effects += log_density(each.prior, x[static_cast<Eigen::Index>(i)]).value;
       }
     }
@@ -340,7 +340,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
   std::vector<std::string> passed;
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
     const Parameter& parameter = posterior.parameters()[i];
-    if (parameter.law == law_of_effects) continue;
+    if (parameter.of_model) continue;
     const Eigen::VectorXd draws = values.col(static_cast<Eigen::Index>(i));
     const PowerScaling sensitivity = power_scaling(view(draws), log_prior, log_likelihood);
     const std::string numbers =

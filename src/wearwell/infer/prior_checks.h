@@ -6,10 +6,6 @@
 
 namespace wearwell {
 
-/// The name of the law (Parameter::law) of what differs from unit to unit by a law of the model, in standard terms: it
-/// is no belief, but a part of the model as the likelihood is.
-inline constexpr const char* law_of_effects = "standard normal";
-
 /// Checks of what was asked rather than of how it was computed: prior, data and their posterior.
 
 /// Every tail is integrable, and means and variances exist (tail.h).

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "wearwell/base/rng.h"
-#include "wearwell/bayes/slow_density.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -239,8 +238,9 @@ std::optional<QuickPosterior> quick_posterior(const Posterior& posterior,
   if (d > most_parameters) return {};
   Eigen::VectorXd x(d);
   posterior.to_natural(view(whitening.center), view(x));
-  const bool slow = dynamic_cast<const SlowDensity*>(posterior.likelihood().get());
-  if (!slow && posterior.likelihood()->pointwise(view(x)).size() < fewest_terms) return {};
+  if (!posterior.likelihood()->is_slow() &&
+      posterior.likelihood()->pointwise(view(x)).size() < fewest_terms)
+    return {};
   const Trial trial(posterior, whitening);
   for (const int n : d == 1 ? nodes_of_one : d == 2 ? nodes_of_two : nodes_of_three) {
     std::optional<Series> series = trial.series(n);

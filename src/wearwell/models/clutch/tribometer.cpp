@@ -14,7 +14,7 @@ namespace {
 // Standard deviations of one cycle's conditions about the set values, relative but for temperature.
 constexpr double speed_jitter = 0.005, torque_jitter = 0.01, temperature_jitter = 1.5,
                  time_jitter = 0.01;
-constexpr long long most_cycles = 10'000'000;  // of one plate
+constexpr long long longest_life = 10'000'000;  // of one plate
 
 /// What the rig logs has so many steps to a unit: decimals are those that a file would hold.
 double rounded(double x, double per_unit) {
@@ -39,9 +39,10 @@ class Plate {
   long long cycles() const { return cycle_; }
 
   void close(const OperatingPoint& set) {
-    if (cycle_ == most_cycles)
-      throw InputError(fmt::format(
-          "plate {} would need more than {} cycles: the truth hardly wears", number_, most_cycles));
+    if (cycle_ == longest_life)
+      throw InputError(
+          fmt::format("plate {} would need more than {} cycles: the truth hardly wears", number_,
+                      longest_life));
     OperatingPoint at;
     at.slip_speed = rpm * std::round(set.slip_speed * (1 + speed_jitter * rng_.normal()) / rpm);
     at.torque = rounded(set.torque * (1 + torque_jitter * rng_.normal()), 10);

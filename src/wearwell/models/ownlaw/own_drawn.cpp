@@ -10,7 +10,6 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/bayes/log_density.h"
-#include "wearwell/infer/prior_checks.h"
 #include "wearwell/law/no_columns.h"
 #include "wearwell/study/posterior_study.h"
 
@@ -44,10 +43,11 @@ Parameter standard_normal(std::string name) {
   parameter.name = std::move(name);
   parameter.si = "1";
   parameter.unit = Unit{"1", 1, 0};
-  parameter.law = law_of_effects;
+  parameter.law = "standard normal";
   parameter.prior = make_law(Normal{0, 1}, -INFINITY, INFINITY);
   parameter.start = 0;
   parameter.scale = 1;
+  parameter.of_model = true;
   return parameter;
 }
 

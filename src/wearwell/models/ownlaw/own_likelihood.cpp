@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wearwell/bayes/slow_density.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_hidden_path.h"
@@ -613,9 +612,10 @@ class OwnLikelihood : public LogDensity {
 };
 
 // Of paths under errors of their readings, row by row on a lattice.
-class HiddenLikelihood final : public OwnLikelihood, public SlowDensity {
+class HiddenLikelihood final : public OwnLikelihood {
  public:
   using OwnLikelihood::OwnLikelihood;
+  bool is_slow() const override { return true; }
   double unsettled(std::span<const double> x) const override {
     constexpr double fine = 1e-4;
     UnitRows& rows = mine().rows;
