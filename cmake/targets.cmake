@@ -25,7 +25,7 @@ if(WEARWELL_BUILD_TESTS)
   target_compile_options(wearwell_test_headers PRIVATE ${test_options})
 endif()
 
-# Sources of one folder are compiled eight at a time where WEARWELL_UNITY says so (presets `release` and of sanitizers): most of what a
+# Sources of one folder are compiled two dozen at a time where WEARWELL_UNITY says so (presets `release` and of sanitizers): most of what a
 # source costs is what its neighbours cost too. Helpers of a folder therefore have names of their own; ALONE are those that
 # do not.
 function(wearwell_batches target)
@@ -39,7 +39,7 @@ function(wearwell_batches target)
   set(at 0)
   foreach(source ${ARG_SOURCES})
     if(NOT source IN_LIST ARG_ALONE)
-      math(EXPR batch "${at} / 8")
+      math(EXPR batch "${at} / 24")
       math(EXPR at "${at} + 1")
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP batch${batch})
     endif()

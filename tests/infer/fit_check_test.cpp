@@ -95,12 +95,12 @@ TEST(ResidualTests, FallsWithinItems) {
 }
 
 // y ~ N(mu, 1) with mu flat: posterior draws of mu are N(mean, 1/n).
-struct Normal {
+struct FlatMean {
   std::vector<double> y;
   WeightedDraws draws;
   FitData data;
 
-  Normal(std::vector<double> values, std::vector<double> along, std::size_t censored = 0)
+  FlatMean(std::vector<double> values, std::vector<double> along, std::size_t censored = 0)
       : y(std::move(values)) {
     Rng rng(3, 0);
     double mean = 0;
@@ -129,7 +129,7 @@ TEST(FitCheck, NamesWhatIsWrong) {
   for (std::size_t i = 0; i < 20; ++i) trend[i] += 0.5 * double(i);
   outlier[6] = 30;
   const auto verdict = [&](const std::vector<double>& y) {
-    const Normal normal(y, along);
+    const FlatMean normal(y, along);
     return fit_check(judge_fit(normal.data, normal.draws, {}));
   };
   EXPECT_EQ(verdict(right).verdict, Verdict::pass) << verdict(right).detail;
@@ -149,7 +149,7 @@ TEST(FitCheck, SortedTablesAreNotBent) {
     y.insert(y.end(), here.begin(), here.end());
     along.insert(along.end(), here.size(), level);
   }
-  const Normal normal(y, along);
+  const FlatMean normal(y, along);
   const Check check = fit_check(judge_fit(normal.data, normal.draws, {}));
   EXPECT_EQ(check.verdict, Verdict::pass) << check.detail;
 }
@@ -166,10 +166,10 @@ TEST(FitCheck, RunOutsAreDrawn) {
   for (double& y : life) {
     if (y > 0) y = 0, ++stopped;
   }
-  Normal normal(life, along, stopped);
+  FlatMean normal(life, along, stopped);
   for (int i = 0; i < 500; ++i) normal.draws.values(i, 0) = 0.1 * rng.normal();
   EXPECT_EQ(fit_check(judge_fit(normal.data, normal.draws, {})).verdict, Verdict::pass);
-  const Normal as_failures(life, along, 0);
+  const FlatMean as_failures(life, along, 0);
   EXPECT_LT(judge_fit(as_failures.data, normal.draws, {}).p, 0.001);
 }
 

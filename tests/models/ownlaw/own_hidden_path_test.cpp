@@ -10,15 +10,10 @@
 #include <numeric>
 #include <random>
 
+#include "models/ownlaw/process_form.h"
+
 namespace wearwell::ownlaw {
 namespace {
-
-const ProcessForm& form_of(Process process) {
-  for (const ProcessForm& each : process_forms()) {
-    if (each.process == process) return each;
-  }
-  throw std::logic_error("no such process");
-}
 
 double log_step(Process process, double x, double mean, double scale) {
   if (process == Process::gamma) {

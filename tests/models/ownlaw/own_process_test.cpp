@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "models/ownlaw/process_form.h"
 #include "support/posterior_study.h"
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
@@ -14,13 +15,6 @@
 
 namespace wearwell::ownlaw {
 namespace {
-
-const ProcessForm& form_of(Process process, bool by_sd = false) {
-  for (const ProcessForm& each : process_forms()) {
-    if (each.process == process && each.by_sd == by_sd) return each;
-  }
-  throw std::logic_error("no such form");
-}
 
 double sum_at(const ProcessForm& form, const std::vector<double>& y,
               const std::vector<std::vector<double>>& slots, std::vector<double>* slope = nullptr) {

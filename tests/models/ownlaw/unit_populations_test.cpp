@@ -15,16 +15,16 @@ namespace {
 
 using prognosis::InPopulations;
 
-const std::vector<double> rates = {0.8, 1.3, 1.0, 0.6, 1.1};
+const std::vector<double> rates_of_five = {0.8, 1.3, 1.0, 0.6, 1.1};
 
 std::vector<Column> lines() {
   std::vector<double> depth, time;
   std::vector<std::string> unit;
   Rng rng(7, 0);
-  for (std::size_t u = 0; u < rates.size(); ++u) {
+  for (std::size_t u = 0; u < rates_of_five.size(); ++u) {
     for (int i = 1; i <= 5; ++i) {
       time.push_back(i);
-      depth.push_back(rates[u] * i + 0.3 * rng.normal());
+      depth.push_back(rates_of_five[u] * i + 0.3 * rng.normal());
       unit.push_back("u" + std::to_string(u));
     }
   }
