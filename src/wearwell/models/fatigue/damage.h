@@ -38,7 +38,7 @@ struct DamageRule {
 
 /// The damage of one block of cycles, for one point x of the posterior. Items differ: one at place z
 /// of the standard law of lives has the life of the curve times 10^(sigma z), at every stress.
-/// Laws on a logarithmic scale only (SnLaw::logarithmic).
+/// Laws on a logarithmic scale only (SnLaw::logarithmic), of which it keeps a copy; `x` must outlive it.
 class BlockDamage {
  public:
   BlockDamage(const SnLaw& law, const double* x, const DamageRule& rule, const LoadCycles& cycles);
@@ -57,7 +57,7 @@ class BlockDamage {
   double knee(double z) const;
   double log10_damage_of_one(double log10_reversed, double knee_at) const;
 
-  const SnLaw& law_;
+  SnLaw law_;
   const double* x_;
   DamageRule rule_;
   double slope_, below_slope_ = 0;  // above and below the knee
