@@ -133,12 +133,76 @@ double Distribution::sd() const {
   return std::sqrt(cells_ ? variance : variance * n / (n - 1));
 }
 
+namespace {
+
+// Of what is spread evenly over center +- half_width the weight below x.
+double share_below(double x, double center, double half_width, double weight) {
+  return x >= center + half_width   ? weight
+         : x <= center - half_width ? 0
+                                    : weight * 0.5 * (1 + (x - center) / half_width);
+}
+
+// The same sums as Distribution::cdf for many x: sections of cells that lie wholly below or above are not looked into.
+class Sections {
+ public:
+  Sections(const std::vector<double>& center, const std::vector<double>& half_width,
+           const std::vector<double>& weight)
+      : center_(center), half_width_(half_width), weight_(weight) {
+    double low = INFINITY, high = -INFINITY, below = 0;
+    for (std::size_t i = 0; i < center.size(); ++i) {
+      if (i % length == 0) {
+        low_.push_back(INFINITY);
+        high_.push_back(-INFINITY);
+      }
+      const double begin = center[i] - half_width[i], end = center[i] + half_width[i];
+      low_.back() = std::min(low_.back(), begin);
+      high_.back() = std::max(high_.back(), end);
+      below += weight[i];
+      if ((i + 1) % length == 0 || i + 1 == center.size()) through_.push_back(below);
+      if (!std::isfinite(center[i])) continue;
+      low = std::min({low, center[i], begin});
+      high = std::max({high, center[i], end});
+    }
+    lowest_ = low;
+    highest_ = high;
+  }
+
+  double lowest() const { return lowest_; }
+  double highest() const { return highest_; }
+
+  double cdf(double x) const {
+    double sum = 0;
+    bool all = true;  // cells so far lie below
+    for (std::size_t s = 0; s < low_.size(); ++s) {
+      if (x <= low_[s]) {
+        all = false;
+        continue;
+      }
+      if (all && x >= high_[s]) {
+        sum = through_[s];
+        continue;
+      }
+      all = false;
+      const std::size_t end = std::min((s + 1) * length, center_.size());
+      for (std::size_t i = s * length; i < end; ++i)
+        sum += share_below(x, center_[i], half_width_[i], weight_[i]);
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t length = 256;
+  const std::vector<double>&center_, &half_width_, &weight_;
+  std::vector<double> low_, high_, through_;  // of each section; the weight up to its end
+  double lowest_ = 0, highest_ = 0;
+};
+
+}  // namespace
+
 double Distribution::cdf(double x) const {
   double sum = 0;
-  for (std::size_t i = 0; i < center_.size(); ++i) {
-    const double c = center_[i], h = half_width_[i];
-    sum += x >= c + h ? weight_[i] : x <= c - h ? 0 : weight_[i] * 0.5 * (1 + (x - c) / h);
-  }
+  for (std::size_t i = 0; i < center_.size(); ++i)
+    sum += share_below(x, center_[i], half_width_[i], weight_[i]);
   return sum;
 }
 
@@ -155,18 +219,14 @@ double Distribution::quantile(double p) const {
   std::size_t i = 0;
   while (i + 1 < n && below + weight_[i] < p) below += weight_[i++];
   if (!std::isfinite(center_[i])) return center_[i];
+  const Sections sections(center_, half_width_, weight_);
   // The root lies between the outermost ends of finite cells, whatever rounding makes of their
   // total weight. It is looked for from around cell i outward: how far the others reach says
   // nothing of it.
-  double lowest = center_[i], highest = center_[i];
-  for (std::size_t j = 0; j < n && std::isfinite(center_[j]); ++j) {
-    lowest = std::min(lowest, center_[j] - half_width_[j]);
-    highest = std::max(highest, center_[j] + half_width_[j]);
-  }
   const double step = std::max(
       {2 * half_width_[i], 1e-12 * std::abs(center_[i]), std::numeric_limits<double>::min()});
-  return solve_increasing([&](double x) { return cdf(x) - p; }, center_[i], step,
-                          {.relative = 0x1p-39}, lowest, highest);
+  return solve_increasing([&](double x) { return sections.cdf(x) - p; }, center_[i], step,
+                          {.relative = 0x1p-39}, sections.lowest(), sections.highest());
 }
 
 std::vector<double> cell_shares(const WeightedDraws& draws,

@@ -40,6 +40,12 @@ std::uint64_t key(const Index& index) {
   return packed;
 }
 
+// A node's natural parameters, and the log Jacobian of its place on the real line.
+struct Located {
+  Eigen::Vector4d natural;
+  double log_jacobian = 0;
+};
+
 // One line: the fourth coordinate is middle + width t at t = 0, +-step, +-2 step, ...
 struct Line {
   Index index{};
@@ -47,6 +53,7 @@ struct Line {
   int first = 0;               // t of the first value over the step
   std::vector<double> values;  // log density less the reference
   double highest = -INFINITY;
+  std::vector<Located> located;  // of each value, where they are kept
 };
 
 // What lies in a cell: along each axis the logarithm of the mass is the parabola through that of its node and of both
@@ -189,7 +196,8 @@ class Lattice {
     return reference_ + std::log(mass) + chart_.log_scale();
   }
 
-  Doubts doubts(bool moments) const {
+  Doubts doubts(bool moments) {
+    if (moments) locate();
     const std::vector<LineSums> sums = line_sums(moments);
     Doubts doubts;
     for (int direction = 0; direction < directions; ++direction) {
@@ -232,7 +240,9 @@ class Lattice {
     return doubts;
   }
 
-  ExactPosterior result(bool moments) const {
+  // Without cells the nodes are good for sums alone.
+  ExactPosterior result(bool moments, bool with_cells) {
+    locate();
     double mass = 0;
     for (const Line& line : lines_) {
       for (const double v : line.values) mass += std::exp(v) * line.width;
@@ -246,50 +256,18 @@ class Lattice {
       for (std::size_t j = 0; j < line.values.size(); ++j) {
         const double here = std::exp(line.values[j]) * line.width;
         if (here == 0) continue;
-        const int t = line.first + static_cast<int>(j);
-        if (here > negligible_share * mass) kept.emplace_back(&line, t);
-        const Place there = at(line, t);
+        if (here > negligible_share * mass)
+          kept.emplace_back(&line, line.first + static_cast<int>(j));
+        const Located there = located(line, j);
         highest = std::max(highest, reference_ + line.values[j] - there.log_jacobian);
-        const Eigen::Vector4d x = natural(there) - middle;
+        const Eigen::Vector4d x = there.natural - middle;
         first += here / mass * x;
         second += here / mass * (x * x.transpose());
       }
     }
     ExactPosterior exact;
     exact.highest = highest;
-    const auto n = static_cast<Eigen::Index>(kept.size());
-    WeightedDraws& nodes = exact.nodes;
-    nodes.values.resize(n, d);
-    nodes.weights.resize(n);
-    WeightedDraws::Cells& cells = nodes.cells;
-    cells.mass.resize(n);
-    cells.node = Points::Zero(n, d);
-    cells.mean.resize(n, d);
-    cells.square.resize(n, d);
-    nodes.lower.assign(d, Points(n, d));
-    nodes.upper.assign(d, Points(n, d));
-    tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, n, 256), [&](const auto& part) {
-      for (Eigen::Index row = part.begin(); row != part.end(); ++row) {
-        const auto [line, t] = kept[static_cast<std::size_t>(row)];
-        nodes.values.row(row) = natural(at(*line, t));
-        const double weight = node_mass(*line, t);
-        CellShape shape(weight);
-        shape.along(outer, node_mass(*line, t - 1), node_mass(*line, t + 1));
-        nodes.lower[outer].row(row) = natural(at(*line, t - 0.5));
-        nodes.upper[outer].row(row) = natural(at(*line, t + 0.5));
-        for (int a = 0; a < outer; ++a) {
-          const Line &below = neighbour(*line, a, -1), &above = neighbour(*line, a, 1);
-          shape.along(a, mass_in(below, *line, t), mass_in(above, *line, t));
-          const auto axis = static_cast<std::size_t>(a);
-          nodes.lower[axis].row(row) = natural(between(*line, below, above, a, -0.5, t));
-          nodes.upper[axis].row(row) = natural(between(*line, above, below, a, 0.5, t));
-        }
-        nodes.weights[row] = weight;
-        shape.write(row, cells);
-      }
-    });
-    nodes.weights /= nodes.weights.sum();
-    cells.mass /= cells.mass.sum();
+    exact.nodes = nodes_of(kept, with_cells);
     exact.mean = middle + first;
     exact.covariance = second - first * first.transpose();
     if (!moments) exact.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -305,6 +283,72 @@ class Lattice {
  private:
   static constexpr int directions = 27;     // of the outer axes, with their opposites and none
   static constexpr double shell_depth = 3;  // of log density
+
+  WeightedDraws nodes_of(const std::vector<std::pair<const Line*, int>>& kept,
+                         bool with_cells) const {
+    const auto n = static_cast<Eigen::Index>(kept.size());
+    WeightedDraws nodes;
+    nodes.values.resize(n, d);
+    nodes.weights.resize(n);
+    WeightedDraws::Cells& cells = nodes.cells;
+    if (with_cells) {
+      cells.mass.resize(n);
+      cells.node = Points::Zero(n, d);
+      cells.mean.resize(n, d);
+      cells.square.resize(n, d);
+      nodes.lower.assign(d, Points(n, d));
+      nodes.upper.assign(d, Points(n, d));
+    }
+    tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, n, 256), [&](const auto& part) {
+      for (Eigen::Index row = part.begin(); row != part.end(); ++row) {
+        const auto& [line, t] = kept[static_cast<std::size_t>(row)];
+        nodes.values.row(row) = located(*line, static_cast<std::size_t>(t - line->first)).natural;
+        nodes.weights[row] = node_mass(*line, t);
+        if (with_cells) write_cell(*line, t, row, nodes);
+      }
+    });
+    nodes.weights /= nodes.weights.sum();
+    if (with_cells) cells.mass /= cells.mass.sum();
+    return nodes;
+  }
+
+  void write_cell(const Line& line, int t, Eigen::Index row, WeightedDraws& nodes) const {
+    CellShape shape(nodes.weights[row]);
+    shape.along(outer, node_mass(line, t - 1), node_mass(line, t + 1));
+    nodes.lower[outer].row(row) = natural(at(line, t - 0.5));
+    nodes.upper[outer].row(row) = natural(at(line, t + 0.5));
+    for (int a = 0; a < outer; ++a) {
+      const Line &below = neighbour(line, a, -1), &above = neighbour(line, a, 1);
+      shape.along(a, mass_in(below, line, t), mass_in(above, line, t));
+      const auto axis = static_cast<std::size_t>(a);
+      nodes.lower[axis].row(row) = natural(between(line, below, above, a, -0.5, t));
+      nodes.upper[axis].row(row) = natural(between(line, above, below, a, 0.5, t));
+    }
+    shape.write(row, nodes.cells);
+  }
+
+  // Where all nodes lie, once for sums and result, as long as that takes no more than some tens of megabytes.
+  void locate() {
+    constexpr long most_located = 1'500'000;
+    if (located_ || nodes_ > most_located) return;
+    located_ = true;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines_.size(), 64), [&](const auto& part) {
+      for (std::size_t i = part.begin(); i != part.end(); ++i) {
+        Line& line = lines_[i];
+        line.located.resize(line.values.size());
+        for (std::size_t j = 0; j < line.values.size(); ++j) {
+          if (std::exp(line.values[j]) > 0) line.located[j] = locate(line, j);
+        }
+      }
+    });
+  }
+  Located locate(const Line& line, std::size_t j) const {
+    const Place there = at(line, line.first + static_cast<int>(j));
+    return {natural(there), there.log_jacobian};
+  }
+  Located located(const Line& line, std::size_t j) const {
+    return located_ ? line.located[j] : locate(line, j);
+  }
 
   // Of one line: its sum, the same with signs that alternate along it, and with those of a fourth of the
   // frequency; of the two outermost shells.
@@ -352,7 +396,7 @@ class Lattice {
       Terms here = Terms::Zero();
       here[0] = mass;
       if (moments) {
-        const Eigen::Array4d x = (natural(at(line, t)) - middle).array();
+        const Eigen::Array4d x = (located(line, j).natural - middle).array();
         here.segment<d>(1) = mass * x;
         here.segment<d>(1 + d) = mass * x * x;
       }
@@ -483,6 +527,7 @@ class Lattice {
   double highest_ = -INFINITY;
   long nodes_ = 0;
   int moves_ = 0;  // of the reference
+  bool located_ = false;
   std::vector<Line> lines_;
   std::unordered_map<std::uint64_t, std::size_t> known_;
 };
@@ -534,7 +579,7 @@ double mean_step(const Steps& steps) {
 }  // namespace
 
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
-                                    const ExactSettings& settings) {
+                                    const ExactSettings& settings, bool with_cells) {
   const RidgeMap map(posterior, whitening);
   const auto straight = straight_chart(posterior, whitening), along = ridge_chart(map);
   // Each chart is round where the other is not; lattices of middling steps tell. Where one is dear, the one that ends
@@ -555,9 +600,14 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     const auto filled_on = [&](const LatticeChart& of, double step, long most) {
       return Filled(posterior, of, steps_of(step), end, most, settings);
     };
-    if (dear ? filled_on(*along, coarsest, few_nodes).failure.empty()
-             : filled_on(*along, telling, enough_nodes).error <
-                   filled_on(*straight, telling, enough_nodes).error) {
+    // Where its coarse lattice has more nodes by half the other chart is no rounder: few of them tell it.
+    const auto rounder = [&] {
+      const long most = filled->lattice->nodes() / 2 * 3;
+      return filled_on(*along, coarsest, most).failure.empty() &&
+             filled_on(*along, telling, enough_nodes).error <
+                 filled_on(*straight, telling, enough_nodes).error;
+    };
+    if (dear ? filled_on(*along, coarsest, few_nodes).failure.empty() : rounder()) {
       chart = along.get();
       filled.reset();
     }
@@ -611,7 +661,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     filled.reset();
   }
   if (best) {
-    exact = best->lattice->result(settings.second_moments);
+    exact = best->lattice->result(settings.second_moments, with_cells);
     exact.error = best->error;
   }
   exact.evaluations = evaluations;

@@ -21,7 +21,9 @@ namespace wearwell {
 /// ridge): a tolerance below 1e-3, of which curves are told, has steps finer than its sums ask for. A parameter that is cut by two bounds has long tails on the real line; with four of them
 /// the evaluations end at an estimated error of up to 5e-3, which is then accepted (`error` says
 /// so).
+///
+/// Not `with_cells`, nodes stand for themselves alone: for sums, not for distributions.
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
-                                    const ExactSettings& settings);
+                                    const ExactSettings& settings, bool with_cells = true);
 
 }  // namespace wearwell

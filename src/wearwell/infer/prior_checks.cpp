@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "wearwell/bayes/normal_score.h"
+#include "wearwell/infer/exact_sums.h"
 #include "wearwell/infer/power_scaling.h"
 #include "wearwell/math/view.h"
 
@@ -168,7 +169,7 @@ CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t ind
   }
   // A thousandth of a standard deviation is enough to see a quarter.
   const ExactPosterior exact =
-      integrate(wider, whitening_of(wider, posterior, fit), {.tolerance = 1e-3});
+      integrate_sums(wider, whitening_of(wider, posterior, fit), {.tolerance = 1e-3}, wider);
   if (!exact.failure.empty()) {
     return {dependence_on(parameter),
             fmt::format("with the bounds of {} at twice the distance from its mean the "

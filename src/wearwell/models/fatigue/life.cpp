@@ -54,33 +54,47 @@ void MixedLife::add(double weight, double center, double sigma) {
 }
 
 void MixedLife::merge() {
-  // Of cells, in sigma: within one, a twelfth of its square is lost of the variance.
+  // Of cells, in sigma. Normal laws keep the variance of what they were: then their middles may lie farther apart;
+  // of others, and of the sigmas, a twelfth of the square of the width is lost.
   constexpr double width = 0.005;
-  std::unordered_map<std::uint64_t, std::size_t> cells;
-  std::vector<double> weight, center, sigma;
+  const bool normal = standard() == StandardLaw::normal;
+  const double across = normal ? 4 * width : width;
+  struct Cell {
+    double weight = 0, center = 0, square = 0, sigma = 0;
+  };
+  std::unordered_map<std::uint64_t, std::size_t> known;
+  std::vector<Cell> cells;
+  known.reserve(weight_.size() / 2);
+  double last_row = infinity, width_there = 0;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     const double row = std::floor(-std::log(inverse_sigma_[i]) / width);
-    const double column = std::floor(center_[i] / (width * std::exp(width * row)));
+    if (row != last_row) {
+      last_row = row;
+      width_there = across * std::exp(width * row);
+    }
+    const double column = std::floor(center_[i] / width_there);
     if (!(std::abs(row) < 1e9 && std::abs(column) < 1e9)) return;
     const auto key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(int(row))) << 32 |
                      static_cast<std::uint32_t>(int(column));
-    const auto [at, fresh] = cells.emplace(key, weight.size());
-    if (fresh) {
-      weight.push_back(0);
-      center.push_back(0);
-      sigma.push_back(0);
-    }
-    weight[at->second] += weight_[i];
-    center[at->second] += weight_[i] * center_[i];
-    sigma[at->second] += weight_[i] / inverse_sigma_[i];
+    const auto [at, fresh] = known.emplace(key, cells.size());
+    if (fresh) cells.emplace_back();
+    Cell& cell = cells[at->second];
+    const double off = center_[i] - column * width_there, sigma = 1 / inverse_sigma_[i];
+    cell.weight += weight_[i];
+    cell.center += weight_[i] * center_[i];
+    cell.square += weight_[i] * (normal ? off * off + sigma * sigma : 0);
+    cell.sigma += weight_[i] * (normal ? off : sigma);
   }
-  for (std::size_t i = 0; i < weight.size(); ++i) {
-    center[i] /= weight[i];
-    sigma[i] = weight[i] / sigma[i];
+  weight_.clear();
+  center_.clear();
+  inverse_sigma_.clear();
+  for (const Cell& cell : cells) {
+    const double mean = cell.sigma / cell.weight;
+    weight_.push_back(cell.weight);
+    center_.push_back(cell.center / cell.weight);
+    inverse_sigma_.push_back(1 /
+                             (normal ? std::sqrt(cell.square / cell.weight - mean * mean) : mean));
   }
-  weight_ = std::move(weight);
-  center_ = std::move(center);
-  inverse_sigma_ = std::move(sigma);
 }
 
 MixedLife::Sums MixedLife::sums(double at) const {
@@ -89,6 +103,11 @@ MixedLife::Sums MixedLife::sums(double at) const {
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     const double z = (at - center_[i]) * inverse_sigma_[i];
     if (normal) {
+      constexpr double nothing = 9;  // beyond, less than 1e-18
+      if (std::abs(z) > nothing) {
+        if (z > 0) sums.cdf += weight_[i];
+        continue;
+      }
       sums.cdf += weight_[i] * normal_cdf(z);
       sums.density += weight_[i] * inverse_sigma_[i] * normal_density(z);
     } else {

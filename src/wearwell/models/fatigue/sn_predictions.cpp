@@ -146,14 +146,19 @@ std::vector<QuantityQuantiles> at_point(const SnLaw& law, const WeightedDraws& d
                                         const Stress& stress, const SnPredictions& predictions) {
   const LivesAt lives(law, draws, stress);
   const MixedLife& next = lives.next();
-  std::vector<QuantityQuantiles> all = {{next.quantile(0.05), next.quantile(0.5),
-                                         next.quantile(0.95), next.quantile(0.01),
-                                         next.quantile(0.1), next.quantile(0.5)}};
+  std::map<double, double> known;
+  const auto of_next = [&](double p) {
+    const auto [at, fresh] = known.try_emplace(p);
+    if (fresh) at->second = next.quantile(p);
+    return at->second;
+  };
+  std::vector<QuantityQuantiles> all = {
+      {of_next(0.05), of_next(0.5), of_next(0.95), of_next(0.01), of_next(0.1), of_next(0.5)}};
   for (const double percent_failed : predictions.percents) {
     const Distribution at = lives.quantile(percent_failed / 100);
     const auto quantile = [&](double p) { return cycles(law, at.quantile(p)); };
     all.push_back({quantile(0.05), quantile(0.5), quantile(0.95), 0, 0, 0,
-                   next.quantile(percent_failed / 100), quantile(1 - predictions.credible_level)});
+                   of_next(percent_failed / 100), quantile(1 - predictions.credible_level)});
   }
   for (const Quantity& to : predictions.survival_to) {
     const Distribution share = lives.survival(to.si());
