@@ -305,6 +305,28 @@ TEST(CellShares, LayersFitTogether) {
   EXPECT_NEAR(sum, even.cdf(edges.back()) - even.cdf(edges.front()), 1e-3);
 }
 
+// Of many cells of all widths, some of which reach over nearly all others.
+TEST(Distribution, QuantilesInvertTheSharesBelow) {
+  constexpr Eigen::Index n = 3000;
+  Rng rng(1, 0);
+  WeightedDraws draws{Points(n, 1), Eigen::VectorXd(n), {Points(n, 1)}, {Points(n, 1)}};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double x = draws.values(i, 0) = rng.normal(), half = i % 100 == 0 ? 3
+                                                               : i % 7 == 0 ? 0
+                                                                            : 0.1 * rng.uniform();
+    draws.lower[0](i, 0) = x - half;
+    draws.upper[0](i, 0) = x + half;
+    draws.weights[i] = rng.uniform();
+  }
+  draws.weights /= draws.weights.sum();
+  const Distribution distribution(draws, itself);
+  for (const double p : {1e-3, 0.05, 0.3, 0.5, 0.9, 0.999}) {
+    const double x = distribution.quantile(p);
+    EXPECT_LE(distribution.cdf(x - 1e-9), p);
+    EXPECT_GE(distribution.cdf(x + 1e-9), p);
+  }
+}
+
 // Draws are points, and cells without width too.
 TEST(CellShares, OfDraws) {
   const WeightedDraws draws{

@@ -8,6 +8,7 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include "infer/test_posteriors.h"
+#include "wearwell/infer/exact_sums.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/math/view.h"
 #include "wearwell/prob/standard_law.h"
@@ -92,6 +93,19 @@ TEST(Lattice, QuantilesOfARegression) {
                 5e-3 * regression.sd[3])
         << p;
   }
+}
+
+TEST(Lattice, SumsNeedNoCells) {
+  const Posterior posterior = known("Correlated4").make();
+  const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
+  const ExactPosterior whole = integrate(posterior, whitening),
+                       sums = integrate_sums(posterior, whitening, {}, posterior);
+  EXPECT_EQ(sums.mean, whole.mean);
+  EXPECT_EQ(sums.covariance, whole.covariance);
+  EXPECT_EQ(sums.nodes.values, whole.nodes.values);
+  EXPECT_EQ(sums.nodes.weights, whole.nodes.weights);
+  EXPECT_FALSE(sums.nodes.has_cells());
+  EXPECT_TRUE(whole.nodes.has_cells());
 }
 
 // A center 40 standard deviations from the mode, where the density is e^-800 of the highest.
