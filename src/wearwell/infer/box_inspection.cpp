@@ -264,9 +264,9 @@ void BoxIntegrator::verify() {
     return;
   }
   if (!own_shape_) return;
-  if (map_.highest() > reference_ + highest_ + most_above) {
+  if (map_.highest_of_weight() > reference_ + highest_ + most_above) {
     failure_ = fmt::format("a density e^{:.1f} times that of any node was met beside them",
-                           map_.highest() - reference_ - highest_);
+                           map_.highest_of_weight() - reference_ - highest_);
     contradicted_ = true;
     return;
   }

@@ -6,6 +6,7 @@
 
 #include "wearwell/infer/digits.h"
 #include "wearwell/infer/effects.h"
+#include "wearwell/infer/funnel.h"
 #include "wearwell/infer/leaps.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/surface.h"
@@ -45,10 +46,11 @@ Draws draw(const Posterior& posterior, const Fit& fit, const FitSettings& settin
 struct Shape {
   Mode mode;
   std::vector<Tail> tails;
-  double highest;  // density met anywhere
+  double highest;   // density met anywhere
+  int throat = -1;  // the scale of a funnel (funnel.h): then the mode is the middle of the mass
 };
 
-Shape examine(const Posterior& posterior) {
+Shape climb(const Posterior& posterior) {
   constexpr int most_searches = 4;
   constexpr double higher = 0.01;
   Shape shape{find_mode(posterior, posterior.start()), {}, 0};
@@ -70,6 +72,18 @@ Shape examine(const Posterior& posterior) {
   }
 }
 
+// Where there is no mode, about the middle of the mass.
+Shape examine(const Posterior& posterior) {
+  Shape shape = climb(posterior);
+  if (shape.mode.found) return shape;
+  if (auto funnel = funnel_middle(posterior, posterior.start())) {
+    shape.tails = tails(posterior, *funnel);
+    shape.throat = funnel->scale;
+    shape.mode = std::move(funnel->middle);
+  }
+  return shape;
+}
+
 std::vector<Shortfall> shortfalls(const Posterior& posterior, const Shape& shape,
                                   const FitSettings& settings, const Fit& fit,
                                   const ExactPosterior& integral) {
@@ -81,6 +95,17 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const Shape& shape
          fit.exact ? "there is none, or it was not found; quadrature vouches for the numbers"
                    : "there is none, or it was not found",
          "Give priors that hold every parameter, or better guesses by their location."});
+  } else if (shape.throat >= 0) {
+    const auto throat = static_cast<std::size_t>(shape.throat);
+    found.push_back(
+        {Stage::mode, fit.exact ? Verdict::warn : Verdict::fail,
+         fmt::format("there is none: the density rises without end as {} nears its bound, where no "
+                     "sampler follows; {}",
+                     posterior.parameters()[throat].name,
+                     !fit.exact                      ? "quadrature does not vouch for the numbers"
+                     : fit.method == settings.method ? "quadrature vouches for the numbers"
+                                                     : "the draws are quadrature's"),
+         "More rows than parameters, or a measured scatter, would hold it."});
   } else if (fit.exact && shape.highest > fit.exact->highest + most_above) {
     found.push_back({Stage::quadrature, Verdict::fail,
                      fmt::format("a density e^{:.1f} times that of any node was met beside them",
@@ -182,7 +207,7 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
           {},
           settings.nuts.max_treedepth};
 
-  if (shape.mode.found) {
+  if (shape.mode.found && shape.throat < 0) {
     if (auto quick = quick_posterior(whole, fit.whitening)) {
       fit.quick = quick->posterior;
       fit.quick_error = quick->error;
@@ -216,6 +241,10 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
     }
   }
   if (fit.method == Method::exact && !fit.exact) fit.method = Method::nuts;
+  // A sampler hardly reaches into a throat, and says so; draws are then quadrature's.
+  const bool spared =
+      shape.throat >= 0 && fit.exact && fit.method == Method::nuts && settings.extend;
+  if (spared) fit.method = Method::exact;
   draw_enough(posterior, settings, fit);
   fit.shortfalls = shortfalls(whole, shape, settings, fit, integral);
   const WeightedDraws& points = fit.exact ? fit.exact->nodes : fit.pooled;

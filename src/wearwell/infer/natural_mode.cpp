@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/infer/funnel.h"
 #include "wearwell/infer/natural_density.h"
 #include "wearwell/math/view.h"
 
@@ -51,9 +52,15 @@ std::vector<Eigen::VectorXd> starts(const Posterior& posterior, const Fit& fit) 
 constexpr const char* nowhere = "the search found no point of positive density";
 constexpr const char* no_end = "the search did not come to an end";
 
-// Why the highest point found is no mode; empty when it is one.
+std::string endless(const Parameter& parameter, bool lower) {
+  return fmt::format("the density grows without end as {} nears its {} bound", parameter.name,
+                     lower ? "lower" : "upper");
+}
+
+// Why the highest point found is no mode; empty when it is one. `middle` is the center on the real line.
 std::string problem_of(const Posterior& posterior, const Box& box, const Maximum& best,
-                       const Eigen::VectorXd& center, const Eigen::VectorXd& width) {
+                       const Eigen::VectorXd& middle, const Eigen::VectorXd& center,
+                       const Eigen::VectorXd& width) {
   if (!std::isfinite(best.value)) return nowhere;
   for (Eigen::Index i = 0; i < best.x.size(); ++i) {
     const Parameter& parameter = posterior.parameters()[static_cast<std::size_t>(i)];
@@ -61,16 +68,20 @@ std::string problem_of(const Posterior& posterior, const Box& box, const Maximum
     const double bound = lower ? parameter.prior.lower : parameter.prior.upper;
     // A density like a power of the distance to the bound: its log slope times the distance.
     if ((lower || upper) && std::abs(best.gradient[i] * (best.x[i] - bound)) > 0.01) {
-      return fmt::format("the density grows without end as {} nears its {} bound", parameter.name,
-                         lower ? "lower" : "upper");
+      return endless(parameter, lower);
     }
     if (std::abs(best.x[i] - center[i]) > far * width[i]) {
       return fmt::format("the density still rises with {} at {:.3g} {}", parameter.name,
                          from_si(parameter.unit, best.x[i]), parameter.unit.text);
     }
   }
-  if (!best.converged) return no_end;
-  return {};
+  if (best.converged) return {};
+  // The search may lose itself where the others close in.
+  for (int i = 0; i < posterior.dimension(); ++i) {
+    if (!rises_without_end(posterior, middle, i)) continue;
+    return endless(posterior.parameters()[static_cast<std::size_t>(i)], true);
+  }
+  return no_end;
 }
 
 }  // namespace
@@ -89,7 +100,7 @@ NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
   const auto best =
       std::max_element(summits.begin(), summits.end(),
                        [](const Maximum& a, const Maximum& b) { return a.value < b.value; });
-  mode.problem = problem_of(posterior, box, *best, center, width);
+  mode.problem = problem_of(posterior, box, *best, fit.whitening.center, center, width);
   mode.fell_short = mode.problem == no_end || mode.problem == nowhere;
   if (!mode.problem.empty()) return mode;
 

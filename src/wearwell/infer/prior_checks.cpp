@@ -305,7 +305,7 @@ bool ends_high(const Law& law, bool lower) {
 // is, too, and is the distance of prior and likelihood by their common standard deviation. 1 where the law is
 // improper, or excludes nothing on that side.
 double surprise(const Law& law, std::vector<double> draws) {
-  constexpr double least_learned = 0.01;  // of 1 - v: below, noise of draws would count
+  constexpr double least_learned = 0.05;  // of 1 - v: noise of 4000 draws is 0.035
   if (!law.proper) return 1;
   const auto score = [&](double share) {
     const auto at = draws.begin() + static_cast<std::ptrdiff_t>(share * double(draws.size()));

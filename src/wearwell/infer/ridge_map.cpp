@@ -103,9 +103,11 @@ RidgeMap::RidgeMap(const Posterior& posterior, const Whitening& whitening)
     : whitening_(whitening),
       d_(posterior.dimension()),
       highest_(posterior.value(view(whitening.center))),
-      log_integral_(std::numeric_limits<double>::quiet_NaN()) {
+      log_integral_(std::numeric_limits<double>::quiet_NaN()),
+      highest_of_weight_(highest_) {
   if (d_ > 1) choose_axis(posterior);
   if (!affine_) follow(posterior);
+  if (affine_) highest_of_weight_ = highest_;
   log_scale_ = std::log(affine_ ? std::abs(whitening_.scale.determinant()) : unit_);
 }
 
@@ -208,6 +210,7 @@ void RidgeMap::follow(const Posterior& posterior) {
     const double right = i + 1 < at.size() ? at[i + 1] - at[i] : 0;
     integral += here * 0.5 * (left + right);
     if (modes[i].log_marginal < top - begin) continue;
+    highest_of_weight_ = std::max(highest_of_weight_, modes[i].log_density);
     lower_ = std::min(lower_, at[i]);
     upper_ = std::max(upper_, at[i]);
   }

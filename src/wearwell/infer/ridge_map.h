@@ -61,6 +61,9 @@ class RidgeMap {
   double highest() const { return highest_; }
   double log_integral() const { return log_integral_; }
 
+  /// The highest log density met where the marginal density is of weight: not in the throat of a funnel.
+  double highest_of_weight() const { return highest_of_weight_; }
+
   /// The marginal density of a scale hardly fell over a hundred factors of e.
   bool endless() const { return endless_; }
 
@@ -77,7 +80,7 @@ class RidgeMap {
   double log_scale_ = 0;
   bool endless_ = false;
   double lower_ = -6, upper_ = 6;
-  double highest_, log_integral_;
+  double highest_, log_integral_, highest_of_weight_;
   Splines splines_;
 };
 

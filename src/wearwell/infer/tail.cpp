@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "wearwell/infer/funnel.h"
 #include "wearwell/infer/ridge.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/view.h"
@@ -29,6 +30,11 @@ constexpr double fallen = 200, steep = 50;
 
 const Parameter& parameter_of(const Posterior& posterior, int i) {
   return posterior.parameters()[static_cast<std::size_t>(i)];
+}
+
+bool all_proper(const Posterior& posterior) {
+  return std::all_of(posterior.parameters().begin(), posterior.parameters().end(),
+                     [](const Parameter& parameter) { return parameter.prior.proper; });
 }
 
 // Of the prior itself: at a billionth of the way to the bound, or a billion times as far.
@@ -177,7 +183,7 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
   return walk;
 }
 
-Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, bool all_proper) {
+Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, bool proper) {
   const Parameter& parameter = parameter_of(posterior, i);
   const Law& prior = parameter.prior;
   // On a half-line z is minus the log of the closeness to the bound; below an upper bound it runs
@@ -208,7 +214,7 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
     }
   }
   // Where the others have no mode, the likelihood is watched all the same.
-  if (all_proper && !(way.stations() < 2 ? all : way).likelihood_grows()) {
+  if (proper && !(way.stations() < 2 ? all : way).likelihood_grows()) {
     tail.index = !tail.known          ? of_prior
                  : tail.towards_bound ? std::min(tail.index, of_prior)
                                       : std::max(tail.index, of_prior);
@@ -217,17 +223,64 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
   return tail;
 }
 
+// Whether the likelihood grows along a tail while the scale of a funnel is held.
+bool grows_beside(const Posterior& posterior, const Funnel& funnel, const Tail& tail) {
+  const int i = tail.parameter, scale = funnel.scale;
+  const Eigen::VectorXd& z = funnel.middle.position;
+  const Law& prior = parameter_of(posterior, i).prior;
+  const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
+  const bool below = std::isfinite(prior.upper) && !std::isfinite(prior.lower);
+  const double unit =
+      (tail.upward != below ? 1 : -1) * (whole_line ? width_at(funnel.middle, i) : 1);
+  Slice held(posterior, scale);
+  held.at = z[scale];
+  Slice slice(held, i - (i > scale));
+  Eigen::VectorXd rest(z.size() - 2), width = Eigen::VectorXd::Ones(z.size() - 2);
+  for (Eigen::Index j = 0, to = 0; j < z.size(); ++j) {
+    if (j != i && j != scale) rest[to++] = z[j];
+  }
+  slice.at = z[i];
+  ConditionalMode last = visit(slice, {rest}, width), before = last;
+  Walk walk;
+  for (int step = 0; step < steps; ++step) {
+    const double way = far_log * (step + 1) / steps;
+    slice.at = z[i] + unit * (whole_line ? std::expm1(0.5 * way) : way);
+    ConditionalMode station = visit(slice, guesses(before, last, slice.at - last.at), last.width);
+    if (!std::isfinite(station.log_density)) break;
+    Eigen::VectorXd x(z.size());
+    posterior.to_natural(view(held.whole(slice.whole(station.rest))), view(x));
+    walk.log_distance.push_back(whole_line ? 0.5 * way : tail.towards_bound ? -way : way);
+    walk.log_likelihood.push_back(posterior.likelihood()->value(view(x)));
+    before = std::move(last);
+    last = std::move(station);
+  }
+  return walk.log_likelihood.size() >= 2 && walk.likelihood_grows();
+}
+
 }  // namespace
 
 std::vector<Tail> tails(const Posterior& posterior, const Mode& mode) {
-  const bool all_proper =
-      std::all_of(posterior.parameters().begin(), posterior.parameters().end(),
-                  [](const Parameter& parameter) { return parameter.prior.proper; });
+  const bool proper = all_proper(posterior);
   // Each walk is its own; they take most of the time where a likelihood costs much.
   std::vector<Tail> all(2 * static_cast<std::size_t>(posterior.dimension()));
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
-    all[k] = measure(posterior, mode, static_cast<int>(k / 2), k % 2 == 1, all_proper);
+    all[k] = measure(posterior, mode, static_cast<int>(k / 2), k % 2 == 1, proper);
   });
+  return all;
+}
+
+std::vector<Tail> tails(const Posterior& posterior, const Funnel& funnel) {
+  std::vector<Tail> all = tails(posterior, funnel.middle);
+  if (!all_proper(posterior)) return all;
+  for (Tail& tail : all) {
+    if (tail.parameter == funnel.scale || (tail.known && tail.has_moment(2) && tail.integrable())) {
+      continue;
+    }
+    if (grows_beside(posterior, funnel, tail)) continue;
+    tail.index =
+        prior_index(parameter_of(posterior, tail.parameter), tail.upward, tail.towards_bound);
+    tail.known = true;
+  }
   return all;
 }
 
