@@ -167,10 +167,6 @@ ValueAndSlope log_cdf_and_slope(StandardLaw law, double z) {
   return mirrored(normal_log_survival(-z));
 }
 
-double log_density_value(StandardLaw law, double z) {
-  return log_density_and_slope(law, z).value;
-}
-
 double log_survival_value(StandardLaw law, double z) {
   return law == StandardLaw::normal ? normal_log_survival_value(z)
                                     : log_survival_and_slope(law, z).value;
