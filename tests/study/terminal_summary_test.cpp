@@ -117,6 +117,15 @@ TEST(TerminalSummary, AnswersFirstAndRowsOnDemand) {
   for (const char* title : of_rows) EXPECT_THAT(all, HasSubstr(title));
 }
 
+TEST(TerminalSummary, OneObservationHasNoStandardError) {
+  PosteriorSummary result = sample_result();
+  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("(standard error 1.50)"));
+  result.loo->loo.terms = {{-1.5, -1.25, 0.25}};
+  const std::string text = terminal_summary(result, {});
+  EXPECT_THAT(text, HasSubstr("elpd -1.50 (of one observation without a standard error)"));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+}
+
 TEST(TerminalSummary, AWarningIsAWordOfTheVerdict) {
   PosteriorSummary result = sample_result();
   result.checks.pop_back();

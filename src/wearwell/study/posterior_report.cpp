@@ -203,10 +203,10 @@ Section fit_section(const PosteriorSummary& result, const Plots& plots) {
   if (result.loo) {
     const Loo& loo = result.loo->loo;
     section.add(Prose{fmt::format(
-        "Leave-one-out: expected log predictive density {:.2f}, standard error {:.2f}, {:.1f} "
+        "Leave-one-out: expected log predictive density {:.2f}, {}, {:.1f} "
         "effective parameters (natural logarithms, densities in SI units). Pareto k up to {:.2f} "
         "is good.",
-        loo.elpd(), loo.se(), loo.p_loo(), loo.threshold)});
+        loo.elpd(), standard_error_in_words(loo), loo.p_loo(), loo.threshold)});
     section.add(Details{fmt::format("Every {} left out", result.loo->observation),
                         {{loo_table(*result.loo)}}});
   }

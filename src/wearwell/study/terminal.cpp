@@ -13,6 +13,7 @@
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/answers.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/posterior_tables.h"
 #include "wearwell/study/terminal_rows.h"
 #include "wearwell/study/trust_blocks.h"
 
@@ -83,9 +84,10 @@ std::string mode_title(const ModeSummary& mode) {
 std::string loo_lines(const LooSummary& summary) {
   const Loo& loo = summary.loo;
   return wrapped(
-      fmt::format("each {} from all others: elpd {:.2f} (standard error {:.2f}), effective "
+      fmt::format("each {} from all others: elpd {:.2f} ({}), effective "
                   "parameters {:.1f}{}",
-                  printable(summary.observation), loo.elpd(), loo.se(), loo.p_loo(),
+                  printable(summary.observation), loo.elpd(), standard_error_in_words(loo),
+                  loo.p_loo(),
                   loo.by_quadrature ? "" : fmt::format(", Monte Carlo error {:.2g}", loo.error)),
       2, 4);
 }
