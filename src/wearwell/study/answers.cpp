@@ -166,4 +166,9 @@ std::string default_priors(const std::vector<ParameterSummary>& parameters) {
   return names;
 }
 
+std::string standard_error_in_words(const Loo& loo) {
+  return loo.observations() < 2 ? "of one observation without a standard error"
+                                : fmt::format("standard error {:.2f}", loo.se());
+}
+
 }  // namespace wearwell

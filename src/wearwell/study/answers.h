@@ -23,4 +23,7 @@ std::vector<const QuantitySummary*> headlines(const PosteriorSummary& result);
 /// Names of the parameters whose prior nobody stated, "k, sigma"; empty when all are.
 std::string default_priors(const std::vector<ParameterSummary>& parameters);
 
+/// Of elpd, "standard error 1.23"; of one observation there is none.
+std::string standard_error_in_words(const Loo& loo);
+
 }  // namespace wearwell

@@ -312,11 +312,6 @@ Table pointwise_table(const PointwiseTable& p) {
   return table;
 }
 
-std::string standard_error_in_words(const Loo& loo) {
-  return loo.observations() < 2 ? "of one observation without a standard error"
-                                : fmt::format("standard error {:.2f}", loo.se());
-}
-
 Table loo_table(const LooSummary& summary) {
   const Loo& loo = summary.loo;
   Table table{"loo",

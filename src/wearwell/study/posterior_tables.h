@@ -29,8 +29,6 @@ present::Table fit_table(const Plots& plots);
 present::Table coverage_table(const CoverageTable& coverage);
 present::Table pointwise_table(const PointwiseTable& pointwise);
 present::Table loo_table(const LooSummary& summary);
-/// Of elpd, "standard error 1.23"; of one observation there is none.
-std::string standard_error_in_words(const Loo& loo);
 present::Table draws_table(const std::vector<ParameterSummary>& parameters);
 
 }  // namespace wearwell

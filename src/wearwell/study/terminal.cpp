@@ -13,7 +13,6 @@
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/answers.h"
 #include "wearwell/study/long_tables.h"
-#include "wearwell/study/posterior_tables.h"
 #include "wearwell/study/terminal_rows.h"
 #include "wearwell/study/trust_blocks.h"
 
