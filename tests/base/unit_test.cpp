@@ -42,6 +42,13 @@ TEST(Unit, ConvertsToSi) {
   EXPECT_DOUBLE_EQ(read_unit("degF", "K").scale, 1 / 1.8);
 }
 
+// Of a zeptodegree, one and two would be the same double.
+TEST(Unit, TooSmallBesideItsZeroIsRefused) {
+  EXPECT_DOUBLE_EQ(read_unit("udegC", "K").scale, 1e-6);
+  EXPECT_THAT(refusal("zdegF", "K"), HasSubstr("too small to be told"));
+  EXPECT_THAT(refusal("pdegC", "K"), HasSubstr("zero that lies at 273.15"));
+}
+
 // What a unit must be like may be any unit, and the same one again.
 TEST(Unit, ItselfKeepsItsSize) {
   for (const char* si :

@@ -205,6 +205,13 @@ Unit read_linear(const std::string& written, std::string_view si, double value) 
   if (temperature ? starts_with_number(written) : unit->offset != 0) {
     throw InputError(fmt::format("'{}': where is its zero? (expected one like '{}')", written, si));
   }
+  // "zdegF": a number of them would end in rounding.
+  constexpr double least = 1e-9;  // of the distance of the zeros: seven digits of one unit are left
+  if (unit->scale < least * std::abs(unit->offset)) {
+    throw InputError(
+        fmt::format("'{}' is {:.3g} {} beside a zero that lies at {:.6g}: too small to be told",
+                    written, unit->scale, si, unit->offset));
+  }
   if (wanted->dimension == Dimension{{"cycle", 1}} && unit->scale < 0.5) {
     throw InputError(fmt::format(
         "'{}' is {:.6g} of one, and a count has no such parts; a million of them is M, as in "
