@@ -208,12 +208,13 @@ std::string comparison_text(const Comparison& comparison) {
     if (comparison.comparable) {
       const Loo& loo = result.loo->loo;
       const auto mode = mode_of(result);
-      row.insert(row.end(),
-                 {fmt::format("{:.2f}", loo.elpd()), fmt::format("{:.2f}", loo.se()),
-                  fmt::format("{:.2f}", behind->value), fmt::format("{:.2f}", behind->se),
-                  fmt::format("{:.1f}", loo.p_loo()), fmt::format("{:.2f}", loo.khat_max()),
-                  mode ? fmt::format("{:.2f}", mode->aic) : "-",
-                  mode ? fmt::format("{:.2f}", mode->bic) : "-"});
+      const auto error = [](double x) { return std::isfinite(x) ? fmt::format("{:.2f}", x) : "-"; };
+      row.insert(
+          row.end(),
+          {fmt::format("{:.2f}", loo.elpd()), error(loo.se()), fmt::format("{:.2f}", behind->value),
+           error(behind->se), fmt::format("{:.1f}", loo.p_loo()),
+           fmt::format("{:.2f}", loo.khat_max()), mode ? fmt::format("{:.2f}", mode->aic) : "-",
+           mode ? fmt::format("{:.2f}", mode->bic) : "-"});
     } else {
       row.insert(row.end(),
                  {result.header.data.names(), fmt::format("{}", result.header.data.rows)});
