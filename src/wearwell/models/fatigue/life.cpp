@@ -59,8 +59,9 @@ void MixedLife::merge() {
   constexpr double width = 0.005;
   const bool normal = standard() == StandardLaw::normal;
   const double across = normal ? 4 * width : width;
+  // Sums, weighted: of places from the cell's edge and of second moments about it, or of sigmas.
   struct Cell {
-    double weight = 0, center = 0, square = 0, sigma = 0;
+    double weight = 0, center = 0, place = 0, second_moment = 0, sigma = 0;
   };
   std::unordered_map<std::uint64_t, std::size_t> known;
   std::vector<Cell> cells;
@@ -82,18 +83,20 @@ void MixedLife::merge() {
     const double off = center_[i] - column * width_there, sigma = 1 / inverse_sigma_[i];
     cell.weight += weight_[i];
     cell.center += weight_[i] * center_[i];
-    cell.square += weight_[i] * (normal ? off * off + sigma * sigma : 0);
-    cell.sigma += weight_[i] * (normal ? off : sigma);
+    cell.place += weight_[i] * off;
+    cell.second_moment += weight_[i] * (off * off + sigma * sigma);
+    cell.sigma += weight_[i] * sigma;
   }
   weight_.clear();
   center_.clear();
   inverse_sigma_.clear();
   for (const Cell& cell : cells) {
-    const double mean = cell.sigma / cell.weight;
+    const double place = cell.place / cell.weight;
+    const double sigma = normal ? std::sqrt(cell.second_moment / cell.weight - place * place)
+                                : cell.sigma / cell.weight;
     weight_.push_back(cell.weight);
     center_.push_back(cell.center / cell.weight);
-    inverse_sigma_.push_back(1 /
-                             (normal ? std::sqrt(cell.square / cell.weight - mean * mean) : mean));
+    inverse_sigma_.push_back(1 / sigma);
   }
 }
 

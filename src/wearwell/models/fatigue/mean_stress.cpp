@@ -20,7 +20,7 @@ std::optional<MeanStress> mean_stress_named(const std::string& name) {
   return static_cast<MeanStress>(at - names.begin());
 }
 
-std::string strength_name(MeanStress correction) {
+std::string_view strength_name(MeanStress correction) {
   switch (correction) {
     case MeanStress::goodman:
     case MeanStress::gerber:

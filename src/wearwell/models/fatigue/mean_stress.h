@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wearwell/math/constants.h"
@@ -44,7 +45,7 @@ const std::vector<std::string>& mean_stress_names();
 std::optional<MeanStress> mean_stress_named(const std::string& name);
 
 /// The strength that the correction divides by: "S_ut", "S_y" or "sigma_f"; empty for the others.
-std::string strength_name(MeanStress correction);
+std::string_view strength_name(MeanStress correction);
 
 /// log10(S_f/S_a): infinite where the mean stress reaches the strength, -infinite where the cycle
 /// does no harm. `strength` [Pa] and `gamma` matter only to corrections that have them.

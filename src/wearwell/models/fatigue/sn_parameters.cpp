@@ -20,7 +20,7 @@ using fatigue::SnLaw;
 
 // "log10_Sut": how the logarithm of the strength is called.
 std::string log_strength_name(MeanStress correction) {
-  const std::string name = strength_name(correction);
+  const std::string name(strength_name(correction));
   return name == "S_ut" ? "log10_Sut" : name == "S_y" ? "log10_Sy" : "log10_" + name;
 }
 
@@ -115,7 +115,7 @@ std::vector<Parameter> sn_parameters(const TomlReader& root, const SnLaw& law, c
       data.stress_si == "1" ? "1" : fmt::format("log10({})", data.stress_si);
   double largest_mean = 0;
   for (const LifeTest& test : data.tests) largest_mean = std::max(largest_mean, test.stress.mean);
-  const std::string strength = strength_name(law.correction);
+  const std::string strength(strength_name(law.correction));
   double material = std::max(3 * largest_mean, 1e6);
   std::optional<Parameter> log_strength;
   if (law.strength) {

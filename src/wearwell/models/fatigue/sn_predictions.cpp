@@ -80,30 +80,6 @@ std::vector<StressPoint> points_of_types(const TomlReader& predict, const SnLaw&
   return points;
 }
 
-// SnLaw::log10_reversed of one stress for many parameters.
-class ReversedAt {
- public:
-  ReversedAt(const SnLaw& law, const Stress& stress)
-      : law_(law),
-        stress_(stress),
-        log10_alternating_(std::log10(stress.alternating)),
-        strength_(law.has_strength() ? law.strength_index() : -1),
-        gamma_(law.has_gamma() ? law.gamma_index() : -1) {}
-
-  double operator()(const double* x) const {
-    const double strength =
-        strength_ >= 0 ? std::exp(x[strength_] * std::log(10.0)) : law_.strength.value_or(1);
-    const double gamma = gamma_ >= 0 ? x[gamma_] : law_.gamma.value_or(1);
-    return log10_alternating_ + log10_factor(law_.correction, stress_, strength, gamma);
-  }
-
- private:
-  const SnLaw& law_;
-  Stress stress_;
-  double log10_alternating_;
-  int strength_, gamma_;  // where they are unknown
-};
-
 using Reduction = std::function<void(const double* x, double* y)>;
 
 // A posterior in terms of `count` numbers that follow from its parameters.
@@ -132,8 +108,8 @@ class LivesAt {
       return;
     }
     // All that matters here of a point is the centre of its lives and their scatter.
-    draws_ = reduced(draws, 2, [&, reversed = ReversedAt(law, stress)](const double* x, double* y) {
-      y[0] = life_center(law, x, reversed(x));
+    draws_ = reduced(draws, 2, [&](const double* x, double* y) {
+      y[0] = life_center(law, x, law.log10_reversed(x, stress));
       y[1] = law.sigma_at(x, y[0]);
     });
   }
@@ -373,10 +349,9 @@ std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {
 
 MixedLife next_life(const SnLaw& law, const WeightedDraws& draws, const Stress& stress) {
   MixedLife life(law.family);
-  const ReversedAt reversed(law, stress);
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
     const double* x = draws.values.row(i).data();
-    add_life(life, draws.weights[i], law, x, reversed(x),
+    add_life(life, draws.weights[i], law, x, law.log10_reversed(x, stress),
              {slices_of_next, static_cast<std::size_t>(i)});
   }
   return life;

@@ -85,7 +85,7 @@ std::string curve_in_words(const SnLaw& law) {
 }
 
 std::string in_words(const SnLaw& law) {
-  const std::string strength = strength_name(law.correction);
+  const std::string strength(strength_name(law.correction));
   std::string reversed;
   switch (law.correction) {
     case MeanStress::none:
@@ -247,7 +247,7 @@ SnLaw read_sn_law(const TomlReader& root) {
     }
   }
   const auto conditions = root.table("conditions");
-  const std::string strength = strength_name(law.correction);
+  const std::string strength(strength_name(law.correction));
   if (conditions && !strength.empty()) {
     if (const auto known = conditions->quantity(strength, "Pa")) {
       if (!(known->si() > 0)) conditions->fail(strength, "must be positive");
@@ -272,7 +272,7 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
   }
   if (data.stress_si != "Pa" && law.strength) {
     root.required_table("conditions")
-        .fail(strength_name(law.correction),
+        .fail(std::string(strength_name(law.correction)),
               fmt::format("is a stress, but what drives the lives is in {}; use law.mean_stress = "
                           "\"none\", \"swt\" "
                           "or \"walker\"",
