@@ -8,7 +8,6 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include "infer/test_posteriors.h"
-#include "wearwell/infer/exact_sums.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/math/view.h"
 #include "wearwell/prob/standard_law.h"
@@ -99,7 +98,7 @@ TEST(Lattice, SumsNeedNoCells) {
   const Posterior posterior = known("Correlated4").make();
   const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
   const ExactPosterior whole = integrate(posterior, whitening),
-                       sums = integrate_sums(posterior, whitening, {}, posterior);
+                       sums = integrate(posterior, whitening, {.cells = false});
   EXPECT_EQ(sums.mean, whole.mean);
   EXPECT_EQ(sums.covariance, whole.covariance);
   EXPECT_EQ(sums.nodes.values, whole.nodes.values);

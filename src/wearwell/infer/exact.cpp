@@ -4,7 +4,6 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/infer/box_integrator.h"
-#include "wearwell/infer/exact_sums.h"
 #include "wearwell/infer/lattice.h"
 #include "wearwell/math/view.h"
 
@@ -22,19 +21,6 @@ bool within(const Posterior& posterior, const Eigen::VectorXd& x) {
   return true;
 }
 
-ExactPosterior integrated(const Posterior& posterior, const Whitening& whitening,
-                          const ExactSettings& settings, const Posterior& shape, bool with_cells) {
-  if (posterior.dimension() > max_exact_dimension) {
-    throw std::logic_error("integrate: too many parameters");
-  }
-  // Boxes multiply too fast in four dimensions; they are tried where a lattice does not converge.
-  if (posterior.dimension() == 4) {
-    ExactPosterior exact = integrate_on_lattice(posterior, whitening, settings, with_cells);
-    if (exact.failure.empty()) return exact;
-  }
-  return BoxIntegrator(posterior, whitening, settings, shape).run();
-}
-
 }  // namespace
 
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
@@ -44,12 +30,15 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
 
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
                          const ExactSettings& settings, const Posterior& shape) {
-  return integrated(posterior, whitening, settings, shape, true);
-}
-
-ExactPosterior integrate_sums(const Posterior& posterior, const Whitening& whitening,
-                              const ExactSettings& settings, const Posterior& shape) {
-  return integrated(posterior, whitening, settings, shape, false);
+  if (posterior.dimension() > max_exact_dimension) {
+    throw std::logic_error("integrate: too many parameters");
+  }
+  // Boxes multiply too fast in four dimensions; they are tried where a lattice does not converge.
+  if (posterior.dimension() == 4) {
+    ExactPosterior exact = integrate_on_lattice(posterior, whitening, settings);
+    if (exact.failure.empty()) return exact;
+  }
+  return BoxIntegrator(posterior, whitening, settings, shape).run();
 }
 
 Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,

@@ -14,6 +14,7 @@ namespace wearwell {
 struct ExactSettings {
   double tolerance = 1e-5;     ///< of mass and second moments, relative
   bool second_moments = true;  ///< false: the posterior has none, so only its mass is integrated
+  bool cells = true;           ///< false: nodes for sums alone, not for distributions (lattice.h)
   long max_evaluations = 20'000'000;
   std::stop_token stop = {};  ///< once requested, the integration throws `Cancelled`
 };

@@ -50,7 +50,7 @@ struct Shape {
   int throat = -1;  // the scale of a funnel (funnel.h): then the mode is the middle of the mass
 };
 
-Shape climb(const Posterior& posterior) {
+Shape mode_and_tails(const Posterior& posterior) {
   constexpr int most_searches = 4;
   constexpr double higher = 0.01;
   Shape shape{find_mode(posterior, posterior.start()), {}, 0};
@@ -74,7 +74,7 @@ Shape climb(const Posterior& posterior) {
 
 // Where there is no mode, about the middle of the mass.
 Shape examine(const Posterior& posterior) {
-  Shape shape = climb(posterior);
+  Shape shape = mode_and_tails(posterior);
   if (shape.mode.found) return shape;
   if (auto funnel = funnel_middle(posterior, posterior.start())) {
     shape.tails = tails(posterior, *funnel);

@@ -14,17 +14,11 @@ namespace {
 constexpr double step = 0.5, fallen = 3;
 constexpr int most_stations = 60;
 
-// Beyond this (log) a summit is a plateau.
+// Of the log marginal density: below, a maximum is a plateau.
 constexpr double least_curvature = 1e-2;
 
 bool is_scale(const Parameter& parameter) {
   return std::isfinite(parameter.prior.lower) && parameter.prior.lower == parameter.natural_lower;
-}
-
-Eigen::VectorXd without(const Eigen::VectorXd& z, int i) {
-  Eigen::VectorXd rest(z.size() - 1);
-  for (Eigen::Index j = 0; j < rest.size(); ++j) rest[j] = z[j + (j >= i)];
-  return rest;
 }
 
 // Stations along a scale from the first on, one way.
@@ -50,8 +44,8 @@ class Walk {
   ConditionalMode before_, last_;
 };
 
-std::optional<ConditionalMode> station_at(const Posterior& posterior, const Eigen::VectorXd& z,
-                                          int i, double out) {
+std::optional<ConditionalMode> conditional_mode_at(const Posterior& posterior,
+                                                   const Eigen::VectorXd& z, int i, double out) {
   Slice slice(posterior, i);
   slice.at = z[i] + out;
   ConditionalMode station = visit(slice, {without(z, i)}, Eigen::VectorXd::Ones(z.size() - 1));
@@ -60,22 +54,22 @@ std::optional<ConditionalMode> station_at(const Posterior& posterior, const Eige
 }
 
 // At z, or farther out: a search for a start may have ended deep in the throat.
-std::optional<ConditionalMode> highest_station(const Posterior& posterior, const Eigen::VectorXd& z,
-                                               int i) {
+std::optional<ConditionalMode> highest_conditional_mode(const Posterior& posterior,
+                                                        const Eigen::VectorXd& z, int i) {
   constexpr double farther = 4, farthest = 60;  // factors of e
   std::optional<ConditionalMode> highest;
   for (double out = 0; out <= farthest; out += farther) {
-    auto station = station_at(posterior, z, i, out);
+    auto station = conditional_mode_at(posterior, z, i, out);
     if (!station || (highest && !(station->log_marginal > highest->log_marginal))) continue;
     highest = std::move(station);
   }
   return highest;
 }
 
-// From one side of the summit of the marginal density to the other; empty where it has none.
-std::vector<ConditionalMode> over_the_summit(const Posterior& posterior,
-                                             const Eigen::VectorXd& near, int i) {
-  const auto first = highest_station(posterior, near, i);
+// From one side of the maximum of the marginal density to the other; empty where it has none.
+std::vector<ConditionalMode> across_the_maximum(const Posterior& posterior,
+                                                const Eigen::VectorXd& near, int i) {
+  const auto first = highest_conditional_mode(posterior, near, i);
   if (!first) return {};
   std::vector<ConditionalMode> stations = {*first};
   double top = first->log_marginal;
@@ -93,7 +87,7 @@ std::vector<ConditionalMode> over_the_summit(const Posterior& posterior,
 }
 
 std::optional<Funnel> middle_along(const Posterior& posterior, const Eigen::VectorXd& near, int i) {
-  const std::vector<ConditionalMode> stations = over_the_summit(posterior, near, i);
+  const std::vector<ConditionalMode> stations = across_the_maximum(posterior, near, i);
   if (stations.size() < 3) return {};
   const auto highest = std::max_element(
       stations.begin() + 1, stations.end() - 1,
@@ -142,7 +136,7 @@ bool rises_without_end(const Posterior& posterior, const Eigen::VectorXd& middle
   if (middle.size() < 2 || !is_scale(posterior.parameters()[static_cast<std::size_t>(i)])) {
     return false;
   }
-  const auto first = station_at(posterior, middle, i, 0);
+  const auto first = conditional_mode_at(posterior, middle, i, 0);
   if (!first) return false;
   Walk walk(posterior, i, *first);
   double last = -INFINITY;

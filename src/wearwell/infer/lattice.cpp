@@ -53,7 +53,7 @@ struct Line {
   int first = 0;               // t of the first value over the step
   std::vector<double> values;  // log density less the reference
   double highest = -INFINITY;
-  std::vector<Located> located;  // of each value, where they are kept
+  std::vector<Located> kept;  // of each value; empty where there are too many to keep
 };
 
 // What lies in a cell: along each axis the logarithm of the mass is the parabola through that of its node and of both
@@ -197,7 +197,7 @@ class Lattice {
   }
 
   Doubts doubts(bool moments) {
-    if (moments) locate();
+    if (moments) place_nodes();
     const std::vector<LineSums> sums = line_sums(moments);
     Doubts doubts;
     for (int direction = 0; direction < directions; ++direction) {
@@ -242,7 +242,7 @@ class Lattice {
 
   // Without cells the nodes are good for sums alone.
   ExactPosterior result(bool moments, bool with_cells) {
-    locate();
+    place_nodes();
     double mass = 0;
     for (const Line& line : lines_) {
       for (const double v : line.values) mass += std::exp(v) * line.width;
@@ -328,16 +328,15 @@ class Lattice {
   }
 
   // Where all nodes lie, once for sums and result, as long as that takes no more than some tens of megabytes.
-  void locate() {
-    constexpr long most_located = 1'500'000;
-    if (located_ || nodes_ > most_located) return;
-    located_ = true;
+  void place_nodes() {
+    constexpr long most_kept = 1'500'000;
+    if (!lines_.front().kept.empty() || nodes_ > most_kept) return;
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines_.size(), 64), [&](const auto& part) {
       for (std::size_t i = part.begin(); i != part.end(); ++i) {
         Line& line = lines_[i];
-        line.located.resize(line.values.size());
+        line.kept.resize(line.values.size());
         for (std::size_t j = 0; j < line.values.size(); ++j) {
-          if (std::exp(line.values[j]) > 0) line.located[j] = locate(line, j);
+          if (std::exp(line.values[j]) > 0) line.kept[j] = locate(line, j);
         }
       }
     });
@@ -347,7 +346,7 @@ class Lattice {
     return {natural(there), there.log_jacobian};
   }
   Located located(const Line& line, std::size_t j) const {
-    return located_ ? line.located[j] : locate(line, j);
+    return line.kept.empty() ? locate(line, j) : line.kept[j];
   }
 
   // Of one line: its sum, the same with signs that alternate along it, and with those of a fourth of the
@@ -527,7 +526,6 @@ class Lattice {
   double highest_ = -INFINITY;
   long nodes_ = 0;
   int moves_ = 0;  // of the reference
-  bool located_ = false;
   std::vector<Line> lines_;
   std::unordered_map<std::uint64_t, std::size_t> known_;
 };
@@ -579,7 +577,7 @@ double mean_step(const Steps& steps) {
 }  // namespace
 
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
-                                    const ExactSettings& settings, bool with_cells) {
+                                    const ExactSettings& settings) {
   const RidgeMap map(posterior, whitening);
   const auto straight = straight_chart(posterior, whitening), along = ridge_chart(map);
   // Each chart is round where the other is not; lattices of middling steps tell. Where one is dear, the one that ends
@@ -661,7 +659,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     filled.reset();
   }
   if (best) {
-    exact = best->lattice->result(settings.second_moments, with_cells);
+    exact = best->lattice->result(settings.second_moments, settings.cells);
     exact.error = best->error;
   }
   exact.evaluations = evaluations;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "wearwell/infer/exact_sums.h"
 #include "wearwell/infer/left_out.h"
 #include "wearwell/infer/loo_of_many.h"
 #include "wearwell/infer/mode.h"
@@ -98,12 +97,13 @@ std::optional<Refitted> fitted_without(const Posterior& posterior, const Whiteni
   settings.tolerance = 1e-3;
   settings.max_evaluations = 4'000'000;
   settings.second_moments = false;
+  settings.cells = false;
   settings.stop = std::move(stop);
-  ExactPosterior exact = integrate_sums(others, whitening, settings, posterior);
+  ExactPosterior exact = integrate(others, whitening, settings, posterior);
   if (!exact.failure.empty()) {
     // Without an observation that pulled it far away the posterior lies elsewhere.
     const Mode mode = find_mode(others, whitening.center);
-    if (mode.found) exact = integrate_sums(others, whitening_at(mode), settings, others);
+    if (mode.found) exact = integrate(others, whitening_at(mode), settings);
   }
   if (!exact.failure.empty()) return {};
   std::vector<double> log_density;

@@ -35,6 +35,12 @@ Eigen::VectorXd Slice::whole(const Eigen::VectorXd& rest) const {
   return Eigen::Map<const Eigen::VectorXd>(full.data(), rest.size() + 1);
 }
 
+Eigen::VectorXd without(const Eigen::VectorXd& whole, Eigen::Index held) {
+  Eigen::VectorXd rest(whole.size() - 1);
+  for (Eigen::Index i = 0; i < rest.size(); ++i) rest[i] = whole[i + (i >= held)];
+  return rest;
+}
+
 ConditionalMode visit(const Slice& slice, const std::vector<Eigen::VectorXd>& guesses,
                       const Eigen::VectorXd& width) {
   const auto n = static_cast<Eigen::Index>(slice.dimension());

@@ -32,6 +32,9 @@ class Slice final : public LogDensity {
   std::size_t held_;
 };
 
+/// All coordinates but that one.
+Eigen::VectorXd without(const Eigen::VectorXd& whole, Eigen::Index held);
+
 /// One place on a ridge: a coordinate is held, the others are at their conditional mode.
 struct ConditionalMode {
   double at = 0;          ///< of the held coordinate

@@ -45,10 +45,10 @@ ConditionalMode visit_at(Slice& slice, double z, const Whitening& whitening,
   }
   const Eigen::Index d = covariance.rows();
   // The conditional mean of a normal.
-  Eigen::VectorXd rest(d - 1), center(d - 1);
+  const Eigen::VectorXd center = without(whitening.center, axis);
+  Eigen::VectorXd rest(d - 1);
   for (Eigen::Index j = 0; j < d - 1; ++j) {
     const Eigen::Index from = j + (j >= axis);
-    center[j] = whitening.center[from];
     rest[j] =
         center[j] + covariance(from, axis) / covariance(axis, axis) * (z - whitening.center[axis]);
   }

@@ -113,10 +113,10 @@ namespace {
 // The place of the mode on the ridge along parameter i.
 ConditionalMode at_mode(const Slice& slice, const Mode& mode, int i) {
   const Eigen::Index d = mode.position.size();
-  Eigen::VectorXd rest(d - 1), width = Eigen::VectorXd::Ones(d - 1);
+  const Eigen::VectorXd rest = without(mode.position, i);
+  Eigen::VectorXd width = Eigen::VectorXd::Ones(d - 1);
   for (Eigen::Index j = 0; j < d - 1; ++j) {
     const Eigen::Index from = j + (j >= i);
-    rest[j] = mode.position[from];
     const double bend = mode.curvature(from, from);
     if (mode.found && bend > 0) width[j] = 1 / std::sqrt(bend);
   }
@@ -234,13 +234,12 @@ bool grows_beside(const Posterior& posterior, const Funnel& funnel, const Tail& 
       (tail.upward != below ? 1 : -1) * (whole_line ? width_at(funnel.middle, i) : 1);
   Slice held(posterior, scale);
   held.at = z[scale];
-  Slice slice(held, i - (i > scale));
-  Eigen::VectorXd rest(z.size() - 2), width = Eigen::VectorXd::Ones(z.size() - 2);
-  for (Eigen::Index j = 0, to = 0; j < z.size(); ++j) {
-    if (j != i && j != scale) rest[to++] = z[j];
-  }
+  const int among = i - (i > scale);  // its place where the scale is held
+  Slice slice(held, among);
   slice.at = z[i];
-  ConditionalMode last = visit(slice, {rest}, width), before = last;
+  ConditionalMode last = visit(slice, {without(without(z, scale), among)},
+                               Eigen::VectorXd::Ones(z.size() - 2)),
+                  before = last;
   Walk walk;
   for (int step = 0; step < steps; ++step) {
     const double way = far_log * (step + 1) / steps;
