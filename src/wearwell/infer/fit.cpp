@@ -153,17 +153,23 @@ Chains chains_of(const Draws& draws, Eigen::Index parameter) {
 
 namespace {
 
-// Of the draws, as the check of convergence asks for it (sampler_checks.cpp).
+// Of the draws, as the checks of convergence and divergences ask for it (sampler_checks.cpp).
 bool mixed(const Fit& fit) {
-  constexpr double largest_rhat = 1.01;
+  constexpr double largest_rhat = 1.01, most_divergent = 0.005;
   const double least = 100.0 * static_cast<double>(fit.draws.size());
+  double divergent = 0, transitions = 0;
+  for (const Chain& chain : fit.draws) {
+    for (const NutsStep& step : chain.nuts) divergent += step.divergent;
+    transitions += static_cast<double>(chain.nuts.size());
+  }
+  if (divergent > most_divergent * transitions) return false;
   return std::all_of(fit.diagnostics.begin(), fit.diagnostics.end(), [&](const Diagnostics& d) {
     return d.rhat <= largest_rhat && std::min(d.ess_bulk, d.ess_tail) >= least;
   });
 }
 
 // Where no quadrature vouches for them and nobody said how many there are to be, draws that do not
-// suffice are drawn anew, twice as long, and once more: of NUTS with leaps about those that there are, which
+// suffice are drawn anew, twice as long, and once more: of NUTS with leaps about those that there are, at first as many, which
 // may be seen to be needed as early as in warm-up. Those of an improper posterior never do.
 void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& fit) {
   constexpr int most_doublings = 2;
@@ -187,7 +193,7 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
       longer.run.first_stream += 1ULL << 42;
     else
       longer.run.warmup *= 2;
-    longer.run.draws *= 2;
+    if (!leaps || doubling > 0) longer.run.draws *= 2;
     longer.run.progress = nullptr;
   }
 }

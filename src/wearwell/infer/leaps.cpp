@@ -14,12 +14,20 @@
 namespace wearwell {
 namespace {
 
-constexpr int leaps = 8;       // proposed before each transition
 constexpr int deepest = 3;     // of a transition: at most 7 steps
 constexpr int adapting = 100;  // transitions in which steps adapt
-constexpr int learning = 300;  // draws of each chain about which the final mixture lies
-constexpr double near_share = 0.6, middle_share = 0.3, middle_factor = 2.5, wide_scale = 1.5;
+constexpr int learning = 150;  // draws of each chain about which the final mixture lies
+constexpr double near_share = 0.6, middle_share = 0.3, middle_factor = 2.5, wide_scale = 2.5;
 constexpr std::uint64_t own_streams = 1ULL << 40;  // random numbers that NUTS does not use
+
+constexpr int most_leaps = 8;  // between draws
+
+// So many leaps that about every second draw is elsewhere, where this share of those that are proposed is taken.
+int leaps_for(double share_taken) {
+  if (!(share_taken > 0)) return most_leaps;
+  const double enough = std::ceil(std::log(0.5) / std::log1p(-share_taken));
+  return std::clamp(static_cast<int>(std::min<double>(enough, most_leaps)), 2, most_leaps);
+}
 
 // A multivariate Student law with a scale in every direction alike. Its degrees of freedom are such that the density
 // is a whole power.
@@ -196,11 +204,12 @@ Pilot pilot_of(const Posterior& posterior, const Draws& draws) {
 class LeapingChain {
  public:
   LeapingChain(const Posterior& posterior, const Pilot& pilot, const Mixture& mixture,
-               const NutsSettings& options, const Eigen::VectorXd& start, Rng rng)
+               const NutsSettings& options, int leaps, const Eigen::VectorXd& start, Rng rng)
       : posterior_(posterior),
         pilot_(pilot),
         mixture_(mixture),
         density_(pilot.bent, pilot.round),
+        leaps_(leaps),
         nuts_(density_, false, std::min(options.max_treedepth, deepest)),
         rng_(rng) {
     nuts_.set_position(start);
@@ -233,8 +242,11 @@ class LeapingChain {
     chain.notes.push_back(
         fmt::format("Before each transition {} leaps to a mixture about earlier "
                     "draws are proposed; {:.0f} % are taken",
-                    leaps, 100.0 * taken_ / (leaps * settings.draws)));
+                    leaps_, 100 * share_taken(settings)));
     return chain;
+  }
+  double share_taken(const RunSettings& settings) const {
+    return static_cast<double>(taken_) / (leaps_ * settings.draws);
   }
 
  private:
@@ -242,7 +254,7 @@ class LeapingChain {
     Eigen::VectorXd at = nuts_.point().position;
     double here = nuts_.point().log_density - mixture_.log_density(at);
     bool moved = false;
-    for (int i = 0; i < leaps; ++i) {
+    for (int i = 0; i < leaps_; ++i) {
       const Eigen::VectorXd next = mixture_.draw(rng_);
       const double there = density_.value(view(next)) - mixture_.log_density(next);
       if (!(std::log(rng_.uniform()) < there - here)) continue;
@@ -259,21 +271,31 @@ class LeapingChain {
   const Pilot& pilot_;
   const Mixture& mixture_;
   WhitenedDensity density_;
+  int leaps_;
   Nuts<Eigen::Dynamic> nuts_;
   Rng rng_;
   int taken_ = 0;
 };
 
-Draws chains(const Posterior& posterior, const Pilot& pilot, const NutsSettings& options,
-             const RunSettings& settings) {
+struct Leapt {
+  Draws draws;
+  double share_taken = 0;  // of the leaps
+};
+
+Leapt leapt(const Posterior& posterior, const Pilot& pilot, const NutsSettings& options, int leaps,
+            const RunSettings& settings) {
   const Mixture mixture(pilot.places);
-  Draws draws(pilot.last.size());
-  tbb::parallel_for(std::size_t{0}, draws.size(), [&](std::size_t c) {
+  Leapt all{Draws(pilot.last.size())};
+  std::vector<double> shares(all.draws.size());
+  tbb::parallel_for(std::size_t{0}, all.draws.size(), [&](std::size_t c) {
     const Rng rng(settings.seed, settings.first_stream + c + own_streams);
-    LeapingChain chain(posterior, pilot, mixture, options, pilot.last[c], rng);
-    draws[c] = chain.drawn(settings);
+    LeapingChain chain(posterior, pilot, mixture, options, leaps, pilot.last[c], rng);
+    all.draws[c] = chain.drawn(settings);
+    shares[c] = chain.share_taken(settings);
   });
-  return draws;
+  // The chain that leaps least tells how many leaps it takes.
+  all.share_taken = *std::min_element(shares.begin(), shares.end());
+  return all;
 }
 
 }  // namespace
@@ -284,8 +306,10 @@ Draws run_leaps(const Posterior& posterior, const Draws& pilot, const NutsSettin
   few.draws = learning;
   few.first_stream += own_streams;
   few.progress = nullptr;
-  const Draws learned = chains(posterior, pilot_of(posterior, pilot), nuts, few);
-  return chains(posterior, pilot_of(posterior, learned), nuts, settings);
+  const Leapt learned = leapt(posterior, pilot_of(posterior, pilot), nuts, most_leaps, few);
+  return leapt(posterior, pilot_of(posterior, learned.draws), nuts, leaps_for(learned.share_taken),
+               settings)
+      .draws;
 }
 
 }  // namespace wearwell

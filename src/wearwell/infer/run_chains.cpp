@@ -124,8 +124,10 @@ template <int N>
 Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
                   const NutsSettings& options, const RunSettings& settings, bool may_leap) {
   std::vector<std::unique_ptr<NutsChain<N>>> chains(static_cast<std::size_t>(settings.chains));
-  const int half = settings.warmup / 2;
-  for (const int iterations : {half, settings.warmup - half}) {
+  // Leaps take fewer evaluations than transitions without them, once there is something to leap about.
+  const bool leaps = may_leap && posterior.likelihood()->is_slow();
+  const int first = settings.warmup / (leaps ? 4 : 2);
+  for (const int iterations : {first, settings.warmup - first}) {
     tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t c) {
       if (!chains[c])
         chains[c] = std::make_unique<NutsChain<N>>(posterior, whitening, options, settings, c);
@@ -134,7 +136,8 @@ Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
     if (!may_leap) continue;
     Draws late;
     for (const auto& chain : chains) late.push_back(chain->late());
-    if (!promising(late, settings.draws)) return run_leaps(posterior, late, options, settings);
+    if (leaps || !promising(late, settings.draws))
+      return run_leaps(posterior, late, options, settings);
   }
   Draws draws(chains.size());
   tbb::parallel_for(std::size_t{0}, chains.size(),

@@ -232,7 +232,8 @@ double limited_quantile(const LimitedLife<double>& item, double p) {
     if (next >= high) next = 0.5 * (low + high);
     const double moved = std::abs(next - at);
     at = next;
-    if (moved <= 1e-11 * (1 + std::abs(at))) return at;
+    // The error that is left is of the order of the square of the step, in parts of sigma.
+    if (moved <= 1e-6 * item.sigma || moved <= 1e-11 * (1 + std::abs(at))) return at;
     if (at > most_decades) return infinity;
   }
   return at;

@@ -24,41 +24,62 @@ constexpr int finest = 15, reach = 64;  // steps of 2^-1 to 2^-finest, from -rea
 constexpr double narrowest = 0.01;      // features below are integrated about their own place
 constexpr double farthest = 0.4;        // so far their series reach
 
-/// exp(x) to 1e-14, in the few multiplications that it takes: a study asks for some 1e9 of them.
-[[gnu::always_inline]] inline double quick_exp(double x) {
-  if (!(std::abs(x) < 700)) return std::exp(x);
+/// Nodes side by side, of which the machine's vectors (of any x86-64 and ARM of 64 bits) hold two.
+using Block [[gnu::vector_size(16)]] = double;
+using Bits [[gnu::vector_size(16)]] = std::int64_t;
+constexpr int block = 2;
+
+inline Block of_both(double x) {
+  return Block{x, x};
+}
+inline Block at_most(Block z, double most) {
+  return z > most ? of_both(most) : z;
+}
+inline double at_most(double z, double most) {
+  return z > most ? most : z;
+}
+
+/// exp(x) to 1e-14 for -700 <= x <= 700, beyond that of these ends, in the few multiplications that it takes: a study
+/// asks for some 1e9 of them.
+inline Block exponential(Block x) {
   constexpr double per_two = 1.4426950408889634, high = 6.93147180369123816490e-01,
                    low = 1.90821492927058770002e-10, shift = 0x1.8p52;
-  const double shifted = x * per_two + shift, k = shifted - shift;
-  const double r = (x - k * high) - k * low, r2 = r * r, r4 = r2 * r2;
+  x = x < -700.0 ? of_both(-700) : at_most(x, 700);
+  const Block shifted = x * per_two + shift, k = shifted - shift;
+  const Block r = (x - k * high) - k * low, r2 = r * r, r4 = r2 * r2;
   // Taylor's series to the eleventh power, |r| <= 0.35.
-  const double sum =
-      (1 + r + r2 * (1.0 / 2 + r * (1.0 / 6))) +
+  const Block sum =
+      (1.0 + r + r2 * (1.0 / 2 + r * (1.0 / 6))) +
       r4 * ((1.0 / 24 + r * (1.0 / 120) + r2 * (1.0 / 720 + r * (1.0 / 5040))) +
             r4 * (1.0 / 40320 + r * (1.0 / 362880) + r2 * (1.0 / 3628800 + r * (1.0 / 39916800))));
-  const auto power = std::bit_cast<std::uint64_t>(shifted) << 52;
-  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(sum) + power);
+  return std::bit_cast<Block>(std::bit_cast<Bits>(sum) + (std::bit_cast<Bits>(shifted) << 52));
+}
+inline double exponential(double x) {
+  return std::exp(x);
 }
 
 /// Of a law of location and scale: its density, or the probability below or above.
 enum class Role { density, below, above };
 
-/// exp(log) is no less than the factor; `exponential`: what of it the share asks for again.
-struct Bound {
-  double log, exponential;
-};
 /// factor = exp(bound) value, its derivative exp(bound) slope.
 struct Share {
-  double value, slope;
+  Block value, slope;
 };
 
+/// `log_bound`: of a factor's place z its bound's logarithm, for a number or a block; `share` takes what the bound has
+/// left in `e`, an exponential that it asks for again.
 template <StandardLaw law, Role role>
 struct Factor;
 
 template <>
 struct Factor<StandardLaw::normal, Role::density> {
-  static Bound bound(double z) { return {-0.5 * z * z, 0}; }
-  static Share share(double z, double /*e*/) { return {per_root_two_pi, -per_root_two_pi * z}; }
+  template <class T>
+  static T log_bound(T z, T& /*e*/) {
+    return -0.5 * z * z;
+  }
+  static Share share(Block z, Block /*e*/) {
+    return {of_both(per_root_two_pi), -per_root_two_pi * z};
+  }
 };
 
 /// P(Z > t) exp(t^2/2), t >= 0: by the series about the nearest entry of a table, whose derivatives
@@ -99,58 +120,72 @@ class Mills {
 
 template <>
 struct Factor<StandardLaw::normal, Role::below> {
-  static Bound bound(double z) { return {z < 0 ? -0.5 * z * z : 0, 0}; }
-  static Share share(double z, double /*e*/) {
-    if (z < 0) return {Mills::at(-z), per_root_two_pi};
-    if (z > 8.5) return {1, 0};
-    const double e = quick_exp(-0.5 * z * z);
-    return {1 - e * Mills::at(z), per_root_two_pi * e};
+  template <class T>
+  static T log_bound(T z, T& /*e*/) {
+    const T below = at_most(z, 0);
+    return -0.5 * below * below;
+  }
+  static Share share(Block z, Block /*e*/) {
+    Block mills;
+    for (int i = 0; i < block; ++i) mills[i] = Mills::at(std::abs(z[i]));
+    const Block e = exponential(-0.5 * z * z);
+    return {z < 0.0 ? mills : 1.0 - e * mills,
+            z < 0.0 ? of_both(per_root_two_pi) : per_root_two_pi * e};
   }
 };
 
 template <>
 struct Factor<StandardLaw::normal, Role::above> {
   using Mirror = Factor<StandardLaw::normal, Role::below>;
-  static Bound bound(double z) { return Mirror::bound(-z); }
-  static Share share(double z, double e) {
+  template <class T>
+  static T log_bound(T z, T& e) {
+    return Mirror::log_bound(-z, e);
+  }
+  static Share share(Block z, Block e) {
     const Share mirrored = Mirror::share(-z, e);
     return {mirrored.value, -mirrored.slope};
   }
 };
 
+// Beyond it exp(z) has no effect that a number tells; its square is one still.
+constexpr double far_above = 300;
+
 template <>
 struct Factor<StandardLaw::smallest_extreme_value, Role::density> {
-  static Bound bound(double z) {
-    const double e = quick_exp(z);
-    return {z - e, e};
+  template <class T>
+  static T log_bound(T z, T& e) {
+    const T near = at_most(z, far_above);
+    e = exponential(near);
+    return near - e;
   }
-  static Share share(double /*z*/, double e) { return {1, 1 - e}; }
+  static Share share(Block /*z*/, Block e) { return {of_both(1), 1.0 - e}; }
 };
 
 template <>
 struct Factor<StandardLaw::smallest_extreme_value, Role::below> {
-  static Bound bound(double z) { return {z < 0 ? z : 0, 0}; }
-  static Share share(double z, double /*e*/) {
+  template <class T>
+  static T log_bound(T z, T& /*e*/) {
+    return at_most(z, 0);
+  }
+  static Share share(Block z, Block /*e*/) {
     constexpr double small = 0.02;
-    const double e = quick_exp(z);
-    if (e < small) {
-      const double left = 1 - e * (1.0 / 2 - e * (1.0 / 6 - e * (1.0 / 24 - e * (1.0 / 120))));
-      return {left, 1 - e * left};
-    }
-    const double kept = quick_exp(-e);
-    if (kept == 0) return {1, 0};
-    if (z >= 0) return {1 - kept, e * kept};
-    return {(1 - kept) / e, kept};
+    const Block e = exponential(at_most(z, 6)),
+                kept = exponential(-e);  // e^-403 is nothing beside 1
+    const Block s = at_most(e, small);
+    const Block left = 1.0 - s * (1.0 / 2 - s * (1.0 / 6 - s * (1.0 / 24 - s * (1.0 / 120))));
+    return {z >= 0.0 ? 1.0 - kept : (e < small ? left : (1.0 - kept) / e),
+            z >= 0.0 ? e * kept : (e < small ? 1.0 - s * left : kept)};
   }
 };
 
 template <>
 struct Factor<StandardLaw::smallest_extreme_value, Role::above> {
-  static Bound bound(double z) {
-    const double e = quick_exp(z);
-    return {-e, e};
+  template <class T>
+  static T log_bound(T z, T& e) {
+    e = exponential(at_most(z, far_above));
+    return -e;
   }
-  static Share share(double /*z*/, double e) { return {1, -e}; }
+  static Share share(Block /*z*/, Block e) { return {of_both(1), -e}; }
 };
 
 /// log of the limit's share of the stress, 1/(1 + exp(-u)), and of what remains.
@@ -178,15 +213,17 @@ double step_of(int level) {
 /// These at multiples of a level's step, from -reach to reach.
 class Table {
  public:
-  explicit Table(int level) : step(step_of(level)) {
-    const int n = static_cast<int>(reach / step);
-    logs.reserve(2 * static_cast<std::size_t>(n) + 1);
-    for (int k = -n; k <= n; ++k) logs.push_back(logs_at(k * step));
-    middle = n;
+  explicit Table(int level)
+      : step(step_of(level)), middle(static_cast<std::ptrdiff_t>(reach / step)) {
+    for (std::ptrdiff_t k = -middle; k <= middle; ++k) {
+      const Logs logs = logs_at(static_cast<double>(k) * step);
+      share.push_back(logs.share);
+      rest.push_back(logs.rest);
+    }
   }
   double step;
-  std::ptrdiff_t middle = 0;
-  std::vector<Logs> logs;
+  std::ptrdiff_t middle;
+  std::vector<double> share, rest;
 };
 const Table& table(int level) {
   static const std::vector<Table> tables = [] {
@@ -210,12 +247,13 @@ struct Mark {
   double w = 0, z = 0;
 };
 
-/// The nodes of one integral, evenly spaced in u: outward from `origin` both ways.
+/// The nodes of one integral, evenly spaced in u, in blocks: outward from `origin` both ways.
 struct Nodes {
-  static constexpr int most = 400, origin = most + 1;
+  static constexpr int most = 200, origin = most;
+  using Each = std::array<Block, 2 * most + 2>;
   double step = 0;
-  int first = origin, last = origin;
-  std::array<double, 2 * most + 3> w, z, bound, e_w, e_z;  // the last two: Bound::exponential
+  int first = origin, last = origin;  // block; the last: behind it
+  Each w, z, bound, e_w, e_z;         // the last two: of `log_bound`
 };
 
 struct Sums {
@@ -239,7 +277,7 @@ class Lattice {
       best = &mark;
     }
     const double resolution = extreme ? 0.4 : 0.63;
-    const double wide = width(best->u);
+    const double wide = width(1 / (1 + std::exp(-best->u)));
     if (!(wide > narrowest)) return about(*best, resolution * wide);
     for (int level = level_of(resolution * wide); level <= finest;) {
       const int finer = fill(level, best->u, marks, resolution);
@@ -262,42 +300,45 @@ class Lattice {
   }
 
   double bound(const Logs& at) const {
-    return OfLimit::bound(places_.w(at)).log + OfLife::bound(places_.z(at)).log +
+    double e = 0;
+    return OfLimit::log_bound(places_.w(at), e) + OfLife::log_bound(places_.z(at), e) +
            (by_rest ? at.rest : at.share);
   }
 
   static double bound(const Mark& at) {
-    return OfLimit::bound(at.w).log + OfLife::bound(at.z).log +
+    double e = 0;
+    return OfLimit::log_bound(at.w, e) + OfLife::log_bound(at.z, e) +
            (by_rest ? at.rest_log : at.share_log);
   }
 
-  // Returns the bound of the integrand there; `measure`: the logarithm of what stands beside both factors.
-  static double put_node(int node, double w, double z, double measure) {
+  // `measure`: the logarithm of what stands beside both factors.
+  static Block put(int node, Block w, Block z, Block measure) {
     const auto i = static_cast<std::size_t>(node);
-    const Bound of_limit = OfLimit::bound(w), of_life = OfLife::bound(z);
     nodes_.w[i] = w;
     nodes_.z[i] = z;
-    nodes_.e_w[i] = of_limit.exponential;
-    nodes_.e_z[i] = of_life.exponential;
-    return nodes_.bound[i] = of_limit.log + of_life.log + measure;
+    nodes_.bound[i] =
+        OfLimit::log_bound(w, nodes_.e_w[i]) + OfLife::log_bound(z, nodes_.e_z[i]) + measure;
+    return nodes_.bound[i];
   }
 
-  // Of the narrowest feature that may stand at u.
-  double width(double u) const {
-    const double share = 1 / (1 + std::exp(-u)), rest = 1 / (1 + std::exp(u));
-    return 1 / std::sqrt(places_.w_slope * places_.w_slope * rest * rest +
-                         places_.z_slope * places_.z_slope * share * share);
+  // Of the narrowest feature that may stand where the limit has this share of the stress.
+  double width(double share) const {
+    const double of_limit = places_.w_slope * (1 - share), of_life = places_.z_slope * share;
+    return 1 / std::sqrt(of_limit * of_limit + of_life * of_life);
   }
 
   // All nodes of a level that count. Returns the level, a finer one where it takes that, or -1.
   int fill(int level, double near, std::span<const Mark> marks, double resolution) {
     const Table& t = table(level);
-    const auto last = std::ssize(t.logs) - 1;
+    const std::ptrdiff_t last = 2 * t.middle;
     const auto index = [&](double u) {
       return std::clamp<std::ptrdiff_t>(t.middle + std::lround(std::clamp(u, -1e3, 1e3) / t.step),
                                         0, last);
     };
-    const auto at = [&](std::ptrdiff_t i) { return bound(t.logs[static_cast<std::size_t>(i)]); };
+    const auto at = [&](std::ptrdiff_t i) {
+      const auto k = static_cast<std::size_t>(i);
+      return bound(Logs{t.share[k], t.rest[k]});
+    };
     // Uphill in steps that double while they lead up.
     std::ptrdiff_t top = index(near);
     double highest = at(top);
@@ -326,27 +367,32 @@ class Lattice {
       high = std::max(high, i);
       highest = std::max(highest, there);
     }
-    const auto put = [&](int node, std::ptrdiff_t i) {
-      const Logs& logs = t.logs[static_cast<std::size_t>(i)];
-      return put_node(node, places_.w(logs), places_.z(logs), by_rest ? logs.rest : logs.share);
-    };
-    const auto walked = [&](int way, std::ptrdiff_t must) {
-      for (int k = way > 0 ? 0 : 1; k <= Nodes::most; ++k) {
-        const std::ptrdiff_t i = top + way * k;
-        if (i <= 0 || i >= last) return -1;
-        if (!(put(Nodes::origin + way * k, i) > highest - negligible) && k >= must) return k;
+    // Blocks outward from the top, until the outermost node of one counts no more.
+    const auto walked = [&](bool ahead, std::ptrdiff_t must) {
+      for (int k = 0; k < Nodes::most; ++k) {
+        const std::ptrdiff_t from = top + block * (ahead ? k : -k - 1);
+        if (from <= 0 || from + block > last) return -1;
+        const auto i = static_cast<std::size_t>(from);
+        const Block share{t.share[i], t.share[i + 1]}, rest{t.rest[i], t.rest[i + 1]};
+        const Block bounds =
+            put(Nodes::origin + (ahead ? k : -k - 1), places_.w0 + places_.w_slope * share,
+                places_.z0 + places_.z_slope * rest, by_rest ? rest : share);
+        const double outermost = bounds[ahead ? block - 1 : 0];
+        if (!(outermost > highest - negligible) && block * (k + 1) > must) return k + 1;
       }
       return -1;
     };
-    const int up = walked(1, high - top), down = walked(-1, top - low);
+    const int up = walked(true, high - top), down = walked(false, top - low);
     if (up < 0 || down < 0) return -1;
     nodes_.step = t.step;
     nodes_.first = Nodes::origin - down;
     nodes_.last = Nodes::origin + up;
     // Where a law is steep at an edge of the region there is little of it: its middle half tells.
-    const double u = static_cast<double>(top - t.middle) * t.step;
+    const auto width_at = [&](std::ptrdiff_t i) {
+      return width(std::exp(t.share[static_cast<std::size_t>(i)]));
+    };
     const int needed = level_of(
-        resolution * std::min(width(u + 0.5 * up * t.step), width(u - 0.5 * down * t.step)));
+        resolution * std::min(width_at(top + block / 2 * up), width_at(top - block / 2 * down)));
     if (needed <= level) return level;
     return needed <= finest ? needed : -1;
   }
@@ -356,25 +402,27 @@ class Lattice {
     if (!(step > 0)) return {};
     const auto of_rest = series(1 / (1 + std::exp(-center.u))),
                of_share = series(1 / (1 + std::exp(center.u)));
-    const auto put = [&](int node, double d) {
-      double r = 0, s = 0;
+    const auto put_at = [&](int node, Block d) {
+      Block r{}, s{};
       for (std::size_t k = terms; k-- > 0;) {
         r = (r + of_rest[k]) * d;
         s = (s + of_share[k]) * -d;
       }
-      return put_node(node, center.w + places_.w_slope * s, center.z + places_.z_slope * r,
-                      by_rest ? center.rest_log + r : center.share_log + s);
+      return put(node, center.w + places_.w_slope * s, center.z + places_.z_slope * r,
+                 by_rest ? center.rest_log + r : center.share_log + s);
     };
+    const Block within{0, 1};
     for (int attempt = 0; attempt < 2; ++attempt, step *= 0.5) {
       double highest = -infinity;
       nodes_.step = step;
-      for (const int way : {1, -1}) {
-        for (int k = way > 0 ? 0 : 1;; ++k) {
-          if (k > Nodes::most || k * step > farthest) return {};
-          const double there = put(Nodes::origin + way * k, way * k * step);
-          highest = std::max(highest, there);
-          (way > 0 ? nodes_.last : nodes_.first) = Nodes::origin + way * k;
-          if (!(there > highest - negligible)) break;
+      for (const bool ahead : {true, false}) {
+        for (int k = 0;; ++k) {
+          if (k == Nodes::most || block * (k + 1) * step > farthest) return {};
+          const int from = ahead ? k : -k - 1;
+          const Block bounds = put_at(Nodes::origin + from, step * (block * from + within));
+          highest = std::max(highest, std::max(bounds[0], bounds[1]));
+          (ahead ? nodes_.last : nodes_.first) = Nodes::origin + (ahead ? k + 1 : -k - 1);
+          if (!(bounds[ahead ? block - 1 : 0] > highest - negligible)) break;
         }
       }
       if (!std::isfinite(highest)) return {};
@@ -382,6 +430,8 @@ class Lattice {
     }
     return {};
   }
+
+  static std::pair<double, double> pair_of(Block x) { return {x[0], x[1]}; }
 
   static constexpr std::size_t terms = 14;
 
@@ -421,26 +471,35 @@ class Lattice {
 
   // None where the transform of the integrand at the nodes' frequency is not small (limit_integral.cpp).
   std::optional<Sums> summed() const {
+    const auto first = static_cast<std::size_t>(nodes_.first),
+               last = static_cast<std::size_t>(nodes_.last);
+    Block highest = nodes_.bound[first];
+    for (std::size_t i = first; i < last; ++i)
+      highest = nodes_.bound[i] > highest ? nodes_.bound[i] : highest;
     Sums sums;
-    sums.reference = *std::max_element(&nodes_.bound[nodes_.first], &nodes_.bound[nodes_.last + 1]);
-    std::array<double, 6> every_sixth{};
-    for (int i = nodes_.first, sixth = 0; i <= nodes_.last;
-         ++i, sixth = sixth == 5 ? 0 : sixth + 1) {
-      const double below = nodes_.bound[i] - sums.reference;
-      if (!(below > -negligible)) continue;
-      const double e = nodes_.step * quick_exp(below), w = nodes_.w[i], z = nodes_.z[i];
+    sums.reference = std::max(highest[0], highest[1]);
+    Block of_w{}, of_w_w{}, of_z{}, of_z_z{};
+    std::array<Block, 3> every_sixth{};
+    for (std::size_t i = first, third = 0; i < last; ++i, third = third == 2 ? 0 : third + 1) {
+      const Block below = nodes_.bound[i] - sums.reference, w = nodes_.w[i], z = nodes_.z[i];
+      const Block e = below > -negligible ? nodes_.step * exponential(below) : Block{};
       const Share limit = OfLimit::share(w, nodes_.e_w[i]), life = OfLife::share(z, nodes_.e_z[i]);
-      const double f = e * limit.value * life.value;
-      const double dw = e * limit.slope * life.value, dz = e * limit.value * life.slope;
-      every_sixth[sixth] += f;
-      sums.mass += f;
-      sums.of_w += dw;
-      sums.of_w_w += dw * w;
-      sums.of_z += dz;
-      sums.of_z_z += dz * z;
+      const Block dw = e * limit.slope * life.value, dz = e * limit.value * life.slope;
+      every_sixth[third] += e * limit.value * life.value;
+      of_w += dw;
+      of_w_w += dw * w;
+      of_z += dz;
+      of_z_z += dz * z;
     }
+    sums.of_w = of_w[0] + of_w[1];
+    sums.of_w_w = of_w_w[0] + of_w_w[1];
+    sums.of_z = of_z[0] + of_z[1];
+    sums.of_z_z = of_z_z[0] + of_z_z[1];
+    const auto [a, b] = pair_of(every_sixth[0]);
+    const auto [c, d] = pair_of(every_sixth[1]);
+    const auto [e, f] = pair_of(every_sixth[2]);
+    sums.mass = a + b + c + d + e + f;
     if (!(sums.mass > 0)) return {};
-    const auto& [a, b, c, d, e, f] = every_sixth;
     const double p = a + d, q = b + e, r = c + f;
     const double half = std::abs(a - b + c - d + e - f) / sums.mass;
     const double third =

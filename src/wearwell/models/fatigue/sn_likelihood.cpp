@@ -58,6 +58,7 @@ class SnLikelihood final : public LogDensity {
   }
 
   int dimension() const override { return law_.dimension(); }
+  bool is_slow() const override { return law_.integrated(); }
 
   double value(std::span<const double> x) const override { return formula(x.data()); }
 
