@@ -249,11 +249,13 @@ struct Mark {
 
 /// The nodes of one integral, evenly spaced in u, in blocks: outward from `origin` both ways.
 struct Nodes {
-  static constexpr int most = 200, origin = most;
-  using Each = std::array<Block, 2 * most + 2>;
+  static constexpr int most = 1000, origin = most;
+  struct At {
+    Block w, z, bound, e_w, e_z;  // the last two: of `log_bound`
+  };
   double step = 0;
   int first = origin, last = origin;  // block; the last: behind it
-  Each w, z, bound, e_w, e_z;         // the last two: of `log_bound`
+  std::array<At, 2 * most + 1> at;
 };
 
 struct Sums {
@@ -313,12 +315,11 @@ class Lattice {
 
   // `measure`: the logarithm of what stands beside both factors.
   static Block put(int node, Block w, Block z, Block measure) {
-    const auto i = static_cast<std::size_t>(node);
-    nodes_.w[i] = w;
-    nodes_.z[i] = z;
-    nodes_.bound[i] =
-        OfLimit::log_bound(w, nodes_.e_w[i]) + OfLife::log_bound(z, nodes_.e_z[i]) + measure;
-    return nodes_.bound[i];
+    Nodes::At& at = nodes_.at[static_cast<std::size_t>(node)];
+    at.w = w;
+    at.z = z;
+    at.bound = OfLimit::log_bound(w, at.e_w) + OfLife::log_bound(z, at.e_z) + measure;
+    return at.bound;
   }
 
   // Of the narrowest feature that may stand where the limit has this share of the stress.
@@ -471,25 +472,26 @@ class Lattice {
 
   // None where the transform of the integrand at the nodes' frequency is not small (limit_integral.cpp).
   std::optional<Sums> summed() const {
-    const auto first = static_cast<std::size_t>(nodes_.first),
-               last = static_cast<std::size_t>(nodes_.last);
-    Block highest = nodes_.bound[first];
-    for (std::size_t i = first; i < last; ++i)
-      highest = nodes_.bound[i] > highest ? nodes_.bound[i] : highest;
+    const std::span<const Nodes::At> nodes(&nodes_.at[static_cast<std::size_t>(nodes_.first)],
+                                           &nodes_.at[static_cast<std::size_t>(nodes_.last)]);
+    Block highest = nodes.front().bound;
+    for (const Nodes::At& at : nodes) highest = at.bound > highest ? at.bound : highest;
     Sums sums;
     sums.reference = std::max(highest[0], highest[1]);
     Block of_w{}, of_w_w{}, of_z{}, of_z_z{};
     std::array<Block, 3> every_sixth{};
-    for (std::size_t i = first, third = 0; i < last; ++i, third = third == 2 ? 0 : third + 1) {
-      const Block below = nodes_.bound[i] - sums.reference, w = nodes_.w[i], z = nodes_.z[i];
+    std::size_t part = 0;
+    for (const auto& [w, z, bound, e_w, e_z] : nodes) {
+      const Block below = bound - sums.reference;
       const Block e = below > -negligible ? nodes_.step * exponential(below) : Block{};
-      const Share limit = OfLimit::share(w, nodes_.e_w[i]), life = OfLife::share(z, nodes_.e_z[i]);
+      const Share limit = OfLimit::share(w, e_w), life = OfLife::share(z, e_z);
       const Block dw = e * limit.slope * life.value, dz = e * limit.value * life.slope;
-      every_sixth[third] += e * limit.value * life.value;
+      every_sixth[part] += e * limit.value * life.value;
       of_w += dw;
       of_w_w += dw * w;
       of_z += dz;
       of_z_z += dz * z;
+      part = part == 2 ? 0 : part + 1;
     }
     sums.of_w = of_w[0] + of_w[1];
     sums.of_w_w = of_w_w[0] + of_w_w[1];
