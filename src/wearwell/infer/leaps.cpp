@@ -19,8 +19,7 @@ constexpr int adapting = 100;  // transitions in which steps adapt
 constexpr int learning = 150;  // draws of each chain about which the final mixture lies
 constexpr double near_share = 0.6, middle_share = 0.3, middle_factor = 2.5, wide_scale = 2.5;
 constexpr std::uint64_t own_streams = 1ULL << 40;  // random numbers that NUTS does not use
-
-constexpr int most_leaps = 8;  // between draws
+constexpr int most_leaps = 8;                      // proposed before a transition
 
 // So many leaps that about every second draw is elsewhere, where this share of those that are proposed is taken.
 int leaps_for(double share_taken) {

@@ -7,19 +7,21 @@
 namespace wearwell {
 
 /// NUTS and leaps in turn, for posteriors that bend so much that NUTS alone takes long to walk around them: before each
-/// transition a chain may leap a few times to a place that is proposed without regard to where it stands, by the rule of
-/// Metropolis and Hastings (an independence sampler; Tierney 1994, section 2.3). Proposed is a mixture: Student laws about six
-/// hundred draws of earlier chains, narrow and three times as wide, and one about all with long tails. Transitions are cut
-/// short at seven steps: what they are for is what the mixture does not reach. A mixture about `pilot`, draws that lie about
-/// right, serves for 300 draws a chain; about these lies the mixture of the draws that are kept. It is fixed before the
-/// first of them, so that the posterior is the exact limit of the chains whatever the pilot.
+/// transition a chain may leap to a place that is proposed without regard to where it stands, by the rule of
+/// Metropolis and Hastings (an independence sampler; Tierney 1994, section 2.3), so many times that about every second
+/// draw is elsewhere. Proposed is a mixture: Student laws about six hundred draws of earlier chains, narrow and three
+/// times as wide, and one about all with long tails. Transitions are cut short at seven steps: what they are for is what
+/// the mixture does not reach. A mixture about `pilot`, draws that lie about right, serves for 150 draws a chain; about
+/// these lies the mixture of the draws that are kept. It is fixed before the first of them, so that the posterior is the
+/// exact limit of the chains whatever the pilot.
 ///
 /// Chains start where those of the pilot ended. `settings.warmup` is not used: steps adapt in transitions of their own.
 Draws run_leaps(const Posterior& posterior, const Draws& pilot, const NutsSettings& nuts,
                 const RunSettings& settings);
 
 /// `run_nuts`; or leaps about what warm-up has drawn, where its second quarter or its second half tells that as many
-/// draws will hardly suffice: fewer than 125 effective ones a chain by their share there, or an R-hat above 1.05.
+/// draws will hardly suffice: fewer than 125 effective ones a chain by their share there, or an R-hat above 1.05. Where an
+/// evaluation takes long (`LogDensity::is_slow`) leaps about the second eighth of it: they take fewer.
 Draws run_nuts_or_leaps(const Posterior& posterior, const Whitening& whitening,
                         const NutsSettings& nuts, const RunSettings& settings);
 
