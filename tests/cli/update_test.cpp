@@ -194,8 +194,8 @@ limit = { depth = "100 um" }
   EXPECT_EQ(fitted["of"], "machine M5");
   for (const char* number : {"b1", "q05", "q50", "q95"})
     EXPECT_NEAR(moved[number], fitted[number], 2e-3 * fitted[number].get<double>()) << number;
-  const json all = summary("all");
-  for (const json& each : all["quantities"]) {
+  const json fitted_all = summary("all");
+  for (const json& each : fitted_all["quantities"]) {
     if (each["of"] != "machine M5" || each["name"] != "remaining life") continue;
     EXPECT_NEAR(fitted["q50"], each["exact"]["q50"], 2e-3 * each["exact"]["q50"].get<double>());
   }
