@@ -12,7 +12,7 @@ namespace wearwell {
 namespace {
 
 constexpr int most_parameters = 3;
-constexpr std::size_t fewest_terms = 1000;
+constexpr std::size_t fewest_terms = 30;
 constexpr double reach = 7;      // standard deviations, by polynomials
 constexpr double farthest = 21;  // by the parabola
 constexpr double close = 1e-5;   // of log densities within `near` of the highest

@@ -15,7 +15,7 @@ struct QuickPosterior {
   double error = 0;  ///< of the log-likelihood, the largest that was found between the nodes
 };
 
-/// None where observations are fewer than a thousand (factors of `LogDensity::pointwise`) and none of a slow density (`LogDensity::is_slow`), parameters more than
+/// None where observations are fewer than thirty (factors of `LogDensity::pointwise`) and none of a slow density (`LogDensity::is_slow`), parameters more than
 /// three, or where the polynomials are not within 1e-5 of the likelihood wherever there is posterior; all that is
 /// decided by evaluations alone, not by time. Beyond seven standard deviations the likelihood goes on as a parabola,
 /// and is held against the true one there; beyond 21 it is the true one. Factors are always true.

@@ -175,7 +175,7 @@ CarriedState state_of(std::string_view body, const std::string& file) {
 std::string packed(const std::string& body) {
   uLongf size = compressBound(body.size());
   std::string bytes(size, '\0');
-  constexpr int level = 6;
+  constexpr int level = 1;
   if (compress2(reinterpret_cast<Bytef*>(bytes.data()), &size,
                 reinterpret_cast<const Bytef*>(body.data()), body.size(), level) != Z_OK)
     throw MachineError("no memory for the state of the result");
