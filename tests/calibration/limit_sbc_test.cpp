@@ -116,7 +116,7 @@ TEST(LimitCalibration, KneeWithAHorizontalLimit) {
 TEST(LimitCalibration, RandomLimit) {
   calibrate({normal(9.5, 0.1), normal(-0.22, 0.03, -INFINITY, -0.05), normal(0, 0.3, 0.03),
              normal(8.4, 0.04), normal(0, 0.05, 0.005)},
-            300, tests_of(limited(SnCurve::basquin)));
+            60, tests_of(limited(SnCurve::basquin)));
 }
 
 }  // namespace

@@ -537,7 +537,7 @@ TEST_F(FatigueStudy, NewStudyRunsAndIsSaidInWords) {
       "fit '" + mine + "/study.toml' --no-report --method exact --draws 100 -o '" + mine + "/out'");
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   for (const char* expected :
-       {"is at least 304000 cycles, with 90 % confidence", "Design values", "(predictive)"}) {
+       {"at 400 MPa fully reversed is at least 304000 cycles", "Design values", "(predictive)"}) {
     EXPECT_THAT(run.out, HasSubstr(expected));
   }
 }

@@ -284,7 +284,7 @@ TEST_F(OwnDrawn, RefusalsNameThePlace) {
   EXPECT_NE(unknown.find("varies.operator.q"), std::string::npos) << unknown;
   const std::string unit =
       refusal(without(crossed, "log_sd = \"o_scatter\"", "log_sd = \"sigma\""));
-  EXPECT_NE(unit.find("[varies.operator] k log_sd"), std::string::npos) << unit;
+  EXPECT_NE(unit.find("varies.operator.k.log_sd"), std::string::npos) << unit;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Studies of laws in the user's own words, from file to answer.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +12,8 @@
 
 namespace wearwell {
 namespace {
+
+using testing::HasSubstr;
 
 const std::string examples = PROJECT_SOURCE_DIR "/examples/";
 
@@ -40,6 +43,18 @@ family = "weibull"
 scale = "eta"
 shape = "beta"
 )";
+
+// Where the key stands, and once: whether it is the measured column's or the law's.
+TEST_F(OwnStudy, WhatIsWrongWithATextIsToldAtItsKey) {
+  copy("life/bearings.csv");
+  const std::string prior = "[prior]\neta = { law = \"flat\" }\nbeta = { law = \"flat\" }\n";
+  std::string wrong = std::string(bearings) + prior;
+  wrong.replace(wrong.find("\"eta\""), 5, "\"eta + wurk\"");
+  EXPECT_THAT(refusal(wrong), HasSubstr("study.toml:9:9: likelihood.life.scale: 'wurk' is no"));
+  wrong.replace(wrong.find("\"eta + wurk\""), 12, "\"twice\"");
+  EXPECT_THAT(refusal(wrong + "[law]\ntwice = \"eta + wurk\"\n"),
+              HasSubstr("study.toml:15:9: law.twice: 'wurk' is no"));
+}
 
 // Lieblein and Zelen (1956); Lawless (2003), Statistical Models and Methods for Lifetime Data: 2.1021,
 // 81.88, -113.691. R's survreg gives 2.102059, 81.878334, -113.6913 (tests/golden/own_law.R).

@@ -29,7 +29,7 @@ constexpr std::size_t table_points_with_limit = 9;
 constexpr Eigen::Index most_draws = 4000, most_draws_with_limit = 600;
 
 std::string with_unit(const SnData& data, double si) {
-  return fmt::format("{:.4g} {}", from_si(data.stress_unit, si), data.stress_unit.text);
+  return fmt::format("{:.4g}{}", from_si(data.stress_unit, si), after_number(data.stress_unit));
 }
 
 // One stress: lives [cycles] by the posterior and by the standards, for each level.

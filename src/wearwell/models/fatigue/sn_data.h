@@ -13,6 +13,11 @@
 
 namespace wearwell {
 
+/// " MPa" behind a number; nothing where the unit is 1.
+inline std::string after_number(const Unit& unit) {
+  return unit.text == "1" ? "" : " " + unit.text;
+}
+
 /// Life tests as a study file names them, with what is needed to speak of them in its terms.
 struct SnData {
   fatigue::LifeTests tests;         ///< one a row

@@ -35,7 +35,7 @@ const Unit& percent() {
 }
 
 std::string in_words(const Quantity& quantity) {
-  return fmt::format("{:.6g} {}", quantity.value, quantity.unit.text);
+  return fmt::format("{:.6g}{}", quantity.value, after_number(quantity.unit));
 }
 
 // Whose lives are predicted: of all tests, or of some evenly where nearly each has a stress of its own.
@@ -190,8 +190,9 @@ QuantityQuantiles allowed_quantiles(const SnLaw& law, const WeightedDraws& draws
 std::string in_words(const SnLaw& law, const SnData& data, const StressLine& line) {
   if (line.ratio) return fmt::format(", stress ratio {:.6g}", *line.ratio);
   if (law.correction == MeanStress::none) return "";
-  return fmt::format(" about {:.6g} {}", from_si(data.stress_unit, line.mean),
-                     data.stress_unit.text);
+  if (line.mean == 0) return " fully reversed";
+  return fmt::format(" about {:.6g}{}", from_si(data.stress_unit, line.mean),
+                     after_number(data.stress_unit));
 }
 
 struct Span {
@@ -317,11 +318,12 @@ Check few_tests(const SnData& data, const SnPredictions& predictions) {
 
 std::string in_words(const SnLaw& law, const SnData& data, const Stress& stress) {
   const auto value = [&](double si) { return from_si(data.stress_unit, si); };
-  if (law.correction == MeanStress::none) {
-    return fmt::format("{:.5g} {}", value(stress.alternating), data.stress_unit.text);
-  }
-  return fmt::format("{:.5g} about {:.5g} {}", value(stress.alternating), value(stress.mean),
-                     data.stress_unit.text);
+  const std::string alternating =
+      fmt::format("{:.5g}{}", value(stress.alternating), after_number(data.stress_unit));
+  if (law.correction == MeanStress::none) return alternating;
+  if (stress.mean == 0) return alternating + " fully reversed";
+  return fmt::format("{:.5g} about {:.5g}{}", value(stress.alternating), value(stress.mean),
+                     after_number(data.stress_unit));
 }
 
 std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {

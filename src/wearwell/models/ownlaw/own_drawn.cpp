@@ -11,6 +11,7 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/law/no_columns.h"
+#include "wearwell/models/ownlaw/fail_at_place.h"
 #include "wearwell/study/posterior_study.h"
 
 namespace wearwell::ownlaw {
@@ -195,7 +196,7 @@ void add_drawn_effects(const TomlReader& root, const std::vector<WrittenVaries>&
   try {
     law.drawn_scatter = law::compile({}, scatters, law.symbols);
   } catch (const InputError& error) {
-    root.required_table("varies").fail("", error.what());
+    fail_at_place(root, root.required_table("varies"), error.what());
   }
 }
 

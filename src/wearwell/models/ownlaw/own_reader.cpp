@@ -13,6 +13,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/prior.h"
+#include "wearwell/models/ownlaw/fail_at_place.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/models/ownlaw/own_linear.h"
@@ -509,7 +510,7 @@ class Reader {
     try {
       law_->population = law::compile({}, wanted, law_->symbols);
     } catch (const InputError& error) {
-      table.fail("", error.what());
+      fail_at_place(root_, table, error.what());
     }
   }
 
@@ -584,7 +585,7 @@ class Reader {
       try {
         measured.program = law::compile(law_->lines, measured.wanted, law_->row_symbols);
       } catch (const InputError& error) {
-        table.fail("", error.what());
+        fail_at_place(root_, table, error.what());
       }
       const bool may_lack = written_.size() > 1;
       measured.observed = read_observed(law_->data, written.column, *written.form, special,
