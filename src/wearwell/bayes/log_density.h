@@ -37,8 +37,9 @@ class LogDensity {
   /// they promise; 0 elsewhere.
   virtual double unsettled(std::span<const double>) const { return 0; }
 
-  /// Whether one evaluation takes about as long as thousands of others (paths integrated out within it):
-  /// quadrature in more than two dimensions is then not for it, and polynomials in its place are worth trying.
+  /// Whether one evaluation takes as long as tens or thousands of others (integrals within it, a limit's or a path's):
+  /// quadrature in more than two dimensions is then not for it, polynomials in its place are worth trying, and a
+  /// sampler leaps as early as it can.
   virtual bool is_slow() const { return false; }
 };
 
