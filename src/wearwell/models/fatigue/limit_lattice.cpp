@@ -26,7 +26,7 @@ constexpr double farthest = 0.4;        // so far their series reach
 
 /// Nodes side by side, of which the machine's vectors (of any x86-64 and ARM of 64 bits) hold two.
 using Block [[gnu::vector_size(16)]] = double;
-using Bits [[gnu::vector_size(16)]] = std::int64_t;
+using Bits [[gnu::vector_size(16)]] = std::uint64_t;
 constexpr int block = 2;
 
 inline Block of_both(double x) {
@@ -432,8 +432,6 @@ class Lattice {
     return {};
   }
 
-  static std::pair<double, double> pair_of(Block x) { return {x[0], x[1]}; }
-
   static constexpr std::size_t terms = 14;
 
   // Of -log(1 - p + p exp(d)) = -log(1 + exp(u + d)) + log(1 + exp(u)), p = 1/(1 + exp(-u)): each
@@ -497,11 +495,11 @@ class Lattice {
     sums.of_w_w = of_w_w[0] + of_w_w[1];
     sums.of_z = of_z[0] + of_z[1];
     sums.of_z_z = of_z_z[0] + of_z_z[1];
-    const auto [a, b] = pair_of(every_sixth[0]);
-    const auto [c, d] = pair_of(every_sixth[1]);
-    const auto [e, f] = pair_of(every_sixth[2]);
+    const double a = every_sixth[0][0], b = every_sixth[0][1], c = every_sixth[1][0],
+                 d = every_sixth[1][1], e = every_sixth[2][0], f = every_sixth[2][1];
     sums.mass = a + b + c + d + e + f;
-    if (!(sums.mass > 0)) return {};
+    // A node beyond all numbers has no weight, but no slope either.
+    if (!(sums.mass > 0 && std::isfinite(sums.of_w_w + sums.of_z_z))) return {};
     const double p = a + d, q = b + e, r = c + f;
     const double half = std::abs(a - b + c - d + e - f) / sums.mass;
     const double third =
