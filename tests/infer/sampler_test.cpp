@@ -92,6 +92,32 @@ TEST_P(SamplerOnKnown, Leaps) {
   }
 }
 
+class Slow final : public LogDensity {
+ public:
+  explicit Slow(std::shared_ptr<const LogDensity> of) : of_(std::move(of)) {}
+  int dimension() const override { return of_->dimension(); }
+  bool is_slow() const override { return true; }
+  double value(std::span<const double> x) const override { return of_->value(x); }
+  double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
+    return of_->value_and_gradient(x, gradient);
+  }
+
+ private:
+  std::shared_ptr<const LogDensity> of_;
+};
+
+TEST_P(SamplerOnKnown, SlowOnesLeapAboutAQuarterOfTheWarmUp) {
+  const Posterior quick = GetParam().make();
+  const Posterior posterior(quick.parameters(), std::make_shared<Slow>(quick.likelihood()));
+  const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
+  const Draws draws = run_nuts_or_leaps(posterior, whitening, {}, {4, 1000, 4000, 15, 0});
+  expect_agreement(GetParam(), draws);
+  for (const Chain& chain : draws) {
+    ASSERT_EQ(chain.notes.size(), 1u);
+    EXPECT_NE(chain.notes[0].find("leaps to a mixture"), std::string::npos) << chain.notes[0];
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, SamplerOnKnown, testing::ValuesIn(known_posteriors()),
                          [](const auto& each) { return each.param.name; });
 

@@ -14,12 +14,19 @@
 namespace wearwell {
 namespace {
 
+constexpr int most_leaps = 8;  // proposed before each transition
 constexpr int deepest = 3;     // of a transition: at most 7 steps
 constexpr int adapting = 100;  // transitions in which steps adapt
-constexpr int learning = 150;  // draws of each chain about which the final mixture lies
-constexpr double near_share = 0.6, middle_share = 0.3, middle_factor = 2.5, wide_scale = 2.5;
+constexpr double near_share = 0.6, middle_share = 0.3, middle_factor = 2.5;
 constexpr std::uint64_t own_streams = 1ULL << 40;  // random numbers that NUTS does not use
-constexpr int most_leaps = 8;                      // proposed before a transition
+
+// Draws of each chain about which the final mixture lies, and how wide its widest part is. Where evaluations take long
+// fewer, and fewer leaps: of a narrow funnel that leaves chains in the neck, which the checks then tell.
+struct Manner {
+  int learning;
+  double wide_scale;
+};
+constexpr Manner thorough{300, 1.5}, sparing{150, 2.5};
 
 // So many leaps that about every second draw is elsewhere, where this share of those that are proposed is taken.
 int leaps_for(double share_taken) {
@@ -68,7 +75,7 @@ class Student {
 class Mixture {
  public:
   // `pilot`: a column a draw.
-  explicit Mixture(const Eigen::MatrixXd& pilot)
+  Mixture(const Eigen::MatrixXd& pilot, double wide_scale)
       : middles_(thinned(pilot)),
         near_(static_cast<int>(pilot.rows()), 3, width(pilot.rows(), middles_.rows())),
         middle_(static_cast<int>(pilot.rows()), 3,
@@ -281,9 +288,9 @@ struct Leapt {
   double share_taken = 0;  // of the leaps
 };
 
-Leapt leapt(const Posterior& posterior, const Pilot& pilot, const NutsSettings& options, int leaps,
-            const RunSettings& settings) {
-  const Mixture mixture(pilot.places);
+Leapt leapt(const Posterior& posterior, const Pilot& pilot, double wide_scale,
+            const NutsSettings& options, int leaps, const RunSettings& settings) {
+  const Mixture mixture(pilot.places, wide_scale);
   Leapt all{Draws(pilot.last.size())};
   std::vector<double> shares(all.draws.size());
   tbb::parallel_for(std::size_t{0}, all.draws.size(), [&](std::size_t c) {
@@ -301,14 +308,17 @@ Leapt leapt(const Posterior& posterior, const Pilot& pilot, const NutsSettings& 
 
 Draws run_leaps(const Posterior& posterior, const Draws& pilot, const NutsSettings& nuts,
                 const RunSettings& settings) {
+  const bool slow = posterior.likelihood()->is_slow();
+  const Manner manner = slow ? sparing : thorough;
   RunSettings few = settings;
-  few.draws = learning;
+  few.draws = manner.learning;
   few.first_stream += own_streams;
   few.progress = nullptr;
-  const Leapt learned = leapt(posterior, pilot_of(posterior, pilot), nuts, most_leaps, few);
-  return leapt(posterior, pilot_of(posterior, learned.draws), nuts, leaps_for(learned.share_taken),
-               settings)
-      .draws;
+  const auto leap = [&](const Draws& about, int leaps, const RunSettings& run) {
+    return leapt(posterior, pilot_of(posterior, about), manner.wide_scale, nuts, leaps, run);
+  };
+  const Leapt learned = leap(pilot, most_leaps, few);
+  return leap(learned.draws, slow ? leaps_for(learned.share_taken) : most_leaps, settings).draws;
 }
 
 }  // namespace wearwell

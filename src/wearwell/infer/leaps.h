@@ -7,13 +7,13 @@
 namespace wearwell {
 
 /// NUTS and leaps in turn, for posteriors that bend so much that NUTS alone takes long to walk around them: before each
-/// transition a chain may leap to a place that is proposed without regard to where it stands, by the rule of
-/// Metropolis and Hastings (an independence sampler; Tierney 1994, section 2.3), so many times that about every second
-/// draw is elsewhere. Proposed is a mixture: Student laws about six hundred draws of earlier chains, narrow and three
-/// times as wide, and one about all with long tails. Transitions are cut short at seven steps: what they are for is what
-/// the mixture does not reach. A mixture about `pilot`, draws that lie about right, serves for 150 draws a chain; about
-/// these lies the mixture of the draws that are kept. It is fixed before the first of them, so that the posterior is the
-/// exact limit of the chains whatever the pilot.
+/// transition a chain may leap eight times to a place that is proposed without regard to where it stands, by the rule of
+/// Metropolis and Hastings (an independence sampler; Tierney 1994, section 2.3). Proposed is a mixture: Student laws about
+/// six hundred draws of earlier chains, narrow and three times as wide, and one about all with long tails. Transitions are
+/// cut short at seven steps: what they are for is what the mixture does not reach. A mixture about `pilot`, draws that lie
+/// about right, serves for 300 draws a chain; about these lies the mixture of the draws that are kept. It is fixed before
+/// the first of them, so that the posterior is the exact limit of the chains whatever the pilot. Where an evaluation takes
+/// long (`LogDensity::is_slow`) it serves for 150, and leaps are as many as it takes to be elsewhere every second draw.
 ///
 /// Chains start where those of the pilot ended. `settings.warmup` is not used: steps adapt in transitions of their own.
 Draws run_leaps(const Posterior& posterior, const Draws& pilot, const NutsSettings& nuts,
