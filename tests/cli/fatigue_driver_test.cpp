@@ -130,6 +130,13 @@ TEST_F(FatigueDriver, CurvesOfForcesAndStrainsTakeTheirLikeOnly) {
   expect_same_lives(result("fatigue life force stress.csv --scale '1 kN/MPa'"), expected, drawn);
 }
 
+TEST_F(FatigueDriver, SharesOfTheStrengthHaveNoUnitBehindThem) {
+  fit("share", "1");
+  EXPECT_THAT(run("check study.toml").out, HasSubstr("alternating stress 260 to 600\n"));
+  EXPECT_THAT(run("fit study.toml --method exact --no-report -o again").out,
+              AllOf(HasSubstr(" x N^("), Not(HasSubstr(" 1 x N^("))));
+}
+
 TEST_F(FatigueDriver, RefusesLoadsThatReadTwoWays) {
   fit("res", "MPa");
   write("bare.csv", "strain\n100\n900\n100\n");

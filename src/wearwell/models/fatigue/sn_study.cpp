@@ -145,15 +145,14 @@ std::vector<std::string> notes(const SnLaw& law, const SnData& data) {
                          counts[i] > 1 && i < 2 ? "s" : "");
     separator = ", ";
   }
-  const auto span = [](const std::vector<double>& values, const std::string& unit) {
+  const auto span = [](const std::vector<double>& values, const Unit& unit) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    return fmt::format("{:.5g} to {:.5g} {}", *least, *most, unit);
+    return fmt::format("{:.5g} to {:.5g}{}", *least, *most, after_number(unit));
   };
-  std::string stresses = "alternating stress " + span(alternating, data.stress_unit.text);
-  if (law.correction != MeanStress::none) {
-    stresses += ", mean stress " + span(mean, data.stress_unit.text);
-  }
-  return {tests, stresses, "life " + span(life, data.life_unit.text)};
+  std::string stresses = "alternating stress " + span(alternating, data.stress_unit);
+  if (law.correction != MeanStress::none)
+    stresses += ", mean stress " + span(mean, data.stress_unit);
+  return {tests, stresses, "life " + span(life, data.life_unit)};
 }
 
 // Of the strains of a strain-life curve: Ramberg and Osgood's cyclic stress-strain curve, eps = sigma/E +
@@ -312,10 +311,10 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
     study.curve = [=](const WeightedDraws& draws) {
       const double log10_a = Distribution(draws, [](const double* x) { return x[0]; }).mean();
       const double b = Distribution(draws, [](const double* x) { return x[1]; }).mean();
-      return fmt::format("the curve is {} = {:.4g} {} x N^({:.4g}) in the mean",
+      return fmt::format("the curve is {} = {:.4g}{} x N^({:.4g}) in the mean",
                          law.bends() ? "S_f - limit" : "S_f",
-                         from_si(data.stress_unit, std::pow(10, log10_a)), data.stress_unit.text,
-                         b);
+                         from_si(data.stress_unit, std::pow(10, log10_a)),
+                         after_number(data.stress_unit), b);
     };
   study.coverage = [=](const WeightedDraws& draws) { return sn_coverage(law, data, draws); };
   study.addition = [=](const Fit& fit) { return sn_addition(law, data, fit); };
