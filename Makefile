@@ -35,10 +35,11 @@ install: setup
 calibrate: build
 	@ctest --preset calibration
 
-# All tests but those in a browser and under strace; threads where there are any. Debian's oneTBB and DuckDB are not
-# instrumented: tests/sanitizers/thread.txt.
+# All tests but those in a browser and under strace; threads where there are any, with a oneTBB that is instrumented
+# too. DuckDB is not: tests/sanitizers/thread.txt.
 sanitize: setup-tests setup-clang
 	@cmake --preset asan-ubsan >/dev/null && cmake --build --preset asan-ubsan && ctest --preset asan-ubsan
+	@setup/thread-sanitizer-tbb
 	@cmake --preset tsan >/dev/null && cmake --build --preset tsan && ctest --preset tsan
 
 # Coverage-guided; an hour over all targets, or as many seconds as are asked for (make fuzz SECONDS=600).

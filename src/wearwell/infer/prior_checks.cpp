@@ -353,7 +353,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
       continue;
     }
     const double p = surprise(parameter.prior, {draws.begin(), draws.end()});
-    const bool matters = scaling != PowerScalingVerdict::none;
+    const bool prior_only = scaling == PowerScalingVerdict::strong_prior_or_weak_likelihood;
     if (p < far_out) {
       findings.add(
           p < excluded ? Verdict::fail : Verdict::warn,
@@ -364,17 +364,19 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
               "Prior and data cannot both be right about {}. Ask whether the prior describes "
               "this component and these conditions, and look at its units and the data's.",
               parameter.name));
-    } else if (!matters) {
+    } else if (scaling == PowerScalingVerdict::none) {
       passed.push_back(numbers);
     } else if (parameter.is_default) {
       findings.add(Verdict::warn, numbers,
                    fmt::format("The data are so few that the default prior of {} is of weight: "
                                "state what you know of it, or test more.",
                                parameter.name));
-    } else {
+    } else if (prior_only) {
       findings.add(Verdict::warn, numbers,
-                   fmt::format("What is said of {} comes from the prior as well as from the data.",
+                   fmt::format("What is said of {} comes from its prior: the data hardly speak of it.",
                                parameter.name));
+    } else {
+      passed.push_back(numbers + " (prior and data both tell, and agree)");
     }
   }
   return findings.result(fmt::format("{}", fmt::join(passed, "; ")));
