@@ -46,6 +46,30 @@ TEST(Lattice, QuantilesOfNormals) {
   }
 }
 
+// Most nodes hold next to nothing, and few of them have cells, which stand for the others: nothing is to be seen of it.
+TEST(Lattice, FewNodesHaveCells) {
+  for (const char* name : {"Correlated4", "Regression4"}) {
+    const KnownPosterior posterior = known(name);
+    const ExactPosterior exact = integrated(posterior.make());
+    const WeightedDraws& nodes = exact.nodes;
+    EXPECT_LT(nodes.cells.mass.size(), 0.6 * static_cast<double>(nodes.values.rows())) << name;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Distribution cells(nodes, [=](const double* x) { return x[i]; });
+      const auto at = static_cast<Eigen::Index>(i);
+      EXPECT_NEAR(cells.mean(), exact.mean[at], 2e-4 * exact.sd[at]) << name << i;
+      EXPECT_NEAR(cells.sd(), exact.sd[at], 5e-4 * exact.sd[at]) << name << i;
+    }
+  }
+  const ExactPosterior normal = integrated(known("Correlated4").make());
+  for (const double p : {1e-4, 1e-3, 0.999, 0.9999}) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double z =
+          (quantile(normal, i, p) - known("Correlated4").mean[i]) / known("Correlated4").sd[i];
+      EXPECT_NEAR(z, quantile(StandardLaw::normal, p), 1e-2) << i << " " << p;
+    }
+  }
+}
+
 TEST(Lattice, QuantilesOfTruncatedNormals) {
   const ExactPosterior exact = integrated(known("Truncated4").make());
   ASSERT_EQ(exact.failure, "");

@@ -15,7 +15,8 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 /// A posterior as weighted points: the draws of a sampler, all of one weight, or the nodes of a
 /// quadrature. A node stands for a cell; `lower` and `upper` hold, for each axis of the
 /// integration, the points where the cell ends. Sums over `weights` are as exact as the quadrature;
-/// distributions are read off the cells.
+/// distributions are read off the cells. Nodes from `lower[0].rows()` on have little weight and no
+/// cells: others before them stand for theirs.
 struct WeightedDraws {
   Points values;              ///< points x parameters, natural, SI
   Eigen::VectorXd weights;    ///< sum to 1
@@ -34,7 +35,10 @@ struct WeightedDraws {
   bool has_cells() const { return cells.mass.size() > 0; }
 
   /// The weight of point i where it stands for its cell.
-  double cell_weight(Eigen::Index i) const { return has_cells() ? cells.mass[i] : weights[i]; }
+  double cell_weight(Eigen::Index i) const {
+    if (!has_cells()) return weights[i];
+    return i < cells.mass.size() ? cells.mass[i] : 0;
+  }
 };
 
 /// The distribution of one number: points, each spread evenly over center +- half_width (0 for

@@ -89,10 +89,12 @@ Points read_points(std::size_t rows, std::size_t columns, ByteReader& in) {
 
 void write(const WeightedDraws& draws, ByteWriter& out) {
   out.u64(static_cast<std::uint64_t>(draws.values.rows()));
-  out.u64(draws.lower.size());
-  out.byte(draws.has_cells());
+  const bool cells = !draws.lower.empty() && draws.lower.front().rows() == draws.values.rows();
+  out.u64(cells ? draws.lower.size() : 0);
+  out.byte(cells && draws.has_cells());
   write(draws.values, out);
   write(Points(draws.weights), out);
+  if (!cells) return;
   for (const Points& each : draws.lower) write(each, out);
   for (const Points& each : draws.upper) write(each, out);
   if (!draws.has_cells()) return;

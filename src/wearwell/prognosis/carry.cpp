@@ -68,12 +68,16 @@ WeightedDraws without_negligible(const WeightedDraws& draws) {
     if (draws.weights[i] > least || draws.cell_weight(i) > least) chosen.push_back(i);
   }
   const bool all = static_cast<Index>(chosen.size()) == draws.values.rows();
-  if (draws.lower.empty() || (all && chosen.size() <= most_cells)) return draws;
+  if (draws.lower.empty()) return draws;
+  // Cells that stand for nodes beside them are of no use to who weighs the nodes anew.
+  const bool with_cells =
+      chosen.size() <= most_cells && draws.lower.front().rows() == draws.values.rows();
+  if (all && with_cells) return draws;
   WeightedDraws kept;
   kept.values = rows_of(draws.values, chosen);
   kept.weights = rows_of(draws.weights, chosen).col(0);
   kept.weights /= kept.weights.sum();
-  if (chosen.size() > most_cells) return kept;
+  if (!with_cells) return kept;
   for (const Points& each : draws.lower) kept.lower.push_back(rows_of(each, chosen));
   for (const Points& each : draws.upper) kept.upper.push_back(rows_of(each, chosen));
   if (!draws.has_cells()) return kept;

@@ -33,7 +33,7 @@ Reweighted reweighted(const WeightedDraws& draws, const Posterior& before, const
   moved.draws.weights = draws.weights.cwiseProduct(ratio);
   moved.draws.weights /= moved.draws.weights.sum();
   if (draws.has_cells()) {
-    moved.draws.cells.mass = draws.cells.mass.cwiseProduct(ratio);
+    moved.draws.cells.mass = draws.cells.mass.cwiseProduct(ratio.head(draws.cells.mass.size()));
     moved.draws.cells.mass /= moved.draws.cells.mass.sum();
   }
   moved.effective = effective_of(moved.draws.weights);

@@ -212,9 +212,10 @@ std::vector<std::size_t> drawn_data_sets(std::size_t all) {
 // Evenly through the posterior, in slices of its first parameter and within each along the second.
 WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count) {
   const Eigen::Index slices = count / 20;
-  const Eigen::Index all = draws.values.rows();
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(all));
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<Eigen::Index> order;
+  for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
+    if (draws.cell_weight(i) > 0) order.push_back(i);
+  }
   const auto sort_along = [&](Eigen::Index parameter, auto begin, auto end) {
     std::sort(begin, end, [&](auto a, auto b) {
       return draws.values(a, parameter) < draws.values(b, parameter);
@@ -225,7 +226,7 @@ WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count) {
     double mass = 0;
     auto begin = order.begin();
     for (auto end = begin; end != order.end();) {
-      mass += draws.weights[*end++];
+      mass += draws.cell_weight(*end++);
       if (mass * static_cast<double>(slices) < 1 && end != order.end()) continue;
       sort_along(1, begin, end);
       begin = end;
@@ -237,12 +238,14 @@ WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count) {
                     Eigen::VectorXd::Constant(count, 1.0 / static_cast<double>(count)),
                     {},
                     {}};
-  double mass = draws.weights[order[0]];
-  for (Eigen::Index i = 0, at = 0; i < count; ++i) {
-    while (mass * static_cast<double>(count) < static_cast<double>(i) + 0.5 && at + 1 < all) {
-      mass += draws.weights[order[static_cast<std::size_t>(++at)]];
+  auto at = order.begin();
+  double mass = draws.cell_weight(*at);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    while (mass * static_cast<double>(count) < static_cast<double>(i) + 0.5 &&
+           at + 1 != order.end()) {
+      mass += draws.cell_weight(*++at);
     }
-    few.values.row(i) = draws.values.row(order[static_cast<std::size_t>(at)]);
+    few.values.row(i) = draws.values.row(*at);
   }
   return few;
 }

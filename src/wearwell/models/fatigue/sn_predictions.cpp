@@ -91,7 +91,8 @@ WeightedDraws reduced(const WeightedDraws& draws, Eigen::Index count, const Redu
     }
     return values;
   };
-  WeightedDraws result{reduce(draws.values), draws.weights, {}, {}, draws.cells};
+  const Eigen::Index n = draws.has_cells() ? draws.cells.mass.size() : draws.values.rows();
+  WeightedDraws result{reduce(draws.values.topRows(n)), draws.weights.head(n), {}, {}, draws.cells};
   for (const Points& ends : draws.lower) result.lower.push_back(reduce(ends));
   for (const Points& ends : draws.upper) result.upper.push_back(reduce(ends));
   return result;

@@ -188,7 +188,7 @@ Distribution LifeLaw::quantile(const WeightedDraws& draws, double p, double from
   // Without cells points would count alike.
   if (given.lower.empty()) given.lower = given.upper = {given.values};
   if (given.has_cells()) {
-    given.cells.mass.array() *= share.array();
+    given.cells.mass.array() *= share.head(given.cells.mass.size()).array();
     given.cells.mass /= given.cells.mass.sum();
   }
   return {given, [&](const double* x) {
