@@ -592,13 +592,14 @@ struct Filled {
   }
 };
 
-// Each axis by its own: one that is narrow makes no others finer. Doubts fall as exp(-c/step), those of coarse lattices faster.
+// Each axis by its own: one that is narrow makes no others finer. Doubts fall as exp(-c/step), those of coarse steps faster.
 Steps next_steps(const Steps& steps, const Doubts& doubts, double tolerance, const Steps& widest) {
-  constexpr double share = 0.2, least = 1.15, most = 2.5, faster = 1.5;
+  constexpr double share = 0.2, least = 1.15, most = 2.5, coarse = 0.6;
   Steps next;
   for (std::size_t a = 0; a < d; ++a) {
     const Doubt& doubt = doubts.along[a];
     const double too_much = std::log(doubt.lacks / (share * tolerance));
+    const double faster = steps[a] > coarse ? 1.5 : 1;
     const double finer = 1 + too_much / (-4 * faster * std::log(std::min(doubt.fall, 0.9)));
     const double step = too_much > 0 ? steps[a] / std::clamp(finer, least, most) : steps[a];
     next[a] = std::min(widest[a], step);

@@ -21,11 +21,15 @@ std::string in_unit(const Parameter& parameter, double si) {
   return fmt::format("{:.4g}{}", from_si(parameter.unit, si), unit);
 }
 
-// What a prior of this parameter may look like where the data do not hold it.
-std::string prior_for(const Parameter& parameter) {
-  if (is_logarithm(parameter.si)) return "normal, or uniform between bounds";
-  if (parameter.natural_lower == 0) return "half-normal, or uniform with an upper bound";
-  return "normal, or uniform between bounds";
+// A line of the study that says what is known of this parameter, without the numbers.
+std::string prior_line(const Parameter& parameter) {
+  const std::string& unit = parameter.unit.text;
+  const std::string number = unit == "1" ? "..." : fmt::format("\"... {}\"", unit);
+  const bool scale = parameter.natural_lower == 0 && !is_logarithm(parameter.si);
+  if (scale)
+    return fmt::format("{} = {{ law = \"half-normal\", scale = {} }}", parameter.name, number);
+  return fmt::format("{} = {{ law = \"normal\", mean = {}, sd = {} }}", parameter.name, number,
+                     is_logarithm(parameter.si) ? "..." : number);
 }
 
 Verdict dependence_on(const Parameter& parameter) {
@@ -44,8 +48,8 @@ Check proper_posterior(const Posterior& posterior, const Fit& fit) {
                     : tail.upward      ? "large values"
                                        : "minus infinity");
     const std::string give_prior =
-        fmt::format("Bound {} or give it a proper prior ({}): the data alone do not hold it.",
-                    parameter.name, prior_for(parameter));
+        fmt::format("The data alone do not hold {}. Say what is known of it, as bounds or like {}",
+                    parameter.name, prior_line(parameter));
     if (!tail.known) {
       findings.add(Verdict::fail,
                    fmt::format("the posterior may be improper: how it ends with {} could not be "
@@ -372,9 +376,10 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
                                "state what you know of it, or test more.",
                                parameter.name));
     } else if (prior_only) {
-      findings.add(Verdict::warn, numbers,
-                   fmt::format("What is said of {} comes from its prior: the data hardly speak of it.",
-                               parameter.name));
+      findings.add(
+          Verdict::warn, numbers,
+          fmt::format("What is said of {} comes from its prior: the data hardly speak of it.",
+                      parameter.name));
     } else {
       passed.push_back(numbers + " (prior and data both tell, and agree)");
     }

@@ -93,14 +93,24 @@ struct Mixture {
   }
 };
 
-// The value that half of the weight does not exceed.
+// The value that half of the weight does not exceed, by halving where it may be.
 double weighted_median(std::vector<std::pair<double, double>> values_and_weights) {
-  std::sort(values_and_weights.begin(), values_and_weights.end());
+  if (values_and_weights.empty()) return std::nan("");
+  auto begin = values_and_weights.begin(), end = values_and_weights.end();
   double below = 0;
-  for (const auto& [value, weight] : values_and_weights) {
-    if ((below += weight) >= 0.5) return value;
+  while (end - begin > 1) {
+    const auto middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end);
+    double left = below;
+    for (auto at = begin; at != middle; ++at) left += at->second;
+    if (left >= 0.5) {
+      end = middle;
+    } else {
+      begin = middle;
+      below = left;
+    }
   }
-  return values_and_weights.empty() ? std::nan("") : values_and_weights.back().first;
+  return begin->first;
 }
 
 Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function& sd,
@@ -112,12 +122,12 @@ Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function
   Mixture all{family, {}, {}};
   std::vector<std::pair<double, double>> means, sds;
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::VectorXd x = draws.values.row(dominant.rows[i]);
-    const double s = sd(x.data());
+    const double* x = draws.values.row(dominant.rows[i]).data();
+    const double s = sd(x);
     if (item) stratified_normals(i, strata, z);
     for (const double each : z) {
       const double weight = dominant.weights[i] / static_cast<double>(strata);
-      const double m = item ? item(x.data(), each) : mean(x.data());
+      const double m = item ? item(x, each) : mean(x);
       if (std::isnan(m) || !(s > 0)) return {family, {}, {}, std::nan(""), std::nan("")};
       all.weight.push_back(weight);
       all.law.emplace_back(family, m, s);

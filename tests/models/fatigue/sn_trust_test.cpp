@@ -67,7 +67,9 @@ sigma     = { law = "uniform", lower = "0.01e5", upper = "6e5" }
                                          "infinity"));
   EXPECT_THAT(improper.detail, HasSubstr("which has no finite integral; every number depends on "
                                          "where it was cut"));
-  EXPECT_THAT(improper.advice, HasSubstr("Bound log10_a or give it a proper prior"));
+  EXPECT_THAT(improper.advice, HasSubstr("The data alone do not hold log10_a"));
+  EXPECT_THAT(improper.advice,
+              HasSubstr("log10_a = { law = \"normal\", mean = \"... log10(MPa)\", sd = ... }"));
   EXPECT_FALSE(bounded_sigma.trusted);
   EXPECT_FALSE(bounded_sigma.loo);
 

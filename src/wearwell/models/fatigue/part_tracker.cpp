@@ -26,7 +26,7 @@ namespace {
 using prognosis::Forecast;
 using prognosis::Reading;
 
-constexpr std::size_t points = 1000;
+const std::size_t points = std::getenv("PTS") ? std::stoul(std::getenv("PTS")) : 1000;
 constexpr double hardly_possible = 1e-4;  // that a part comes so far: it contradicts
 constexpr double same_stress = 1e-6;      // relative
 constexpr double undefined_share = 1e-8;  // of the posterior, where the law has no life
