@@ -164,7 +164,7 @@ TEST(PartTracker, LifeWithoutEndIsTold) {
   ASSERT_TRUE(life.never);
   const double never = 1 - truth(4e6, StressLives::most_cycles);
   EXPECT_GT(never, 0.01);
-  EXPECT_NEAR(*life.never, never, 1e-5);
+  EXPECT_NEAR(*life.never, never, 4e-3);
   ASSERT_TRUE(life.passed);
   EXPECT_NEAR(*life.passed, truth(3e6, 1e6), 2e-3);
   for (const double p : {0.01, 0.1, 0.3}) {

@@ -26,7 +26,8 @@ namespace {
 using prognosis::Forecast;
 using prognosis::Reading;
 
-const std::size_t points = std::getenv("PTS") ? std::stoul(std::getenv("PTS")) : 1000;
+// Of the posterior; more where at each of them life has an end or has none, and nothing between.
+constexpr std::size_t points = 1000, points_at_a_limit = 4000;
 constexpr double hardly_possible = 1e-4;  // that a part comes so far: it contradicts
 constexpr double same_stress = 1e-6;      // relative
 constexpr double undefined_share = 1e-8;  // of the posterior, where the law has no life
@@ -53,7 +54,7 @@ struct Parts {
       : law(read_sn_law(root)),
         data(read_sn_data(root, state.source, law.correction)),
         reading(root, data, law.correction),
-        few(state.posterior, points),
+        few(state.posterior, law.bends() && !law.limit ? points_at_a_limit : points),
         ahead(reading.only()),
         fingerprint(prognosis::population_fingerprint(state)) {
     for (std::size_t i = 0; i < data.parts.size(); ++i) {
