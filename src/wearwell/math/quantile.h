@@ -42,4 +42,30 @@ inline double quantile(std::span<const double> sorted, std::span<const double> w
   return value + (1 - covered) * sorted.back();
 }
 
+struct WeightedValue {
+  double value, weight;
+};
+
+/// The least value that, with all below it, holds p of the weight. Weights sum to 1; `all` is not empty and is put into another order.
+inline double weighted_quantile(std::span<WeightedValue> all, double p) {
+  const auto by_value = [](const WeightedValue& a, const WeightedValue& b) {
+    return a.value < b.value;
+  };
+  auto begin = all.begin(), end = all.end();
+  double below = 0;
+  while (end - begin > 1) {
+    const auto middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end, by_value);
+    double left = below;
+    for (auto at = begin; at != middle; ++at) left += at->weight;
+    if (left >= p) {
+      end = middle;
+    } else {
+      begin = middle;
+      below = left;
+    }
+  }
+  return begin->value;
+}
+
 }  // namespace wearwell

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numeric>
 
+#include "wearwell/math/quantile.h"
 #include "wearwell/math/root.h"
 #include "wearwell/predict/item_mixture.h"
 
@@ -93,26 +94,6 @@ struct Mixture {
   }
 };
 
-// The value that half of the weight does not exceed, by halving where it may be.
-double weighted_median(std::vector<std::pair<double, double>> values_and_weights) {
-  if (values_and_weights.empty()) return std::nan("");
-  auto begin = values_and_weights.begin(), end = values_and_weights.end();
-  double below = 0;
-  while (end - begin > 1) {
-    const auto middle = begin + (end - begin) / 2;
-    std::nth_element(begin, middle, end);
-    double left = below;
-    for (auto at = begin; at != middle; ++at) left += at->second;
-    if (left >= 0.5) {
-      end = middle;
-    } else {
-      begin = middle;
-      below = left;
-    }
-  }
-  return begin->first;
-}
-
 Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function& sd,
                 ObservationFamily family, const ItemFunction& item, std::size_t points) {
   const DominantDraws dominant(draws);
@@ -120,7 +101,7 @@ Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function
   const std::size_t strata = item ? std::clamp<std::size_t>(points / n, 1, 100) : 1;
   std::vector<double> z = {0};
   Mixture all{family, {}, {}};
-  std::vector<std::pair<double, double>> means, sds;
+  std::vector<WeightedValue> means, sds;
   for (std::size_t i = 0; i < n; ++i) {
     const double* x = draws.values.row(dominant.rows[i]).data();
     const double s = sd(x);
@@ -132,13 +113,13 @@ Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function
       all.weight.push_back(weight);
       all.law.emplace_back(family, m, s);
       if (each == z[z.size() / 2]) {
-        means.emplace_back(m, dominant.weights[i]);
-        sds.emplace_back(s, dominant.weights[i]);
+        means.push_back({m, dominant.weights[i]});
+        sds.push_back({s, dominant.weights[i]});
       }
     }
   }
-  all.middle = weighted_median(std::move(means));
-  all.width = weighted_median(std::move(sds));
+  all.middle = weighted_quantile(means, 0.5);
+  all.width = weighted_quantile(sds, 0.5);
   return all;
 }
 

@@ -250,6 +250,29 @@ WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count) {
   return few;
 }
 
+WeightedDraws gathered(const WeightedDraws& draws, double share) {
+  std::vector<Eigen::Index> rows;
+  std::vector<double> weights;
+  double passed = 0.5 * share;
+  for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
+    double weight = draws.weights[i];
+    if (weight < share) {
+      passed += weight;
+      if (passed < share) continue;
+      passed -= share;
+      weight = share;
+    }
+    rows.push_back(i);
+    weights.push_back(weight);
+  }
+  WeightedDraws few{draws.values(rows, Eigen::all),
+                    Eigen::Map<const Eigen::VectorXd>(weights.data(), std::ssize(weights)),
+                    {},
+                    {}};
+  few.weights /= few.weights.sum();
+  return few;
+}
+
 Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const Fit& fit) {
   Plots plots;
   if (study.stage_predictions) {

@@ -16,6 +16,10 @@ Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const 
 /// their quantiles move by less than a plot shows.
 WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count = 4000);
 
+/// Fewer points for numbers that are told: those that hold `share` of the weight or more as they are, and of the others, in
+/// their order, one for every so much of it.
+WeightedDraws gathered(const WeightedDraws& draws, double share);
+
 /// The density of `parameter` after every stage, over one range: that of the 90 % intervals of the
 /// later half of the stages.
 std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index index,

@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/math/quantile.h"
 #include "wearwell/models/fatigue/life.h"
+#include "wearwell/models/fatigue/lives_under.h"
+#include "wearwell/models/fatigue/scatter_range.h"
 #include "wearwell/models/fatigue/sn_result.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
@@ -26,7 +29,9 @@ using present::Table;
 constexpr std::size_t table_points = 21, shown_points = 3;
 // A random limit makes a mixture of each point of the posterior.
 constexpr std::size_t table_points_with_limit = 9;
-constexpr Eigen::Index most_draws = 4000, most_draws_with_limit = 600;
+constexpr Eigen::Index most_draws_with_limit = 600;
+// Of the weight of a quadrature: lighter nodes are gathered.
+constexpr double gathered_share = 1e-5;
 
 std::string with_unit(const SnData& data, double si) {
   return fmt::format("{:.4g}{}", from_si(data.stress_unit, si), after_number(data.stress_unit));
@@ -58,15 +63,15 @@ std::vector<At> curve_points(const SnLaw& law, const SnData& data, const Weighte
         points.size() == 1 ? 0 : static_cast<double>(i) / static_cast<double>(points.size() - 1);
     at.stress = i == 0 ? high : i + 1 == points.size() ? low : high * std::pow(low / high, share);
     const Stress stress = line.at(at.stress);
-    const auto outlasted = [&](double reliability, double p) {
-      const Distribution life(draws, [&](const double* x) {
-        return fatigue::life_quantile(law, x, stress, 1 - reliability);
-      });
-      return fatigue::cycles(law, life.quantile(p));
-    };
-    at.median = outlasted(0.5, 0.5);
+    const fatigue::LivesUnder lives(law, draws, stress);
+    std::vector<WeightedValue> outlasted = lives.outlasted(0.5);
+    at.median = fatigue::cycles(law, weighted_quantile(outlasted, 0.5));
+    double reliability = 0.5;
     for (const DesignLevel& level : levels) {
-      at.posterior.push_back(outlasted(level.reliability, 1 - level.confidence));
+      if (level.reliability != reliability) outlasted = lives.outlasted(level.reliability);
+      reliability = level.reliability;
+      at.posterior.push_back(
+          fatigue::cycles(law, weighted_quantile(outlasted, 1 - level.confidence)));
       if (!standard.line) continue;
       const double x = standard_log10_stress(law, stress);
       at.iso.push_back(std::pow(
@@ -162,25 +167,6 @@ std::string difference(const SnLaw& law, const StandardFit& standard) {
     text += ", and no knee and no fatigue limit, toward which the posterior's curve bends";
   return text +
          ". ISO 12107 takes the uncertainty of the line for scatter, Owen's factor is exact.";
-}
-
-// Scatter ranges as FKM and DIN 50100 tell them: 10 to 90 %, in life and in stress.
-struct ScatterRange {
-  double n05, n50, n95, s05, s50, s95, k05, k50, k95;
-};
-ScatterRange scatter_range(const SnLaw& law, const WeightedDraws& draws) {
-  const double width = quantile(law.standard(), 0.9) - quantile(law.standard(), 0.1);
-  const Distribution life(draws, [&](const double* x) { return width * x[law.sigma_index()]; });
-  const auto k = [&](const double* x) {
-    return law.curve == fatigue::SnCurve::knee ? x[0] : -1 / x[1];
-  };
-  const Distribution stress(draws,
-                            [&](const double* x) { return width * x[law.sigma_index()] / k(x); });
-  const Distribution slope(draws, k);
-  const auto of = [](const Distribution& d, double p) { return std::pow(10, d.quantile(p)); };
-  return {of(life, 0.05),       of(life, 0.5),       of(life, 0.95),
-          of(stress, 0.05),     of(stress, 0.5),     of(stress, 0.95),
-          slope.quantile(0.05), slope.quantile(0.5), slope.quantile(0.95)};
 }
 
 std::string text_of(const SnData& data, const std::vector<At>& points, const std::string& why,
@@ -317,8 +303,9 @@ StandardFit standard_fit(const SnLaw& law, const SnData& data) {
 TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) {
   TradeAddition added;
   added.body["fatigue"] = fatigue::sn_json(law, data);
-  const WeightedDraws draws = thinned(fit.exact ? fit.exact->nodes : fit.pooled,
-                                      law.integrated() ? most_draws_with_limit : most_draws);
+  const WeightedDraws& all = fit.exact ? fit.exact->nodes : fit.pooled;
+  const WeightedDraws draws =
+      law.integrated() ? thinned(all, most_draws_with_limit) : gathered(all, gathered_share);
   const StandardFit standard = standard_fit(law, data);
   const std::vector<At> points = curve_points(law, data, draws, standard);
   const std::string why = difference(law, standard), e739 = e739_in_words(data, points, standard);
@@ -333,7 +320,7 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
   const bool has_slope =
       law.curve == fatigue::SnCurve::basquin || law.curve == fatigue::SnCurve::knee;
   if (!law.logarithmic() || !has_slope || law.scatter_grows) return added;
-  const ScatterRange t = scatter_range(law, draws);
+  const fatigue::ScatterRange t = fatigue::scatter_range(law, draws);
   present::Table table{"scatter",
                        "Slope and scatter ranges, 10 to 90 % of items (FKM, DIN 50100)",
                        {{"of"}, {"5 %"}, {"50 %"}, {"95 %"}}};

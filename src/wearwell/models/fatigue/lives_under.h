@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/math/quantile.h"
+#include "wearwell/models/fatigue/sn_law.h"
+
+namespace wearwell::fatigue {
+
+/// Lives under one stress at each point of a posterior. Law and draws must outlive it.
+class LivesUnder {
+ public:
+  LivesUnder(const SnLaw& law, const WeightedDraws& draws, const Stress& stress);
+
+  /// The life that such a share outlasts, 0 < reliability < 1, on the scale on which lives scatter. A single NaN where some point has none.
+  std::vector<WeightedValue> outlasted(double reliability) const;
+
+ private:
+  const SnLaw& law_;
+  const WeightedDraws& draws_;
+  Stress stress_;
+  std::vector<double> center_, sigma_;  // without a limit that scatters nothing else matters
+};
+
+}  // namespace wearwell::fatigue
