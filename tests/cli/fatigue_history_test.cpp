@@ -133,6 +133,43 @@ TEST_F(FatigueHistory, DesignCurvesWithoutAReport) {
   EXPECT_EQ(curves["astm_e739"]["left_out"], 1);
 }
 
+// A design curve is the lower bound of a B-life: two ways through the quadrature, one by cells and one by what its nodes weigh.
+TEST_F(FatigueHistory, DesignCurvesAreBoundsOfBLives) {
+  fs::copy_file(example + "tests.csv", folder() / "tests.csv");
+  std::ifstream stream(example + "study.toml");
+  std::string study{std::istreambuf_iterator<char>(stream), {}};
+  study = study.substr(0, study.find("[predict]"));
+  // Eleven of 25 tests at a stress ratio of 0.1, the others fully reversed.
+  const double mean = (4 * 260 + 4 * 300 + 3 * 350) * 1.1 / 0.9 / 25;
+  std::size_t compared = 0;
+  for (const double confidence : {0.9, 0.95}) {
+    write("study.toml",
+          study +
+              fmt::format("\n[predict]\nb_lives = [10, 1]\ncredible_level = {}\n[predict.stress]\n"
+                          "p = {{ alternating_stress = \"600 MPa\", mean_stress = \"{} MPa\" }}\n",
+                          confidence, mean));
+    const CommandResult fit =
+        run_command("cd '" + folder().string() +
+                    "'; rm -rf out; '" WEARWELL_BINARY
+                    "' fit study.toml --method exact --no-report --json -o out");
+    ASSERT_EQ(fit.exit_code, 0) << fit.err;
+    const json all = json::parse(fit.out);
+    EXPECT_NEAR(all["design_curves"]["mean_stress"].get<double>(), mean, 1e-9);
+    for (const json& curve : all["design_curves"]["curves"]) {
+      const json& first = curve["points"][0];
+      ASSERT_EQ(first["stress"], 600);
+      if (curve["confidence"] != confidence) continue;
+      const double reliability = curve["reliability"];
+      if (reliability != 0.9 && reliability != 0.99) continue;
+      const json& b_life = all["quantities"][reliability == 0.9 ? 1 : 2]["exact"];
+      EXPECT_NEAR(first["life"].get<double>() / b_life["bound"].get<double>(), 1, 3e-3)
+          << curve["name"];
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 3);  // 90/90, B-basis and A-basis
+}
+
 // Life under so many equal cycles is what the study itself says of that stress.
 TEST_F(FatigueLife, OfConstantAmplitudeIsTheStudys) {
   write("cycles.csv", "amplitude [MPa],stress_ratio,cycles\n400,-1,1000\n");

@@ -11,6 +11,7 @@
 #include "wearwell/models/fatigue/lives_under.h"
 #include "wearwell/models/fatigue/scatter_range.h"
 #include "wearwell/models/fatigue/sn_result.h"
+#include "wearwell/models/fatigue/standard_fit.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/plot_study.h"
@@ -39,7 +40,7 @@ std::string with_unit(const SnData& data, double si) {
 
 // One stress: lives [cycles] by the posterior and by the standards, for each level.
 struct At {
-  double stress = 0;  // Pa, alternating
+  double stress = 0, mean = 0;  // Pa, alternating and mean
   double median = 0;
   std::vector<double> posterior, iso, owen;
   double band = 0;  // lower end of E739's 95 % band of the median
@@ -63,6 +64,7 @@ std::vector<At> curve_points(const SnLaw& law, const SnData& data, const Weighte
         points.size() == 1 ? 0 : static_cast<double>(i) / static_cast<double>(points.size() - 1);
     at.stress = i == 0 ? high : i + 1 == points.size() ? low : high * std::pow(low / high, share);
     const Stress stress = line.at(at.stress);
+    at.mean = stress.mean;
     const fatigue::LivesUnder lives(law, draws, stress);
     std::vector<WeightedValue> outlasted = lives.outlasted(0.5);
     at.median = fatigue::cycles(law, weighted_quantile(outlasted, 0.5));
@@ -86,12 +88,23 @@ std::vector<At> curve_points(const SnLaw& law, const SnData& data, const Weighte
   return points;
 }
 
-Table curves_table(const SnData& data, const std::vector<At>& points) {
+// Which mean stress the curves have: where there are several among the tests, none of theirs need be it.
+std::string line_in_words(const SnLaw& law, const SnData& data) {
+  if (law.correction == MeanStress::none) return "";
+  const StressLine line = line_of_tests(law, data);
+  if (line.ratio) return fmt::format(" at the tests' stress ratio {:.4g}", *line.ratio);
+  if (line.mean == 0) return ", fully reversed";
+  return fmt::format(" at a mean stress of {}, the tests' average", with_unit(data, line.mean));
+}
+
+Table curves_table(const SnLaw& law, const SnData& data, const std::vector<At>& points) {
   const std::string unit = data.life_unit.text;
   Table table{"design-curves",
-              "Design curves: lives that such a share outlasts, with such confidence",
+              fmt::format("Design curves{}: lives that such a share outlasts, with such confidence",
+                          line_in_words(law, data)),
               {{"curve"},
                {"alternating stress", data.stress_unit.text},
+               {"mean stress", data.stress_unit.text},
                {"life", unit},
                {"ISO 12107", unit},
                {"Owen", unit},
@@ -102,19 +115,25 @@ Table curves_table(const SnData& data, const std::vector<At>& points) {
     for (const At& at : points) {
       table.rows.push_back({levels[l].name,
                             from_si(data.stress_unit, at.stress),
+                            from_si(data.stress_unit, at.mean),
                             life(at.posterior[l]),
                             {},
                             {},
                             {}});
       if (at.iso.empty()) continue;
-      table.rows.back()[3] = life(at.iso[l]);
-      table.rows.back()[4] = life(at.owen[l]);
+      table.rows.back()[4] = life(at.iso[l]);
+      table.rows.back()[5] = life(at.owen[l]);
     }
   }
   for (const At& at : points) {
-    table.rows.push_back(
-        {"median", from_si(data.stress_unit, at.stress), life(at.median), {}, {}, {}});
-    if (at.band > 0) table.rows.back()[5] = life(at.band);
+    table.rows.push_back({"median",
+                          from_si(data.stress_unit, at.stress),
+                          from_si(data.stress_unit, at.mean),
+                          life(at.median),
+                          {},
+                          {},
+                          {}});
+    if (at.band > 0) table.rows.back()[6] = life(at.band);
   }
   return table;
 }
@@ -169,8 +188,8 @@ std::string difference(const SnLaw& law, const StandardFit& standard) {
          ". ISO 12107 takes the uncertainty of the line for scatter, Owen's factor is exact.";
 }
 
-std::string text_of(const SnData& data, const std::vector<At>& points, const std::string& why,
-                    const std::string& e739) {
+std::string text_of(const SnLaw& law, const SnData& data, const std::vector<At>& points,
+                    const std::string& why, const std::string& e739) {
   const auto& levels = design_levels();
   std::vector<std::vector<std::string>> rows = {{""}};
   for (const DesignLevel& level : levels) rows[0].push_back(level.name);
@@ -188,11 +207,12 @@ std::string text_of(const SnData& data, const std::vector<At>& points, const std
     add("ISO 12107", at.iso);
     add("Owen", at.owen);
   }
-  return fmt::format("Design curves, life [{}]\n", data.life_unit.text) + text_table(rows) +
-         wrapped(why, 2, 4) + (e739.empty() ? "" : wrapped(e739, 2, 4));
+  return fmt::format("Design curves{}, life [{}]\n", line_in_words(law, data),
+                     data.life_unit.text) +
+         text_table(rows) + wrapped(why, 2, 4) + (e739.empty() ? "" : wrapped(e739, 2, 4));
 }
 
-nlohmann::ordered_json json_of(const SnData& data, const std::vector<At>& points,
+nlohmann::ordered_json json_of(const SnLaw& law, const SnData& data, const std::vector<At>& points,
                                const StandardFit& standard, const std::string& why) {
   using Json = nlohmann::ordered_json;
   const auto life = [&](double cycles) { return from_si(data.life_unit, cycles); };
@@ -215,6 +235,14 @@ nlohmann::ordered_json json_of(const SnData& data, const std::vector<At>& points
                       {"points", std::move(rows)}});
   }
   Json json = {{"curves", std::move(curves)}, {"why", why}};
+  if (law.correction != MeanStress::none) {
+    const StressLine line = line_of_tests(law, data);
+    if (line.ratio) {
+      json["stress_ratio"] = *line.ratio;
+    } else {
+      json["mean_stress"] = from_si(data.stress_unit, line.mean);
+    }
+  }
   if (standard.line) {
     const OwnUnits e739 = e739_line(data, *standard.line);
     Json band = Json::array();
@@ -231,13 +259,6 @@ nlohmann::ordered_json json_of(const SnData& data, const std::vector<At>& points
 }
 
 }  // namespace
-
-double standard_log10_stress(const SnLaw& law, const Stress& stress) {
-  // Known constants only: standard_fit says so.
-  const double x[] = {0, 0, 0, 0, 0, 0, 0};
-  return law.correction == MeanStress::none ? std::log10(stress.alternating)
-                                            : law.log10_reversed(x, stress);
-}
 
 const std::vector<DesignLevel>& design_levels() {
   static const std::vector<DesignLevel> levels = {{"90/90", 0.9, 0.9},
@@ -265,41 +286,6 @@ StressLine line_of_tests(const SnLaw& law, const SnData& data) {
   return line;
 }
 
-StandardFit standard_fit(const SnLaw& law, const SnData& data) {
-  StandardFit fit;
-  if (law.family != fatigue::LifeFamily::log10_normal) {
-    fit.why_not = "they take log10 life as normal, which this study does not";
-    return fit;
-  }
-  if (law.has_strength() || law.has_gamma()) {
-    fit.why_not = "what a mean stress does is unknown here, and they know one stress only";
-    return fit;
-  }
-  std::vector<double> x, y;
-  for (const LifeTest& test : data.tests) {
-    if (test.outcome != Outcome::failure) {
-      fit.left_out += test.count;
-      continue;
-    }
-    for (int i = 0; i < test.count; ++i) {
-      x.push_back(standard_log10_stress(law, test.stress));
-      y.push_back(std::log10(test.life));
-    }
-  }
-  fit.failures = static_cast<int>(x.size());
-  const auto [least, most] = std::minmax_element(x.begin(), x.end());
-  if (x.size() < 3 || !(*most - *least > 1e-9)) {
-    fit.why_not = "they need three failures at two stresses";
-    return fit;
-  }
-  if (!std::all_of(x.begin(), x.end(), [](double each) { return std::isfinite(each); })) {
-    fit.why_not = "a test has no fully reversed stress";
-    return fit;
-  }
-  fit.line = fatigue::fit_line(x, y);
-  return fit;
-}
-
 TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) {
   TradeAddition added;
   added.body["fatigue"] = fatigue::sn_json(law, data);
@@ -308,15 +294,22 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
       law.integrated() ? thinned(all, most_draws_with_limit) : gathered(all, gathered_share);
   const StandardFit standard = standard_fit(law, data);
   const std::vector<At> points = curve_points(law, data, draws, standard);
-  const std::string why = difference(law, standard), e739 = e739_in_words(data, points, standard);
+  std::string why = difference(law, standard);
+  if (draws.values.rows() < all.values.rows() && law.integrated())
+    why += fmt::format(
+        " A limit that scatters takes long: the posterior's curves are read off {} draws, to some "
+        "per cent.",
+        draws.values.rows());
+  const std::string e739 = e739_in_words(data, points, standard);
   std::vector<present::Block>& blocks = added.blocks["predictions"];
-  blocks.push_back({present::Prose{
-      "Design curves: 90/90, B-basis (90 % with 95 % confidence), A-basis (99 % with 95 %) and "
-      "97.7 % with 90 % (FKM's probability of survival). " +
-      why + " " + e739}});
-  blocks.push_back({curves_table(data, points)});
-  added.text += text_of(data, points, why, e739);
-  added.body["design_curves"] = json_of(data, points, standard, why);
+  blocks.push_back(
+      {present::Prose{"Design curves" + line_in_words(law, data) +
+                      ": 90/90, B-basis (90 % with 95 % confidence), A-basis (99 % with 95 %) and "
+                      "97.7 % with 90 % (FKM's probability of survival). " +
+                      why + " " + e739}});
+  blocks.push_back({curves_table(law, data, points)});
+  added.text += text_of(law, data, points, why, e739);
+  added.body["design_curves"] = json_of(law, data, points, standard, why);
   const bool has_slope =
       law.curve == fatigue::SnCurve::basquin || law.curve == fatigue::SnCurve::knee;
   if (!law.logarithmic() || !has_slope || law.scatter_grows) return added;

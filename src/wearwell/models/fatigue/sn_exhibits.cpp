@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/models/fatigue/design_curve.h"
+#include "wearwell/models/fatigue/standard_fit.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/study/plot_study.h"
 
