@@ -302,30 +302,37 @@ bool ends_high(const Law& law, bool lower) {
   return log_density(law, quantile(law, lower ? end : 1 - end)).value >= highest + std::log(high);
 }
 
-// How improbable a prior makes what the data say, either side. On the scale on which the prior is standard
-// normal, the posterior mean m of variance v lies at random with variance 1 - v when the prior is right: the
-// variance of a mean and the mean of a variance add up. So m / sqrt(1 - v) is standard normal where the likelihood
-// is, too, and is the distance of prior and likelihood by their common standard deviation. 1 where the law is
-// improper, or excludes nothing on that side.
-double surprise(const Law& law, std::vector<double> draws) {
+// A posterior on the scale on which its prior is standard normal.
+struct AgainstPrior {
+  double width =
+      0;  // its standard deviation; 1 where the data say nothing, 0 where the prior is improper
+  double surprise = 1;  // how improbable the prior makes what the data say, either side
+};
+
+// The posterior mean m of variance v lies at random with variance 1 - v when the prior is right: the variance of a mean
+// and the mean of a variance add up. So m / sqrt(1 - v) is standard normal where the likelihood is, too, and is
+// the distance of prior and likelihood by their common standard deviation. No surprise where the prior excludes
+// nothing on that side.
+AgainstPrior against_prior(const Law& law, std::vector<double> draws) {
   constexpr double least_learned = 0.05;  // of 1 - v, which 4000 draws tell to sqrt(2/4000) = 0.022
-  if (!law.proper) return 1;
+  if (!law.proper) return {};
   const auto score = [&](double share) {
     const auto at = draws.begin() + static_cast<std::ptrdiff_t>(share * double(draws.size()));
     std::nth_element(draws.begin(), at, draws.end());
     return score_of(law, *at);
   };
   const double median = score(0.5);
-  if (ends_high(law, median < 0)) return 1;
   const double sd = 0.5 * (score(0.84134) - score(0.15866));
+  if (ends_high(law, median < 0)) return {sd, 1};
   const double distance = std::abs(median) / std::sqrt(std::max(1 - sd * sd, least_learned));
-  return std::erfc(distance / std::numbers::sqrt2);
+  return {sd, std::erfc(distance / std::numbers::sqrt2)};
 }
 
 }  // namespace
 
 Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
   constexpr double excluded = 2.7e-3, far_out = 1e-2;  // three standard deviations, and 2.6
+  constexpr double hardly_narrower = 0.7;              // the data hold as much as the prior
   Findings findings("prior-data-conflict");
   const Eigen::MatrixXd& values = fit.pooled.values;
   std::vector<double> log_prior, log_likelihood;
@@ -356,8 +363,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
                    "The draws are not finite or do not vary.");
       continue;
     }
-    const double p = surprise(parameter.prior, {draws.begin(), draws.end()});
-    const bool prior_only = scaling == PowerScalingVerdict::strong_prior_or_weak_likelihood;
+    const auto [width, p] = against_prior(parameter.prior, {draws.begin(), draws.end()});
     if (p < far_out) {
       findings.add(
           p < excluded ? Verdict::fail : Verdict::warn,
@@ -375,11 +381,11 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
                    fmt::format("The data are so few that the default prior of {} is of weight: "
                                "state what you know of it, or test more.",
                                parameter.name));
-    } else if (prior_only) {
+    } else if (width > hardly_narrower) {
       findings.add(
           Verdict::warn, numbers,
-          fmt::format("What is said of {} comes from its prior: the data hardly speak of it.",
-                      parameter.name));
+          fmt::format("What is said of {} is its prior, which the data narrow by {:.0f} % only.",
+                      parameter.name, std::max(0.0, 100 * (1 - width))));
     } else {
       passed.push_back(numbers + " (prior and data both tell, and agree)");
     }
