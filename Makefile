@@ -35,8 +35,8 @@ install: setup
 calibrate: build
 	@ctest --preset calibration
 
-# All tests but those in a browser and under strace; threads where there are any, with a oneTBB that is instrumented
-# too. DuckDB is not: tests/sanitizers/thread.txt.
+# All tests but those in a browser, under strace, and of programs outside, which know nothing of sanitizers; threads where there
+# are any, with a oneTBB that is instrumented too. DuckDB is not: tests/sanitizers/thread.txt.
 sanitize: setup-tests setup-clang
 	@cmake --preset asan-ubsan >/dev/null && cmake --build --preset asan-ubsan && ctest --preset asan-ubsan
 	@setup/thread-sanitizer-tbb

@@ -1,7 +1,7 @@
 // Wrong studies, wrong data and wrong options, made by mutating the examples, judged by what every run promises whatever it is
 // given: an exit code of 0 to 3; on 2 and 3 one message and nothing written; on 0 no number that is not one.
 //
-// WEARWELL_FUZZ_RUNS sets how many are tried, WEARWELL_FUZZ_SEED which.
+// WEARWELL_FUZZ_RUNS sets how many are tried, WEARWELL_FUZZ_SEED which, WEARWELL_FUZZ_PATIENCE how many seconds a run may take.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -254,6 +254,7 @@ class Contract : public ScratchTest {
 
 TEST_F(Contract, HoldsForWhateverIsGiven) {
   const int runs = setting("WEARWELL_FUZZ_RUNS", 40), seed = setting("WEARWELL_FUZZ_SEED", 1);
+  const std::string patience = std::to_string(setting("WEARWELL_FUZZ_PATIENCE", 120));
   std::array<int, 4> codes{};
   for (int i = 0; i < runs; ++i) {
     Mutator mutate(static_cast<std::uint64_t>(i), static_cast<std::uint64_t>(seed));
@@ -266,10 +267,10 @@ TEST_F(Contract, HoldsForWhateverIsGiven) {
     const std::set<std::string> before = names();
     const std::string what =
         "run " + std::to_string(i) + " (" + example.study + " " + option + "): ";
-    const CommandResult run = run_command("cd '" + folder().string() +
-                                          "' && timeout --signal=ABRT 120 '" WEARWELL_BINARY
-                                          "' fit study.toml -o out --json --no-report " +
-                                          option + " </dev/null");
+    const CommandResult run =
+        run_command("cd '" + folder().string() + "' && timeout --signal=ABRT " + patience +
+                    " '" WEARWELL_BINARY "' fit study.toml -o out --json --no-report " + option +
+                    " </dev/null");
     expect_kept(run, before, what);
     if (run.exit_code >= 0 && run.exit_code <= 3) ++codes[static_cast<std::size_t>(run.exit_code)];
     if (HasFailure()) {
