@@ -57,6 +57,22 @@ TEST(Distribution, OfDrawsIsRs) {
   EXPECT_DOUBLE_EQ(d.cdf(32), 1);
 }
 
+// Points of few regions of a posterior, or nodes without their cells: of 1, 2 .. 1000, each with its value for a weight, half the
+// weight lies below 1000/sqrt(2). A last one without end holds a thousandth.
+TEST(Distribution, UnevenPointsCountByTheirWeight) {
+  constexpr Eigen::Index n = 1001;
+  WeightedDraws draws{Points(n, 1), Eigen::VectorXd(n), {}, {}};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    draws.values(i, 0) = i == n - 1 ? infinity : double(i + 1);
+    draws.weights[i] = i == n - 1 ? 0.001 : 0.999 * double(i + 1) / 500500;
+  }
+  const Distribution d(draws, itself);
+  for (const double p : {0.05, 0.5, 0.9})
+    EXPECT_NEAR(d.quantile(p), 1000 * std::sqrt(p / 0.999), 1.5) << p;
+  EXPECT_NEAR(d.cdf(500), 0.25 * 0.999, 1e-3);
+  EXPECT_EQ(d.quantile(0.9999), infinity);
+}
+
 TEST(Distribution, InfiniteDraws) {
   const Distribution d(draws_of({2, infinity, 1, infinity, 3}), itself);
   EXPECT_DOUBLE_EQ(d.quantile(0.125), 1.5);

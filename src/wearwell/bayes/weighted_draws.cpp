@@ -117,6 +117,15 @@ Distribution::Distribution(const WeightedDraws& draws,
   }
 }
 
+namespace {
+
+bool even(std::span<const double> weights) {
+  const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
+  return *most <= *least * (1 + 1e-9);
+}
+
+}  // namespace
+
 double Distribution::mean() const {
   if (center_.empty()) return std::nan("");
   return std::inner_product(center_.begin(), center_.end(), weight_.begin(), 0.0);
@@ -130,7 +139,7 @@ double Distribution::sd() const {
   }
   // n/(n-1) for draws, so that the sd is R's.
   const auto n = static_cast<double>(center_.size());
-  return std::sqrt(cells_ ? variance : variance * n / (n - 1));
+  return std::sqrt(cells_ || !even(weight_) ? variance : variance * n / (n - 1));
 }
 
 namespace {
@@ -210,9 +219,10 @@ double Distribution::quantile(double p) const {
   const std::size_t n = center_.size();
   if (n == 0) return std::nan("");
   if (!cells_) {
-    // Between an end that is never reached (infinity) and a neighbour there is nothing to
-    // interpolate.
-    const double q = wearwell::quantile(std::span<const double>(center_), p);
+    // Points of few regions, or nodes whose cells are not kept, weigh each its own: then by the weighted type 7. Between an
+    // end that is never reached (infinity) and a neighbour there is nothing to interpolate.
+    const double q = even(weight_) ? wearwell::quantile(std::span<const double>(center_), p)
+                                   : wearwell::quantile(center_, weight_, p);
     return std::isnan(q) ? center_.back() : q;
   }
   double below = 0;

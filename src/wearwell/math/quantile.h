@@ -35,11 +35,11 @@ inline double quantile(std::span<const double> sorted, std::span<const double> w
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     mass += weights[i];
     const double reached = std::clamp(mass / sum * n - window, 0.0, 1.0);
-    value += (reached - covered) * sorted[i];
+    if (reached > covered) value += (reached - covered) * sorted[i];  // which may be infinite
     covered = reached;
   }
   // Rounding may leave the window's end uncovered, by an amount that belongs to the last value.
-  return value + (1 - covered) * sorted.back();
+  return covered < 1 ? value + (1 - covered) * sorted.back() : value;
 }
 
 struct WeightedValue {

@@ -2,6 +2,7 @@
 // with them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -10,6 +11,8 @@
 
 #include "support/posterior_study.h"
 #include "support/scratch.h"
+#include "wearwell/base/rng.h"
+#include "wearwell/prob/standard_law.h"
 #include "wearwell/study/run_study.h"
 
 namespace wearwell {
@@ -195,11 +198,11 @@ TEST(OwnLives, OfLasersAreThoseOfADenseGrid) {
   }
 }
 
-class OwnLivesOfTwo : public ScratchTest {};
+class OwnLivesOfStudies : public ScratchTest {};
 
 // Two effects, at one point of the parameters: y = a + b t reaches 10 where b t = 10 - a, so that
 // P(life <= t) is the mean over a of P(b > (10 - a)/t).
-TEST_F(OwnLivesOfTwo, EffectsAreThoseOfTheIntegral) {
+TEST_F(OwnLivesOfStudies, EffectsAreThoseOfTheIntegral) {
   write("d.csv", "m,t,y\na,1,1.1\na,2,2.3\nb,1,0.9\nb,2,1.7\nc,1,1.4\nc,2,2.2\n");
   const PosteriorStudy study = wearwell::read_posterior_study(write("study.toml", R"(
 model = "law"
@@ -248,6 +251,56 @@ y_path = "a + b*t"
                                std::pair(life.q50, 0.5), std::pair(life.q95, 0.95)}) {
       EXPECT_LT(cdf(t * (1 - 2e-4)), p) << sa << ' ' << sb << ' ' << p;
       EXPECT_GT(cdf(t * (1 + 2e-4)), p) << sa << ' ' << sb << ' ' << p;
+    }
+  }
+}
+
+// B-lives over batches that differ are read off few points of the posterior, which weigh each its own: against all draws.
+TEST_F(OwnLivesOfStudies, BLivesCountPointsByTheirWeight) {
+  write("d.csv", "life,batch\n900,A\n1100,A\n1000,B\n1300,B\n");
+  const PosteriorStudy study = wearwell::read_posterior_study(write("study.toml", R"(
+model = "law"
+[data]
+file = "d.csv"
+[data.columns]
+life = { column = "life", unit = "h" }
+batch = "batch"
+[likelihood.life]
+family = "lognormal"
+median = "m"
+log_sd = "s"
+[varies.batch]
+m = { law = "lognormal", log_sd = "m_scatter" }
+[prior]
+m = { law = "lognormal", median = "1000 h", log_sd = 1 }
+s = { law = "half-normal", scale = 1 }
+m_scatter = { law = "half-normal", scale = 1 }
+[predict]
+b_lives = [1, 10]
+credible_level = 0.9
+)"));
+  WeightedDraws draws;
+  constexpr Eigen::Index n = 40'000;
+  draws.values.resize(n, 3);
+  draws.weights.setConstant(n, 1.0 / n);
+  Rng rng(3, 0);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    draws.values.row(i) << 3.6e6 * std::exp(0.15 * rng.normal()),
+        0.3 * std::exp(0.2 * rng.normal()), 0.4 * std::exp(0.3 * rng.normal());
+  }
+  const std::vector<QuantityQuantiles> told = study.quantity_groups.front().from_draws(draws);
+  for (const std::size_t k : {1, 2}) {
+    const double z = quantile(StandardLaw::normal, k == 1 ? 0.01 : 0.1);
+    std::vector<double> lives;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const auto x = draws.values.row(i);
+      lives.push_back(x[0] * std::exp(z * std::hypot(x[1], x[2])));
+    }
+    std::sort(lives.begin(), lives.end());
+    for (const auto& [life, p] : {std::pair(told[k].q05, 0.05), std::pair(told[k].q50, 0.5),
+                                  std::pair(told[k].q95, 0.95), std::pair(*told[k].bound, 0.1)}) {
+      const auto below = std::lower_bound(lives.begin(), lives.end(), life) - lives.begin();
+      EXPECT_NEAR(double(below) / n, p, 0.01) << k << ' ' << p;
     }
   }
 }

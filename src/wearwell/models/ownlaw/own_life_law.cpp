@@ -185,8 +185,6 @@ Distribution LifeLaw::quantile(const WeightedDraws& draws, double p, double from
   const bool known = given.weights.dot(share) >= least_survival;
   given.weights.array() *= share.array();
   given.weights /= given.weights.sum();
-  // Without cells points would count alike.
-  if (given.lower.empty()) given.lower = given.upper = {given.values};
   if (given.has_cells()) {
     given.cells.mass.array() *= share.head(given.cells.mass.size()).array();
     given.cells.mass /= given.cells.mass.sum();
