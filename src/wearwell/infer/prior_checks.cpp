@@ -302,11 +302,10 @@ bool ends_high(const Law& law, bool lower) {
   return log_density(law, quantile(law, lower ? end : 1 - end)).value >= highest + std::log(high);
 }
 
-// A posterior on the scale on which its prior is standard normal.
+// A posterior on the scale on which its prior is standard normal: its standard deviation, 1 where the data say nothing and 0
+// where the prior is improper; and how improbable the prior makes what the data say, either side.
 struct AgainstPrior {
-  double width =
-      0;  // its standard deviation; 1 where the data say nothing, 0 where the prior is improper
-  double surprise = 1;  // how improbable the prior makes what the data say, either side
+  double width = 0, surprise = 1;
 };
 
 // The posterior mean m of variance v lies at random with variance 1 - v when the prior is right: the variance of a mean
