@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -252,15 +253,22 @@ Check bounds(const Posterior& posterior, const Fit& fit) {
   constexpr double warns_above = 0.3, fails_above = 0.6;
   Findings findings("bounds");
   const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
-  for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
-    const Parameter& parameter = posterior.parameters()[i];
+  // Of each parameter at its lower and its upper bound.
+  std::vector<std::array<double, 2>> ratios(posterior.parameters().size());
+  tbb::parallel_for(std::size_t{0}, ratios.size(), [&](std::size_t i) {
+    const Law& prior = posterior.parameters()[i].prior;
+    if (!std::isfinite(prior.lower) && !std::isfinite(prior.upper)) return;
     const Distribution marginal(draws, [i](const double* x) { return x[i]; });
     const RelativeDensity density(marginal);
+    if (std::isfinite(prior.lower)) ratios[i][0] = density.above(prior.lower);
+    if (std::isfinite(prior.upper)) ratios[i][1] = density.below(prior.upper);
+  });
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    const Parameter& parameter = posterior.parameters()[i];
     for (const bool lower : {true, false}) {
       const double bound = lower ? parameter.prior.lower : parameter.prior.upper;
-      if (!std::isfinite(bound)) continue;
-      const double ratio = lower ? density.above(bound) : density.below(bound);
-      if (ratio < warns_above) continue;
+      const double ratio = ratios[i][lower ? 0 : 1];
+      if (!std::isfinite(bound) || ratio < warns_above) continue;
       const bool natural = bound == (lower ? parameter.natural_lower : parameter.natural_upper);
       findings.add(
           ratio >= fails_above && !natural ? dependence_on(parameter) : Verdict::warn,

@@ -1,7 +1,12 @@
 #include "wearwell/infer/sampler_checks.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "wearwell/infer/diagnostics.h"
 
@@ -108,20 +113,24 @@ Check exact_agreement(const Posterior& posterior, const Fit& fit) {
                  "Rely on the other checks.");
     return findings.result("");
   }
-  double worst = 0;
-  for (std::size_t i = 0; i < fit.diagnostics.size(); ++i) {
+  using Distances = std::vector<std::pair<std::string, double>>;
+  std::vector<Distances> all(fit.diagnostics.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     const auto value = [i](const double* x) { return x[i]; };
     const Distribution exact(fit.exact->nodes, value), drawn(fit.pooled, value);
     const Diagnostics& d = fit.diagnostics[i];
-    std::vector<std::pair<std::string, double>> distances = {
-        {"5 % quantile", (drawn.quantile(0.05) - exact.quantile(0.05)) / d.mcse_q05},
-        {"median", (drawn.quantile(0.5) - exact.quantile(0.5)) / d.mcse_q50},
-        {"95 % quantile", (drawn.quantile(0.95) - exact.quantile(0.95)) / d.mcse_q95}};
+    Distances& distances = all[i];
+    distances = {{"5 % quantile", (drawn.quantile(0.05) - exact.quantile(0.05)) / d.mcse_q05},
+                 {"median", (drawn.quantile(0.5) - exact.quantile(0.5)) / d.mcse_q50},
+                 {"95 % quantile", (drawn.quantile(0.95) - exact.quantile(0.95)) / d.mcse_q95}};
     // A mean without variance has no Monte Carlo standard error to speak of.
     if (std::isfinite(fit.exact->sd[static_cast<Eigen::Index>(i)])) {
       distances.emplace_back("mean", (drawn.mean() - exact.mean()) / d.mcse_mean);
     }
-    for (const auto& [what, distance] : distances) {
+  });
+  double worst = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const auto& [what, distance] : all[i]) {
       worst = std::max(worst, std::abs(distance));
       if (!(std::abs(distance) <= tolerated)) {
         findings.add(

@@ -280,9 +280,9 @@ Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const 
     plots.unit = first.unit.text;
     plots.at_name = first.at_name;
   }
-  for (std::size_t i = 0; i < study.parameters.size(); ++i) {
-    plots.parameters.push_back(plot_parameter(study, i, fit));
-  }
+  plots.parameters.resize(study.parameters.size());
+  tbb::parallel_for(std::size_t{0}, plots.parameters.size(),
+                    [&](std::size_t i) { plots.parameters[i] = plot_parameter(study, i, fit); });
   plots.joint = joint_density(posterior, fit);
 
   plots.study_text = study.file.text;
@@ -294,8 +294,7 @@ Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const 
                    [](const Tail& tail) { return tail.integrable(); })) {
     return plots;
   }
-  const WeightedDraws few = thinned(best(fit));
-  plots.history = predict_all(study.history, thinned(best(fit), 1000));
+  if (!study.history.empty()) plots.history = predict_all(study.history, thinned(best(fit), 1000));
 
   if (study.stage_predictions) {
     std::vector<PredictionRequest> observed;
@@ -305,7 +304,7 @@ Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const 
       plots.history_at.push_back(study.history_at.empty() ? observed.back().at
                                                           : study.history_at[rows - 1]);
     }
-    plots.replicated = predict_all(observed, few);
+    plots.replicated = predict_all(observed, thinned(best(fit)));
     plots.history_note = study.history_note;
   }
   if (study.exhibits) plots.exhibits = study.exhibits(fit);

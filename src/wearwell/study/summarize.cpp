@@ -149,8 +149,8 @@ void add_profiles(const PosteriorStudy& study, const Posterior& posterior, const
 }  // namespace
 
 std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, const Fit& fit) {
-  std::vector<ParameterSummary> summaries;
-  for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
+  std::vector<ParameterSummary> summaries(posterior.parameters().size());
+  tbb::parallel_for(std::size_t{0}, summaries.size(), [&](std::size_t i) {
     const Parameter& parameter = posterior.parameters()[i];
     const Function value = [&, i](const double* x) { return from_si(parameter.unit, x[i]); };
     const Distribution drawn(fit.pooled, value);
@@ -174,8 +174,8 @@ std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, c
                        fit.exact->sd[at] / parameter.unit.scale, exact.quantile(0.05),
                        exact.quantile(0.5), exact.quantile(0.95)};
     }
-    summaries.push_back(std::move(summary));
-  }
+    summaries[i] = std::move(summary);
+  });
   return summaries;
 }
 
