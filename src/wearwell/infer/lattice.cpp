@@ -15,6 +15,7 @@
 #include "wearwell/base/monitor.h"
 #include "wearwell/infer/lattice_chart.h"
 #include "wearwell/infer/ridge_map.h"
+#include "wearwell/math/systematic.h"
 
 // Longer than others: one rule, whose lines are filled, judged and told in the same coordinates.
 namespace wearwell {
@@ -296,27 +297,29 @@ class Lattice {
     double mass;  // of its cell
   };
 
-  // Puts the nodes that have cells first and tells how many they are. Those with less mass than `least` are walked through
-  // in the order of the lattice, and each time that their masses have passed another `least` the one that stands there
-  // takes it: by systematic sampling, which takes each as often as it has mass.
+  // Puts the nodes that have cells first and tells how many they are: those with less mass than `least` are sampled in the
+  // order of the lattice, and who is taken stands for its neighbours.
   static Eigen::Index gather(std::vector<Node>& nodes, double least) {
     const auto small = std::stable_partition(nodes.begin(), nodes.end(),
                                              [&](const Node& node) { return node.mass >= least; });
     std::sort(small, nodes.end(), [](const Node& a, const Node& b) {
       return std::tie(a.line->index, a.t) < std::tie(b.line->index, b.t);
     });
-    double passed = 0.5 * least;
-    const auto without = std::stable_partition(small, nodes.end(), [&](Node& node) {
-      passed += node.mass;
-      if (passed < least) return false;
-      passed -= least;
-      node.mass = least;
-      return true;
-    });
-    return without - nodes.begin();
+    Systematic sample(least);
+    std::vector<Node> without;
+    auto end = small;
+    for (auto node = small; node != nodes.end(); ++node) {
+      if (sample.takes(node->mass)) {
+        *end++ = {node->line, node->t, least};
+      } else {
+        without.push_back(*node);
+      }
+    }
+    std::copy(without.begin(), without.end(), end);
+    return end - nodes.begin();
   }
 
-  // The first `cells` with their cells.
+  // The first `with_cells` of them have cells.
   WeightedDraws nodes_of(const std::vector<Node>& kept, Eigen::Index with_cells) const {
     const auto n = static_cast<Eigen::Index>(kept.size());
     WeightedDraws nodes;

@@ -10,6 +10,7 @@
 #include "wearwell/base/sha1.h"
 #include "wearwell/bayes/cell_shares.h"
 #include "wearwell/bayes/posterior.h"
+#include "wearwell/math/systematic.h"
 #include "wearwell/predict/prediction.h"
 #include "wearwell/study/describe.h"
 
@@ -253,17 +254,12 @@ WeightedDraws thinned(const WeightedDraws& draws, Eigen::Index count) {
 WeightedDraws gathered(const WeightedDraws& draws, double share) {
   std::vector<Eigen::Index> rows;
   std::vector<double> weights;
-  double passed = 0.5 * share;
+  Systematic sample(share);
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
-    double weight = draws.weights[i];
-    if (weight < share) {
-      passed += weight;
-      if (passed < share) continue;
-      passed -= share;
-      weight = share;
-    }
+    const double weight = draws.weights[i];
+    if (weight < share && !sample.takes(weight)) continue;
     rows.push_back(i);
-    weights.push_back(weight);
+    weights.push_back(std::max(weight, share));
   }
   WeightedDraws few{draws.values(rows, Eigen::all),
                     Eigen::Map<const Eigen::VectorXd>(weights.data(), std::ssize(weights)),

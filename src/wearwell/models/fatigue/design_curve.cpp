@@ -97,18 +97,18 @@ std::string line_in_words(const SnLaw& law, const SnData& data) {
   return fmt::format(" at a mean stress of {}, the tests' average", with_unit(data, line.mean));
 }
 
-Table curves_table(const SnLaw& law, const SnData& data, const std::vector<At>& points) {
+Table curves_table(const SnData& data, const std::vector<At>& points, const std::string& where) {
   const std::string unit = data.life_unit.text;
-  Table table{"design-curves",
-              fmt::format("Design curves{}: lives that such a share outlasts, with such confidence",
-                          line_in_words(law, data)),
-              {{"curve"},
-               {"alternating stress", data.stress_unit.text},
-               {"mean stress", data.stress_unit.text},
-               {"life", unit},
-               {"ISO 12107", unit},
-               {"Owen", unit},
-               {"ASTM E739, band of the median", unit}}};
+  Table table{
+      "design-curves",
+      fmt::format("Design curves{}: lives that such a share outlasts, with such confidence", where),
+      {{"curve"},
+       {"alternating stress", data.stress_unit.text},
+       {"mean stress", data.stress_unit.text},
+       {"life", unit},
+       {"ISO 12107", unit},
+       {"Owen", unit},
+       {"ASTM E739, band of the median", unit}}};
   const auto life = [&](double cycles) { return from_si(data.life_unit, cycles); };
   const auto& levels = design_levels();
   for (std::size_t l = 0; l < levels.size(); ++l) {
@@ -188,7 +188,7 @@ std::string difference(const SnLaw& law, const StandardFit& standard) {
          ". ISO 12107 takes the uncertainty of the line for scatter, Owen's factor is exact.";
 }
 
-std::string text_of(const SnLaw& law, const SnData& data, const std::vector<At>& points,
+std::string text_of(const SnData& data, const std::vector<At>& points, const std::string& where,
                     const std::string& why, const std::string& e739) {
   const auto& levels = design_levels();
   std::vector<std::vector<std::string>> rows = {{""}};
@@ -207,8 +207,7 @@ std::string text_of(const SnLaw& law, const SnData& data, const std::vector<At>&
     add("ISO 12107", at.iso);
     add("Owen", at.owen);
   }
-  return fmt::format("Design curves{}, life [{}]\n", line_in_words(law, data),
-                     data.life_unit.text) +
+  return fmt::format("Design curves{}, life [{}]\n", where, data.life_unit.text) +
          text_table(rows) + wrapped(why, 2, 4) + (e739.empty() ? "" : wrapped(e739, 2, 4));
 }
 
@@ -294,6 +293,7 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
       law.integrated() ? thinned(all, most_draws_with_limit) : gathered(all, gathered_share);
   const StandardFit standard = standard_fit(law, data);
   const std::vector<At> points = curve_points(law, data, draws, standard);
+  const std::string where = line_in_words(law, data);
   std::string why = difference(law, standard);
   if (draws.values.rows() < all.values.rows() && law.integrated())
     why += fmt::format(
@@ -303,12 +303,12 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
   const std::string e739 = e739_in_words(data, points, standard);
   std::vector<present::Block>& blocks = added.blocks["predictions"];
   blocks.push_back(
-      {present::Prose{"Design curves" + line_in_words(law, data) +
+      {present::Prose{"Design curves" + where +
                       ": 90/90, B-basis (90 % with 95 % confidence), A-basis (99 % with 95 %) and "
                       "97.7 % with 90 % (FKM's probability of survival). " +
                       why + " " + e739}});
-  blocks.push_back({curves_table(law, data, points)});
-  added.text += text_of(law, data, points, why, e739);
+  blocks.push_back({curves_table(data, points, where)});
+  added.text += text_of(data, points, where, why, e739);
   added.body["design_curves"] = json_of(law, data, points, standard, why);
   const bool has_slope =
       law.curve == fatigue::SnCurve::basquin || law.curve == fatigue::SnCurve::knee;
