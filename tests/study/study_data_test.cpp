@@ -53,6 +53,18 @@ TEST_F(StudyDataTest, SecondLivesThatAreNoNumbers) {
               HasSubstr("row 2, column 'until': 4000 must be more than the life"));
 }
 
+// As if each row were an interval, while the status says otherwise.
+TEST_F(StudyDataTest, SecondLivesOfRowsThatAreNoIntervals) {
+  const std::string head = "s,n,until,status\n300,1000,,F\n250,5000,";
+  EXPECT_THAT(sn_refusal(head + "7000,F\n200,9000,,F\n"),
+              AllOf(HasSubstr("row 2, column 'until': 7000 would end an interval"),
+                    HasSubstr("write interval there")));
+  EXPECT_THAT(sn_refusal(head + "7000,S\n200,9000,,F\n"), HasSubstr("row 2, column 'until'"));
+  // A failure's own life, and a run-out's open end, say nothing else.
+  EXPECT_THAT(sn_refusal(head + "inf,S\n200,9000,9000,F\n150,9000,,broken\n"),
+              HasSubstr("row 4, column 'status': 'broken' is no status"));
+}
+
 TEST_F(StudyDataTest, FilesAreNamedAtTheirKey) {
   const auto section = [&](const std::string& text) {
     return TomlReader::parse_file(write("s.toml", "title = 1\n[data]\n" + text))

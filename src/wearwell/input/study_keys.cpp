@@ -223,6 +223,13 @@ StudyKeys column_keys(const std::string& table) {
            "unit of its numbers, where the heading has none; a count needs none"}};
 }
 
+StudyKey status_code_key() {
+  return {
+      "data.columns.status.failure", "1",
+      "what a failure is written as where the column holds codes and its heading does not tell: 0 "
+      "(1 is a runout, -1 left, 2 interval) or 1 (0 is a runout, 2 left, 3 interval)"};
+}
+
 StudyKeys layout_keys(const std::string& table) {
   return {{table + ".decimal", "\",\"", "decimal mark"},
           {table + ".thousands", "\".\"", "mark for thousands, or none"},

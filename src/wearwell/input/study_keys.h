@@ -33,6 +33,8 @@ void add_keys(StudyKeys& keys, const StudyKeys& more);
 
 /// Column and unit of each of `data.columns`, if these are tables.
 StudyKeys column_keys(const std::string& table = "data");
+/// Of a column of status (input/life_status.h).
+StudyKey status_code_key();
 
 /// How a table is written, of [data] or of whatever table names a file.
 StudyKeys layout_keys(const std::string& table = "data");

@@ -1,7 +1,7 @@
 // The likelihood of a law in the user's own words.
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 
@@ -90,6 +90,16 @@ TEST_F(ObservedLives, CountWhetherTheyAreExactOrNot) {
 
 TEST_F(ObservedLives, AreRefusedWhereARowSaysNothing) {
   EXPECT_THROW(law("1,100,,\n2,,,\n3,90,,\n"), InputError);
+}
+
+// A midpoint beside its interval would be read as exact.
+TEST_F(ObservedLives, AreRefusedWhereARowSaysTwoThings) {
+  for (const char* row : {"2,100,50,150\n", "2,100,50,\n", "2,100,100,150\n"})
+    EXPECT_THAT(message_of<InputError>([&] { law(std::string("1,90,,\n") + row + "3,90,,\n"); }),
+                testing::AllOf(testing::HasSubstr("row 2, column"),
+                               testing::HasSubstr("empty where there is a measured value")))
+        << row;
+  EXPECT_EQ(law("1,90,90,90\n2,100,,\n")->measured.front().observed.failures, 2u);
 }
 
 void expect_gradient(const LogDensity& density, std::vector<double> x) {

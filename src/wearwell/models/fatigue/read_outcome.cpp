@@ -2,38 +2,50 @@
 
 #include <fmt/format.h>
 
-#include <string>
-#include <utility>
-#include <vector>
+#include <cmath>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/nearest.h"
 
 namespace wearwell {
 
 using fatigue::Outcome;
 
-Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t row) {
-  static const std::vector<std::pair<std::string, Outcome>> words = {
-      {"failure", Outcome::failure},   {"F", Outcome::failure}, {"0", Outcome::failure},
-      {"runout", Outcome::runout},     {"S", Outcome::runout},  {"1", Outcome::runout},
-      {"run-out", Outcome::runout},    {"left", Outcome::left}, {"-1", Outcome::left},
-      {"interval", Outcome::interval}, {"2", Outcome::interval}};
-  const std::string word = cell_word(table.column(choice.column), row);
-  for (const auto& [name, outcome] : words) {
-    if (word == name) return outcome;
+Outcome read_outcome(const Table& table, const LifeStatus& status, std::size_t row) {
+  switch (seen_in(table, status, row)) {
+    case Seen::exactly:
+      return Outcome::failure;
+    case Seen::above:
+      return Outcome::runout;
+    case Seen::below:
+      return Outcome::left;
+    case Seen::between:
+      return Outcome::interval;
   }
-  if (word == "true" || word == "false") {
-    throw InputError(
-        fmt::format("{}: '{}' does not say of what; write failure or runout (or F, S; or the codes "
-                    "0 failure, 1 runout, -1 left, 2 interval)",
-                    place(table, choice.column, row), word));
+  return Outcome::failure;
+}
+
+double read_interval_end(const Table& table, const ColumnChoice& until, std::size_t row,
+                         const fatigue::LifeTest& test) {
+  const double end = to_si(until.unit, cell_number(table, table.column(until.column), row));
+  if (test.outcome == Outcome::interval) {
+    if (std::isnan(end)) {
+      throw InputError(fmt::format("{}: no value; an interval ends at a second life",
+                                   place(table, until.column, row)));
+    }
+    require(end > test.life && std::isfinite(end), table, until, row,
+            "more than the life where it begins, and finite");
+    return end;
   }
-  const std::vector<std::string> names = {"failure", "runout", "left", "interval"};
-  throw InputError(
-      fmt::format("{}: '{}' is no status; it is failure, runout, left or interval (or F, S; or the "
-                  "codes 0, 1, -1, 2) (nearest: '{}')",
-                  place(table, choice.column, row), word, nearest_name(word, names)));
+  const bool harmless =
+      std::isnan(end) || end == test.life || (test.outcome == Outcome::runout && end == INFINITY);
+  if (!harmless) {
+    throw InputError(fmt::format(
+        "{}: {} would end an interval, and the row's status says that it is {}: write interval "
+        "there, or leave this cell empty",
+        place(table, until.column, row), cell_word(table.column(until.column), row),
+        test.outcome == Outcome::failure ? "a failure (as it does where there is none)" : "none"));
+  }
+  return 0;
 }
 
 }  // namespace wearwell

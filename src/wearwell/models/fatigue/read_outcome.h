@@ -1,11 +1,17 @@
 #pragma once
 
 #include "wearwell/input/columns.h"
+#include "wearwell/input/life_status.h"
 #include "wearwell/models/fatigue/life_test.h"
 
 namespace wearwell {
 
-/// How a test ended, of a cell: "failure", "runout", ... or their codes. Throws InputError.
-fatigue::Outcome read_outcome(const Table& table, const ColumnChoice& choice, std::size_t row);
+/// How a test ended. Throws InputError that names its cell.
+fatigue::Outcome read_outcome(const Table& table, const LifeStatus& status, std::size_t row);
+
+/// Where the interval of a test ends [cycles]; 0 of a test that is none, whose cell is empty or repeats what its life says.
+/// Another number there has two readings. Throws InputError.
+double read_interval_end(const Table& table, const ColumnChoice& until, std::size_t row,
+                         const fatigue::LifeTest& test);
 
 }  // namespace wearwell

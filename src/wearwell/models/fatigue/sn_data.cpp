@@ -282,7 +282,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   data.life_unit = life.unit = life_unit(life.unit);
   auto until = read_column(columns, "life_until", "cycle", table);
   if (until) until->unit = life_unit(until->unit);
-  const auto status = read_word_column(columns, "status", table);
+  const auto status = read_life_status(columns, table);
   const auto count = read_column(columns, "count", "1", table);
   const auto label = read_word_column(columns, "label", table);
   const auto part = read_word_column(columns, "part", table);
@@ -297,22 +297,12 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
     require(lives[i] > 0, table, life, i, "positive");
     LifeTest test{stresses[i], status ? read_outcome(table, *status, i) : Outcome::failure,
                   lives[i], 0, 1};
-    if (test.outcome == Outcome::interval) {
-      if (!until) {
-        columns.fail("life_until",
-                     fmt::format("is missing: {} is an interval, which ends at a second life",
-                                 place(table, status->column, i)));
-      }
-      // Only intervals have a second life; cells of other rows may be empty.
-      const double end = cell_number(table, table.column(until->column), i);
-      if (std::isnan(end)) {
-        throw InputError(fmt::format("{}: no value; an interval ends at a second life",
-                                     place(table, until->column, i)));
-      }
-      test.until = to_si(until->unit, end);
-      require(test.until > test.life && std::isfinite(test.until), table, *until, i,
-              "more than the life where it begins, and finite");
+    if (test.outcome == Outcome::interval && !until) {
+      columns.fail("life_until",
+                   fmt::format("is missing: {} is an interval, which ends at a second life",
+                               place(table, status->column, i)));
     }
+    if (until) test.until = read_interval_end(table, *until, i, test);
     if (count) {
       require(counts[i] >= 1 && counts[i] == std::floor(counts[i]) && counts[i] <= 1e6, table,
               *count, i, "a whole number from 1");

@@ -38,7 +38,7 @@ void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& st
   const Table table = read_table(section, source);
   data.stress_si = stated_driver_si(root, table);
   const ColumnChoice stress = required_column(columns, "alternating_stress", data.stress_si, table);
-  const auto status = read_word_column(columns, "status", table);
+  const auto status = read_life_status(columns, table);
   if (!status) columns.fail("status", "is missing: which tests failed, and which did not?");
   const auto count = read_column(columns, "count", "1", table);
   const std::vector<double> stresses = si_numbers(table, stress);

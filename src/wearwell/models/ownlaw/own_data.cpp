@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/nearest.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/heading.h"
@@ -64,23 +63,6 @@ bool is_text(const Column& column) {
   });
 }
 
-Seen read_seen(const Table& table, const Column& column, std::size_t row) {
-  static const std::vector<std::pair<std::string, Seen>> words = {
-      {"failure", Seen::exactly}, {"F", Seen::exactly},        {"0", Seen::exactly},
-      {"runout", Seen::above},    {"run-out", Seen::above},    {"right", Seen::above},
-      {"S", Seen::above},         {"1", Seen::above},          {"left", Seen::below},
-      {"-1", Seen::below},        {"interval", Seen::between}, {"2", Seen::between}};
-  const std::string word = cell_word(column, row);
-  for (const auto& [name, seen] : words) {
-    if (word == name) return seen;
-  }
-  const std::vector<std::string> names = {"failure", "runout", "left", "interval"};
-  throw InputError(
-      fmt::format("{}: '{}' is no status; it is failure, runout (or right), left or interval (or "
-                  "F, S; or the codes 0 failure, 1 runout, -1 left, 2 interval) (nearest: '{}')",
-                  place(table, column.name, row), word, nearest_name(word, names)));
-}
-
 // One measured column with what the others say of it.
 class ObservedReader {
  public:
@@ -95,7 +77,7 @@ class ObservedReader {
     entry_ = column(special.entry);
     count_ = column(special.count);
     trials_ = column(trials);
-    if (special.status) status_ = &data.table.column(data.label(*special.status)->column);
+    if (data.status) status_ = &*data.status;
   }
 
   Observed read(bool may_lack) {
@@ -115,7 +97,7 @@ class ObservedReader {
   const NumberColumn& need(const NumberColumn* column, std::size_t i, const char* what) const {
     if (!column) {
       throw InputError(fmt::format("{}: an interval needs the columns data.columns.lower and upper",
-                                   place(data_.table, status_->name, i)));
+                                   place(data_.table, status_->column, i)));
     }
     if (std::isnan(column->values[i])) {
       throw InputError(
@@ -144,7 +126,7 @@ class ObservedReader {
       const NumberColumn* there = lower_ ? lower_ : upper_;
       throw InputError(fmt::format(
           "{}: an interval needs both data.columns.lower and upper",
-          there ? place(data_.table, there->column, i) : place(data_.table, status_->name, i)));
+          there ? place(data_.table, there->column, i) : place(data_.table, status_->column, i)));
     }
     double a = lower_->values[i], b = upper_->values[i];
     if (std::isnan(a) && std::isnan(b)) {
@@ -158,18 +140,31 @@ class ObservedReader {
     return {Seen::between, a, b};
   }
 
+  // An end beside a row that is no interval says the same or nothing; else there are two readings.
+  void refuse_other_ends(const Response& y, std::size_t i) const {
+    const auto refuse = [&](const NumberColumn* end, bool open) {
+      if (!end || open || std::isnan(end->values[i]) || end->values[i] == y.at) return;
+      demand(false, *end, i,
+             status_ ? "empty where the status is not interval"
+                     : "empty where there is a measured value, which is read as exact");
+    };
+    refuse(lower_, y.seen == Seen::below && lower_ && lower_->values[i] <= 0);
+    refuse(upper_, y.seen == Seen::above && upper_ && upper_->values[i] == infinity);
+  }
+
   Response row(std::size_t i) const {
     const bool has_exact = exact_ && !std::isnan(exact_->values[i]);
-    const Seen seen = status_ ? read_seen(data_.table, *status_, i) : Seen::exactly;
+    const Seen seen = status_ ? seen_in(data_.table, *status_, i) : Seen::exactly;
     Response y;
     if (seen == Seen::between || (!status_ && lower_ && !has_exact)) {
       y = between(i);
     } else {
       if (!exact_) {
         throw InputError(fmt::format("{}: the study names no column of the observed value itself",
-                                     place(data_.table, status_->name, i)));
+                                     place(data_.table, status_->column, i)));
       }
       y = {seen, need(exact_, i, "what was observed is missing").values[i]};
+      refuse_other_ends(y, i);
     }
     if (form_.positive && exact_ && y.seen != Seen::between) {
       demand(y.at > 0, *exact_, i, fmt::format("positive for the {} family", form_.name).c_str());
@@ -205,7 +200,7 @@ class ObservedReader {
   const ResponseForm& form_;
   const NumberColumn *exact_, *lower_ = nullptr, *upper_ = nullptr, *entry_ = nullptr,
                               *count_ = nullptr, *trials_ = nullptr;
-  const Column* status_ = nullptr;
+  const LifeStatus* status_ = nullptr;
 };
 
 }  // namespace
@@ -261,7 +256,8 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
                       const std::vector<std::string>& label_names) {
   const TomlReader section = root.required_table("data");
   const TomlReader columns = section.required_table("columns");
-  OwnData data{read_table(section, source), {}, {}};
+  OwnData data{read_table(section, source), {}, {}, {}};
+  data.status = read_life_status(columns, data.table);
   const auto is_label = [&](const std::string& name) {
     return std::find(label_names.begin(), label_names.end(), name) != label_names.end();
   };

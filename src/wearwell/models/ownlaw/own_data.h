@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/input/life_status.h"
 #include "wearwell/input/source.h"
 #include "wearwell/input/table.h"
 #include "wearwell/input/toml_reader.h"
@@ -32,6 +33,7 @@ struct OwnData {
   Table table;
   std::vector<NumberColumn> numbers;
   std::vector<LabelColumn> labels;
+  std::optional<LifeStatus> status;
 
   const NumberColumn* number(const std::string& name) const;
   const LabelColumn* label(const std::string& name) const;

@@ -44,6 +44,7 @@ StudyKeys law_keys() {
         "what expressions call `*`; `status`, `lower`, `upper`, `count` and `entry` say how much "
         "is "
         "known of an observation"},
+       status_code_key(),
        {"data.rows_of", "\"machine\"",
         "of several labels that parameters vary with: whose levels are the units"},
        {"constants.*", "\"50 mm^2\"", "a number with its unit, or a plain one"},

@@ -144,6 +144,7 @@ OwnData ReadingReader::one_row(const prognosis::Reading& from) const {
   OwnData data;
   data.table.source = "the reading";
   data.table.rows = 1;
+  data.status = law_->data.status;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const NumberColumn& column = law_->data.numbers[c];
     data.numbers.push_back({column.name, column.column, column.unit, {from.numbers[c]}});

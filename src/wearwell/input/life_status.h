@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "wearwell/input/table.h"
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/prob/response.h"
+
+namespace wearwell {
+
+/// The column of [data.columns] that says how life tests ended: status = "HEADING", or
+/// { column = "HEADING", failure = 1 }. Words say it themselves; of codes two sets are in use:
+/// 0 failure, 1 runout, -1 left, 2 interval (an indicator of censoring, as SAS, JMP and SurPyval have it), and
+/// 1 failure, 0 runout, 2 left, 3 interval (an indicator of the event, as R's Surv and lifelines have it).
+struct LifeStatus {
+  std::string column;  ///< its heading
+  std::optional<int> failure_code =
+      {};  ///< what a failure is written as; none where all cells are words
+};
+
+/// Nothing where the study names none. Throws InputError, and with both readings where neither the study
+/// nor the heading ("censored", "event") tells what codes mean.
+std::optional<LifeStatus> read_life_status(const TomlReader& columns, const Table& table);
+
+/// What a row says of its life. Throws InputError that names its cell.
+Seen seen_in(const Table& table, const LifeStatus& status, std::size_t row);
+
+}  // namespace wearwell

@@ -1,0 +1,89 @@
+// How life tests ended: words, and codes that can be read two ways.
+#include "wearwell/input/life_status.h"
+
+#include <gmock/gmock.h>
+
+#include "support/scratch.h"
+#include "wearwell/base/error.h"
+
+namespace wearwell {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class LifeStatusTest : public ScratchTest {
+ protected:
+  Table table(const std::string& heading, const std::vector<std::string>& cells) const {
+    std::string text = "n," + heading + "\n";
+    for (const std::string& each : cells) text += "1," + each + "\n";
+    return read_table(write("t.csv", text));
+  }
+  TomlReader columns(const std::string& status) const {
+    return TomlReader::parse_file(write("s.toml", "[data.columns]\nstatus = " + status + "\n"))
+        .required_table("data")
+        .required_table("columns");
+  }
+  std::vector<Seen> seen(const std::string& heading, const std::vector<std::string>& cells,
+                         std::string status = "") const {
+    if (status.empty()) status = "\"" + heading + "\"";
+    const Table read = table(heading, cells);
+    const auto column = read_life_status(columns(status), read);
+    std::vector<Seen> all;
+    for (std::size_t i = 0; i < read.rows; ++i) all.push_back(seen_in(read, *column, i));
+    return all;
+  }
+};
+
+TEST_F(LifeStatusTest, WordsSayItThemselves) {
+  EXPECT_THAT(
+      seen("status", {"failure", "F", "runout", "run-out", "right", "S", "left", "interval"}),
+      ElementsAre(Seen::exactly, Seen::exactly, Seen::above, Seen::above, Seen::above, Seen::above,
+                  Seen::below, Seen::between));
+}
+
+TEST_F(LifeStatusTest, CodesNeedAHeadingOrTheStudyToTell) {
+  for (const char* heading : {"status", "c", "delta", "failed_or_censored"}) {
+    EXPECT_THAT(message_of<InputError>([&] {
+                  seen(heading, {"0", "1"});
+                }),
+                AllOf(HasSubstr("s.toml:2:10: data.columns.status: "), HasSubstr("row 1"),
+                      HasSubstr("two ways"), HasSubstr("failure = 0 }"), HasSubstr("failure = 1")))
+        << heading;
+  }
+  for (const char* heading : {"censored", "Cens.", "Run-out", "suspended?"})
+    EXPECT_THAT(seen(heading, {"0", "1"}), ElementsAre(Seen::exactly, Seen::above)) << heading;
+  for (const char* heading : {"event", "Failed", "is_broken", "died"})
+    EXPECT_THAT(seen(heading, {"0", "1"}), ElementsAre(Seen::above, Seen::exactly)) << heading;
+  EXPECT_THAT(seen("failed", {"true", "false"}), ElementsAre(Seen::exactly, Seen::above));
+  EXPECT_THAT(seen("censored", {"true", "false"}), ElementsAre(Seen::above, Seen::exactly));
+  EXPECT_THAT(seen("d", {"0", "1", "-1", "2"}, "{ column = \"d\", failure = 0 }"),
+              ElementsAre(Seen::exactly, Seen::above, Seen::below, Seen::between));
+  EXPECT_THAT(seen("d", {"1", "0", "2", "3"}, "{ column = \"d\", failure = 1 }"),
+              ElementsAre(Seen::exactly, Seen::above, Seen::below, Seen::between));
+  // What the study says outweighs the heading.
+  EXPECT_THAT(seen("event", {"0", "1"}, "{ column = \"event\", failure = 0 }"),
+              ElementsAre(Seen::exactly, Seen::above));
+}
+
+TEST_F(LifeStatusTest, CodesOfTheOtherSetAreRefused) {
+  EXPECT_THAT(message_of<InputError>([&] {
+                seen("event", {"1", "-1"});
+              }),
+              AllOf(HasSubstr("row 2, column 'event': '-1' is no status"),
+                    HasSubstr("1 failure, 0 runout, 2 left, 3 interval")));
+  EXPECT_THAT(message_of<InputError>([&] {
+                seen("censored", {"1", "3"});
+              }),
+              HasSubstr("row 2, column 'censored': '3' is no status"));
+  EXPECT_THAT(message_of<InputError>([&] {
+                seen("status", {"failure", "brake"});
+              }),
+              HasSubstr("row 2, column 'status': 'brake' is no status"));
+  EXPECT_THAT(message_of<InputError>([&] { seen("d", {"0"}, "{ column = \"d\", failure = 2 }"); }),
+              HasSubstr("failure"));
+}
+
+}  // namespace
+}  // namespace wearwell
