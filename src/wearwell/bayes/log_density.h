@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -25,6 +28,12 @@ class LogDensity {
   virtual double value_and_gradient(std::span<const double> x,
                                     std::span<double> gradient) const = 0;
 
+  /// The value along one variable, the others being those of `x`: what does not change is worked out once. Empty where that
+  /// would save nothing; valid while the density lives.
+  virtual std::function<double(double)> along(std::span<const double>, std::size_t) const {
+    return {};
+  }
+
   /// The logarithm of each factor of a likelihood that is a product over independent observations;
   /// empty for any other density.
   virtual std::vector<double> pointwise(std::span<const double>) const { return {}; }
@@ -32,6 +41,9 @@ class LogDensity {
   /// How many observations each of these stands for, where some were seen alike; empty when each is
   /// one.
   virtual std::vector<int> pointwise_counts() const { return {}; }
+
+  /// The likelihood without one observation of factor `term`; null where that is no simpler than to take the factor away.
+  virtual std::shared_ptr<const LogDensity> without(std::size_t) const { return nullptr; }
 
   /// What is left open of the value at `x`, where integrals within it did not come to the tolerance that
   /// they promise; 0 elsewhere.

@@ -112,7 +112,7 @@ double Posterior::natural_value_and_gradient(std::span<const double> x,
 }
 
 void Posterior::to_natural(std::span<const double> z, std::span<double> x) const {
-  for (std::size_t i = 0; i < parameters_.size(); ++i) x[i] = transforms_[i].from_real(z[i]).x;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) x[i] = transforms_[i].natural(z[i]);
 }
 
 Eigen::VectorXd Posterior::start() const {

@@ -24,6 +24,8 @@ class Posterior final : public LogDensity {
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
   const std::shared_ptr<const LogDensity>& likelihood() const { return likelihood_; }
+  /// Of each parameter, z to x.
+  const std::vector<Transform>& transforms() const { return transforms_; }
 
   double log_prior(std::span<const double> x) const;
 

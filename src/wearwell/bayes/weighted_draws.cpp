@@ -1,11 +1,14 @@
 #include "wearwell/bayes/weighted_draws.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
 #include "wearwell/bayes/cell_shares.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/math/root.h"
 
@@ -79,16 +82,67 @@ struct Spread {
 
 }  // namespace
 
+namespace {
+
+struct Point {
+  double center, half_width, weight;
+};
+
+bool before(const Point& a, const Point& b) {
+  return a.center < b.center;
+}
+
+constexpr std::size_t section_length = 256;
+
+// Puts points in order as far as sums over sections need it: each section lies before the next, of about as many, in any
+// order within. Where sections end.
+std::vector<std::size_t> in_sections(std::vector<Point>& points) {
+  constexpr std::size_t oversampled = 8, most_sections = 256;
+  const std::size_t n = points.size(),
+                    sections = std::min(std::bit_floor(n / section_length + 1), most_sections);
+  if (sections < 2) return {n};
+  const std::size_t stride = n / (sections * oversampled);
+  std::vector<double> sample;
+  for (std::size_t i = 0; i < n; i += stride) sample.push_back(points[i].center);
+  std::sort(sample.begin(), sample.end());
+  std::vector<double> begins = {-infinity};
+  for (std::size_t s = 1; s < sections; ++s) begins.push_back(sample[s * sample.size() / sections]);
+  std::vector<std::uint8_t> section_of(n);
+  std::vector<std::size_t> ends(sections, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    // The last that begins no later, without branches: where points lie cannot be foreseen.
+    std::size_t at = 0;
+    for (std::size_t half = sections / 2; half > 0; half /= 2)
+      at += begins[at + half] <= points[i].center ? half : 0;
+    section_of[i] = static_cast<std::uint8_t>(at);
+    ++ends[at];
+  }
+  std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::size_t{0});
+  std::vector<Point> placed(n);
+  for (std::size_t i = 0; i < n; ++i) placed[ends[section_of[i]]++] = points[i];
+  points = std::move(placed);
+  return ends;
+}
+
+// Sorted, and cut.
+std::vector<std::size_t> sorted_sections(std::vector<Point>& points) {
+  std::sort(points.begin(), points.end(), before);
+  std::vector<std::size_t> ends;
+  for (std::size_t end = section_length; end < points.size(); end += section_length)
+    ends.push_back(end);
+  ends.push_back(points.size());
+  return ends;
+}
+
+}  // namespace
+
 Distribution::Distribution(const WeightedDraws& draws,
                            const std::function<double(const double* x)>& quantity)
     : cells_(!draws.lower.empty()) {
-  struct Point {
-    double center, half_width, weight;
-  };
   // Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
   constexpr double negligible = 1e-8;
   const double least = cells_ ? negligible / static_cast<double>(draws.values.rows()) : 0;
-  std::vector<Point> points;
+  std::vector<Point> points, endless;
   double total = 0, undefined = 0;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
     const double weight = draws.cell_weight(i);
@@ -105,11 +159,24 @@ Distribution::Distribution(const WeightedDraws& draws,
       half_width = 0;
     }
     total += weight;
-    points.push_back({center, half_width, weight});
+    (cells_ && !std::isfinite(center) ? endless : points).push_back({center, half_width, weight});
   }
-  if (undefined > negligible * (total + undefined)) points.clear();  // it has no distribution
-  std::sort(points.begin(), points.end(),
-            [](const Point& a, const Point& b) { return a.center < b.center; });
+  if (undefined > negligible * (total + undefined)) {  // it has no distribution
+    points.clear();
+    endless.clear();
+  }
+  const std::vector<std::size_t> ends = cells_ ? in_sections(points) : sorted_sections(points);
+  for (std::size_t s = 0, i = 0; s < ends.size(); ++s) {
+    Section section{ends[s], infinity, -infinity, 0};
+    for (; i < ends[s]; ++i) {
+      section.low = std::min(section.low, points[i].center - points[i].half_width);
+      section.high = std::max(section.high, points[i].center + points[i].half_width);
+      section.weight += points[i].weight;
+    }
+    sections_.push_back(section);
+  }
+  std::sort(endless.begin(), endless.end(), before);
+  points.insert(points.end(), endless.begin(), endless.end());
   for (const Point& point : points) {
     center_.push_back(point.center);
     half_width_.push_back(point.half_width);
@@ -151,73 +218,26 @@ double share_below(double x, double center, double half_width, double weight) {
                                     : weight * 0.5 * (1 + (x - center) / half_width);
 }
 
-// The same sums as Distribution::cdf for many x: sections of cells that lie wholly below or above are not looked into.
-class Sections {
- public:
-  Sections(const std::vector<double>& center, const std::vector<double>& half_width,
-           const std::vector<double>& weight)
-      : center_(center), half_width_(half_width), weight_(weight) {
-    double low = INFINITY, high = -INFINITY, below = 0;
-    for (std::size_t i = 0; i < center.size(); ++i) {
-      if (i % length == 0) {
-        low_.push_back(INFINITY);
-        high_.push_back(-INFINITY);
-      }
-      const double begin = center[i] - half_width[i], end = center[i] + half_width[i];
-      low_.back() = std::min(low_.back(), begin);
-      high_.back() = std::max(high_.back(), end);
-      below += weight[i];
-      if ((i + 1) % length == 0 || i + 1 == center.size()) through_.push_back(below);
-      if (!std::isfinite(center[i])) continue;
-      low = std::min({low, center[i], begin});
-      high = std::max({high, center[i], end});
-    }
-    lowest_ = low;
-    highest_ = high;
-  }
-
-  double lowest() const { return lowest_; }
-  double highest() const { return highest_; }
-
-  double cdf(double x) const {
-    double sum = 0;
-    bool all = true;  // cells so far lie below
-    for (std::size_t s = 0; s < low_.size(); ++s) {
-      if (x <= low_[s]) {
-        all = false;
-        continue;
-      }
-      if (all && x >= high_[s]) {
-        sum = through_[s];
-        continue;
-      }
-      all = false;
-      const std::size_t end = std::min((s + 1) * length, center_.size());
-      for (std::size_t i = s * length; i < end; ++i)
-        sum += share_below(x, center_[i], half_width_[i], weight_[i]);
-    }
-    return sum;
-  }
-
- private:
-  static constexpr std::size_t length = 256;
-  const std::vector<double>&center_, &half_width_, &weight_;
-  std::vector<double> low_, high_, through_;  // of each section; the weight up to its end
-  double lowest_ = 0, highest_ = 0;
-};
-
 }  // namespace
 
 double Distribution::cdf(double x) const {
   double sum = 0;
-  for (std::size_t i = 0; i < center_.size(); ++i)
-    sum += share_below(x, center_[i], half_width_[i], weight_[i]);
+  std::size_t i = 0;
+  for (const Section& section : sections_) {
+    if (x >= section.high) {
+      sum += section.weight;
+    } else if (x > section.low) {
+      for (std::size_t j = i; j < section.end; ++j)
+        sum += share_below(x, center_[j], half_width_[j], weight_[j]);
+    }
+    i = section.end;
+  }
+  for (; i < center_.size(); ++i) sum += share_below(x, center_[i], half_width_[i], weight_[i]);
   return sum;
 }
 
 double Distribution::quantile(double p) const {
-  const std::size_t n = center_.size();
-  if (n == 0) return std::nan("");
+  if (center_.empty()) return std::nan("");
   if (!cells_) {
     // Points of few regions, or nodes whose cells are not kept, weigh each its own: then by the weighted type 7. Between an
     // end that is never reached (infinity) and a neighbour there is nothing to interpolate.
@@ -225,18 +245,48 @@ double Distribution::quantile(double p) const {
                                    : wearwell::quantile(center_, weight_, p);
     return std::isnan(q) ? center_.back() : q;
   }
+  // Points at minus infinity lie below all sections, those at infinity above.
+  const std::size_t finite = sections_.back().end;
   double below = 0;
-  std::size_t i = 0;
-  while (i + 1 < n && below + weight_[i] < p) below += weight_[i++];
-  if (!std::isfinite(center_[i])) return center_[i];
-  const Sections sections(center_, half_width_, weight_);
+  for (std::size_t i = finite; i < center_.size(); ++i) {
+    if (center_[i] < 0) below += weight_[i];
+  }
+  if (below > 0 && below >= p) return -infinity;
+  double lowest = infinity, highest = -infinity, weight = below;
+  const Section* around = nullptr;
+  for (const Section& section : sections_) {
+    lowest = std::min(lowest, section.low);
+    highest = std::max(highest, section.high);
+    weight += section.weight;
+    if (around) continue;
+    if (weight >= p)
+      around = &section;
+    else
+      below = weight;
+  }
+  if (finite == 0 || (!around && finite < center_.size())) return center_.back();
   // The root lies between the outermost ends of finite cells, whatever rounding makes of their
-  // total weight. It is looked for from around cell i outward: how far the others reach says
+  // total weight. It is looked for from the cell that reaches p outward: how far the others reach says
   // nothing of it.
+  const std::size_t i = around ? cell_at(*around, p - below) : cell_at(sections_.back(), infinity);
   const double step = std::max(
       {2 * half_width_[i], 1e-12 * std::abs(center_[i]), std::numeric_limits<double>::min()});
-  return solve_increasing([&](double x) { return sections.cdf(x) - p; }, center_[i], step,
-                          {.relative = 0x1p-39}, sections.lowest(), sections.highest());
+  return solve_increasing([&](double x) { return cdf(x) - p; }, center_[i], step,
+                          {.relative = 0x1p-39}, lowest, highest);
+}
+
+std::size_t Distribution::cell_at(const Section& section, double weight) const {
+  const auto s = static_cast<std::size_t>(&section - sections_.data());
+  std::vector<std::size_t> order(section.end - (s == 0 ? 0 : sections_[s - 1].end));
+  std::iota(order.begin(), order.end(), section.end - order.size());
+  std::sort(order.begin(), order.end(),
+            [this](std::size_t a, std::size_t b) { return center_[a] < center_[b]; });
+  double below = 0;
+  for (const std::size_t i : order) {
+    below += weight_[i];
+    if (below >= weight) return i;
+  }
+  return order.back();
 }
 
 std::vector<double> cell_shares(const WeightedDraws& draws,

@@ -47,6 +47,7 @@ struct WeightedDraws {
 /// that is asked of it is NaN.
 class Distribution {
  public:
+  Distribution() = default;
   Distribution(const WeightedDraws& draws, const std::function<double(const double* x)>& quantity);
 
   double mean() const;
@@ -57,8 +58,18 @@ class Distribution {
   double quantile(double p) const;
 
  private:
-  // Sorted by center; points at infinity (a life that never ends) come last.
+  // Points that lie before those of the next; sums need no order among them.
+  struct Section {
+    std::size_t end;
+    double low, high;  // between which their cells lie
+    double weight;
+  };
+  // The cell of a section that, with those before it there, reaches so much weight; or its last.
+  std::size_t cell_at(const Section& section, double weight) const;
+
+  // Draws are sorted; cells from section to section. Cells at infinity (a life that never ends) come behind all sections.
   std::vector<double> center_, half_width_, weight_;
+  std::vector<Section> sections_;
   bool cells_ = false;
 };
 

@@ -36,6 +36,11 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
   // Boxes multiply too fast in four dimensions; they are tried where a lattice does not converge.
   if (posterior.dimension() == 4) {
     ExactPosterior exact = integrate_on_lattice(posterior, whitening, settings);
+    if (!exact.failure.empty() && settings.along_ridge) {
+      ExactSettings open = settings;
+      open.along_ridge.reset();
+      exact = integrate_on_lattice(posterior, whitening, open);
+    }
     if (exact.failure.empty()) return exact;
   }
   return BoxIntegrator(posterior, whitening, settings, shape).run();

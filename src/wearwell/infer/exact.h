@@ -16,6 +16,8 @@ struct ExactSettings {
   bool second_moments = true;  ///< false: the posterior has none, so only its mass is integrated
   bool cells = true;           ///< false: nodes for sums alone, not for distributions (lattice.h)
   long max_evaluations = 20'000'000;
+  /// Which coordinates are the rounder ones, of a lattice, where a posterior nearly the same has told it.
+  std::optional<bool> along_ridge = {};
   std::stop_token stop = {};  ///< once requested, the integration throws `Cancelled`
 };
 
@@ -33,6 +35,7 @@ struct ExactPosterior {
   double error = 0;  ///< estimated relative error of mass and second moments: the reached tolerance
   double highest = 0;  ///< log density (on the real line) of the highest node
   long evaluations = 0;
+  bool along_ridge = false;  ///< its lattice follows the ridge of a funnel (lattice_chart.h)
   std::string failure;  ///< empty when the mass converged; else what happened, and the nodes are
                         ///< not to be trusted
   bool contradicted = false;  ///< it failed because of what the walk along the ridge met

@@ -1,6 +1,7 @@
 #include "wearwell/infer/fit.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 
@@ -211,6 +212,7 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
           {},
           {},
           {},
+          {},
           settings.nuts.max_treedepth};
 
   if (shape.mode.found && shape.throat < 0) {
@@ -254,6 +256,10 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
   draw_enough(posterior, settings, fit);
   fit.shortfalls = shortfalls(whole, shape, settings, fit, integral);
   const WeightedDraws& points = fit.exact ? fit.exact->nodes : fit.pooled;
+  fit.marginals.resize(posterior.parameters().size());
+  tbb::parallel_for(std::size_t{0}, fit.marginals.size(), [&](std::size_t i) {
+    fit.marginals[i] = Distribution(points, [i](const double* x) { return x[i]; });
+  });
   for (Shortfall& each : digits(whole, fit.whitening, points)) {
     fit.shortfalls.push_back(std::move(each));
   }

@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <unordered_map>
 
 #include "wearwell/base/monitor.h"
+#include "wearwell/bayes/posterior_along.h"
 #include "wearwell/infer/lattice_chart.h"
 #include "wearwell/infer/ridge_map.h"
 #include "wearwell/math/systematic.h"
@@ -48,7 +51,7 @@ std::uint64_t key(const Index& index) {
 
 // A node's natural parameters, and the log Jacobian of its place on the real line.
 struct Located {
-  Eigen::Vector4d natural;
+  Eigen::Matrix<double, d, 1, Eigen::DontAlign> natural;
   double log_jacobian = 0;
 };
 
@@ -150,14 +153,25 @@ class Lattice {
       : posterior_(posterior), chart_(chart), steps_(steps), log_negligible_(log_negligible) {
     reference_ = density(place({}, -1, 0, 0));
   }
+  Lattice(const Lattice&) = delete;
+  Lattice& operator=(const Lattice&) = delete;
+  // Tens of thousands of lines take their time to go.
+  ~Lattice() {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines_.size(), 256),
+                      [&](const auto& part) {
+                        for (std::size_t l = part.begin(); l != part.end(); ++l) lines_[l] = {};
+                      });
+  }
 
   // Empty, or why it stopped.
   std::string fill(long most) {
+    constexpr long most_kept = 1'500'000;  // some tens of megabytes
     std::vector<Line> ring(1);
     known_.emplace(key(ring.front().index), 0);
     while (!ring.empty()) {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ring.size(), 8), [&](const auto& part) {
-        for (std::size_t i = part.begin(); i != part.end(); ++i) integrate(ring[i]);
+        Sides sides;
+        for (std::size_t i = part.begin(); i != part.end(); ++i) integrate(ring[i], sides);
       });
       for (const Line& line : ring) {
         nodes_ += static_cast<long>(line.values.size());
@@ -187,30 +201,28 @@ class Lattice {
         }
       }
       if (nodes_ > most) return fmt::format("no convergence in {} evaluations", nodes_);
+      if (keeps_ && nodes_ > most_kept) {
+        keeps_ = false;
+        for (Line& line : lines_) std::vector<Located>().swap(line.kept);
+      }
     }
     return {};
   }
 
   long nodes() const { return nodes_; }
 
-  double log_mass() const {
-    double mass = 0;
-    for (const Line& line : lines_) {
-      for (const double v : line.values) mass += std::exp(v) * line.width;
-    }
+  double log_of(double mass) const {
     for (const double step : steps_) mass *= step;
     return reference_ + std::log(mass) + chart_.log_scale();
   }
 
   Doubts doubts(bool moments) {
-    if (moments) place_nodes();
     const std::vector<LineSums> sums = line_sums(moments);
     Doubts doubts;
-    for (int direction = 0; direction < directions; ++direction) {
-      // Along an axis, and along diagonals, each once.
-      const std::array<int, outer> way = {direction % 3 - 1, direction / 3 % 3 - 1,
-                                          direction / 9 % 3 - 1};
-      if (direction <= directions / 2) continue;
+    // Along an axis, and along diagonals, each once.
+    std::array<Doubt, directions> each;
+    tbb::parallel_for(directions / 2 + 1, directions, [&](int direction) {
+      const std::array<int, outer> way = way_of(direction);
       Terms real = Terms::Zero(), imaginary = real, half = real;
       for (std::size_t l = 0; l < lines_.size(); ++l) {
         int phase = 0;
@@ -219,10 +231,14 @@ class Lattice {
         ((phase & 1) != 0 ? imaginary : real) += (phase & 2) != 0 ? Terms(-line) : line;
         half += (phase & 1) != 0 ? Terms(-line) : line;
       }
-      const Doubt here = beyond_lattice((real.square() + imaginary.square()).sqrt(), half.abs());
+      each[static_cast<std::size_t>(direction)] =
+          beyond_lattice((real.square() + imaginary.square()).sqrt(), half.abs());
+    });
+    for (int direction = directions / 2 + 1; direction < directions; ++direction) {
+      const Doubt& here = each[static_cast<std::size_t>(direction)];
       doubts.steps += here.lacks;
       for (std::size_t a = 0; a < outer; ++a) {
-        if (way[a] != 0 && here.lacks > doubts.along[a].lacks) doubts.along[a] = here;
+        if (way_of(direction)[a] != 0 && here.lacks > doubts.along[a].lacks) doubts.along[a] = here;
       }
     }
     Terms quarter[2] = {Terms::Zero(), Terms::Zero()}, half = Terms::Zero(),
@@ -248,41 +264,33 @@ class Lattice {
 
   // Without cells the nodes are good for sums alone.
   ExactPosterior result(bool moments, bool with_cells) {
-    place_nodes();
-    double mass = 0;
-    for (const Line& line : lines_) {
-      for (const double v : line.values) mass += std::exp(v) * line.width;
-    }
     const Eigen::Vector4d middle = natural(at(lines_.front(), 0));
-    Eigen::Vector4d first = Eigen::Vector4d::Zero();
-    Eigen::Matrix4d second = Eigen::Matrix4d::Zero();
-    double highest = -INFINITY;
-    std::vector<Node> kept;
-    for (const Line& line : lines_) {
-      for (std::size_t j = 0; j < line.values.size(); ++j) {
-        const double here = std::exp(line.values[j]) * line.width;
-        if (here == 0) continue;
-        if (here > negligible_share * mass)
-          kept.push_back({&line, line.first + static_cast<int>(j), here});
-        const Located there = located(line, j);
-        highest = std::max(highest, reference_ + line.values[j] - there.log_jacobian);
-        const Eigen::Vector4d x = there.natural - middle;
-        first += here / mass * x;
-        second += here / mass * (x * x.transpose());
-      }
+    const double mass = total();
+    constexpr std::size_t part = 256;  // lines; whatever the number of threads
+    std::vector<Moments> parts((lines_.size() + part - 1) / part);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      for (std::size_t l = i * part; l < std::min((i + 1) * part, lines_.size()); ++l)
+        add_moments(lines_[l], middle, mass, parts[i]);
+    });
+    Moments sums;
+    for (const Moments& each : parts) {
+      sums.first += each.first;
+      sums.second += each.second;
+      sums.highest = std::max(sums.highest, each.highest);
+      sums.kept.insert(sums.kept.end(), each.kept.begin(), each.kept.end());
     }
     ExactPosterior exact;
-    exact.highest = highest;
-    const Eigen::Index cells = with_cells ? gather(kept, gathered_share * mass) : 0;
-    exact.nodes = nodes_of(kept, cells);
-    exact.mean = middle + first;
-    exact.covariance = second - first * first.transpose();
+    exact.highest = sums.highest;
+    const Eigen::Index cells = with_cells ? gather(sums.kept, gathered_share * mass) : 0;
+    exact.nodes = nodes_of(sums.kept, cells);
+    exact.mean = middle + sums.first;
+    exact.covariance = sums.second - sums.first * sums.first.transpose();
     if (!moments) exact.covariance.setConstant(std::numeric_limits<double>::quiet_NaN());
     exact.sd = exact.covariance.diagonal().cwiseSqrt();
     bool proper = true;
     for (const Parameter& parameter : posterior_.parameters()) proper &= parameter.prior.proper;
     if (proper) {
-      exact.log_evidence = log_mass();
+      exact.log_evidence = log_of(mass);
     }
     return exact;
   }
@@ -291,18 +299,58 @@ class Lattice {
   static constexpr int directions = 27;     // of the outer axes, with their opposites and none
   static constexpr double shell_depth = 3;  // of log density
 
+  // Where the phase of a direction's wave grows: -1, 0 or 1 along each outer axis.
+  static std::array<int, outer> way_of(int direction) {
+    return {direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 % 3 - 1};
+  }
+
+  // Of all nodes, in the order of lines whatever the number of threads.
+  double total() const {
+    std::vector<double> masses(lines_.size(), 0.0);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines_.size(), 256),
+                      [&](const auto& part) {
+                        for (std::size_t l = part.begin(); l != part.end(); ++l) {
+                          for (const double v : lines_[l].values)
+                            masses[l] += std::exp(v) * lines_[l].width;
+                        }
+                      });
+    return std::accumulate(masses.begin(), masses.end(), 0.0);
+  }
+
   struct Node {
     const Line* line;
     int t;
     double mass;  // of its cell
   };
 
+  // About the middle, as shares of the mass; the nodes that count.
+  struct Moments {
+    Eigen::Matrix<double, d, 1, Eigen::DontAlign> first = Eigen::Vector4d::Zero();
+    Eigen::Matrix<double, d, d, Eigen::DontAlign> second = Eigen::Matrix4d::Zero();
+    double highest = -INFINITY;
+    std::vector<Node> kept;
+  };
+  void add_moments(const Line& line, const Eigen::Vector4d& middle, double mass,
+                   Moments& sums) const {
+    for (std::size_t j = 0; j < line.values.size(); ++j) {
+      const double here = std::exp(line.values[j]) * line.width;
+      if (here == 0) continue;
+      if (here > negligible_share * mass)
+        sums.kept.push_back({&line, line.first + static_cast<int>(j), here});
+      const Located there = located(line, j);
+      sums.highest = std::max(sums.highest, reference_ + line.values[j] - there.log_jacobian);
+      const Eigen::Vector4d x = there.natural - middle;
+      sums.first += here / mass * x;
+      sums.second += here / mass * (x * x.transpose());
+    }
+  }
+
   // Puts the nodes that have cells first and tells how many they are: those with less mass than `least` are sampled in the
   // order of the lattice, and who is taken stands for its neighbours.
   static Eigen::Index gather(std::vector<Node>& nodes, double least) {
     const auto small = std::stable_partition(nodes.begin(), nodes.end(),
                                              [&](const Node& node) { return node.mass >= least; });
-    std::sort(small, nodes.end(), [](const Node& a, const Node& b) {
+    tbb::parallel_sort(small, nodes.end(), [](const Node& a, const Node& b) {
       return std::tie(a.line->index, a.t) < std::tie(b.line->index, b.t);
     });
     Systematic sample(least);
@@ -366,20 +414,6 @@ class Lattice {
     nodes.cells.mass[row] *= node.mass / nodes.weights[row];
   }
 
-  // Where all nodes lie, once for sums and result, as long as that takes no more than some tens of megabytes.
-  void place_nodes() {
-    constexpr long most_kept = 1'500'000;
-    if (!lines_.front().kept.empty() || nodes_ > most_kept) return;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines_.size(), 64), [&](const auto& part) {
-      for (std::size_t i = part.begin(); i != part.end(); ++i) {
-        Line& line = lines_[i];
-        line.kept.resize(line.values.size());
-        for (std::size_t j = 0; j < line.values.size(); ++j) {
-          if (std::exp(line.values[j]) > 0) line.kept[j] = locate(line, j);
-        }
-      }
-    });
-  }
   Located locate(const Line& line, std::size_t j) const {
     const Place there = at(line, line.first + static_cast<int>(j));
     return {natural(there), there.log_jacobian};
@@ -415,13 +449,16 @@ class Lattice {
     for (int i = 0; i < 2 * d + 1; ++i) {
       if (!(size[i] > 0)) size[i] = INFINITY;
     }
-    for (LineSums& line : sums) {
-      for (Terms* terms : {&line.all, &line.half, &line.quarter[0], &line.quarter[1],
-                           &line.shell[0], &line.shell[1]}) {
-        about_mean(*terms);
-        *terms /= size;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sums.size(), 256), [&](const auto& part) {
+      for (std::size_t i = part.begin(); i != part.end(); ++i) {
+        LineSums& line = sums[i];
+        for (Terms* terms : {&line.all, &line.half, &line.quarter[0], &line.quarter[1],
+                             &line.shell[0], &line.shell[1]}) {
+          about_mean(*terms);
+          *terms /= size;
+        }
       }
-    }
+    });
     return sums;
   }
 
@@ -519,42 +556,93 @@ class Lattice {
     return true;
   }
 
+  // The density along one line, and where its points lie.
+  class Walk {
+   public:
+    Walk(const Lattice& lattice, const Line& line) : lattice_(lattice), index_(line.index) {
+      const auto parameter = lattice.chart_.line_parameter();
+      if (!parameter) return;
+      there_ = lattice.place(index_, -1, 0, line.middle);
+      along_.emplace(lattice.posterior_, there_.z, *parameter);
+      others_ = there_.log_jacobian - lattice.chart_.on_line(line.middle).log_slope;
+    }
+
+    double value(double on_line) {
+      if (!along_) {
+        there_ = lattice_.place(index_, -1, 0, on_line);
+        return lattice_.density(there_) - lattice_.reference_;
+      }
+      const LatticeChart::OnLine here = lattice_.chart_.on_line(on_line);
+      there_.log_jacobian = others_ + here.log_slope;
+      return along_->value(here.z) + there_.log_jacobian - lattice_.reference_;
+    }
+    // Of the point asked for last.
+    Located located() const {
+      if (!along_) return {lattice_.natural(there_), there_.log_jacobian};
+      return {Eigen::Map<const Eigen::Vector4d>(along_->natural().data()), there_.log_jacobian};
+    }
+
+   private:
+    const Lattice& lattice_;
+    Index index_;
+    Place there_;
+    std::optional<PosteriorAlong> along_;
+    double others_ = 0;  // the log Jacobian of the parameters that stay
+  };
+
+  // Scratch of a walk: nodes on the side of smaller and of larger numbers.
+  struct Sides {
+    std::array<std::vector<double>, 2> values;
+    std::array<std::vector<Located>, 2> kept;
+  };
+
   // Finds the line's mode by parabolas from its neighbour's, then walks outward on both sides.
-  void integrate(Line& line) const {
-    const auto value = [&](double on_line) {
-      return density(place(line.index, -1, 0, on_line)) - reference_;
-    };
-    double middle = value(line.middle);
+  void integrate(Line& line, Sides& sides) const {
+    Walk walk(*this, line);
+    double middle = walk.value(line.middle);
     for (int iteration = 0; iteration < 6; ++iteration) {
       const double reach = 0.7 * line.width;
-      const double below = value(line.middle - reach), above = value(line.middle + reach);
+      const double below = walk.value(line.middle - reach), above = walk.value(line.middle + reach);
       const double bend = 2 * middle - below - above;
       if (!std::isfinite(bend) || !(bend > 1e-8)) break;
       const double slope = 0.5 * (above - below);
       const double width = reach / std::sqrt(bend);
       // Far from the mode the parabola is only a direction.
       const double move = std::clamp(slope / bend * reach, -8 * line.width, 8 * line.width);
-      const double there = value(line.middle + move);
+      const double there = walk.value(line.middle + move);
       if (!(there >= middle)) break;
       line.middle += move;
       line.width = std::clamp(width, 0.25 * line.width, 4 * line.width);
       middle = there;
       if (std::abs(move) < 0.05 * line.width) break;
     }
-    std::vector<double> below;
-    line.values = {middle};
+    middle = walk.value(line.middle);
     line.highest = middle;
+    const Located there = walk.located();
     for (const int way : {-1, 1}) {
-      std::vector<double>& side = way < 0 ? below : line.values;
+      std::vector<double>& values = sides.values[way < 0 ? 0 : 1];
+      std::vector<Located>& kept = sides.kept[way < 0 ? 0 : 1];
+      values.clear();
+      kept.clear();
       for (int t = 1; t <= most_across; ++t) {
-        const double v = value(line.middle + way * t * steps_[outer] * line.width);
-        side.push_back(v);
+        const double v = walk.value(line.middle + way * t * steps_[outer] * line.width);
+        values.push_back(v);
+        if (keeps_) kept.push_back(walk.located());
         line.highest = std::max(line.highest, v);
         if (!(v > std::max(line.highest, highest_) + log_negligible_)) break;
       }
     }
-    line.first = -static_cast<int>(below.size());
-    line.values.insert(line.values.begin(), below.rbegin(), below.rend());
+    const auto join = [](const auto& at, const auto& both) {
+      std::decay_t<decltype(both[0])> all;
+      all.reserve(both[0].size() + 1 + both[1].size());
+      all.assign(both[0].rbegin(), both[0].rend());
+      all.push_back(at);
+      all.insert(all.end(), both[1].begin(), both[1].end());
+      return all;
+    };
+    line.first = -static_cast<int>(sides.values[0].size());
+    line.values = join(middle, sides.values);
+    if (keeps_) line.kept = join(there, sides.kept);
   }
 
   const Posterior& posterior_;
@@ -564,7 +652,8 @@ class Lattice {
   double reference_;
   double highest_ = -INFINITY;
   long nodes_ = 0;
-  int moves_ = 0;  // of the reference
+  int moves_ = 0;      // of the reference
+  bool keeps_ = true;  // where nodes lie
   std::vector<Line> lines_;
   std::unordered_map<std::uint64_t, std::size_t> known_;
 };
@@ -618,8 +707,13 @@ double mean_step(const Steps& steps) {
 
 ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening& whitening,
                                     const ExactSettings& settings) {
-  const RidgeMap map(posterior, whitening);
-  const auto straight = straight_chart(posterior, whitening), along = ridge_chart(map);
+  std::optional<RidgeMap> map;
+  std::unique_ptr<const LatticeChart> straight, along;
+  if (settings.along_ridge != true) straight = straight_chart(posterior, whitening);
+  if (settings.along_ridge != false) {
+    map.emplace(posterior, whitening);
+    along = ridge_chart(*map);
+  }
   // Each chart is round where the other is not; lattices of middling steps tell. Where one is dear, the one that ends
   // soon.
   constexpr double coarsest = 1, telling = 0.7;
@@ -630,10 +724,10 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   const double first_end = log_negligible(settings.tolerance);
   double end = first_end;
   bool may_deepen = true;
-  const LatticeChart* chart = straight.get();
-  std::optional<Filled> filled(std::in_place, posterior, *straight, steps_of(coarsest), end,
+  const LatticeChart* chart = straight ? straight.get() : along.get();
+  std::optional<Filled> filled(std::in_place, posterior, *chart, steps_of(coarsest), end,
                                most_nodes, settings);
-  if (!map.affine() && !(filled->error <= enough)) {
+  if (!settings.along_ridge && !map->affine() && !(filled->error <= enough)) {
     const bool dear = !filled->failure.empty() || filled->lattice->nodes() > few_nodes;
     const auto filled_on = [&](const LatticeChart& of, double step, long most) {
       return Filled(posterior, of, steps_of(step), end, most, settings);
@@ -703,6 +797,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     exact.error = best->error;
   }
   exact.evaluations = evaluations;
+  exact.along_ridge = chart == along.get();
   return exact;
 }
 

@@ -40,6 +40,11 @@ class Bending {
     }
     return std::log(slopes);
   }
+  LatticeChart::OnLine to_real(std::size_t i, double w) const {
+    if (!bent_[i]) return {w, 0};
+    const double square = square_of(w), root = std::sqrt(1 + square);
+    return {w * root, std::log((1 + 2 * square) / root)};
+  }
 
  private:
   static constexpr double far = 5;
@@ -92,6 +97,12 @@ class Straight final : public LatticeChart {
       z[static_cast<std::size_t>(rest_[static_cast<std::size_t>(i)])] = three[i];
     z[static_cast<std::size_t>(line_)] = line_center_ + line_scale_ * u[outer];
     return bending_.to_real(z);
+  }
+  std::optional<std::size_t> line_parameter() const override {
+    return static_cast<std::size_t>(line_);
+  }
+  OnLine on_line(double u) const override {
+    return bending_.to_real(static_cast<std::size_t>(line_), line_center_ + line_scale_ * u);
   }
   double log_scale() const override {
     return std::log(std::abs(scale_.determinant()) * line_scale_);

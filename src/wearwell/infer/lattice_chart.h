@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <optional>
 
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/ridge_map.h"
@@ -19,6 +20,14 @@ class LatticeChart {
   /// On the real line; returns the log of the volume of z by that of u, less log_scale().
   virtual double to_real(const Eigen::Vector4d& u, Z& z) const = 0;
   virtual double log_scale() const = 0;
+
+  /// Where lines run along one parameter, the others staying where they are: which.
+  virtual std::optional<std::size_t> line_parameter() const { return {}; }
+  /// That parameter on the real line, and its part of what to_real returns.
+  struct OnLine {
+    double z = 0, log_slope = 0;
+  };
+  virtual OnLine on_line(double) const { return {}; }
 };
 
 /// By the covariance. Lines along the parameter that the others hold closest, so that they follow a narrow ridge in it

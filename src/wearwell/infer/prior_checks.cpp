@@ -129,7 +129,7 @@ struct LeftOut {
 
 LeftOut left_out(const Posterior& wider, const Posterior& posterior, const Fit& fit,
                  std::size_t index) {
-  const Distribution marginal(fit.exact->nodes, [index](const double* x) { return x[index]; });
+  const Distribution& marginal = fit.marginals[index];
   const auto at = static_cast<Eigen::Index>(index);
   const double mean = fit.exact->mean[at], sd = fit.exact->sd[at];
   const double width = (marginal.quantile(0.95) - marginal.quantile(0.05)) / 20;
@@ -173,7 +173,8 @@ CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t ind
   }
   // A thousandth of a standard deviation is enough to see a quarter.
   const ExactPosterior exact =
-      integrate(wider, whitening_of(wider, posterior, fit), {.tolerance = 1e-3, .cells = false});
+      integrate(wider, whitening_of(wider, posterior, fit),
+                {.tolerance = 1e-3, .cells = false, .along_ridge = fit.exact->along_ridge});
   if (!exact.failure.empty()) {
     return {dependence_on(parameter),
             fmt::format("with the bounds of {} at twice the distance from its mean the "
@@ -252,14 +253,12 @@ class RelativeDensity {
 Check bounds(const Posterior& posterior, const Fit& fit) {
   constexpr double warns_above = 0.3, fails_above = 0.6;
   Findings findings("bounds");
-  const WeightedDraws& draws = fit.exact ? fit.exact->nodes : fit.pooled;
   // Of each parameter at its lower and its upper bound.
   std::vector<std::array<double, 2>> ratios(posterior.parameters().size());
   tbb::parallel_for(std::size_t{0}, ratios.size(), [&](std::size_t i) {
     const Law& prior = posterior.parameters()[i].prior;
     if (!std::isfinite(prior.lower) && !std::isfinite(prior.upper)) return;
-    const Distribution marginal(draws, [i](const double* x) { return x[i]; });
-    const RelativeDensity density(marginal);
+    const RelativeDensity density(fit.marginals[i]);
     if (std::isfinite(prior.lower)) ratios[i][0] = density.above(prior.lower);
     if (std::isfinite(prior.upper)) ratios[i][1] = density.below(prior.upper);
   });

@@ -81,6 +81,12 @@ class Without final : public LogDensity {
   bool sums_ = false;
 };
 
+std::shared_ptr<const LogDensity> without(const std::shared_ptr<const LogDensity>& whole,
+                                          std::size_t term, std::span<const double> at) {
+  if (auto others = whole->without(term)) return others;
+  return std::make_shared<Without>(whole, term, at);
+}
+
 struct Refitted {
   double elpd = 0, tail = 1, error = 0;
 };
@@ -88,16 +94,17 @@ struct Refitted {
 // Empty where the quadrature fails.
 std::optional<Refitted> fitted_without(const Posterior& posterior, const Whitening& whitening,
                                        std::size_t term, const Scores* scores,
-                                       std::stop_token stop) {
+                                       std::optional<bool> along_ridge, std::stop_token stop) {
   Eigen::VectorXd center(posterior.dimension());
   posterior.to_natural(view(whitening.center), view(center));
   const Posterior others(posterior.parameters(),
-                         std::make_shared<Without>(posterior.likelihood(), term, view(center)));
+                         without(posterior.likelihood(), term, view(center)));
   ExactSettings settings;
   settings.tolerance = 1e-3;
   settings.max_evaluations = 4'000'000;
   settings.second_moments = false;
   settings.cells = false;
+  settings.along_ridge = along_ridge;
   settings.stop = std::move(stop);
   ExactPosterior exact = integrate(others, whitening, settings, posterior);
   if (!exact.failure.empty()) {
@@ -186,7 +193,7 @@ Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double ef
 }
 
 double exact_elpd(const Posterior& posterior, const Whitening& whitening, std::size_t term) {
-  const auto refitted = fitted_without(posterior, whitening, term, nullptr, {});
+  const auto refitted = fitted_without(posterior, whitening, term, nullptr, {}, {});
   return refitted ? refitted->elpd : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -221,14 +228,19 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
   const bool too_many = std::count_if(loo.terms.begin(), loo.terms.end(), [&](const LooTerm& term) {
                           return loo.doubtful(term);
                         }) > most_refits;
-  for (std::size_t i = 0; i < std::min<std::size_t>(uneven.size(), most_refits) && !too_many; ++i) {
+  uneven.resize(too_many ? 0 : std::min<std::size_t>(uneven.size(), most_refits));
+  std::vector<std::optional<Refitted>> refitted(uneven.size());
+  tbb::parallel_for(std::size_t{0}, uneven.size(), [&](std::size_t i) {
+    refitted[i] =
+        fitted_without(posterior, fit.whitening, uneven[i], scores, fit.exact->along_ridge, stop);
+  });
+  for (std::size_t i = 0; i < uneven.size(); ++i) {
+    if (!refitted[i]) continue;
     LooTerm& term = loo.terms[uneven[i]];
-    const auto refitted = fitted_without(posterior, fit.whitening, uneven[i], scores, stop);
-    if (!refitted) continue;
-    term.elpd = refitted->elpd;
-    term.tail = refitted->tail;
+    term.elpd = refitted[i]->elpd;
+    term.tail = refitted[i]->tail;
     term.refitted = true;
-    loo.error += term.count * refitted->error;
+    loo.error += term.count * refitted[i]->error;
   }
   for (const LooTerm& term : loo.terms) {
     if (!term.refitted) loo.error += term.count * fit.exact->error;

@@ -40,10 +40,9 @@ Transform::Point Transform::from_real(double z) const {
       return {upper_ - step, -step, log_scale_ + z, 1};
     }
     case Kind::between: {
-      // From the nearer end, so that x keeps its distance to the bound.
       const double e = std::exp(-std::abs(z));
       const double near = e / (1 + e), far = 1 / (1 + e);
-      const double x = z < 0 ? lower_ + scale_ * near : upper_ - scale_ * near;
+      const double x = from_nearer_end(z, near);
       const double log_jacobian = log_scale_ - std::abs(z) - 2 * std::log(1 + e);
       const double slope = scale_ * near * far;
       return {x, slope, log_jacobian, z < 0 ? far - near : near - far};
@@ -52,6 +51,22 @@ Transform::Point Transform::from_real(double z) const {
       break;
   }
   return {scale_ * z, scale_, log_scale_, 0};
+}
+
+double Transform::natural(double z) const {
+  switch (kind_) {
+    case Kind::above:
+      return lower_ + scale_ * std::exp(z);
+    case Kind::below:
+      return upper_ - scale_ * std::exp(z);
+    case Kind::between: {
+      const double e = std::exp(-std::abs(z));
+      return from_nearer_end(z, e / (1 + e));
+    }
+    case Kind::whole_line:
+      break;
+  }
+  return scale_ * z;
 }
 
 }  // namespace wearwell

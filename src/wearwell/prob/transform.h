@@ -20,9 +20,15 @@ class Transform {
     double log_jacobian_slope;  ///< d/dz log |dx/dz|
   };
   Point from_real(double z) const;
+  /// Its x alone.
+  double natural(double z) const;
 
  private:
   enum class Kind { whole_line, above, below, between };
+  /// So that x keeps its distance to the bound.
+  double from_nearer_end(double z, double near) const {
+    return z < 0 ? lower_ + scale_ * near : upper_ - scale_ * near;
+  }
   Kind kind_;
   double lower_, upper_, scale_, log_scale_;
 };

@@ -1,7 +1,6 @@
 #include "wearwell/prognosis/carried_state.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <cerrno>
 #include <cmath>
@@ -15,15 +14,14 @@
 #include "wearwell/base/sha1.h"
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/prognosis/bytes.h"
+#include "wearwell/prognosis/packed.h"
 
 namespace wearwell::prognosis {
 namespace {
 
 constexpr std::string_view magic("wearwell state\r\n", 16);  // a transfer as text breaks it
 constexpr std::uint32_t version = 1;
-constexpr std::size_t head = 16 + 4 + 8, digest = 40;         // bytes
-constexpr std::uint64_t most_bytes = std::uint64_t{1} << 36;  // of a body
-constexpr std::uint64_t most_packed = 1100;                   // more to one zlib cannot pack
+constexpr std::size_t head = 16 + 4 + 8, digest = 40;  // bytes
 
 void write(const Column& column, ByteWriter& out) {
   out.text(column.name);
@@ -172,30 +170,6 @@ CarriedState state_of(std::string_view body, const std::string& file) {
   if (parameters > 0) state.posterior = read_draws(parameters, in);
   in.end();
   return state;
-}
-
-std::string packed(const std::string& body) {
-  uLongf size = compressBound(body.size());
-  std::string bytes(size, '\0');
-  constexpr int level = 1;
-  if (compress2(reinterpret_cast<Bytef*>(bytes.data()), &size,
-                reinterpret_cast<const Bytef*>(body.data()), body.size(), level) != Z_OK)
-    throw MachineError("no memory for the state of the result");
-  bytes.resize(size);
-  return bytes;
-}
-
-std::string unpacked(std::string_view bytes, std::uint64_t size, const std::string& file) {
-  const auto damaged = [&] {
-    throw InputError(fmt::format("{} is damaged: what is packed in it has another length", file));
-  };
-  if (size > most_bytes || size / most_packed > bytes.size()) damaged();
-  std::string body(size, '\0');
-  uLongf length = size, taken = bytes.size();
-  const int outcome = uncompress2(reinterpret_cast<Bytef*>(body.data()), &length,
-                                  reinterpret_cast<const Bytef*>(bytes.data()), &taken);
-  if (outcome != Z_OK || length != size || taken != bytes.size()) damaged();
-  return body;
 }
 
 std::string content_of(const std::filesystem::path& file) {

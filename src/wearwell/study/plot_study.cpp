@@ -38,11 +38,6 @@ std::vector<double> spaced(Range range, int intervals) {
   return points;
 }
 
-Distribution distribution(const Parameter& parameter, Eigen::Index index,
-                          const WeightedDraws& draws) {
-  return {draws, [&](const double* x) { return from_si(parameter.unit, x[index]); }};
-}
-
 // The probability of each interval over its width, at its middle.
 Curve density_curve(const Distribution& distribution, const std::vector<double>& edges) {
   Curve curve;
@@ -77,7 +72,8 @@ Range within_bounds(const Parameter& parameter, Range range) {
 
 // Nearly all of the posterior, and of the prior where that does not squeeze the posterior.
 Range range_of(const Parameter& parameter, const Distribution& posterior) {
-  Range range{posterior.quantile(0.0005), posterior.quantile(0.9995)};
+  Range range{from_si(parameter.unit, posterior.quantile(0.0005)),
+              from_si(parameter.unit, posterior.quantile(0.9995))};
   const double margin = 0.05 * (range.high - range.low);
   range = within_bounds(parameter, {range.low - margin, range.high + margin});
   if (parameter.prior.proper) {
@@ -127,8 +123,7 @@ Curve prior_curve(const Parameter& parameter, Range range) {
 ParameterPlots plot_parameter(const PosteriorStudy& study, std::size_t i, const Fit& fit) {
   const Parameter& parameter = study.parameters[i];
   const auto index = static_cast<Eigen::Index>(i);
-  const Distribution posterior = distribution(parameter, index, best(fit));
-  const Range range = range_of(parameter, posterior);
+  const Range range = range_of(parameter, fit.marginals[i]);
   ParameterPlots plots{
       histogram(parameter, index, fit.draws, range), {}, prior_curve(parameter, range)};
   if (fit.exact) plots.exact = density_curve(parameter, index, fit.exact->nodes, range);
@@ -138,15 +133,16 @@ ParameterPlots plot_parameter(const PosteriorStudy& study, std::size_t i, const 
 std::optional<DensityGrid> joint_density(const Posterior& posterior, const Fit& fit) {
   if (posterior.dimension() != 2 || !fit.exact) return {};
   const Parameter &a = posterior.parameters()[0], &b = posterior.parameters()[1];
-  const auto centres = [&](const Parameter& parameter, Eigen::Index index) {
-    const Distribution marginal = distribution(parameter, index, fit.exact->nodes);
-    const auto edges = spaced(
-        within_bounds(parameter, {marginal.quantile(0.003), marginal.quantile(0.997)}), grid_cells);
+  const auto centres = [&](const Parameter& parameter, const Distribution& marginal) {
+    const auto edges =
+        spaced(within_bounds(parameter, {from_si(parameter.unit, marginal.quantile(0.003)),
+                                         from_si(parameter.unit, marginal.quantile(0.997))}),
+               grid_cells);
     std::vector<double> middle;
     for (int i = 0; i < grid_cells; ++i) middle.push_back(0.5 * (edges[i] + edges[i + 1]));
     return middle;
   };
-  DensityGrid grid{centres(a, 0), centres(b, 1), {}};
+  DensityGrid grid{centres(a, fit.marginals[0]), centres(b, fit.marginals[1]), {}};
   for (const double x : grid.x) {
     for (const double y : grid.y) {
       const double point[] = {to_si(a.unit, x), to_si(b.unit, y)};
@@ -314,7 +310,8 @@ Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const 
 std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index index,
                                    const std::vector<WeightedDraws>& stages) {
   std::vector<Distribution> all;
-  for (const WeightedDraws& draws : stages) all.push_back(distribution(parameter, index, draws));
+  for (const WeightedDraws& draws : stages)
+    all.emplace_back(draws, [&](const double* x) { return from_si(parameter.unit, x[index]); });
   Range range{INFINITY, -INFINITY};
   for (std::size_t i = all.size() / 2; i < all.size(); ++i) {
     range.low = std::min(range.low, all[i].quantile(0.05));

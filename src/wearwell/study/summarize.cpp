@@ -168,11 +168,13 @@ std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, c
                              .rhat = d.rhat,
                              .exact = {}};
     if (fit.exact) {
-      const Distribution exact(fit.exact->nodes, value);
       const auto at = static_cast<Eigen::Index>(i);
+      const auto quantile = [&](double p) {
+        return from_si(parameter.unit, fit.marginals[i].quantile(p));
+      };
       summary.exact = {from_si(parameter.unit, fit.exact->mean[at]),
-                       fit.exact->sd[at] / parameter.unit.scale, exact.quantile(0.05),
-                       exact.quantile(0.5), exact.quantile(0.95)};
+                       fit.exact->sd[at] / parameter.unit.scale, quantile(0.05), quantile(0.5),
+                       quantile(0.95)};
     }
     summaries[i] = std::move(summary);
   });

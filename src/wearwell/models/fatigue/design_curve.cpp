@@ -4,9 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "wearwell/math/quantile.h"
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/models/fatigue/lives_under.h"
 #include "wearwell/models/fatigue/scatter_range.h"
@@ -32,7 +32,7 @@ constexpr std::size_t table_points = 21, shown_points = 3;
 constexpr std::size_t table_points_with_limit = 9;
 constexpr Eigen::Index most_draws_with_limit = 600;
 // Of the weight of a quadrature: lighter nodes are gathered.
-constexpr double gathered_share = 1e-5;
+constexpr double gathered_share = 3e-7;
 
 std::string with_unit(const SnData& data, double si) {
   return fmt::format("{:.4g}{}", from_si(data.stress_unit, si), after_number(data.stress_unit));
@@ -66,14 +66,16 @@ std::vector<At> curve_points(const SnLaw& law, const SnData& data, const Weighte
     const Stress stress = line.at(at.stress);
     at.mean = stress.mean;
     const fatigue::LivesUnder lives(law, draws, stress);
-    std::vector<WeightedValue> outlasted = lives.outlasted(0.5);
-    at.median = fatigue::cycles(law, weighted_quantile(outlasted, 0.5));
-    double reliability = 0.5;
+    at.median = fatigue::cycles(law, lives.outlasted(0.5, std::array{0.5}).front());
+    for (auto level = levels.begin(); level != levels.end();) {
+      const double reliability = level->reliability;
+      std::vector<double> below;
+      for (; level != levels.end() && level->reliability == reliability; ++level)
+        below.push_back(1 - level->confidence);
+      for (const double life : lives.outlasted(reliability, below))
+        at.posterior.push_back(fatigue::cycles(law, life));
+    }
     for (const DesignLevel& level : levels) {
-      if (level.reliability != reliability) outlasted = lives.outlasted(level.reliability);
-      reliability = level.reliability;
-      at.posterior.push_back(
-          fatigue::cycles(law, weighted_quantile(outlasted, 1 - level.confidence)));
       if (!standard.line) continue;
       const double x = standard_log10_stress(law, stress);
       at.iso.push_back(std::pow(

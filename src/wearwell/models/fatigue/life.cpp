@@ -64,19 +64,18 @@ void MixedLife::merge() {
   };
   std::unordered_map<std::uint64_t, std::size_t> known;
   std::vector<Cell> cells;
-  known.reserve(weight_.size() / 2);
-  double last_row = infinity, width_there = 0;
+  double last = infinity, row = 0, width_there = 0;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
-    const double row = std::floor(-std::log(inverse_sigma_[i]) / width);
-    if (row != last_row) {
-      last_row = row;
+    if (inverse_sigma_[i] != last) {
+      last = inverse_sigma_[i];
+      row = std::floor(-std::log(last) / width);
       width_there = across * std::exp(width * row);
     }
     const double column = std::floor(center_[i] / width_there);
     if (!(std::abs(row) < 1e9 && std::abs(column) < 1e9)) return;
     const auto key = static_cast<std::uint64_t>(static_cast<std::uint32_t>(int(row))) << 32 |
                      static_cast<std::uint32_t>(int(column));
-    const auto [at, fresh] = known.emplace(key, cells.size());
+    const auto [at, fresh] = known.try_emplace(key, cells.size());
     if (fresh) cells.emplace_back();
     Cell& cell = cells[at->second];
     const double off = center_[i] - column * width_there, sigma = 1 / inverse_sigma_[i];

@@ -1,9 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "wearwell/bayes/weighted_draws.h"
-#include "wearwell/math/quantile.h"
 #include "wearwell/models/fatigue/sn_law.h"
 
 namespace wearwell::fatigue {
@@ -13,8 +13,9 @@ class LivesUnder {
  public:
   LivesUnder(const SnLaw& law, const WeightedDraws& draws, const Stress& stress);
 
-  /// The life that such a share outlasts, 0 < reliability < 1, on the scale on which lives scatter. A single NaN where some point has none.
-  std::vector<WeightedValue> outlasted(double reliability) const;
+  /// The life that such a share outlasts, 0 < reliability < 1, on the scale on which lives scatter: at each `level` the quantile
+  /// over the posterior. NaN where some point has none.
+  std::vector<double> outlasted(double reliability, std::span<const double> levels) const;
 
  private:
   const SnLaw& law_;

@@ -47,6 +47,11 @@ std::optional<MeanStress> mean_stress_named(const std::string& name);
 /// The strength that the correction divides by: "S_ut", "S_y" or "sigma_f"; empty for the others.
 std::string_view strength_name(MeanStress correction);
 
+inline bool divides_by_strength(MeanStress correction) {
+  return correction == MeanStress::goodman || correction == MeanStress::gerber ||
+         correction == MeanStress::soderberg || correction == MeanStress::morrow;
+}
+
 /// log10(S_f/S_a): infinite where the mean stress reaches the strength, -infinite where the cycle
 /// does no harm. `strength` [Pa] and `gamma` matter only to corrections that have them.
 template <class T>

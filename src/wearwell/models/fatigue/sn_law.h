@@ -64,7 +64,7 @@ struct SnLaw {
     }
     return 2;
   }
-  bool has_strength() const { return !strength_name(correction).empty() && !strength; }
+  bool has_strength() const { return divides_by_strength(correction) && !strength; }
   bool has_gamma() const { return correction == MeanStress::walker && !gamma; }
   int strength_index() const { return curve_dimension(); }
   int gamma_index() const { return curve_dimension() + has_strength(); }
@@ -85,14 +85,22 @@ struct SnLaw {
   }
   bool logarithmic() const { return family != LifeFamily::normal; }
 
+  /// Pa; 1 where the correction has none.
+  template <class T>
+  T strength_at(const T* x) const {
+    using std::exp;
+    return has_strength() ? T(exp(x[strength_index()] * std::log(10.0))) : T(strength.value_or(1));
+  }
+  template <class T>
+  T gamma_at(const T* x) const {
+    return has_gamma() ? x[gamma_index()] : T(gamma.value_or(1));
+  }
+
   /// log10 of S_f/Pa.
   template <class T>
   T log10_reversed(const T* x, const Stress& stress) const {
-    using std::exp;
-    const T material =
-        has_strength() ? T(exp(x[strength_index()] * std::log(10.0))) : T(strength.value_or(1));
-    const T exponent = has_gamma() ? x[gamma_index()] : T(gamma.value_or(1));
-    return std::log10(stress.alternating) + log10_factor(correction, stress, material, exponent);
+    return std::log10(stress.alternating) +
+           log10_factor(correction, stress, strength_at(x), gamma_at(x));
   }
 
   /// log10 of the life on the curve; of an item whose own limit is not reached. Infinite below a limit

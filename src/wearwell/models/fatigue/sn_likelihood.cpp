@@ -62,6 +62,25 @@ class SnLikelihood final : public LogDensity {
 
   double value(std::span<const double> x) const override { return formula(x.data()); }
 
+  // The stresses that are as harmful stay what they are, unless the axis is what they depend on.
+  std::function<double(double)> along(std::span<const double> x, std::size_t axis) const override {
+    if ((law_.has_strength() && axis == static_cast<std::size_t>(law_.strength_index())) ||
+        (law_.has_gamma() && axis == static_cast<std::size_t>(law_.gamma_index())))
+      return {};
+    std::array<double, max_parameters> at{};
+    std::copy(x.begin(), x.end(), at.begin());
+    Shared<double> shared(law_, at.data());
+    std::vector<double> reversed;
+    for (const Term& term : terms_) reversed.push_back(log10_reversed(shared, term.row));
+    for (const Level& level : levels_) reversed.push_back(log10_reversed(shared, level.row));
+    return [this, at, axis, shared, reversed = std::move(reversed)](double value) mutable {
+      at[axis] = value;
+      shared.x = at.data();
+      if (axis == static_cast<std::size_t>(law_.sigma_index())) shared.set_sigma(value);
+      return sum(shared, [&](std::size_t i, std::size_t) { return reversed[i]; });
+    };
+  }
+
   double value_and_gradient(std::span<const double> x, std::span<double> gradient) const override {
     if (law_.integrated() && !law_.has_strength() && !law_.has_gamma()) return limited(x, gradient);
     return wearwell::value_and_gradient<max_parameters>(
@@ -71,8 +90,16 @@ class SnLikelihood final : public LogDensity {
   std::vector<double> pointwise(std::span<const double> x) const override {
     const Shared<double> shared(law_, x.data());
     std::vector<double> terms;
-    for (std::size_t i = 0; i < rows_.size(); ++i) terms.push_back(term(shared, i));
+    terms.reserve(rows_.size());
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      terms.push_back(term(shared, i, log10_reversed(shared, i)));
     return terms;
+  }
+
+  std::shared_ptr<const LogDensity> without(std::size_t term) const override {
+    LifeTests others = tests_;
+    if (--others[term].count == 0) others.erase(others.begin() + static_cast<std::ptrdiff_t>(term));
+    return std::make_shared<SnLikelihood>(law_, std::move(others));
   }
 
   std::vector<int> pointwise_counts() const override {
@@ -114,30 +141,38 @@ class SnLikelihood final : public LogDensity {
     const T* x;
     T strength, gamma, inverse_sigma, log_sigma;
 
-    Shared(const SnLaw& law, const T* parameters) : x(parameters) {
-      using std::exp;
+    Shared(const SnLaw& law, const T* parameters)
+        : x(parameters), strength(law.strength_at(x)), gamma(law.gamma_at(x)) {
+      set_sigma(x[law.sigma_index()]);
+    }
+    void set_sigma(const T& sigma) {
       using std::log;
-      strength = law.has_strength() ? T(exp(x[law.strength_index()] * std::log(10.0)))
-                                    : T(law.strength.value_or(1));
-      gamma = law.has_gamma() ? x[law.gamma_index()] : T(law.gamma.value_or(1));
-      inverse_sigma = 1.0 / x[law.sigma_index()];
-      log_sigma = log(x[law.sigma_index()]);
+      inverse_sigma = 1.0 / sigma;
+      log_sigma = log(sigma);
     }
   };
 
   template <class T>
   T formula(const T* x) const {
     const Shared<T> shared(law_, x);
+    return sum(shared, [&](std::size_t, std::size_t row) { return log10_reversed(shared, row); });
+  }
+
+  // Over terms, then levels; `reversed_of` knows log10 of the reversed stress by number and by row.
+  template <class T, class Reversed>
+  T sum(const Shared<T>& shared, const Reversed& reversed_of) const {
     T sum(0);
+    std::size_t i = 0;
     for (const auto& [row, count] : terms_) {
+      const T here = term(shared, row, reversed_of(i++, row));
       if (count == 1) {
-        sum += term(shared, row);
+        sum += here;
       } else {
-        sum += static_cast<double>(count) * term(shared, row);
+        sum += static_cast<double>(count) * here;
       }
     }
     for (const Level& level : levels_) {
-      const T reversed = log10_reversed(shared, level.row);
+      const T reversed = reversed_of(i++, level.row);
       if (!std::isfinite(scalar(reversed))) return T(-std::numeric_limits<double>::infinity());
       sum += level.count * normal_log_density(level.mean, location_at(shared, reversed),
                                               shared.inverse_sigma, shared.log_sigma) +
@@ -186,10 +221,9 @@ class SnLikelihood final : public LogDensity {
 
   // The log-likelihood of one test of the row.
   template <class T>
-  T term(const Shared<T>& shared, std::size_t i) const {
+  T term(const Shared<T>& shared, std::size_t i, const T& reversed) const {
     const LifeTest& test = tests_[i];
     const Row& row = rows_[i];
-    const T reversed = log10_reversed(shared, i);
     if (!std::isfinite(scalar(reversed))) {
       return T(-std::numeric_limits<double>::infinity());
     }

@@ -12,6 +12,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/math/root.h"
+#include "wearwell/models/fatigue/reversed_at.h"
 #include "wearwell/study/life_levels.h"
 
 // Longer than others: lives, survival, stress allowed and coverage share the reduced draws and their groups.
@@ -22,6 +23,7 @@ using fatigue::LifeTest;
 using fatigue::MeanStress;
 using fatigue::MixedLife;
 using fatigue::Outcome;
+using fatigue::ReversedAt;
 using fatigue::SnLaw;
 using fatigue::Stress;
 using fatigue::StressLine;
@@ -109,8 +111,9 @@ class LivesAt {
       return;
     }
     // All that matters here of a point is the centre of its lives and their scatter.
+    ReversedAt reversed(law, stress);
     draws_ = reduced(draws, 2, [&](const double* x, double* y) {
-      y[0] = life_center(law, x, law.log10_reversed(x, stress));
+      y[0] = life_center(law, x, reversed(x));
       y[1] = law.sigma_at(x, y[0]);
     });
   }
@@ -352,9 +355,10 @@ std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {
 
 MixedLife next_life(const SnLaw& law, const WeightedDraws& draws, const Stress& stress) {
   MixedLife life(law.family);
+  ReversedAt reversed(law, stress);
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
     const double* x = draws.values.row(i).data();
-    add_life(life, draws.weights[i], law, x, law.log10_reversed(x, stress),
+    add_life(life, draws.weights[i], law, x, reversed(x),
              {slices_of_next, static_cast<std::size_t>(i)});
   }
   return life;

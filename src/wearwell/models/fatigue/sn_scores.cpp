@@ -40,10 +40,17 @@ double score(const SnLaw& law, const double* x, double log10_reversed, double li
 }  // namespace
 
 Scores sn_scores(const SnLaw& law, const LifeTests& tests) {
-  return [law, tests](const double* x) {
+  std::vector<double> log10_alternating;
+  for (const LifeTest& test : tests)
+    log10_alternating.push_back(std::log10(test.stress.alternating));
+  return [law, tests, log10_alternating](const double* x) {
     std::vector<NormalScore> scores;
-    for (const LifeTest& test : tests) {
-      const double log10_reversed = law.log10_reversed(x, test.stress);
+    scores.reserve(tests.size());
+    const double strength = law.strength_at(x), gamma = law.gamma_at(x);
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+      const LifeTest& test = tests[i];
+      const double log10_reversed =
+          log10_alternating[i] + log10_factor(law.correction, test.stress, strength, gamma);
       const double at = score(law, x, log10_reversed, test.life);
       switch (test.outcome) {
         case Outcome::failure:

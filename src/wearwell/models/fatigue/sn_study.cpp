@@ -309,8 +309,8 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
     study.quantity_groups.push_back(cyclic_curve(root));
   } else if (law.curve != SnCurve::knee && law.curve != SnCurve::bastenaire)
     study.curve = [=](const WeightedDraws& draws) {
-      const double log10_a = Distribution(draws, [](const double* x) { return x[0]; }).mean();
-      const double b = Distribution(draws, [](const double* x) { return x[1]; }).mean();
+      const double log10_a = draws.weights.dot(draws.values.col(0)),
+                   b = draws.weights.dot(draws.values.col(1));
       return fmt::format("the curve is {} = {:.4g}{} x N^({:.4g}) in the mean",
                          law.bends() ? "S_f - limit" : "S_f",
                          from_si(data.stress_unit, std::pow(10, log10_a)),
