@@ -9,6 +9,7 @@
 #include "support/between.h"
 #include "wearwell/base/error.h"
 #include "wearwell/bayes/observation.h"
+#include "wearwell/bayes/posterior_along.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 #include "wearwell/math/view.h"
@@ -107,6 +108,29 @@ RC_GTEST_PROP(Posterior, GradientIsTheDifferenceQuotient, ()) {
     // The neglected third derivative, and the rounding of the values.
     RC_ASSERT(std::abs(quotient - gradient[i]) <
               1e-5 * (1 + std::abs(value) + std::abs(gradient[i])));
+  }
+}
+
+// Along each axis, inside and where doubles end.
+RC_GTEST_PROP(Posterior, AlongAnAxisItIsTheSame, ()) {
+  std::vector<Parameter> parameters = {parameter("rate", any(rates()), 1),
+                                       parameter("sigma", any(sigmas()), 0.8),
+                                       parameter("offset", any(offsets()), 0.3)};
+  parameters.resize(*rc::gen::inRange<std::size_t>(1, 4));
+  const int n = static_cast<int>(parameters.size());
+  const Posterior posterior(parameters, line(n));
+  Eigen::VectorXd z = posterior.start(), x(n);
+  for (double& each : z) each += *between(0.01, 2) - 1;
+  if (*rc::gen::inRange(0, 8) == 0) z[n - 1] = -1e4;
+  for (int axis = 0; axis < n; ++axis) {
+    PosteriorAlong along(posterior, view(z), static_cast<std::size_t>(axis));
+    for (const double at : {z[axis], z[axis] + *between(0.01, 2), -1e4, 1e4}) {
+      Eigen::VectorXd there = z;
+      there[axis] = at;
+      RC_ASSERT(along.value(at) == posterior.value(view(there)));
+      posterior.to_natural(view(there), view(x));
+      for (int i = 0; i < n; ++i) RC_ASSERT(along.natural()[static_cast<std::size_t>(i)] == x[i]);
+    }
   }
 }
 

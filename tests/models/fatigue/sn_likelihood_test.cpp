@@ -122,6 +122,45 @@ TEST(SnLikelihood, PointwiseTermsAreTheTests) {
 }
 
 // So many tests that those under one stress enter by their mean and their scatter.
+// Also where tests alike are taken together.
+TEST(SnLikelihood, AlongAParameterItIsTheSame) {
+  LifeTests many;
+  for (int i = 0; i < 500; ++i) {
+    for (const LifeTest& test : some_tests()) many.push_back(test);
+  }
+  for (const LifeTests& tests : {some_tests(), many}) {
+    for (const SnLaw& law : all_laws()) {
+      if (law.integrated() && tests.size() > 10) continue;
+      const auto likelihood = sn_likelihood(law, tests, tests.size());
+      const std::vector<double> x = plausible(law, 0), other = plausible(law, 0.7);
+      int saved = 0;
+      for (std::size_t axis = 0; axis < x.size(); ++axis) {
+        const auto along = likelihood->along(x, axis);
+        if (!along) continue;
+        ++saved;
+        for (const double at : {other[axis], x[axis]}) {
+          std::vector<double> there = x;
+          there[axis] = at;
+          EXPECT_EQ(along(at), likelihood->value(there)) << axis;
+        }
+      }
+      EXPECT_GE(saved, static_cast<int>(x.size()) - 1);
+    }
+  }
+}
+
+TEST(SnLikelihood, WithoutATestTheOthersAreLeft) {
+  for (const SnLaw& law : all_laws()) {
+    const auto likelihood = sn_likelihood(law, some_tests(), some_tests().size());
+    const std::vector<double> x = plausible(law, 0);
+    const std::vector<double> terms = likelihood->pointwise(x);
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const double others = likelihood->without(i)->value(x);
+      EXPECT_NEAR(others, likelihood->value(x) - terms[i], 1e-9 * (1 + std::abs(others))) << i;
+    }
+  }
+}
+
 TEST(SnLikelihood, ManyTestsAreTheirSum) {
   LifeTests tests;
   for (int i = 0; i < 500; ++i) {
