@@ -1,13 +1,12 @@
 #include "wearwell/bayes/weighted_draws.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numeric>
 
 #include "wearwell/bayes/cell_shares.h"
+#include "wearwell/bayes/sections.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/math/root.h"
@@ -82,67 +81,13 @@ struct Spread {
 
 }  // namespace
 
-namespace {
-
-struct Point {
-  double center, half_width, weight;
-};
-
-bool before(const Point& a, const Point& b) {
-  return a.center < b.center;
-}
-
-constexpr std::size_t section_length = 256;
-
-// Puts points in order as far as sums over sections need it: each section lies before the next, of about as many, in any
-// order within. Where sections end.
-std::vector<std::size_t> in_sections(std::vector<Point>& points) {
-  constexpr std::size_t oversampled = 8, most_sections = 256;
-  const std::size_t n = points.size(),
-                    sections = std::min(std::bit_floor(n / section_length + 1), most_sections);
-  if (sections < 2) return {n};
-  const std::size_t stride = n / (sections * oversampled);
-  std::vector<double> sample;
-  for (std::size_t i = 0; i < n; i += stride) sample.push_back(points[i].center);
-  std::sort(sample.begin(), sample.end());
-  std::vector<double> begins = {-infinity};
-  for (std::size_t s = 1; s < sections; ++s) begins.push_back(sample[s * sample.size() / sections]);
-  std::vector<std::uint8_t> section_of(n);
-  std::vector<std::size_t> ends(sections, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    // The last that begins no later, without branches: where points lie cannot be foreseen.
-    std::size_t at = 0;
-    for (std::size_t half = sections / 2; half > 0; half /= 2)
-      at += begins[at + half] <= points[i].center ? half : 0;
-    section_of[i] = static_cast<std::uint8_t>(at);
-    ++ends[at];
-  }
-  std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::size_t{0});
-  std::vector<Point> placed(n);
-  for (std::size_t i = 0; i < n; ++i) placed[ends[section_of[i]]++] = points[i];
-  points = std::move(placed);
-  return ends;
-}
-
-// Sorted, and cut.
-std::vector<std::size_t> sorted_sections(std::vector<Point>& points) {
-  std::sort(points.begin(), points.end(), before);
-  std::vector<std::size_t> ends;
-  for (std::size_t end = section_length; end < points.size(); end += section_length)
-    ends.push_back(end);
-  ends.push_back(points.size());
-  return ends;
-}
-
-}  // namespace
-
 Distribution::Distribution(const WeightedDraws& draws,
                            const std::function<double(const double* x)>& quantity)
     : cells_(!draws.lower.empty()) {
   // Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
   constexpr double negligible = 1e-8;
   const double least = cells_ ? negligible / static_cast<double>(draws.values.rows()) : 0;
-  std::vector<Point> points, endless;
+  std::vector<SpreadPoint> points, endless;
   double total = 0, undefined = 0;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
     const double weight = draws.cell_weight(i);
@@ -175,9 +120,10 @@ Distribution::Distribution(const WeightedDraws& draws,
     }
     sections_.push_back(section);
   }
-  std::sort(endless.begin(), endless.end(), before);
+  std::sort(endless.begin(), endless.end(),
+            [](const SpreadPoint& a, const SpreadPoint& b) { return a.center < b.center; });
   points.insert(points.end(), endless.begin(), endless.end());
-  for (const Point& point : points) {
+  for (const SpreadPoint& point : points) {
     center_.push_back(point.center);
     half_width_.push_back(point.half_width);
     weight_.push_back(point.weight);
