@@ -5,7 +5,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,11 +45,8 @@ int run_fit(const FitOptions& options, Models models) {
   const bool netcdf = !options.netcdf.empty();
   if (netcdf) static_cast<void>(require_posterior_study(*study));
   const auto* const of_posterior = dynamic_cast<const PosteriorStudy*>(study.get());
-  // What the state carries is read while the study runs.
-  std::future<Source> carried;
-  if (of_posterior)
-    carried = std::async(std::launch::async,
-                         [&] { return prognosis::carried_source(source, *of_posterior); });
+  std::optional<Source> carried;
+  if (of_posterior) carried = prognosis::carried_source(source, *of_posterior);
   ResultFolder folder(output);
   std::optional<StagedFile> draws;
   if (netcdf) draws.emplace(options.netcdf);
@@ -64,9 +60,9 @@ int run_fit(const FitOptions& options, Models models) {
     draws->write(
         netcdf::file_of(inference_data(require_posterior_study(*study), *result.posterior)));
   }
-  if (carried.valid()) {
-    result.files.emplace_back(
-        "state.bin", prognosis::state_bytes(prognosis::state_of_result(carried.get(), result)));
+  if (carried) {
+    result.files.emplace_back("state.bin", prognosis::state_bytes(prognosis::state_of_result(
+                                               std::move(*carried), result)));
   }
   write_result(result, source.study.text, folder);
   if (draws) draws->commit();

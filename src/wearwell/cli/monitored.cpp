@@ -1,6 +1,5 @@
 #include "wearwell/cli/monitored.h"
 
-#include "wearwell/base/sha1.h"
 #include "wearwell/cli/carried.h"
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/monitor/monitor_run.h"
@@ -13,7 +12,7 @@ MonitoredFleet monitored_fleet(const std::filesystem::path& config, Models model
   const prognosis::CarriedState state = read_carried(result);
   MonitoredFleet fleet;
   fleet.tracker = tracker_of(state, result, models);
-  fleet.fingerprint = sha1_of(prognosis::state_bytes(state));
+  fleet.fingerprint = prognosis::fingerprint_of(state);
   fleet.trusted = state.trusted;
   fleet.config = monitor::read_monitor_config(root, *fleet.tracker);
   return fleet;

@@ -94,7 +94,9 @@ NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
   const Box box = natural_box(posterior, width);
   NaturalMode mode;
   std::vector<Maximum> summits;
+  double highest_start = -INFINITY;
   for (const Eigen::VectorXd& start : starts(posterior, fit)) {
+    highest_start = std::max(highest_start, density.value(view(start)));
     summits.push_back(maximize(density, start, width, box));
   }
   const auto best =
@@ -102,6 +104,7 @@ NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
                        [](const Maximum& a, const Maximum& b) { return a.value < b.value; });
   mode.problem = problem_of(posterior, box, *best, fit.whitening.center, center, width);
   mode.fell_short = mode.problem == no_end || mode.problem == nowhere;
+  mode.above_draws = best->value - highest_start;
   if (!mode.problem.empty()) return mode;
 
   mode.starts = static_cast<int>(summits.size());

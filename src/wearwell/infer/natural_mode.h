@@ -16,9 +16,11 @@ enum class Place { inside, lower_bound, upper_bound };
 /// without the Jacobian of any transform: with flat or uniform priors the maximum likelihood
 /// estimate (within the bounds).
 struct NaturalMode {
-  std::string problem;        ///< why there is no mode; empty when there is one, else nothing below
-                              ///< means anything
-  bool fell_short = false;    ///< the problem is the search's, not the posterior's
+  std::string problem;      ///< why there is no mode; empty when there is one, else nothing below
+                            ///< means anything
+  bool fell_short = false;  ///< the problem is the search's, not the posterior's
+  double above_draws =
+      0;  ///< log density of the highest point found over that of the draws it began from
   Eigen::VectorXd position;   ///< natural, SI; on the bound where a bound holds it
   std::vector<Place> place;   ///< one a parameter
   double log_likelihood = 0;  ///< natural logarithm, data in SI

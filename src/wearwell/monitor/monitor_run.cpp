@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <csignal>
@@ -22,25 +23,48 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// While it lives, the signals that end a program wait to be asked for.
+std::atomic<bool> signal_arrived = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+extern "C" void note_signal(int) {
+  signal_arrived = true;
+}
+
+/// While it lives, the signals that end a program wait to be asked for. Threads to come leave them to it and are not
+/// interrupted; those there are already (workers that read the result) note what reaches them. A signal that was
+/// ignored stays so.
 class EndingSignals {
  public:
   EndingSignals() {
-    sigemptyset(&signals_);
-    for (const int each : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, each);
-    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+    signal_arrived = false;
+    struct sigaction noting = {};
+    noting.sa_handler = note_signal;
+    noting.sa_flags = SA_RESTART;
+    sigemptyset(&blocked_);
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+      sigaction(signals[i], nullptr, &actions_before_[i]);
+      if (actions_before_[i].sa_handler == SIG_IGN) continue;
+      sigaction(signals[i], &noting, nullptr);
+      sigaddset(&blocked_, signals[i]);
+    }
+    pthread_sigmask(SIG_BLOCK, &blocked_, &mask_before_);
   }
-  ~EndingSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  ~EndingSignals() {
+    for (std::size_t i = 0; i < signals.size(); ++i)
+      sigaction(signals[i], &actions_before_[i], nullptr);
+    pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
+  }
   EndingSignals(const EndingSignals&) = delete;
   EndingSignals& operator=(const EndingSignals&) = delete;
 
   bool arrived() const {
     constexpr timespec at_once = {0, 0};
-    return sigtimedwait(&signals_, nullptr, &at_once) > 0;
+    return signal_arrived || sigtimedwait(&blocked_, nullptr, &at_once) > 0;
   }
 
  private:
-  sigset_t signals_, before_;
+  static constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, signals.size()> actions_before_ = {};
+  sigset_t blocked_, mask_before_;
 };
 
 /// Whoever waits for readings is woken by whoever stores them.
@@ -223,7 +247,7 @@ void run_monitor(const MonitorConfig& config, const Population& population,
                  const MonitorOptions& options, const Begun& started,
                  const std::function<void(const Fleet&)>& ended) {
   if (options.once) refuse_endless_sources(config);
-  const EndingSignals signals;  // before there are threads
+  const EndingSignals signals;
   Notices notices(stderr);
   Tally tally(config.most_units);
   const auto store =

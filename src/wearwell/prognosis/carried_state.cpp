@@ -211,6 +211,10 @@ CarriedState state_of_bytes(std::string_view bytes, const std::string& name) {
   return state_of(unpacked(signed_part.substr(head), size, name), name);
 }
 
+std::string fingerprint_of(const CarriedState& state) {
+  return sha1_of(body_of(state));
+}
+
 std::string population_fingerprint(const CarriedState& state) {
   std::string print = state.source.study.text;
   const auto add = [&](const double* values, Eigen::Index count) {

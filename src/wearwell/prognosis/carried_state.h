@@ -27,6 +27,9 @@ std::string state_bytes(const CarriedState& state);
 /// Reads them; `name` is what messages call them. Throws InputError where they are of another version, or damaged.
 CarriedState state_of_bytes(std::string_view bytes, const std::string& name);
 
+/// SHA-1 of all that it holds.
+std::string fingerprint_of(const CarriedState& state);
+
 /// Of the study's text and the posterior: what a unit's state must agree in with the tracker that takes it.
 std::string population_fingerprint(const CarriedState& state);
 

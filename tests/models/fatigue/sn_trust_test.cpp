@@ -1,4 +1,5 @@
 // What the checks say of S-N studies whose priors leave the posterior open.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "support/posterior_study.h"
@@ -105,6 +106,46 @@ sigma     = { law = "uniform", lower = 0.01, upper = 0.6 }
   EXPECT_EQ(result.mode->parameters[1].value, -0.1);
   EXPECT_TRUE(result.mode->maximum_likelihood);
   EXPECT_EQ(result.mode->observations, 9);
+}
+
+// All fail at 350 MPa and above, none below: a limit of no scatter between is as likely as any, and where it lies there no
+// likelihood tells. The search for a mode in the parameters' own units ends nowhere; draws and what follows from them are right.
+TEST_F(SnTrust, APlateauOfTheModeIsNoFault) {
+  std::string rows = "stress,life,status\n";
+  for (const char* life : {"466403", "565114", "563498", "1430162", "1182787"})
+    rows += fmt::format("400,{},F\n", life);
+  for (const char* life : {"9942583", "17605251", "8492652", "4853881", "7291320"})
+    rows += fmt::format("350,{},F\n", life);
+  for (const char* stress : {"320", "320", "320", "320", "320", "320", "300", "300", "300", "280"})
+    rows += fmt::format("{},2e7,S\n", stress);
+  write("lives.csv", rows);
+  const auto study = write("study.toml", R"toml(
+model = "sn"
+[data]
+file = "lives.csv"
+[data.columns]
+alternating_stress = { column = "stress", unit = "MPa" }
+life = "life"
+status = "status"
+[law]
+mean_stress = "none"
+fatigue_limit = "random"
+[likelihood]
+family = "log10-normal"
+[prior]
+log10_a       = { law = "normal", mean = "3 log10(MPa)", sd = 0.5 }
+b             = { law = "normal", mean = -0.15, sd = 0.1 }
+sigma         = { law = "half-normal", scale = 0.5 }
+log10_limit   = { law = "normal", mean = "2.4 log10(MPa)", sd = 0.1 }
+sigma_limit   = { law = "half-normal", scale = 0.1 }
+)toml");
+  const PosteriorSummary result = run_study(read_posterior_study(study), {}, {.threads = 2});
+  ASSERT_TRUE(result.mode);
+  EXPECT_NE(result.mode->problem, "");
+  const Check computation = check(result, "computation");
+  EXPECT_EQ(computation.verdict, Verdict::warn) << computation.detail;
+  EXPECT_THAT(computation.detail, HasSubstr("nothing is missed"));
+  EXPECT_TRUE(result.trusted);
 }
 
 }  // namespace
