@@ -7,6 +7,7 @@
 namespace wearwell {
 
 std::string plain_number(double x, int digits) {
+  if (std::isnan(x)) return "-";
   const double size = std::abs(x), most = 1e9;
   const double whole = std::pow(10.0, digits);
   if (!(size >= whole && size < most)) return fmt::format("{:.{}g}", x, digits);
