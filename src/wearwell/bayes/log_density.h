@@ -28,6 +28,10 @@ class LogDensity {
   virtual double value_and_gradient(std::span<const double> x,
                                     std::span<double> gradient) const = 0;
 
+  /// The value where it is more than `least`; else anything that is not, so that what takes long may end as soon as that is
+  /// known.
+  virtual double value_above(std::span<const double> x, double /*least*/) const { return value(x); }
+
   /// The value along one variable, the others being those of `x`: what does not change is worked out once. Empty where that
   /// would save nothing; valid while the density lives.
   virtual std::function<double(double)> along(std::span<const double>, std::size_t) const {

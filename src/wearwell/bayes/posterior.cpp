@@ -53,6 +53,10 @@ Posterior::Posterior(std::vector<Parameter> parameters,
 }
 
 double Posterior::value(std::span<const double> z) const {
+  return value_above(z, minus_infinity);
+}
+
+double Posterior::value_above(std::span<const double> z, double least) const {
   std::array<double, max_dimension> x;
   double sum = 0;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -62,7 +66,10 @@ double Posterior::value(std::span<const double> z) const {
     x[i] = point.x;
     sum += log_density(prior, point.x).value + point.log_jacobian;
   }
-  return in_support(sum + likelihood_->value(std::span(x.data(), parameters_.size())));
+  const std::span<const double> natural(x.data(), parameters_.size());
+  return in_support(sum + (least == minus_infinity
+                               ? likelihood_->value(natural)
+                               : likelihood_->value_above(natural, least - sum)));
 }
 
 double Posterior::value_and_gradient(std::span<const double> z, std::span<double> gradient) const {

@@ -20,6 +20,7 @@ class Posterior final : public LogDensity {
 
   int dimension() const override { return static_cast<int>(parameters_.size()); }
   double value(std::span<const double> z) const override;
+  double value_above(std::span<const double> z, double least) const override;
   double value_and_gradient(std::span<const double> z, std::span<double> gradient) const override;
 
   const std::vector<Parameter>& parameters() const { return parameters_; }

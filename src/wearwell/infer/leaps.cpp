@@ -133,6 +133,11 @@ class Bent final : public LogDensity {
     const Eigen::VectorXd z = to_real(w);
     return posterior_.value(view(z)) + log_slope(w);
   }
+  double value_above(std::span<const double> w, double least) const override {
+    const Eigen::VectorXd z = to_real(w);
+    const double slope = log_slope(w);
+    return posterior_.value_above(view(z), least - slope) + slope;
+  }
   double value_and_gradient(std::span<const double> w, std::span<double> gradient) const override {
     const Eigen::VectorXd z = to_real(w);
     const double value = posterior_.value_and_gradient(view(z), gradient);
@@ -262,8 +267,10 @@ class LeapingChain {
     bool moved = false;
     for (int i = 0; i < leaps_; ++i) {
       const Eigen::VectorXd next = mixture_.draw(rng_);
-      const double there = density_.value(view(next)) - mixture_.log_density(next);
-      if (!(std::log(rng_.uniform()) < there - here)) continue;
+      // Most are lost: a density that takes long may end as soon as it is known that this one is.
+      const double proposed = mixture_.log_density(next), least = here + std::log(rng_.uniform());
+      const double there = density_.value_above(view(next), least + proposed) - proposed;
+      if (!(there > least)) continue;
       at = next;
       here = there;
       moved = true;

@@ -1,6 +1,7 @@
 #include "wearwell/infer/natural_mode.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -93,12 +94,14 @@ NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
   const NaturalDensity density(posterior);
   const Box box = natural_box(posterior, width);
   NaturalMode mode;
-  std::vector<Maximum> summits;
-  double highest_start = -INFINITY;
-  for (const Eigen::VectorXd& start : starts(posterior, fit)) {
-    highest_start = std::max(highest_start, density.value(view(start)));
-    summits.push_back(maximize(density, start, width, box));
-  }
+  const std::vector<Eigen::VectorXd> all = starts(posterior, fit);
+  std::vector<Maximum> summits(all.size());
+  std::vector<double> at_start(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
+    at_start[i] = density.value(view(all[i]));
+    summits[i] = maximize(density, all[i], width, box);
+  });
+  const double highest_start = *std::max_element(at_start.begin(), at_start.end());
   const auto best =
       std::max_element(summits.begin(), summits.end(),
                        [](const Maximum& a, const Maximum& b) { return a.value < b.value; });

@@ -341,9 +341,10 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
   constexpr double hardly_narrower = 0.7;              // the data hold as much as the prior
   Findings findings("prior-data-conflict");
   const Eigen::MatrixXd& values = fit.pooled.values;
-  std::vector<double> log_prior, log_likelihood;
-  for (Eigen::Index row = 0; row < values.rows(); ++row) {
-    const Eigen::VectorXd x = values.row(row);
+  std::vector<double> log_prior(static_cast<std::size_t>(values.rows())),
+      log_likelihood(log_prior.size());
+  tbb::parallel_for(std::size_t{0}, log_prior.size(), [&](std::size_t row) {
+    const Eigen::VectorXd x = values.row(static_cast<Eigen::Index>(row));
     double of_effects = 0;
     for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
       const Parameter& each = posterior.parameters()[i];
@@ -351,9 +352,9 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
         of_effects += log_density(each.prior, x[static_cast<Eigen::Index>(i)]).value;
       }
     }
-    log_prior.push_back(posterior.log_prior(view(x)) - of_effects);
-    log_likelihood.push_back(posterior.likelihood()->value(view(x)) + of_effects);
-  }
+    log_prior[row] = posterior.log_prior(view(x)) - of_effects;
+    log_likelihood[row] = posterior.likelihood()->value(view(x)) + of_effects;
+  });
   std::vector<std::string> passed;
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
     const Parameter& parameter = posterior.parameters()[i];

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace wearwell {
 namespace {
@@ -34,11 +35,15 @@ Whitening whitening_at(const Mode& mode) {
 }
 
 double WhitenedDensity::value(std::span<const double> u) const {
+  return value_above(u, -std::numeric_limits<double>::infinity());
+}
+
+double WhitenedDensity::value_above(std::span<const double> u, double least) const {
   Scratch x;
   const auto n = static_cast<Eigen::Index>(u.size());
   Map(x.data(), n) = whitening_.center;
   Map(x.data(), n).noalias() += whitening_.scale.lazyProduct(ConstMap(u.data(), n));
-  return density_.value(std::span(x.data(), u.size()));
+  return density_.value_above(std::span(x.data(), u.size()), least);
 }
 
 double WhitenedDensity::value_and_gradient(std::span<const double> u,

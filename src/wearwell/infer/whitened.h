@@ -27,6 +27,7 @@ class WhitenedDensity final : public LogDensity {
 
   int dimension() const override { return density_.dimension(); }
   double value(std::span<const double> u) const override;
+  double value_above(std::span<const double> u, double least) const override;
   double value_and_gradient(std::span<const double> u, std::span<double> gradient) const override;
 
  private:

@@ -149,6 +149,19 @@ TEST(SnLikelihood, AlongAParameterItIsTheSame) {
   }
 }
 
+// Whatever is asked for: the value itself where it is above, and something below where it is not.
+RC_GTEST_PROP(SnLikelihood, AboveANumberItIsTheSame, ()) {
+  const std::vector<SnLaw> laws = all_laws();
+  const SnLaw& law = laws[*rc::gen::inRange<std::size_t>(0, laws.size())];
+  const auto likelihood = sn_likelihood(law, some_tests(), some_tests().size());
+  const std::vector<double> x = plausible(law, 5 * *between(0.01, 1) - 2.5);
+  const double value = likelihood->value(x);
+  for (const double least : {value - 5, value - 0.1, value + 0.1, value + 5, value + 500.0}) {
+    const double above = likelihood->value_above(x, least);
+    RC_ASSERT((value > least ? above == value : !(above > least)));
+  }
+}
+
 TEST(SnLikelihood, WithoutATestTheOthersAreLeft) {
   for (const SnLaw& law : all_laws()) {
     const auto likelihood = sn_likelihood(law, some_tests(), some_tests().size());

@@ -112,9 +112,12 @@ MixedLife::Sums MixedLife::sums(double at) const {
       sums.cdf += weight_[i] * normal_cdf(z);
       sums.density += weight_[i] * inverse_sigma_[i] * normal_density(z);
     } else {
-      const double hazard = std::exp(z);
-      sums.cdf += weight_[i] * -std::expm1(-hazard);
-      sums.density += weight_[i] * inverse_sigma_[i] * hazard * std::exp(-hazard);
+      constexpr double all = 4, none = -50;  // beyond, less than 1e-21
+      if (z > all) sums.cdf += weight_[i];
+      if (z > all || z < none) continue;
+      const double hazard = std::exp(z), failed = -std::expm1(-hazard);
+      sums.cdf += weight_[i] * failed;
+      sums.density += weight_[i] * inverse_sigma_[i] * hazard * (1 - failed);
     }
   }
   return sums;

@@ -62,6 +62,29 @@ class SnLikelihood final : public LogDensity {
 
   double value(std::span<const double> x) const override { return formula(x.data()); }
 
+  // No density is higher than that of a life whose limit is known, no probability more than 1.
+  double value_above(std::span<const double> x, double least) const override {
+    if (!law_.integrated() || law_.scatter_grows) return value(x);
+    const Shared<double> shared(law_, x.data());
+    const double peak =
+        (law_.standard() == StandardLaw::normal ? -half_log_two_pi : -1) - shared.log_sigma;
+    const auto most = [&](const Term& each) {
+      return tests_[each.row].outcome == Outcome::failure
+                 ? each.count * (peak + rows_[each.row].log_measure)
+                 : 0;
+    };
+    double rest = 0;
+    for (const Term& each : terms_) rest += most(each);
+    double sum = 0;
+    for (const Term& each : terms_) {
+      rest -= most(each);
+      sum += each.count * term(shared, each.row, log10_reversed(shared, each.row));
+      // Rounding of the sums is far less than a hundredth.
+      if (!(sum + rest > least - 0.01)) return -infinity;
+    }
+    return sum;
+  }
+
   // The stresses that are as harmful stay what they are, unless the axis is what they depend on.
   std::function<double(double)> along(std::span<const double> x, std::size_t axis) const override {
     if ((law_.has_strength() && axis == static_cast<std::size_t>(law_.strength_index())) ||
