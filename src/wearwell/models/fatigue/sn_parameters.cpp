@@ -7,7 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/prior.h"
-#include "wearwell/models/fatigue/sn_likelihood.h"
+#include "wearwell/models/fatigue/sn_guess.h"
 
 namespace wearwell {
 namespace {
