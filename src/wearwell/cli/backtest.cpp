@@ -44,7 +44,7 @@ std::string told(const Backtest& test, const Tracker& tracker) {
                     fmt::format("{:.1f}", 100. * static_cast<double>(each.held) /
                                               static_cast<double>(each.forecasts)),
                     fmt::format("{:.1f} to {:.1f}", 100 * each.low, 100 * each.high),
-                    plain_number(each.width, 3), plain_number(each.error, 3)});
+                    plain_number(each.width, 2), plain_number(each.error, 2)});
   return text + "\nForecasts of remaining life, held against where it ended\n" + text_table(rows) +
          wrapped(
              "Forecasts of one unit hold or fail together: chance leaves is of so many units. "
