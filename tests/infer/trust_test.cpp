@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 
 #include "infer/test_posteriors.h"
+#include "support/formula.h"
 #include "wearwell/base/error.h"
+#include "wearwell/math/constants.h"
 
 namespace wearwell {
 namespace {
@@ -60,6 +62,79 @@ TEST(Tails, StudentAndNormalOnAWholeLine) {
     const Posterior posterior({parameter}, std::make_shared<Nothing>());
     for (const Tail& tail : tails(posterior, find_mode(posterior, posterior.start()))) {
       EXPECT_NEAR(tail.index, df + 1, 0.01);
+    }
+  }
+}
+
+Parameter positive_parameter(const std::string& name, const Family& prior) {
+  Parameter parameter = flat_parameter(name, 1, 1);
+  parameter.prior = make_law(prior, 0, infinity);
+  parameter.natural_lower = 0;
+  return parameter;
+}
+
+// Machines j with means y_j ~ N(mu, s^2 + tau^2), mu flat.
+Posterior machines(const std::vector<double>& y, double s, const Family& prior_of_tau) {
+  Parameter mu = flat_parameter("mu", y.front(), 1), tau = positive_parameter("tau", prior_of_tau);
+  tau.start = std::max(s, std::abs(y.back() - y.front()) / 3);
+  return {{mu, tau}, std::make_shared<Formula>(2, [=](auto x, std::span<double> gradient) {
+            const double variance = s * s + x[1] * x[1];
+            double sum = 0;
+            gradient[0] = gradient[1] = 0;
+            for (const double each : y) {
+              const double off = each - x[0];
+              sum -= 0.5 * std::log(variance) + 0.5 * off * off / variance;
+              gradient[0] += off / variance;
+              gradient[1] += x[1] * (off * off / variance - 1) / variance;
+            }
+            return sum;
+          })};
+}
+
+Tail lower_tail(const Posterior& posterior, int parameter) {
+  for (const Tail& tail : tails(posterior, find_mode(posterior, posterior.start()))) {
+    if (tail.parameter == parameter && !tail.upward) return tail;
+  }
+  return {};
+}
+
+// Gelman (2006), Bayesian Analysis 1, 515-534, section 2.2: with p(tau) ~ 1/tau the posterior of a variance between groups is improper
+// for any data, as the likelihood at tau = 0 is not zero, however small. With a flat one it is proper from three groups on.
+TEST(Tails, AJeffreysPriorOfTheScatterBetweenMachinesIsImproperForAnyData) {
+  for (const double apart : {0.5, 3.0, 10.0, 50.0, 1e3, 1e6}) {
+    std::vector<double> y;
+    for (int j = 0; j < 8; ++j) y.push_back(apart * (j + 0.3 * std::sin(5.0 * j)));
+    const Tail jeffreys = lower_tail(machines(y, 1, Jeffreys{}), 1);
+    EXPECT_TRUE(jeffreys.known) << apart;
+    EXPECT_FALSE(jeffreys.integrable()) << apart;
+    EXPECT_NEAR(jeffreys.index, 1, 0.01) << apart;
+    EXPECT_TRUE(lower_tail(machines(y, 1, Flat{}), 1).integrable()) << apart;
+  }
+}
+
+// Without an error of the single value the likelihood does vanish at zero: there the same prior is harmless.
+TEST(Tails, AJeffreysPriorOfTheScatterOfValuesIsProper) {
+  for (const double apart : {0.5, 1e3, 1e6}) {
+    const Tail tail = lower_tail(machines({0, apart, 0.3 * apart, 0.8 * apart}, 0, Jeffreys{}), 1);
+    EXPECT_TRUE(tail.known) << apart;
+    EXPECT_TRUE(tail.integrable()) << apart;
+  }
+}
+
+// Near zero the likelihood is flat and the tail that of the prior, x^(shape - 1): slow, and proper.
+TEST(Tails, AProperPriorWithAPoleIsProper) {
+  for (const double shape : {0.2, 0.02, 0.002}) {
+    for (const bool bound_of_physics : {true, false}) {
+      Parameter k = positive_parameter("k", Gamma{shape, 10});
+      if (!bound_of_physics) k.natural_lower = -infinity;
+      const Posterior posterior({k}, std::make_shared<Formula>(1, [](auto x, std::span<double> g) {
+                                  g[0] = 0.7 - x[0];
+                                  return -0.5 * std::pow(0.7 - x[0], 2);
+                                }));
+      const Tail tail = lower_tail(posterior, 0);
+      EXPECT_TRUE(tail.known) << shape;
+      EXPECT_TRUE(tail.integrable()) << shape;
+      EXPECT_NEAR(tail.index, 1 - shape, 1e-3) << shape;
     }
   }
 }

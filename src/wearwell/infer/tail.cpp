@@ -79,9 +79,10 @@ struct Walk {
   std::size_t stations() const { return log_density.size(); }
 
   // By the far half, the median of slopes between neighbours: one bad station does not matter.
-  double index() const {
+  double index() const { return index_from(std::max<std::size_t>(1, stations() / 2)); }
+  double index_from(std::size_t first) const {
     std::vector<double> slopes;
-    for (std::size_t i = std::max<std::size_t>(1, stations() / 2); i < stations(); ++i) {
+    for (std::size_t i = first; i < stations(); ++i) {
       slopes.push_back((log_density[i] - log_density[i - 1]) /
                        (log_distance[i] - log_distance[i - 1]));
     }
@@ -101,6 +102,7 @@ struct Walk {
 }  // namespace
 
 bool Tail::integrable() const {
+  if (by_prior) return true;
   return towards_bound ? index < 1 - slack : index > 1 + slack;
 }
 
@@ -134,7 +136,22 @@ double width_at(const Mode& mode, int i) {
   return std::isfinite(width) && width > 0 ? width : 1;
 }
 
-Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward) {
+// Whether a density that had vanished falls no farther at the end of the walk: then only the end is kept.
+bool levels_out(Walk& walk) {
+  constexpr std::size_t end = 5;
+  const Walk sound = walk.sound();
+  if (sound.stations() < end + 1 || !(sound.index_from(sound.stations() - end) > 1 - slack))
+    return false;
+  const auto keep = [&](auto& values) { values.erase(values.begin(), values.end() - end); };
+  keep(walk.log_distance);
+  keep(walk.log_density);
+  keep(walk.log_likelihood);
+  keep(walk.converged);
+  return true;
+}
+
+// `to_the_end`: where the density has vanished as well.
+Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward, bool to_the_end) {
   const int i = tail.parameter;
   const Law& prior = parameter_of(posterior, i).prior;
   const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
@@ -152,7 +169,7 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
     ConditionalMode station = visit(slice, guesses(before, last, slice.at - last.at), last.width);
     if (!std::isfinite(station.log_density)) {
       // The end of the likelihood's domain, or of the range of doubles on the way up.
-      (last.log_marginal > top + 1 ? walk.lost : walk.vanished) = true;
+      if (!walk.vanished) (last.log_marginal > top + 1 ? walk.lost : walk.vanished) = true;
       break;
     }
     if (tail.highest_at.size() == 0 || station.log_density > tail.highest) {
@@ -161,7 +178,7 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
     }
     failures += !station.converged;
     if (failures > most_failures) {
-      walk.lost = true;
+      walk.lost = !walk.vanished;
       break;
     }
     // p(x) = p(z) / |dx/dz|; on half-lines and intervals log |dx/dz| changes as log distance does.
@@ -177,9 +194,10 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
     last = std::move(station);
     if (last.converged && last.log_marginal < top - fallen && rise < -steep) {
       walk.vanished = true;
-      break;
+      if (!to_the_end) break;
     }
   }
+  if (to_the_end && walk.vanished) walk.vanished = !levels_out(walk);
   return walk;
 }
 
@@ -196,10 +214,12 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
   const double of_prior = prior_index(parameter, upward, tail.towards_bound);
   if (tail.towards_bound && bound != natural) {
     tail.index = of_prior;
+    tail.by_prior = prior.proper;
     return tail;
   }
   constexpr std::size_t enough = 5;  // stations
-  const Walk all = walk(posterior, mode, tail, outward), way = all.sound();
+  const bool to_the_end = tail.towards_bound && !prior.proper && of_prior > 1 - slack;
+  const Walk all = walk(posterior, mode, tail, outward, to_the_end), way = all.sound();
   tail.index = tail.towards_bound ? -infinity : infinity;
   if (!way.vanished && way.stations() >= enough) {
     tail.index = way.index();
@@ -219,7 +239,11 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
                  : tail.towards_bound ? std::min(tail.index, of_prior)
                                       : std::max(tail.index, of_prior);
     tail.known = true;
+    tail.by_prior = true;
   }
+  // The likelihood tends to a limit there: the tail is the prior's, whose integral is known to be finite.
+  if (tail.towards_bound && prior.proper && tail.known && tail.index < of_prior + slack)
+    tail.by_prior = true;
   return tail;
 }
 

@@ -13,7 +13,9 @@ namespace wearwell {
 /// out by Laplace's approximation; nothing is assumed about the model but that a likelihood has no
 /// pole inside its natural support. Towards a bound inside that support the tail is the prior's, and
 /// nothing is measured. Where every prior is proper and the likelihood does not grow along the walk,
-/// the tail is no heavier than the prior's.
+/// the tail is no heavier than the prior's; nor is it towards a bound where the likelihood tends to a limit. Towards a bound
+/// at which a prior has no finite integral the walk goes on where the density has all but vanished: a likelihood that ends at e^-1000 of
+/// its highest makes the integral as infinite as any other.
 struct Tail {
   int parameter = 0;
   bool upward = true;  ///< towards larger values
@@ -23,6 +25,7 @@ struct Tail {
   /// The highest density met on the way, and where on the real line; empty when there was no way.
   double highest = 0;
   Eigen::VectorXd highest_at = {};
+  bool by_prior = false;  ///< no heavier than that of a proper prior, however slowly that falls
 
   /// The posterior has a finite integral in this direction.
   bool integrable() const;
