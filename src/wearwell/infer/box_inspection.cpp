@@ -263,6 +263,11 @@ void BoxIntegrator::verify() {
     failure_ = "its mass is no number";
     return;
   }
+  if (missed_maximum()) {
+    failure_ = "the boxes do not have one of the maxima that are known";
+    contradicted_ = true;
+    return;
+  }
   if (!own_shape_) return;
   if (map_.highest_of_weight() > reference_ + highest_ + most_above) {
     failure_ = fmt::format("a density e^{:.1f} times that of any node was met beside them",
@@ -271,7 +276,8 @@ void BoxIntegrator::verify() {
     return;
   }
   const double off = log_mass() - map_.log_integral();
-  if (std::abs(off) > most_from_laplace) {
+  // The curvature along the ridge knows of one maximum.
+  if (places_.empty() ? std::abs(off) > most_from_laplace : off < -most_from_laplace) {
     contradicted_ = true;
     failure_ =
         fmt::format("the integral is e^{:.1f} times what curvature along the ridge says", off);

@@ -27,7 +27,8 @@ double most_mass(int dimension, double tolerance) {
 }  // namespace
 
 BoxIntegrator::BoxIntegrator(const Posterior& posterior, const Whitening& whitening,
-                             const ExactSettings& settings, const Posterior& shape)
+                             const ExactSettings& settings, const Posterior& shape,
+                             bool along_ridge)
     : posterior_(posterior),
       own_shape_(&shape == &posterior),
       settings_(settings),
@@ -35,7 +36,7 @@ BoxIntegrator::BoxIntegrator(const Posterior& posterior, const Whitening& whiten
       p_(nodes_per_axis[d_]),
       rule_(gauss_legendre(p_)),
       points_(static_cast<std::size_t>(std::pow(p_, d_))),
-      map_(shape, whitening),
+      map_(shape, whitening, !along_ridge),
       stride_(static_cast<std::size_t>(std::pow(p_, map_.axis()))),
       reference_(own_shape_ ? map_.highest() : posterior.value(view(whitening.center))),
       log_jacobian_(map_.at(0).log_jacobian) {
@@ -75,7 +76,9 @@ ExactPosterior BoxIntegrator::run() {
   upper_.fill(6);
   lower_[map_.axis()] = map_.lower();
   upper_[map_.axis()] = map_.upper();
+  reach_maxima();
   add_grid(lower_, upper_, d_ <= 2 ? 4 : 2);
+  halve_at_maxima();
   do {
     refine();
   } while (failure_.empty() && (grow() || restandardize() || reconcile() || inspect()));

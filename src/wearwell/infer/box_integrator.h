@@ -13,12 +13,16 @@
 namespace wearwell {
 
 /// Adaptive boxes over the map's coordinates (exact.h): refined (box_integrator.cpp), looked at again in
-/// other ways (box_inspection.cpp), and written as nodes (box_result.cpp).
+/// other ways (box_inspection.cpp), laid about several maxima (box_maxima.cpp), and written as nodes (box_result.cpp).
 class BoxIntegrator {
  public:
   BoxIntegrator(const Posterior& posterior, const Whitening& whitening,
-                const ExactSettings& settings, const Posterior& shape);
+                const ExactSettings& settings, const Posterior& shape, bool along_ridge);
   ExactPosterior run();
+
+  bool straight() const { return map_.affine(); }
+  /// The walk along the ridge has come by all maxima.
+  bool reaches_maxima() const;
 
  private:
   static constexpr int max_d = max_exact_dimension;
@@ -38,6 +42,13 @@ class BoxIntegrator {
     bool agrees = false;     // with its neighbours
     double tail =
         0;  // the error relative to `control`, as the cell's own Legendre coefficients tell it
+  };
+
+  // A maximum in the map's coordinates: how wide it is along each axis, whatever the others and with these held.
+  struct Place {
+    Coordinates u, width, narrow;
+    double log_density;  // over the reference
+    double volume;       // of its covariance: the root of the determinant
   };
 
   void node(const Cell& cell, std::size_t index, Coordinates& u) const {
@@ -71,6 +82,13 @@ class BoxIntegrator {
   // error: coefficients that fall geometrically from the mean to the highest are, at the degree where
   // the rule begins to err, as much smaller again. Halving along one axis tells nothing of the others.
   void look_along_axes(Cell& cell) const;
+  // Makes the region and the reference fit all maxima, where there are several.
+  void reach_maxima();
+  Place place_of(const Whitening& whitening) const;
+  // Halves the boxes at each maximum until they are no longer than some of its widths.
+  void halve_at_maxima();
+  // A maximum that the boxes do not have.
+  bool missed_maximum() const;
   void add_grid(const Coordinates& lower, const Coordinates& upper, int parts);
   void sum() {
     mass_ = control_ = error_ = 0;
@@ -156,6 +174,7 @@ class BoxIntegrator {
   double most_weight_;  // of a node on a face
   Eigen::VectorXd center_x_, scale_x_;
   Coordinates lower_{}, upper_{};
+  std::vector<Place> places_;
   std::vector<Cell> cells_;
   std::vector<double> values_;  // density at the nodes of every cell, relative to the reference
   double mass_ = 0, control_ = 0, error_ = 0;

@@ -70,9 +70,8 @@ ExactPosterior BoxIntegrator::result() {
   exact.sd = exact.covariance.diagonal().cwiseSqrt();
   bool proper = true;
   for (const Parameter& parameter : posterior_.parameters()) proper &= parameter.prior.proper;
-  if (proper) {
-    exact.log_evidence = log_mass();
-  }
+  exact.log_mass = log_mass();
+  if (proper) exact.log_evidence = exact.log_mass;
   return exact;
 }
 

@@ -5,6 +5,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/infer/box_integrator.h"
 #include "wearwell/infer/lattice.h"
+#include "wearwell/infer/parted_posterior.h"
 #include "wearwell/math/view.h"
 
 namespace wearwell {
@@ -21,6 +22,18 @@ bool within(const Posterior& posterior, const Eigen::VectorXd& x) {
   return true;
 }
 
+// Along the ridge where that has met every maximum, else, or where that does not converge, straight.
+ExactPosterior integrate_by_boxes(const Posterior& posterior, const Whitening& whitening,
+                                  const ExactSettings& settings, const Posterior& shape) {
+  BoxIntegrator along(posterior, whitening, settings, shape, true);
+  if (settings.maxima.empty() || along.straight()) return along.run();
+  if (along.reaches_maxima()) {
+    ExactPosterior exact = along.run();
+    if (exact.failure.empty()) return exact;
+  }
+  return BoxIntegrator(posterior, whitening, settings, shape, false).run();
+}
+
 }  // namespace
 
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
@@ -35,15 +48,16 @@ ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,
   }
   // Boxes multiply too fast in four dimensions; they are tried where a lattice does not converge.
   if (posterior.dimension() == 4) {
-    ExactPosterior exact = integrate_on_lattice(posterior, whitening, settings);
+    const auto on_lattice = settings.maxima.empty() ? integrate_on_lattice : integrate_by_parts;
+    ExactPosterior exact = on_lattice(posterior, whitening, settings);
     if (!exact.failure.empty() && settings.along_ridge) {
       ExactSettings open = settings;
       open.along_ridge.reset();
-      exact = integrate_on_lattice(posterior, whitening, open);
+      exact = on_lattice(posterior, whitening, open);
     }
     if (exact.failure.empty()) return exact;
   }
-  return BoxIntegrator(posterior, whitening, settings, shape).run();
+  return integrate_by_boxes(posterior, whitening, settings, shape);
 }
 
 Draws independent_draws(const Posterior& posterior, const ExactPosterior& exact, int chains,

@@ -3,10 +3,12 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 #include "wearwell/bayes/draws.h"
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/infer/mode.h"
 #include "wearwell/infer/whitened.h"
 
 namespace wearwell {
@@ -19,6 +21,8 @@ struct ExactSettings {
   /// Which coordinates are the rounder ones, of a lattice, where a posterior nearly the same has told it.
   std::optional<bool> along_ridge = {};
   std::stop_token stop = {};  ///< once requested, the integration throws `Cancelled`
+  /// Local maxima beside the one that the whitening is about (maxima.h), on the real line: the region has to cover them.
+  std::vector<Mode> maxima = {};
 };
 
 /// The most parameters that quadrature is meant for.
@@ -32,6 +36,7 @@ struct ExactPosterior {
   Eigen::MatrixXd covariance;
   std::optional<double>
       log_evidence;  ///< log of the integral of likelihood x prior; only when every prior is proper
+  double log_mass = 0;  ///< log of the integral of likelihood x prior kernels
   double error = 0;  ///< estimated relative error of mass and second moments: the reached tolerance
   double highest = 0;  ///< log density (on the real line) of the highest node
   long evaluations = 0;
@@ -47,7 +52,8 @@ struct ExactPosterior {
 /// halved along the axis that resolves worst until the estimated error of mass and second moments is
 /// below the tolerance, and the region grows where mass or second moments still lie at its edge. Boxes
 /// that share a face have to agree on the density there, and each that counts is inspected between its
-/// nodes: what is found raises the error. The
+/// nodes: what is found raises the error. Where there are several maxima, boxes cover all of them from the beginning, no longer than a
+/// few of their widths about each; four parameters are integrated maximum by maximum (parted_posterior.h). The
 /// outcome is held against what the walk along the ridge met: a higher density than that of any node,
 /// or another integral by Laplace's approximation by far, is a failure.
 ExactPosterior integrate(const Posterior& posterior, const Whitening& whitening,

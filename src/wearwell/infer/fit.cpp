@@ -9,6 +9,7 @@
 #include "wearwell/infer/effects.h"
 #include "wearwell/infer/funnel.h"
 #include "wearwell/infer/leaps.h"
+#include "wearwell/infer/maxima_mixture.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/surface.h"
 
@@ -29,17 +30,28 @@ WeightedDraws pool(const Draws& draws) {
   return pooled;
 }
 
+// Those about which chains start, and between which they jump: of the others a chain would draw nothing.
+std::vector<LocalMaximum> maxima_to_draw(const Fit& fit) {
+  constexpr double least = 1e-3;
+  std::vector<LocalMaximum> kept;
+  for (const LocalMaximum& each : fit.maxima.found) {
+    if (each.share >= least) kept.push_back(each);
+  }
+  return kept;
+}
+
 Draws draw(const Posterior& posterior, const Fit& fit, const FitSettings& settings) {
   switch (fit.method) {
     case Method::exact:
       return independent_draws(posterior, *fit.exact, settings.run.chains, settings.run.draws,
                                settings.run.seed, settings.run.first_stream);
     case Method::metropolis:
-      return run_metropolis(posterior, fit.whitening, settings.metropolis, settings.run);
+      return run_metropolis(posterior, fit.whitening, settings.metropolis, settings.run,
+                            maxima_to_draw(fit));
     case Method::nuts:
       break;
   }
-  return run_nuts(posterior, fit.whitening, settings.nuts, settings.run);
+  return run_nuts(posterior, fit.whitening, settings.nuts, settings.run, maxima_to_draw(fit));
 }
 
 // The mode and the tails about it. A walk along a tail that meets a higher density than the mode's
@@ -49,6 +61,7 @@ struct Shape {
   std::vector<Tail> tails;
   double highest;   // density met anywhere
   int throat = -1;  // the scale of a funnel (funnel.h): then the mode is the middle of the mass
+  Maxima maxima = {};
 };
 
 Shape mode_and_tails(const Posterior& posterior) {
@@ -73,15 +86,40 @@ Shape mode_and_tails(const Posterior& posterior) {
   }
 }
 
-// Where there is no mode, about the middle of the mass.
+bool all_integrable(const std::vector<Tail>& tails) {
+  return std::all_of(tails.begin(), tails.end(),
+                     [](const Tail& tail) { return tail.integrable(); });
+}
+
+// Other maxima than the mode; the one with by far the most mass takes its place. A search that began in a valley between two may
+// have found none.
+void search_further(const Posterior& posterior, Shape& shape) {
+  shape.maxima = find_maxima(posterior, shape.mode);
+  if (shape.maxima.found.empty()) return;
+  const Mode& first = shape.maxima.found.front().mode;
+  if (shape.mode.found && first.position == shape.mode.position) return;
+  shape.mode = first;
+  shape.tails = tails(posterior, shape.mode);
+  shape.highest = shape.mode.log_density;
+  for (const Tail& tail : shape.tails) {
+    if (tail.highest_at.size() > 0) shape.highest = std::max(shape.highest, tail.highest);
+  }
+}
+
+// Where there is no mode, about the middle of the mass. Other modes of an improper posterior do not matter.
 Shape examine(const Posterior& posterior) {
   Shape shape = mode_and_tails(posterior);
-  if (shape.mode.found) return shape;
+  if (shape.mode.found) {
+    if (all_integrable(shape.tails)) search_further(posterior, shape);
+    return shape;
+  }
   if (auto funnel = funnel_middle(posterior, posterior.start())) {
     shape.tails = tails(posterior, *funnel);
     shape.throat = funnel->scale;
     shape.mode = std::move(funnel->middle);
+    return shape;
   }
+  if (all_integrable(shape.tails)) search_further(posterior, shape);
   return shape;
 }
 
@@ -113,6 +151,24 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const Shape& shape
                                  shape.highest - fit.exact->highest),
                      "There is more than one mode: cut the priors to the one that is meant."});
   }
+  if (fit.maxima.several() && !fit.exact && !mixed(fit)) {
+    found.push_back(
+        {Stage::maxima, Verdict::fail,
+         fmt::format("{}; quadrature does not cover them, and the chains do not go from one to the "
+                     "other often enough to tell their shares",
+                     description(posterior, fit.maxima)),
+         "Cut the priors to the one that is meant; order parameters that may change places; or "
+         "draw "
+         "many more (--draws, --warmup)."});
+  }
+  constexpr double most_left = 0.5;
+  if (fit.maxima.left > most_left) {
+    found.push_back(
+        {Stage::maxima, Verdict::warn,
+         fmt::format("{}; about {:.0f} more are to be expected that no search has found",
+                     description(posterior, fit.maxima), std::ceil(fit.maxima.left)),
+         "Narrow the priors to what can be: the density has many local maxima."});
+  }
   for (const Tail& tail : shape.tails) {
     if (tail.known) continue;
     const std::string& name = posterior.parameters()[static_cast<std::size_t>(tail.parameter)].name;
@@ -139,8 +195,7 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const Shape& shape
 }  // namespace
 
 bool proper(const Fit& fit) {
-  return std::all_of(fit.tails.begin(), fit.tails.end(),
-                     [](const Tail& tail) { return tail.integrable(); });
+  return all_integrable(fit.tails);
 }
 
 Chains chains_of(const Draws& draws, Eigen::Index parameter) {
@@ -152,9 +207,12 @@ Chains chains_of(const Draws& draws, Eigen::Index parameter) {
   return chains;
 }
 
-namespace {
+std::vector<Mode> Fit::other_maxima() const {
+  std::vector<Mode> others;
+  for (std::size_t k = 1; k < maxima.found.size(); ++k) others.push_back(maxima.found[k].mode);
+  return others;
+}
 
-// Of the draws, as the checks of convergence and divergences ask for it (sampler_checks.cpp).
 bool mixed(const Fit& fit) {
   constexpr double largest_rhat = 1.01, most_divergent = 0.005;
   const double least = 100.0 * static_cast<double>(fit.draws.size());
@@ -169,13 +227,16 @@ bool mixed(const Fit& fit) {
   });
 }
 
+namespace {
+
 // Where no quadrature vouches for them and nobody said how many there are to be, draws that do not
 // suffice are drawn anew, twice as long, and once more: of NUTS with leaps about those that there are, at first as many, which
 // may be seen to be needed as early as in warm-up. Those of an improper posterior never do.
 void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& fit) {
   constexpr int most_doublings = 2;
   FitSettings longer = settings;
-  const bool leaps = settings.extend && !fit.exact && proper(fit) && fit.method == Method::nuts;
+  const bool leaps = settings.extend && !fit.exact && proper(fit) && fit.method == Method::nuts &&
+                     !fit.maxima.several();
   for (int doubling = 0;; ++doubling) {
     fit.run = longer.run;
     fit.draws = !leaps ? draw(posterior, fit, longer)
@@ -215,7 +276,9 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
           {},
           settings.nuts.max_treedepth};
 
-  if (shape.mode.found && shape.throat < 0) {
+  fit.maxima = shape.maxima;
+  // Polynomials reach no farther than one maximum.
+  if (shape.mode.found && shape.throat < 0 && !fit.maxima.several()) {
     if (auto quick = quick_posterior(whole, fit.whitening)) {
       fit.quick = quick->posterior;
       fit.quick_error = quick->error;
@@ -238,6 +301,7 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
         posterior.dimension());
   } else {
     ExactSettings exact = settings.exact;
+    exact.maxima = fit.other_maxima();
     exact.second_moments = all([](const Tail& t) { return t.has_moment(2); });
     integral = integrate(posterior, fit.whitening, exact);
     integral.error = std::max(integral.error, fit.quick_error);
@@ -249,11 +313,13 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
     }
   }
   if (fit.method == Method::exact && !fit.exact) fit.method = Method::nuts;
-  // A sampler hardly reaches into a throat, and says so; draws are then quadrature's.
-  const bool spared =
-      shape.throat >= 0 && fit.exact && fit.method == Method::nuts && settings.extend;
+  // A sampler hardly reaches into a throat, and says so, nor from one maximum to the next; draws are then quadrature's.
+  const bool spared = (shape.throat >= 0 || fit.maxima.several()) && fit.exact &&
+                      fit.method == Method::nuts && settings.extend;
   if (spared) fit.method = Method::exact;
   draw_enough(posterior, settings, fit);
+  if (fit.maxima.several())
+    measure_shares(whole, fit.exact ? fit.exact->nodes : fit.pooled, fit.maxima);
   fit.shortfalls = shortfalls(whole, shape, settings, fit, integral);
   const WeightedDraws& points = fit.exact ? fit.exact->nodes : fit.pooled;
   fit.marginals.resize(posterior.parameters().size());

@@ -9,6 +9,7 @@
 #include "wearwell/bayes/weighted_draws.h"
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/exact.h"
+#include "wearwell/infer/maxima.h"
 #include "wearwell/infer/run_chains.h"
 #include "wearwell/infer/settings.h"
 #include "wearwell/infer/stage.h"
@@ -46,7 +47,16 @@ struct Fit {
   /// draws may ask this one.
   std::shared_ptr<const Posterior> quick = {};
   double quick_error = 0;
+  /// What the search from many starts found (maxima.h), with shares by quadrature, or else by the draws; empty where there is no mode
+  /// or no finite mass.
+  Maxima maxima = {};
+
+  /// The local maxima beside the one that the whitening is about, for other integrals of much the same posterior.
+  std::vector<Mode> other_maxima() const;
 };
+
+/// Whether the draws suffice, as the checks of convergence and divergences ask for it (sampler_checks.h).
+bool mixed(const Fit& fit);
 
 /// The draws of one parameter, as diagnostics take them: views, valid while the draws live.
 Chains chains_of(const Draws& draws, Eigen::Index parameter);
@@ -54,7 +64,7 @@ Chains chains_of(const Draws& draws, Eigen::Index parameter);
 /// Every tail of every parameter can be integrated.
 bool proper(const Fit& fit);
 
-/// Finds the mode, examines the tails, integrates exactly when there are at most
+/// Finds the mode, examines the tails, searches for other local maxima, integrates exactly when there are at most
 /// `max_exact_dimension` parameters and the posterior is proper, and draws.
 Fit fit(const Posterior& posterior, const FitSettings& settings);
 

@@ -289,9 +289,8 @@ class Lattice {
     exact.sd = exact.covariance.diagonal().cwiseSqrt();
     bool proper = true;
     for (const Parameter& parameter : posterior_.parameters()) proper &= parameter.prior.proper;
-    if (proper) {
-      exact.log_evidence = log_of(mass);
-    }
+    exact.log_mass = log_of(mass);
+    if (proper) exact.log_evidence = exact.log_mass;
     return exact;
   }
 

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "wearwell/bayes/normal_score.h"
+#include "wearwell/infer/maxima_mixture.h"
 #include "wearwell/infer/power_scaling.h"
 #include "wearwell/math/view.h"
 
@@ -112,6 +113,18 @@ Whitening whitening_of(const Posterior& wider, const Posterior& posterior, const
   return mode.found ? whitening_at(mode) : Whitening{center, fit.whitening.scale};
 }
 
+// The other local maxima, where they lie on the real line of the wider one.
+std::vector<Mode> maxima_of(const Posterior& wider, const Posterior& posterior, const Fit& fit) {
+  std::vector<Mode> maxima;
+  Eigen::VectorXd x(posterior.dimension());
+  for (const Mode& each : fit.other_maxima()) {
+    posterior.to_natural(view(each.position), view(x));
+    Mode there = find_mode(wider, wider.to_real(view(x)));
+    if (there.found) maxima.push_back(std::move(there));
+  }
+  return maxima;
+}
+
 bool has_cut(const Parameter& parameter) {
   const Law& prior = parameter.prior;
   const bool flat =
@@ -172,9 +185,11 @@ CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t ind
                         parameter.name, std::max(out.share, 1e-12))};
   }
   // A thousandth of a standard deviation is enough to see a quarter.
-  const ExactPosterior exact =
-      integrate(wider, whitening_of(wider, posterior, fit),
-                {.tolerance = 1e-3, .cells = false, .along_ridge = fit.exact->along_ridge});
+  const ExactPosterior exact = integrate(wider, whitening_of(wider, posterior, fit),
+                                         {.tolerance = 1e-3,
+                                          .cells = false,
+                                          .along_ridge = fit.exact->along_ridge,
+                                          .maxima = maxima_of(wider, posterior, fit)});
   if (!exact.failure.empty()) {
     return {dependence_on(parameter),
             fmt::format("with the bounds of {} at twice the distance from its mean the "
@@ -334,6 +349,25 @@ AgainstPrior against_prior(const Law& law, std::vector<double> draws) {
   return {sd, std::erfc(distance / std::numbers::sqrt2)};
 }
 
+// The draws about each maximum that holds some, where there are several: the data say one or another.
+std::vector<std::vector<Eigen::Index>> draws_by_maximum(const Posterior& posterior,
+                                                        const Fit& fit) {
+  constexpr double least = 0.05;
+  if (!fit.maxima.several()) return {};
+  const MaximaMixture mixture = counting_mixture(fit.maxima);
+  std::vector<std::vector<Eigen::Index>> groups(mixture.size());
+  const Eigen::Index count = fit.pooled.values.rows();
+  for (Eigen::Index row = 0; row < count; ++row) {
+    const Eigen::VectorXd x = fit.pooled.values.row(row);
+    const Eigen::VectorXd z = posterior.to_real(view(x));
+    groups[mixture.nearest(view(z))].push_back(row);
+  }
+  std::erase_if(groups, [&](const auto& group) {
+    return static_cast<double>(group.size()) < least * static_cast<double>(count);
+  });
+  return groups;
+}
+
 }  // namespace
 
 Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
@@ -355,6 +389,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
     log_prior[row] = posterior.log_prior(view(x)) - of_effects;
     log_likelihood[row] = posterior.likelihood()->value(view(x)) + of_effects;
   });
+  const auto groups = draws_by_maximum(posterior, fit);
   std::vector<std::string> passed;
   for (std::size_t i = 0; i < posterior.parameters().size(); ++i) {
     const Parameter& parameter = posterior.parameters()[i];
@@ -370,7 +405,12 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
                    "The draws are not finite or do not vary.");
       continue;
     }
-    const auto [width, p] = against_prior(parameter.prior, {draws.begin(), draws.end()});
+    auto [width, p] = against_prior(parameter.prior, {draws.begin(), draws.end()});
+    // A prior that expects one of several maxima does not exclude what the data say.
+    for (const std::vector<Eigen::Index>& group : groups) {
+      const Eigen::VectorXd some = draws(group);
+      p = std::max(p, against_prior(parameter.prior, {some.begin(), some.end()}).surprise);
+    }
     if (p < far_out) {
       findings.add(
           p < excluded ? Verdict::fail : Verdict::warn,

@@ -94,7 +94,8 @@ struct Refitted {
 // Empty where the quadrature fails.
 std::optional<Refitted> fitted_without(const Posterior& posterior, const Whitening& whitening,
                                        std::size_t term, const Scores* scores,
-                                       std::optional<bool> along_ridge, std::stop_token stop) {
+                                       std::optional<bool> along_ridge, std::vector<Mode> maxima,
+                                       std::stop_token stop) {
   Eigen::VectorXd center(posterior.dimension());
   posterior.to_natural(view(whitening.center), view(center));
   const Posterior others(posterior.parameters(),
@@ -105,6 +106,7 @@ std::optional<Refitted> fitted_without(const Posterior& posterior, const Whiteni
   settings.second_moments = false;
   settings.cells = false;
   settings.along_ridge = along_ridge;
+  settings.maxima = std::move(maxima);
   settings.stop = std::move(stop);
   ExactPosterior exact = integrate(others, whitening, settings, posterior);
   if (!exact.failure.empty()) {
@@ -193,7 +195,7 @@ Loo psis_loo(const LogDensity& likelihood, const WeightedDraws& draws, double ef
 }
 
 double exact_elpd(const Posterior& posterior, const Whitening& whitening, std::size_t term) {
-  const auto refitted = fitted_without(posterior, whitening, term, nullptr, {}, {});
+  const auto refitted = fitted_without(posterior, whitening, term, nullptr, {}, {}, {});
   return refitted ? refitted->elpd : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -231,8 +233,8 @@ Loo leave_one_out(const Posterior& posterior, const Fit& fit, const Scores* scor
   uneven.resize(too_many ? 0 : std::min<std::size_t>(uneven.size(), most_refits));
   std::vector<std::optional<Refitted>> refitted(uneven.size());
   tbb::parallel_for(std::size_t{0}, uneven.size(), [&](std::size_t i) {
-    refitted[i] =
-        fitted_without(posterior, fit.whitening, uneven[i], scores, fit.exact->along_ridge, stop);
+    refitted[i] = fitted_without(posterior, fit.whitening, uneven[i], scores,
+                                 fit.exact->along_ridge, fit.other_maxima(), stop);
   });
   for (std::size_t i = 0; i < uneven.size(); ++i) {
     if (!refitted[i]) continue;

@@ -99,13 +99,13 @@ void Splines::operator()(double t, double* value) const {
   }
 }
 
-RidgeMap::RidgeMap(const Posterior& posterior, const Whitening& whitening)
+RidgeMap::RidgeMap(const Posterior& posterior, const Whitening& whitening, bool affine)
     : whitening_(whitening),
       d_(posterior.dimension()),
       highest_(posterior.value(view(whitening.center))),
       log_integral_(std::numeric_limits<double>::quiet_NaN()),
       highest_of_weight_(highest_) {
-  if (d_ > 1) choose_axis(posterior);
+  if (d_ > 1 && !affine) choose_axis(posterior);
   if (!affine_) follow(posterior);
   if (affine_) highest_of_weight_ = highest_;
   log_scale_ = std::log(affine_ ? std::abs(whitening_.scale.determinant()) : unit_);
@@ -216,6 +216,8 @@ void RidgeMap::follow(const Posterior& posterior) {
   }
   log_integral_ =
       top + std::log(integral * unit_) + 0.5 * static_cast<double>(r) * std::log(2 * M_PI);
+  walked_from_ = at.front();
+  walked_to_ = at.back();
   splines_ = Splines(std::move(at), std::move(values));
 }
 
@@ -244,6 +246,32 @@ RidgeMap::Frame RidgeMap::at(double t) const {
     }
   }
   return frame;
+}
+
+RidgeMap::Coordinates RidgeMap::from_real(const Eigen::VectorXd& z) const {
+  Coordinates u{};
+  if (affine_) {
+    const Eigen::VectorXd there = whitening_.scale.partialPivLu().solve(z - whitening_.center);
+    std::copy(there.begin(), there.end(), u.begin());
+    return u;
+  }
+  u[axis_] = (z[axis_] - whitening_.center[axis_]) / unit_;
+  // The scale of the others is lower triangular.
+  const Frame frame = at(u[axis_]);
+  Coordinates left{};
+  for (int i = 0; i < d_; ++i) left[i] = z[i] - frame.center[i];
+  for (int j = 0; j < d_; ++j) {
+    if (j == axis_) continue;
+    u[j] = left[j] / frame.scale[most * j + j];
+    for (int k = j + 1; k < d_; ++k) left[k] -= frame.scale[most * j + k] * u[j];
+  }
+  return u;
+}
+
+bool RidgeMap::reaches(const Eigen::VectorXd& z) const {
+  if (affine_) return true;
+  const double t = (z[axis_] - whitening_.center[axis_]) / unit_;
+  return walked_from_ <= t && t <= walked_to_;
 }
 
 void RidgeMap::to_real(const Frame& frame, const Coordinates& u, Coordinates& z) const {

@@ -35,8 +35,8 @@ class RidgeMap {
   static constexpr int most = 4;
   using Coordinates = std::array<double, most>;
 
-  /// Walks along the ridge. Refers to neither.
-  RidgeMap(const Posterior& posterior, const Whitening& whitening);
+  /// Walks along the ridge, unless it is to be affine. Refers to neither.
+  RidgeMap(const Posterior& posterior, const Whitening& whitening, bool affine = false);
 
   /// The map where u[axis] is t.
   struct Frame {
@@ -46,6 +46,11 @@ class RidgeMap {
   };
   Frame at(double t) const;
   void to_real(const Frame& frame, const Coordinates& u, Coordinates& z) const;
+
+  /// The u of a place on the real line.
+  Coordinates from_real(const Eigen::VectorXd& z) const;
+  /// The walk has come by there, along the axis.
+  bool reaches(const Eigen::VectorXd& z) const;
 
   double log_scale() const { return log_scale_; }
 
@@ -80,6 +85,7 @@ class RidgeMap {
   double log_scale_ = 0;
   bool endless_ = false;
   double lower_ = -6, upper_ = 6;
+  double walked_from_ = 0, walked_to_ = 0;  // values of u[axis]
   double highest_, log_integral_, highest_of_weight_;
   Splines splines_;
 };

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "wearwell/base/error.h"
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/leaps.h"
+#include "wearwell/infer/maxima_mixture.h"
 #include "wearwell/infer/metropolis.h"
 #include "wearwell/infer/nuts.h"
 #include "wearwell/infer/warmup.h"
@@ -29,12 +31,53 @@ Eigen::VectorXd random_start(const LogDensity& whitened, Rng& rng) {
   throw InputError("no start with a positive posterior density in 100 attempts");
 }
 
+// About the maximum that is chain c's, in the coordinates of `whitening`.
+Eigen::VectorXd random_start(const Posterior& posterior, const Whitening& whitening,
+                             std::span<const LocalMaximum> maxima, std::size_t c, Rng& rng) {
+  if (maxima.size() < 2) return random_start(WhitenedDensity(posterior, whitening), rng);
+  const Whitening own = whitening_at(maxima[c % maxima.size()].mode);
+  const Eigen::VectorXd u = random_start(WhitenedDensity(posterior, own), rng);
+  return whitening.scale.partialPivLu().solve(own(u) - whitening.center);
+}
+
+// Jumps between maxima: an independence sampler (Tierney 1994, section 2.3).
+class MaximaJumps {
+ public:
+  MaximaJumps(const Whitening& whitening, std::span<const LocalMaximum> maxima)
+      : mixture_(maxima, freedom, evenly), whitening_(whitening), to_u_(whitening.scale) {}
+
+  // Where to go from u, at which the density is `log_density`; nothing where it stays.
+  std::optional<Eigen::VectorXd> jump(const WhitenedDensity& density, const Eigen::VectorXd& u,
+                                      double log_density, Rng& rng) const {
+    std::optional<Eigen::VectorXd> moved;
+    const Eigen::VectorXd from = whitening_(u);
+    double here = log_density - mixture_.log_density(view(from));
+    for (int i = 0; i < proposals; ++i) {
+      const Eigen::VectorXd z = mixture_.draw(rng);
+      const double proposed = mixture_.log_density(view(z)), least = here + std::log(rng.uniform());
+      const Eigen::VectorXd there = to_u_.solve(z - whitening_.center);
+      const double value = density.value_above(view(there), least + proposed) - proposed;
+      if (!(value > least)) continue;
+      here = value;
+      moved = there;
+    }
+    return moved;
+  }
+
+ private:
+  static constexpr double freedom = 5, evenly = 0.3;
+  static constexpr int proposals = 2;
+  MaximaMixture mixture_;
+  const Whitening& whitening_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> to_u_;
+};
+
 template <class RunChain>
 Draws run_chains(const RunSettings& settings, const RunChain& run_chain) {
   Draws draws(static_cast<std::size_t>(settings.chains));
   tbb::parallel_for(0, settings.chains, [&](int c) {
     Rng rng(settings.seed, settings.first_stream + static_cast<std::uint64_t>(c));
-    draws[static_cast<std::size_t>(c)] = run_chain(rng);
+    draws[static_cast<std::size_t>(c)] = run_chain(rng, static_cast<std::size_t>(c));
   });
   return draws;
 }
@@ -44,7 +87,7 @@ template <int N>
 class NutsChain {
  public:
   NutsChain(const Posterior& posterior, const Whitening& whitening, const NutsSettings& options,
-            const RunSettings& settings, std::size_t c)
+            const RunSettings& settings, std::size_t c, std::span<const LocalMaximum> maxima)
       : posterior_(posterior),
         whitening_(whitening),
         settings_(settings),
@@ -53,7 +96,8 @@ class NutsChain {
         nuts_(density_, options.dense_metric, options.max_treedepth),
         warmup_(settings.warmup, options.target_accept),
         steps_(settings.progress) {
-    nuts_.set_position(random_start(density_, rng_));
+    if (maxima.size() > 1) jumps_.emplace(whitening, maxima);
+    nuts_.set_position(random_start(posterior, whitening, maxima, c, rng_));
     nuts_.find_reasonable_step_size(rng_);
   }
 
@@ -62,7 +106,7 @@ class NutsChain {
     const int first = keeps ? iterations / 2 : iterations;
     late_.values.resize(iterations - first, posterior_.dimension());
     for (int i = 0; i < iterations; ++i) {
-      warmup_.adapt(warmed_++, nuts_.step(rng_), nuts_, rng_);
+      warmup_.adapt(warmed_++, transition(), nuts_, rng_);
       if (i >= first) late_.values.row(i - first) = natural();
       steps_.step();
     }
@@ -77,7 +121,7 @@ class NutsChain {
     chain.log_density.reserve(static_cast<std::size_t>(settings_.draws));
     double accept = 0;
     for (int i = 0; i < settings_.draws; ++i) {
-      chain.nuts.push_back(nuts_.step(rng_));
+      chain.nuts.push_back(transition());
       accept += chain.nuts.back().accept_stat;
       chain.values.row(i) = natural();
       chain.log_density.push_back(nuts_.point().log_density);
@@ -89,6 +133,15 @@ class NutsChain {
   }
 
  private:
+  NutsStep transition() {
+    if (jumps_) {
+      const auto& point = nuts_.point();
+      if (auto there = jumps_->jump(density_, point.position, point.log_density, rng_))
+        nuts_.set_position(*there);
+    }
+    return nuts_.step(rng_);
+  }
+
   Eigen::VectorXd natural() const {
     Eigen::VectorXd x(posterior_.dimension());
     posterior_.to_natural(view(whitening_(nuts_.point().position)), view(x));
@@ -103,6 +156,7 @@ class NutsChain {
   Nuts<N> nuts_;
   WindowedWarmup<N> warmup_;
   ProgressSteps steps_;
+  std::optional<MaximaJumps> jumps_;
   int warmed_ = 0;
   Chain late_;
 };
@@ -122,7 +176,8 @@ bool promising(const Draws& late, int draws) {
 
 template <int N>
 Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
-                  const NutsSettings& options, const RunSettings& settings, bool may_leap) {
+                  const NutsSettings& options, const RunSettings& settings, bool may_leap,
+                  std::span<const LocalMaximum> maxima) {
   std::vector<std::unique_ptr<NutsChain<N>>> chains(static_cast<std::size_t>(settings.chains));
   // Leaps take fewer evaluations than transitions without them, once there is something to leap about.
   const bool leaps = may_leap && posterior.likelihood()->is_slow();
@@ -130,7 +185,8 @@ Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
   for (const int iterations : {first, settings.warmup - first}) {
     tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t c) {
       if (!chains[c])
-        chains[c] = std::make_unique<NutsChain<N>>(posterior, whitening, options, settings, c);
+        chains[c] =
+            std::make_unique<NutsChain<N>>(posterior, whitening, options, settings, c, maxima);
       chains[c]->warm_up(iterations, may_leap);
     });
     if (!may_leap) continue;
@@ -146,26 +202,27 @@ Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
 }
 
 Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
-                  const NutsSettings& options, const RunSettings& settings, bool may_leap) {
+                  const NutsSettings& options, const RunSettings& settings, bool may_leap,
+                  std::span<const LocalMaximum> maxima = {}) {
   switch (posterior.dimension()) {
     case 1:
-      return nuts_chains<1>(posterior, whitening, options, settings, may_leap);
+      return nuts_chains<1>(posterior, whitening, options, settings, may_leap, maxima);
     case 2:
-      return nuts_chains<2>(posterior, whitening, options, settings, may_leap);
+      return nuts_chains<2>(posterior, whitening, options, settings, may_leap, maxima);
     case 3:
-      return nuts_chains<3>(posterior, whitening, options, settings, may_leap);
+      return nuts_chains<3>(posterior, whitening, options, settings, may_leap, maxima);
     case 4:
-      return nuts_chains<4>(posterior, whitening, options, settings, may_leap);
+      return nuts_chains<4>(posterior, whitening, options, settings, may_leap, maxima);
     default:
-      return nuts_chains<Eigen::Dynamic>(posterior, whitening, options, settings, may_leap);
+      return nuts_chains<Eigen::Dynamic>(posterior, whitening, options, settings, may_leap, maxima);
   }
 }
 
 }  // namespace
 
 Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const NutsSettings& nuts,
-               const RunSettings& settings) {
-  return nuts_chains(posterior, whitening, nuts, settings, false);
+               const RunSettings& settings, std::span<const LocalMaximum> maxima) {
+  return nuts_chains(posterior, whitening, nuts, settings, false, maxima);
 }
 
 Draws run_nuts_or_leaps(const Posterior& posterior, const Whitening& whitening,
@@ -174,10 +231,10 @@ Draws run_nuts_or_leaps(const Posterior& posterior, const Whitening& whitening,
 }
 
 Draws run_metropolis(const Posterior& posterior, const Whitening& whitening,
-                     const MetropolisSettings& metropolis, const RunSettings& settings) {
-  return run_chains(settings, [&](Rng& rng) {
-    const WhitenedDensity density(posterior, whitening);
-    const Eigen::VectorXd u = random_start(density, rng);
+                     const MetropolisSettings& metropolis, const RunSettings& settings,
+                     std::span<const LocalMaximum> maxima) {
+  return run_chains(settings, [&](Rng& rng, std::size_t c) {
+    const Eigen::VectorXd u = random_start(posterior, whitening, maxima, c, rng);
     if (!metropolis.half_width) {
       return whitened_metropolis_chain(posterior, whitening, u, settings, rng);
     }

@@ -8,6 +8,8 @@ const char* stage_name(Stage stage) {
   switch (stage) {
     case Stage::mode:
       return "search for the mode";
+    case Stage::maxima:
+      return "search for other maxima";
     case Stage::tails:
       return "tails";
     case Stage::quadrature:

@@ -10,10 +10,11 @@ namespace wearwell {
 
 /// The stages of a fit that can fall short of what they promise. A new stage gets an entry here; a
 /// test walks over the list and asks of each that its failure ends trust.
-enum class Stage { mode, tails, quadrature, digits, natural_mode, effects };
+enum class Stage { mode, maxima, tails, quadrature, digits, natural_mode, effects };
 
-inline constexpr std::array all_stages = {Stage::mode,   Stage::tails,        Stage::quadrature,
-                                          Stage::digits, Stage::natural_mode, Stage::effects};
+inline constexpr std::array all_stages = {Stage::mode,       Stage::maxima, Stage::tails,
+                                          Stage::quadrature, Stage::digits, Stage::natural_mode,
+                                          Stage::effects};
 
 /// What a stage did not reach. Verdict::warn where something else vouches for the numbers.
 struct Shortfall {

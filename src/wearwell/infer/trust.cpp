@@ -26,12 +26,11 @@ std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit) {
     checks.push_back(prior_data_conflict(posterior, fit));
   }
   const auto with_computation = [&] {
-    checks.push_back(computation(
-        fit.shortfalls,
-        fit.exact
-            ? fmt::format("every stage came to its end; quadrature to an estimated relative {:.1g}",
-                          fit.exact->error)
-            : "every stage came to its end"));
+    std::string detail = "every stage came to its end";
+    if (!fit.maxima.found.empty()) detail += "; " + description(posterior, fit.maxima);
+    if (fit.exact)
+      detail += fmt::format("; quadrature to an estimated relative {:.1g}", fit.exact->error);
+    checks.push_back(computation(fit.shortfalls, detail));
     return checks;
   };
   if (fit.method == Method::exact) return with_computation();
