@@ -46,7 +46,7 @@ int main() {
   RunOptions options;
   options.report = false;
   const Result result = study->run(options, monitor);
-  std::printf("k = %s\n", result.body["parameters"]["k"]["exact"]["mean"].dump().c_str());
+  std::printf("k = %s\n", result.body["parameters"]["k"]["mean"].dump().c_str());
   std::printf("trusted: %s\n", result.header.trusted ? "yes" : "no");
 
   stop.request_stop();

@@ -62,13 +62,13 @@ def test_numbers_are_those_of_the_fit(written):
 
 
 def test_log_likelihood_is_the_law_written_out(written):
-    """V is normal about k W with sd sigma, W = cycles x 5.966 N m; data in SI."""
+    """V is normal about k W with sd sigma, W = cycles x 5.966 N m; data in mm^3."""
     fit, groups = written
     volume = groups["observed_data"]["volume"].to_numpy()
     cycles = groups["constant_data"]["cycles"].to_numpy()
     mean = fit.draws["k"].to_numpy()[:, None] * cycles * 5.966
     sd = fit.draws["sigma"].to_numpy()[:, None]
-    expected = -0.5 * np.log(2 * np.pi) - np.log(sd * 1e-9) - 0.5 * ((volume - mean) / sd) ** 2
+    expected = -0.5 * np.log(2 * np.pi) - np.log(sd) - 0.5 * ((volume - mean) / sd) ** 2
     np.testing.assert_allclose(groups["log_likelihood"]["volume"].to_numpy().reshape(4000, -1), expected, rtol=1e-10)
 
 

@@ -169,10 +169,9 @@ def predict(fit, new, level, kind, along):
     columns_out = {}
     for i in range(len(rows)):
         for entry in answers[i]:
-            best = {**entry, **entry.get("exact", {})}
             prefix = f"{entry['quantity']} " if several else ""
             for name, key in (("mean", "mean"), ("lower", ends[0]), ("upper", ends[1])):
-                value = best[key]
+                value = entry[key]
                 columns_out.setdefault(prefix + name, []).append(float("nan") if value is None else value)
             unit = entry["unit"]
     result = pandas.DataFrame(columns_out, index=frame.index)

@@ -25,11 +25,6 @@ class Check(NamedTuple):
     advice: str
 
 
-def _best(entry):
-    """The numbers by quadrature where there is one, else those of the draws."""
-    return {**entry, **entry.get("exact", {})}
-
-
 def _frame(rows, columns, index=None):
     import pandas
 
@@ -51,12 +46,11 @@ _quantiles = ["q05", "q50", "q95", "b1", "b10", "b50"]
 def _lives_and_quantities(summary):
     rows = []
     for each in summary.get("quantities", []):
-        best = _best(each)
-        is_life = "b10" in best
+        is_life = "b10" in each
         rows.append({
             "name": each["name"], "of": each["of"], "at": each["at"], "unit": each["unit"], "is_life": is_life,
-            **{q: (_life if is_life else _number)(best[q]) if q in best else _nan for q in _quantiles},
-            "predictive": _number(best.get("predictive")), "bound": _number(best.get("bound")),
+            **{q: (_life if is_life else _number)(each[q]) if q in each else _nan for q in _quantiles},
+            "predictive": _number(each.get("predictive")), "bound": _number(each.get("bound")),
             "credible_level": _number(each.get("credible_level"))})
     return rows
 
@@ -103,10 +97,9 @@ class Fit:
         """By parameter: unit, mean, sd, q05, q50, q95, the diagnostics of the draws, and the prior in words."""
         rows = []
         for name, each in self._need("parameters", "parameters").items():
-            best = _best(each)
             rows.append({
-                "name": name, "unit": each["unit"], **{k: _number(best[k]) for k in ("mean", "sd", "q05", "q50", "q95")},
-                **{k: _number(each[k]) for k in ("mcse", "ess_bulk", "ess_tail", "rhat")}, "exact": "exact" in each,
+                "name": name, "unit": each["unit"], **{k: _number(each[k]) for k in ("mean", "sd", "q05", "q50", "q95")},
+                **{k: _number(each["draws"][k]) for k in ("mcse", "ess_bulk", "ess_tail", "rhat")}, "exact": each["by"] == "quadrature",
                 "prior": each.get("prior", {}).get("words", ""), "default_prior": each.get("prior", {}).get("default", False)})
         return _frame(rows, ["name", "unit", "mean", "sd", "q05", "q50", "q95", "mcse", "ess_bulk", "ess_tail", "rhat", "exact",
                              "prior", "default_prior"], "name")
@@ -118,9 +111,8 @@ class Fit:
         rows = []
         for each in self._need("predictions", "predictions of a posterior"):
             at = next(iter(each))  # "cycles": the first key is what it is at
-            best = _best(each)
             rows.append({"at_name": at, "at": each[at], "quantity": each["quantity"], "unit": each["unit"],
-                         **{k: _number(best[k]) for k in ("mean", "ci05", "ci95", "pi05", "pi95")},
+                         **{k: _number(each[k]) for k in ("mean", "ci05", "ci95", "pi05", "pi95")},
                          "measured": _number(each.get("measured"))})
         return _frame(rows, ["at_name", "at", "quantity", "unit", "mean", "ci05", "ci95", "pi05", "pi95", "measured"])
 
@@ -139,9 +131,8 @@ class Fit:
         rows = [row for row in _lives_and_quantities(self.summary) if row["is_life"]]
         if "life" in self.summary:
             life = self.summary["life"]
-            best = _best(life)
             rows.insert(0, {"name": "life", "of": life.get("of", ""), "at": f"to {life['limit']:g} {life['limit_unit']}",
-                            "unit": life["unit"], **{q: _life(best[q]) if q in best else _nan for q in _quantiles}, "predictive": _nan,
+                            "unit": life["unit"], **{q: _life(life[q]) if q in life else _nan for q in _quantiles}, "predictive": _nan,
                             "bound": _nan, "credible_level": _nan})
         return _frame(rows, ["name", "of", "at", "unit", *_quantiles, "predictive", "bound", "credible_level"])
 

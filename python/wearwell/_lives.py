@@ -86,11 +86,10 @@ def _number(value):  # null of a life: never
 
 
 def _row(each, unit=None):
-    best = {**each, **each.get("exact", {})}
     return {"name": each["name"], "of": each["of"], "at": each["at"], "unit": unit or each["unit"],
-            **{q: _number(best[q]) for q in ("q05", "q50", "q95")},
-            "predictive": _number(best["predictive"]) if "predictive" in best else _nan,
-            "bound": _number(best["bound"]) if "bound" in best else _nan}
+            **{q: _number(each[q]) for q in ("q05", "q50", "q95")},
+            "predictive": _number(each["predictive"]) if "predictive" in each else _nan,
+            "bound": _number(each["bound"]) if "bound" in each else _nan}
 
 
 def _require_survival(rows, what, survived):
@@ -112,10 +111,10 @@ def life(fit, limit, b, confidence, unit, survived, along, given):
     answers = fit.ask({**table, "b_lives": b, "credible_level": confidence})
     rows = [_row(each) for each in answers.get("quantities", [])]
     if "life" in answers:
-        best = {**answers["life"], **answers["life"].get("exact", {})}
+        told = answers["life"]
         of = answers["life"].get("of", "")
-        rows = [{"name": "life", "of": of or "joint", "at": f"to {best['limit']:g} {best['limit_unit']}", "unit": best["unit"],
-                 **{q: _number(best[k]) for q, k in (("q05", "q05"), ("q50", "b50"), ("q95", "q95"))}, "predictive": _nan,
+        rows = [{"name": "life", "of": of or "joint", "at": f"to {told['limit']:g} {told['limit_unit']}", "unit": told["unit"],
+                 **{q: _number(told[k]) for q, k in (("q05", "q05"), ("q50", "b50"), ("q95", "q95"))}, "predictive": _nan,
                  "bound": _nan}, *rows] if study["model"] == "archard-joint" else rows
     wanted = "remaining life" if unit is not None or (law and survived is not None) else "life"
     if unit is None:

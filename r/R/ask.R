@@ -145,7 +145,7 @@ predictions_at <- function(fit, newdata, asked, axis, units, level, kind, whose,
   ends <- if (kind == "mean") c("ci05", "ci95") else c("pi05", "pi95")
   result <- data.frame(row.names = rownames(newdata))
   for (which in seq_along(answers[[1]])) {
-    rows <- lapply(answers, function(answer) best(answer[[which]]))
+    rows <- lapply(answers, function(answer) answer[[which]])
     prefix <- if (several) paste0(rows[[1]]$quantity, " ") else ""
     keys <- stats::setNames(c("mean", ends), paste0(prefix, c("mean", "lower", "upper")))
     for (name in names(keys)) result[[name]] <- column(rows, keys[[name]])

@@ -77,12 +77,6 @@ stats_of <- function(stats, size) {
 
 # ---- Frames of summary.json.
 
-# The numbers by quadrature where there is one, else those of the draws.
-best <- function(entry) {
-  entry[names(entry$exact)] <- entry$exact
-  entry
-}
-
 life <- function(value) if (is.na(value)) Inf else value  # null of a life: never
 
 column <- function(rows, key, type = NA_real_) {
@@ -103,9 +97,9 @@ parameters_of <- function(summary) {
   rows <- summary$parameters
   prior <- lapply(rows, function(row) row$prior)
   cbind(data.frame(unit = column(rows, "unit", ""), row.names = names(rows)),
-        numbers_of(lapply(rows, best), c("mean", "sd", "q05", "q50", "q95")),
-        numbers_of(rows, c("mcse", "ess_bulk", "ess_tail", "rhat")),
-        data.frame(exact = vapply(rows, function(row) !is.null(row$exact), NA, USE.NAMES = FALSE), prior = column(prior, "words", ""),
+        numbers_of(rows, c("mean", "sd", "q05", "q50", "q95")),
+        numbers_of(lapply(rows, function(row) row$draws), c("mcse", "ess_bulk", "ess_tail", "rhat")),
+        data.frame(exact = column(rows, "by", "") == "quadrature", prior = column(prior, "words", ""),
                    default_prior = column(prior, "default", FALSE)))
 }
 
@@ -116,13 +110,13 @@ predictions_of <- function(summary) {
   cbind(data.frame(at_name = vapply(rows, function(row) names(row)[1], ""),
                    at = if (numeric) vapply(at, as.double, 0) else vapply(at, as.character, ""),
                    quantity = column(rows, "quantity", ""), unit = column(rows, "unit", "")),
-        numbers_of(lapply(rows, best), c("mean", "ci05", "ci95", "pi05", "pi95")), numbers_of(rows, "measured"))
+        numbers_of(rows, c("mean", "ci05", "ci95", "pi05", "pi95")), numbers_of(rows, "measured"))
 }
 
 quantiles <- c("q05", "q50", "q95", "b1", "b10", "b50")
 
 quantities_of <- function(summary) {
-  rows <- lapply(summary$quantities, best)
+  rows <- summary$quantities
   is_life <- vapply(rows, function(row) !is.null(row$b10), NA)
   frame <- cbind(data.frame(name = column(rows, "name", ""), of = column(rows, "of", ""), at = column(rows, "at", ""),
                             unit = column(rows, "unit", ""), is_life = is_life),
@@ -138,7 +132,7 @@ lives_of <- function(summary) {
   frame <- quantities_of(summary)
   frame <- frame[frame$is_life, setdiff(names(frame), "is_life")]
   if (!is.null(summary$life)) {
-    entry <- best(summary$life)
+    entry <- summary$life
     at <- paste("to", format(entry$limit, digits = 6), entry$limit_unit)
     first <- data.frame(name = "life", of = if (is.null(entry$of)) "" else entry$of, at = at, unit = entry$unit)
     first[quantiles] <- lapply(quantiles, function(key) if (is.null(entry[[key]])) NA_real_ else life(entry[[key]]))

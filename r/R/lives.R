@@ -123,12 +123,12 @@ ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NU
 
 # A frame of what was answered; null of a life is never.
 life_rows <- function(answers, model) {
-  of <- lapply(answers$quantities, best)
+  of <- answers$quantities
   never <- function(key) vapply(of, function(row) if (is.null(row[[key]])) NA_real_ else life(row[[key]]), 0)
   rows <- data.frame(name = column(of, "name", ""), of = column(of, "of", ""), at = column(of, "at", ""), unit = column(of, "unit", ""))
   for (key in c("q05", "q50", "q95", "predictive", "bound")) rows[[key]] <- never(key)
   if (model != "archard-joint" || is.null(answers$life)) return(rows)
-  told <- best(answers$life)
+  told <- answers$life
   first <- data.frame(name = "life", of = if (is.null(told$of) || told$of == "") "joint" else told$of,
                       at = paste("to", format(told$limit, digits = 6), told$limit_unit), unit = told$unit, q05 = life(told$q05),
                       q50 = life(told$b50), q95 = life(told$q95), predictive = NA_real_, bound = NA_real_)

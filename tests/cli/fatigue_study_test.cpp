@@ -112,7 +112,7 @@ TEST_F(FatigueStudy, CasesAgreeWithTheGridOfR) {
     const std::string number = study.substr(4);
     std::size_t i = 0;
     for (const std::string name : {"log10_a", "b", "log10_Sut", "sigma"}) {
-      const json& exact = result["parameters"][name]["exact"];
+      const json& exact = result["parameters"][name];
       EXPECT_NEAR(double(exact["mean"]) / checked.at(study)[i++], 1, 0.01) << name;
       const auto& grid = expected.at(number + " " + name);
       const double sd = grid[1];
@@ -135,9 +135,9 @@ TEST_F(FatigueStudy, CasesAgreeWithTheGridOfR) {
     for (const std::string type : {"A", "B", "C", "D", "E", "F", "G"}) {
       if (study == "case1" && type == "G") continue;
       const auto& grid = expected.at(number + " " + type);
-      const json& life = quantity(result, "life", "new type " + type)["exact"];
-      const json& b1 = quantity(result, "B1 life", "type " + type)["exact"];
-      const json& b10 = quantity(result, "B10 life", "type " + type)["exact"];
+      const json& life = quantity(result, "life", "new type " + type);
+      const json& b1 = quantity(result, "B1 life", "type " + type);
+      const json& b10 = quantity(result, "B10 life", "type " + type);
       const auto near = [&](const json& value, double cycles, double tolerance) {
         EXPECT_NEAR(double(value) * 1e5 / cycles, 1, tolerance) << study << ", type " << type;
       };
@@ -160,7 +160,8 @@ TEST_F(FatigueStudy, CasesAgreeWithTheGridOfR) {
 TEST_F(FatigueStudy, CoverageFindsTypeF) {
   const json result = fit(example + "case2.toml", "");
   for (const auto& [name, p] : result["parameters"].items()) {
-    EXPECT_NEAR(p["mean"], double(p["exact"]["mean"]), 4 * double(p["mcse"])) << name;
+    EXPECT_NEAR(double(p["draws"]["mean"]), double(p["mean"]), 4 * double(p["draws"]["mcse"]))
+        << name;
   }
   ASSERT_EQ(result["coverage"]["rows"].size(), 9u);
   EXPECT_EQ(result["coverage"]["unit"], "1e5 cycles");
@@ -208,8 +209,8 @@ TEST_F(FatigueStudy, MoreStressIsNeverMoreLife) {
                           more = fmt::format("{}{}", kind, i + 1);
         for (const char* name : {"B1 life", "B50 life", "survival to 200000 cycles"}) {
           for (const char* what : {"predictive", "bound", "q05", "q95"}) {
-            EXPECT_GE(double(quantity(result, name, here)["exact"][what]),
-                      double(quantity(result, name, more)["exact"][what]) * (1 - 1e-9))
+            EXPECT_GE(double(quantity(result, name, here)[what]),
+                      double(quantity(result, name, more)[what]) * (1 - 1e-9))
                 << correction << " " << name << " " << what << " " << here;
           }
         }
@@ -249,8 +250,8 @@ sigma = { law = "uniform", lower = 0.1999, upper = 0.2001 }
         if (!all_known && where != own) continue;
         for (const std::string what : {"predictive", "q05", "q50", "q95"}) {
           if (!all_known && what == "q05") continue;  // more scatter widens it
-          EXPECT_GT(double(quantity(stopped, "B50 life", where)["exact"][what]),
-                    double(quantity(failed, "B50 life", where)["exact"][what]))
+          EXPECT_GT(double(quantity(stopped, "B50 life", where)[what]),
+                    double(quantity(failed, "B50 life", where)[what]))
               << life << " " << where << " " << what;
         }
       }
@@ -277,17 +278,17 @@ TEST_F(FatigueStudy, UnitsDoNotMatter) {
           3.5 - std::log10(ksi)) +
       prior.substr(prior.find("b = ")) + ask);
   const auto mean = [](const json& result, const char* name) -> double {
-    return result["parameters"][name]["exact"]["mean"];
+    return result["parameters"][name]["mean"];
   };
   EXPECT_NEAR(mean(other, "log10_a") + std::log10(ksi), mean(mpa, "log10_a"), 1e-6);
   EXPECT_NEAR(mean(other, "b") / mean(mpa, "b"), 1, 1e-6);
   EXPECT_NEAR(mean(other, "sigma") / mean(mpa, "sigma"), 1, 1e-6);
   const auto b10 = [](const json& result) -> double {
-    return quantity(result, "B10 life", "here")["exact"]["bound"];
+    return quantity(result, "B10 life", "here")["bound"];
   };
   EXPECT_NEAR(b10(other) * 1000 / b10(mpa), 1, 1e-6);
   const auto allowed = [](const json& result) -> double {
-    return quantity(result, "allowed alternating stress", "specimen")["exact"]["predictive"];
+    return quantity(result, "allowed alternating stress", "specimen")["predictive"];
   };
   EXPECT_NEAR(allowed(other) * ksi / allowed(mpa), 1, 1e-6);
 }
@@ -311,13 +312,13 @@ TEST_F(FatigueStudy, LivesAreCounted) {
   for (const auto& [unit, size] :
        {std::pair{"revolutions", 1.0}, {"krev", 1e3}, {"reversals", 0.5}}) {
     const json result = fit_lives(unit, size);
-    EXPECT_NEAR(double(result["parameters"]["log10_a"]["exact"]["mean"]),
-                double(expected["parameters"]["log10_a"]["exact"]["mean"]), 1e-6)
+    EXPECT_NEAR(double(result["parameters"]["log10_a"]["mean"]),
+                double(expected["parameters"]["log10_a"]["mean"]), 1e-6)
         << unit;
     const json& life = quantity(result, "B10 life", "here");
     EXPECT_EQ(life["unit"], unit);
-    EXPECT_NEAR(double(life["exact"]["predictive"]) * size /
-                    double(quantity(expected, "B10 life", "here")["exact"]["predictive"]),
+    EXPECT_NEAR(double(life["predictive"]) * size /
+                    double(quantity(expected, "B10 life", "here")["predictive"]),
                 1, 1e-6)
         << unit;
   }
@@ -383,12 +384,11 @@ TEST_F(FatigueStudy, EveryWayToWriteAStressIsTheSame) {
              fmt::format("alternating_stress = \"{:.14g} MPa\", stress_ratio = {:.14g}", 7 * per_mm,
                          5. / 19))};
   const auto b10 = [](const json& each) -> double {
-    return quantity(each, "B10 life", "here")["exact"]["predictive"];
+    return quantity(each, "B10 life", "here")["predictive"];
   };
   for (const json& other : others) {
     for (const auto& [name, p] : expected["parameters"].items()) {
-      EXPECT_NEAR(double(other["parameters"][name]["exact"]["mean"]) / double(p["exact"]["mean"]),
-                  1, 1e-6);
+      EXPECT_NEAR(double(other["parameters"][name]["mean"]) / double(p["mean"]), 1, 1e-6);
     }
     EXPECT_NEAR(b10(other) / b10(expected), 1, 1e-6);
   }
@@ -401,15 +401,14 @@ TEST_F(FatigueStudy, AllowedStressSurvives) {
   const json allowed = fit_text(study + "[predict]\nrequired_life = 2e5\nreliability = \"90 %\"\n");
   const json& stress = quantity(allowed, "allowed alternating stress", "specimen");
   EXPECT_EQ(stress["unit"], "MPa");
-  EXPECT_LT(stress["exact"]["bound"], stress["exact"]["q50"]);
+  EXPECT_LT(stress["bound"], stress["q50"]);
   const json survived =
       fit_text(study + fmt::format("[predict]\nsurvival_to = 2e5\nb_lives = 10\n[predict.stress]\n"
                                    "here = {{ alternating_stress = \"{:.12g} MPa\" }}\n",
-                                   double(stress["exact"]["predictive"])));
-  EXPECT_NEAR(quantity(survived, "survival to 200000 cycles", "here")["exact"]["predictive"], 90,
-              1e-3);
-  EXPECT_NEAR(double(quantity(survived, "B10 life", "here")["exact"]["predictive"]) / 2e5, 1, 1e-4);
-  EXPECT_NEAR(double(quantity(survived, "life", "new here")["exact"]["b10"]) / 2e5, 1, 1e-4);
+                                   double(stress["predictive"])));
+  EXPECT_NEAR(quantity(survived, "survival to 200000 cycles", "here")["predictive"], 90, 1e-3);
+  EXPECT_NEAR(double(quantity(survived, "B10 life", "here")["predictive"]) / 2e5, 1, 1e-4);
+  EXPECT_NEAR(double(quantity(survived, "life", "new here")["b10"]) / 2e5, 1, 1e-4);
 }
 
 TEST_F(FatigueStudy, WarnsOfExtrapolationAndOfFewTests) {

@@ -49,7 +49,7 @@ TEST_F(NewFrom, WornVolumes) {
                           HasSubstr("slip: column 'Sliding distance / m' in m"),
                           HasSubstr("column 'remark' is not used")));
   EXPECT_EQ(result_["model"], "archard-joint");
-  EXPECT_NEAR(result_["parameters"]["k"]["exact"]["q50"], 31.0 / 36000, 0.1e-3);
+  EXPECT_NEAR(result_["parameters"]["k"]["q50"], 31.0 / 36000, 0.1e-3);
   EXPECT_EQ(result_["parameters"]["k"]["prior"]["default"], true);
 }
 

@@ -44,9 +44,21 @@ TEST(Comparison, RanksByElpd) {
   EXPECT_EQ(json["studies"][0]["parameters"]["k"]["mean"].get<double>(), 7.51e-4);
   const std::string text = comparison_text(comparison);
   EXPECT_THAT(text, HasSubstr("better"));
+  EXPECT_THAT(text, HasSubstr("Log densities (elpd, AIC, BIC): data in mm^3"));
   EXPECT_THAT(text, HasSubstr("0.000751 +- 1.1e-05"));
   EXPECT_THAT(text, HasSubstr("AIC and BIC of worse are at the mode"));
   EXPECT_THAT(text, HasSubstr("From 2 observations"));
+}
+
+// The same data in another unit: log densities differ by that alone.
+TEST(Comparison, NeverRanksLogDensitiesInDifferentUnits) {
+  SavedResult other = sample({{-3, 0, 0.1}, {-5, 0, 0.1}});
+  other.loo->density_unit = "m^3";
+  const Comparison comparison =
+      compare({{"a", sample({{-2, 0, 0.1}, {-2, 0, 0.1}})}, {"b", other}});
+  EXPECT_FALSE(comparison.comparable);
+  EXPECT_THAT(comparison.obstacle,
+              HasSubstr("log densities of a are of data in mm^3, those of b in m^3"));
 }
 
 // Each of two predicts half of the observations: they share the weight, whoever is best in sum.

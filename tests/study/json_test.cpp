@@ -29,13 +29,16 @@ TEST(SummaryJson, HasTheKeysOfTheContract) {
               IsSupersetOf({"parameters", "stages", "predictions", "life", "checks", "trusted"}));
   for (const Json& parameters : {json["parameters"], json["stages"][0]["parameters"]}) {
     EXPECT_THAT(keys(parameters["k"]),
-                IsSupersetOf({"unit", "mean", "sd", "mcse", "q05", "q50", "q95", "ess_bulk",
-                              "ess_tail", "rhat", "exact"}));
-    EXPECT_THAT(keys(parameters["k"]["exact"]), IsSupersetOf({"mean", "sd", "q05", "q50", "q95"}));
-    EXPECT_FALSE(parameters["sigma"].contains("exact"));
+                IsSupersetOf({"unit", "mean", "sd", "q05", "q50", "q95", "by", "draws"}));
+    EXPECT_THAT(
+        keys(parameters["k"]["draws"]),
+        IsSupersetOf({"mean", "sd", "mcse", "q05", "q50", "q95", "ess_bulk", "ess_tail", "rhat"}));
+    EXPECT_EQ(parameters["k"]["by"], "quadrature");
+    EXPECT_EQ(parameters["sigma"]["by"], "draws");
+    EXPECT_FALSE(parameters["k"].contains("exact"));
   }
   EXPECT_THAT(keys(json["predictions"][0]),
-              IsSupersetOf({"cycles", "mean", "ci05", "ci95", "pi05", "pi95"}));
+              IsSupersetOf({"cycles", "mean", "ci05", "ci95", "pi05", "pi95", "by", "draws"}));
   EXPECT_THAT(keys(json["life"]),
               IsSupersetOf({"unit", "limit", "limit_unit", "now", "risk", "b1", "b10", "b50", "q05",
                             "q95", "inspect_within", "passed"}));
@@ -61,15 +64,22 @@ TEST(SummaryJson, BeginsWithTheHeader) {
 TEST(SummaryJson, HoldsWhatWasFound) {
   const PosteriorSummary result = sample_result();
   const Json json = Json::parse(whole(result).dump(2));
-  EXPECT_EQ(json["parameters"]["k"]["mean"].get<double>(), 7.5e-4);
-  EXPECT_EQ(json["parameters"]["k"]["exact"]["sd"].get<double>(), 1.1e-5);
-  EXPECT_EQ(json["predictions"][0]["pi95"].get<double>(), 101);
-  EXPECT_EQ(json["predictions"][0]["exact"]["pi95"].get<double>(), 101.5);
+  // The plain names hold the best values: by quadrature where there is one.
+  EXPECT_EQ(json["parameters"]["k"]["mean"].get<double>(), 7.51e-4);
+  EXPECT_EQ(json["parameters"]["k"]["sd"].get<double>(), 1.1e-5);
+  EXPECT_EQ(json["parameters"]["k"]["draws"]["mean"].get<double>(), 7.5e-4);
+  EXPECT_EQ(json["parameters"]["sigma"]["mean"].get<double>(), 2);
+  EXPECT_EQ(json["parameters"]["sigma"]["draws"]["mean"].get<double>(), 2);
+  EXPECT_EQ(json["predictions"][0]["pi95"].get<double>(), 101.5);
+  EXPECT_EQ(json["predictions"][0]["draws"]["pi95"].get<double>(), 101);
+  EXPECT_EQ(json["life"]["by"], "draws");  // nothing else stands beside it
+  EXPECT_FALSE(json["life"].contains("draws"));
   EXPECT_FALSE(json["predictions"][0].contains("measured"));
   EXPECT_EQ(json["stages"][0]["rows"].get<int>(), 1);
   EXPECT_EQ(json["stages"][0]["predictions"][0]["measured"].get<double>(), 92.73);
   EXPECT_EQ(json["sampler"]["seed"].get<std::uint64_t>(), result.seed);
   EXPECT_EQ(json["log_evidence"].get<double>(), -12.25);
+  EXPECT_EQ(json["density_unit"], "mm^3");
   std::vector<std::string> verdicts;
   for (const Json& check : json["checks"]) verdicts.push_back(check["verdict"]);
   EXPECT_THAT(verdicts, testing::ElementsAre("pass", "warn", "fail"));
@@ -84,6 +94,8 @@ TEST(SummaryJson, HoldsTheModeAndLeaveOneOut) {
   EXPECT_EQ(mode["parameters"]["sigma"]["at"], "upper bound");
   EXPECT_TRUE(mode["parameters"]["sigma"]["standard_error"].is_null());
   EXPECT_EQ(mode["log_likelihood"].get<double>(), -20.5);
+  EXPECT_EQ(mode["density_unit"], "mm^3");
+  EXPECT_EQ(json["loo"]["density_unit"], "mm^3");
   EXPECT_EQ(mode["aic"].get<double>(), 45);
   EXPECT_EQ(mode["maximum_likelihood"], false);
   const Json& loo = json["loo"];
@@ -101,7 +113,7 @@ TEST(SummaryJson, WhatIsNoNumberIsNull) {
   PosteriorSummary result = sample_result();
   result.parameters[0].rhat = std::nan("");
   const Json json = Json::parse(whole(result).dump());
-  EXPECT_TRUE(json["parameters"]["k"]["rhat"].is_null());
+  EXPECT_TRUE(json["parameters"]["k"]["draws"]["rhat"].is_null());
   EXPECT_TRUE(json["life"]["q95"].is_null());  // a life that never ends
 }
 

@@ -47,11 +47,13 @@ inline PosteriorSummary sample_result() {
   result.life = LifeSummary{
       "cycles", 100, "mm^3", 20585, 0.01, {21000, 22000, 23000, 21500, infinity, 400}, {}};
   result.log_evidence = -12.25;
+  result.density_unit = "mm^3";
   result.data_fingerprint = "da39a3ee";
   result.mode =
       ModeSummary{"",
                   {{"k", "mm^3/(N m)", 7.4e-4, 9e-6, "inside"},
                    {"sigma", "mm^3", 15, std::numeric_limits<double>::quiet_NaN(), "upper bound"}},
+                  "mm^3",
                   -20.5,
                   -22.5,
                   45,
@@ -60,7 +62,7 @@ inline PosteriorSummary sample_result() {
                   2,
                   13,
                   12};
-  result.loo = LooSummary{"row", {{{-1.5, -1.25, 0.25}, {-3, -2, 0.875, 2, true}}, 0.7}};
+  result.loo = LooSummary{"row", {{{-1.5, -1.25, 0.25}, {-3, -2, 0.875, 2, true}}, 0.7}, "mm^3"};
   result.pointwise = PointwiseTable{"mm^3", "N", "m", "mm^3/(N m)", {{1, 65, 0.0918, 4.44, 0.744}}};
   for (int c = 0; c < 2; ++c) {
     Chain chain;

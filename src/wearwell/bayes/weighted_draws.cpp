@@ -81,12 +81,21 @@ struct Spread {
 
 }  // namespace
 
+namespace {
+
+// Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
+constexpr double negligible = 1e-8;
+
+}  // namespace
+
+double Distribution::least_weight(const WeightedDraws& draws) {
+  return draws.lower.empty() ? 0 : negligible / static_cast<double>(draws.values.rows());
+}
+
 Distribution::Distribution(const WeightedDraws& draws,
                            const std::function<double(const double* x)>& quantity)
     : cells_(!draws.lower.empty()) {
-  // Nodes that together hold no digit of anything may lie anywhere: nothing is to depend on them.
-  constexpr double negligible = 1e-8;
-  const double least = cells_ ? negligible / static_cast<double>(draws.values.rows()) : 0;
+  const double least = least_weight(draws);
   std::vector<SpreadPoint> points, endless;
   double total = 0, undefined = 0;
   for (Eigen::Index i = 0; i < draws.values.rows(); ++i) {
@@ -180,6 +189,11 @@ double Distribution::cdf(double x) const {
   }
   for (; i < center_.size(); ++i) sum += share_below(x, center_[i], half_width_[i], weight_[i]);
   return sum;
+}
+
+void Distribution::visit(
+    const std::function<void(double weight, double center, double half_width)>& each) const {
+  for (std::size_t i = 0; i < center_.size(); ++i) each(weight_[i], center_[i], half_width_[i]);
 }
 
 double Distribution::quantile(double p) const {

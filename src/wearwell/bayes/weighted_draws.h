@@ -50,12 +50,20 @@ class Distribution {
   Distribution() = default;
   Distribution(const WeightedDraws& draws, const std::function<double(const double* x)>& quantity);
 
+  /// Points of no more weight than this do not count.
+  static double least_weight(const WeightedDraws& draws);
+
   double mean() const;
   double sd() const;
   double cdf(double x) const;
 
   /// The x with cdf(x) = p. For draws, R's type 7 (linear between order statistics).
   double quantile(double p) const;
+
+  /// What it is made of: calls back with the weight, the center and the half width of each point. None where it has no
+  /// distribution.
+  void visit(
+      const std::function<void(double weight, double center, double half_width)>& each) const;
 
  private:
   // Points that lie before those of the next; sums need no order among them.

@@ -72,6 +72,14 @@ void CellMixture::add(const CellMixture& other) {
   cells_.insert(cells_.end(), other.cells_.begin(), other.cells_.end());
 }
 
+void CellMixture::add(const Distribution& other) {
+  const std::size_t before = cells_.size();
+  other.visit([this](double weight, double center, double half_width) {
+    add(weight, center - half_width, center + half_width);
+  });
+  if (cells_.size() == before) add(1, std::nan(""), std::nan(""));
+}
+
 double CellMixture::add_curve(double weight, std::span<const double> share,
                               std::span<const double> value, double from) {
   const std::size_t n = share.size();

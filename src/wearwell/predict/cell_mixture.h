@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "wearwell/bayes/weighted_draws.h"
+
 namespace wearwell {
 
 /// The distribution of a number as cells, each with a weight spread from its low to its high end, evenly or
@@ -13,6 +15,8 @@ class CellMixture {
   /// `a` and `b` in any order; NaN makes all that is asked NaN.
   void add(double weight, double a, double b);
   void add(const CellMixture& other);
+  /// All of a distribution; NaN where it is none.
+  void add(const Distribution& other);
   /// A density of which the nodes of a trapezoidal rule are known: `share` of each, one even step of some
   /// parameter after the other, and the number there, `value`, which rises or falls along them. Between
   /// nodes the distribution goes on as the polynomials through those about them: cells spread evenly would

@@ -70,7 +70,7 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
     life.life.push_back(from_si(told, forecast.remaining.quantile(percent / 100)));
   }
   if (const double never = never_ending(forecast.remaining); never > 1e-9) life.never = never;
-  answer(question, life);
+  answer(question, life, [&](double until) { return forecast.remaining.cdf(to_si(told, until)); });
   return life;
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
@@ -19,7 +18,6 @@
 #include "wearwell/math/constants.h"
 #include "wearwell/prognosis/data_roles.h"
 #include "wearwell/study/inference_data.h"
-#include "wearwell/study/life_levels.h"
 
 // Longer than others: each kind of study tells lives in its own way, and all are one question.
 
@@ -62,60 +60,18 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
     life.share.push_back(p);
     life.life.push_back(std::max(0.0, law.quantile(before + p * (1 - before)) - from));
   }
-  answer(question, life);
+  answer(question, life,
+         [&](double until) { return (law.cdf(from + until) - before) / (1 - before); });
   return life;
 }
-
-// The lives among what a study asks for, with the B-lives of each.
-struct Found {
-  QuantityRequest request;
-  std::map<double, double> by_percent;  // in its unit
-  std::optional<double> survival;
-  std::optional<double> never;
-};
-
-// So far comes only what has no end.
-constexpr const char* for_ever = "1e300 cycles";
-constexpr const char* to_for_ever = "survival to 1e+300 cycles";
 
 std::string without_new(const std::string& of) {
   return of.starts_with("new ") ? of.substr(4) : of;
 }
 
-std::vector<Found> lives_of(const PosteriorStudy& study, const WeightedDraws& posterior,
-                            const std::vector<double>& levels) {
-  std::vector<Found> found;
-  for (const QuantityGroup& group : study.quantity_groups) {
-    const auto& requests = group.requests;
-    if (std::none_of(requests.begin(), requests.end(),
-                     [](const auto& each) { return each.is_life; }))
-      continue;
-    const std::vector<QuantityQuantiles> answers = group.from_draws(posterior);
-    for (const QuantityRequest& life : requests) {
-      if (!life.is_life) continue;
-      Found each{life, {}, {}, {}};
-      for (std::size_t i = 0; i < requests.size(); ++i) {
-        const QuantityRequest& other = requests[i];
-        if (other.of != life.of && other.of != without_new(life.of)) continue;
-        if (other.name == to_for_ever) {
-          each.never = answers[i].predictive;
-        } else if (study.model == "law" && other.name.starts_with("survival to ")) {
-          each.survival = answers[i].q50;
-        }
-        if (other.at != life.at || !answers[i].predictive) continue;
-        for (const double percent : levels) {
-          if (other.name == b_life_name(percent, life.name))
-            each.by_percent[percent] = from_si(other.unit, *answers[i].predictive);
-        }
-      }
-      found.push_back(std::move(each));
-    }
-  }
-  return found;
-}
-
 Source with_wishes(const Source& source,
                    const std::vector<std::pair<std::string, std::string>>& keys) {
+  if (keys.empty()) return source;
   Source asked = source;
   asked.study = with_predict(source.study, keys);
   return asked;
@@ -151,10 +107,6 @@ bool to_a_limit(const Source& source) {
   const TomlReader root = TomlReader::parse(source.study);
   const auto predict = root.table("predict");
   return predict && predict->has("limit");
-}
-
-std::string list_of(const std::vector<double>& percents) {
-  return fmt::format("[{}]", fmt::join(percents, ", "));
 }
 
 std::vector<QuantityRequest> lives_asked(const PosteriorStudy& study) {
@@ -228,57 +180,56 @@ void require_ahead(const QuantityRequest& mine, const std::vector<QuantityReques
   }
 }
 
-// What is known of that one.
-const Found& found_of(const QuantityRequest& mine, const std::vector<Found>& all) {
-  return *std::find_if(all.begin(), all.end(), [&](const Found& each) {
-    return each.request.of == mine.of && each.request.name == mine.name &&
-           each.request.at == mine.at;
-  });
+// The distribution of that one.
+PredictiveLife life_of(const QuantityRequest& mine, const PosteriorStudy& study,
+                       const WeightedDraws& posterior) {
+  for (const QuantityGroup& group : study.quantity_groups) {
+    std::size_t lives = 0;
+    for (const QuantityRequest& each : group.requests) {
+      if (each.is_life && each.of == mine.of && each.name == mine.name && each.at == mine.at)
+        return group.lives(posterior)[lives];
+      lives += each.is_life ? 1 : 0;
+    }
+  }
+  throw InputError(fmt::format("the study has no life of {}", mine.of));
 }
 
-UnitLife described(const Found& found) {
-  UnitLife life{.of = found.request.of, .at = found.request.at, .unit = found.request.unit.text};
-  life.name = found.request.name;
+// From `survived` on, where tests to failure at one load are asked of those that are left: `known` is then
+// the life from the beginning.
+UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
+                   const LifeQuestion& question, bool from_beginning) {
+  UnitLife life{.of = mine.of, .at = mine.at, .unit = mine.unit.text};
+  life.name = mine.name;
+  double from = 0, gone = 0;
+  if (question.survived && from_beginning) {
+    from = along_life("--survived", *question.survived, life.unit);
+    gone = known.law.cdf(to_si(mine.unit, from));
+    if (gone > 1 - 1e-3)
+      throw InputError(
+          fmt::format("--survived: hardly any {} comes to {}", life.of, *question.survived));
+    life.name = "remaining life";
+    life.from = from;
+    life.passed = gone;
+  } else if (question.survived) {
+    life.passed = 1 - known.survival;
+  }
   double before = 0;
-  for (const auto& [percent, value] : found.by_percent) {
+  for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
+    const double p = percent / 100;
+    const double value = from_si(mine.unit, known.law.quantile(gone + p * (1 - gone))) - from;
     if (std::isnan(value))
       throw InputError(fmt::format("of the {} of {} nothing is known: hardly any comes so far",
                                    life.name, life.of));
     before = std::max(before, value);  // quantiles are solved for, to so many digits
-    life.share.push_back(percent / 100);
+    life.share.push_back(p);
     life.life.push_back(before);
   }
-  if (found.survival) life.passed = 1 - *found.survival;
-  constexpr double hardly = 1e-9;
-  if (found.never && *found.never > hardly) life.never = *found.never;
-  return life;
-}
-
-// Of tests to failure at one load: lives are asked for from the beginning, and again of those that are left.
-UnitLife of_tests(const Source& source, const ReadAsked& read, const WeightedDraws& posterior,
-                  const LifeQuestion& question, UnitLife life) {
-  if (!question.survived) return life;
-  const double from = along_life("--survived", *question.survived, life.unit);
-  const double before = life.cdf(from);
-  if (before > 1 - 1e-3)
-    throw InputError(
-        fmt::format("--survived: hardly any {} comes to {}", life.of, *question.survived));
-  std::vector<double> levels, shares;
-  for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
-    shares.push_back(percent / 100);
-    levels.push_back(100 * (before + percent / 100 * (1 - before)));
-  }
-  const auto asked = read(with_wishes(source, {{"b_lives", list_of(levels)}}));
-  if (life.never) *life.never /= 1 - before;
-  const std::vector<Found> all = lives_of(require_posterior_study(*asked), posterior, levels);
-  const UnitLife again =
-      described(found_of(chosen(lives_asked(require_posterior_study(*asked)), question), all));
-  life.name = "remaining life";
-  life.from = from;
-  life.passed = before;
-  life.share = shares;
-  life.life.clear();
-  for (const double each : again.life) life.life.push_back(std::max(0.0, each - from));
+  constexpr double hardly = 1e-9, for_ever = 1e300;
+  const double never = (1 - known.law.cdf(for_ever)) / (1 - gone);
+  if (from_beginning && never > hardly) life.never = never;
+  answer(question, life, [&](double until) {
+    return (known.law.cdf(to_si(mine.unit, from + until)) - gone) / (1 - gone);
+  });
   return life;
 }
 
@@ -310,12 +261,13 @@ double along_life(const char* option, const std::string& text, const std::string
   throw InputError(fmt::format("{}: '{}' must not be negative", option, text));
 }
 
-void answer(const LifeQuestion& question, UnitLife& life) {
+void answer(const LifeQuestion& question, UnitLife& life,
+            const std::function<double(double until)>& cdf) {
   life.risk = question.risk.value_or(life.risk);
   life.inspect_within = life.quantile(life.risk);
   if (!question.horizon) return;
   life.horizon = along_life("--horizon", *question.horizon, life.unit);
-  life.reached = life.cdf(*life.horizon);
+  life.reached = std::clamp(cdf(*life.horizon), 0.0, 1.0);
 }
 
 double UnitLife::quantile(double p) const {
@@ -328,19 +280,6 @@ double UnitLife::quantile(double p) const {
   if (!std::isfinite(life[i])) return infinity;
   if (!(life[i - 1] > 0)) return life[i - 1] + part * (life[i] - life[i - 1]);
   return std::exp(std::lerp(std::log(life[i - 1]), std::log(life[i]), part));
-}
-
-double UnitLife::cdf(double until) const {
-  const auto above = std::upper_bound(life.begin(), life.end(), until);
-  if (above == life.begin()) return 0;  // less than the smallest share
-  if (above == life.end()) return share.back();
-  const auto i = static_cast<std::size_t>(above - life.begin());
-  if (!std::isfinite(life[i])) return share[i - 1];
-  const double low = life[i - 1], high = life[i];
-  const double part =
-      low > 0 ? std::log(until / low) / std::log(high / low) : (until - low) / (high - low);
-  return boost::math::cdf(boost::math::normal(),
-                          std::lerp(probit(share[i - 1]), probit(share[i]), part));
 }
 
 UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDraws& posterior,
@@ -358,10 +297,7 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
     return of_request(*study.life, posterior, question);
   }
   const bool law = study.model == "law";
-  const double risk = question.risk.value_or(UnitLife{}.risk);
-  const std::vector<double> levels = life_percentages(risk);
-  std::vector<std::pair<std::string, std::string>> keys = {{"b_lives", list_of(levels)}};
-  if (study.model == "sn") keys.emplace_back("survival_to", nlohmann::json(for_ever).dump());
+  std::vector<std::pair<std::string, std::string>> keys;
   if (law && question.survived)
     keys.emplace_back("survived", nlohmann::json(*question.survived).dump());
   auto asked = read(with_wishes(source, keys));
@@ -374,11 +310,8 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
     keys.emplace_back("lives_of", only.dump());
     asked = read(with_wishes(source, keys));
   }
-  const std::vector<Found> all = lives_of(require_posterior_study(*asked), posterior, levels);
-  UnitLife life = described(found_of(mine, all));
-  if (!law) life = of_tests(source, read, posterior, question, std::move(life));
-  answer(question, life);
-  return life;
+  const PosteriorStudy& of_one = require_posterior_study(*asked);
+  return described(mine, life_of(mine, of_one, posterior), question, !law);
 }
 
 }  // namespace wearwell::prognosis

@@ -32,15 +32,16 @@ struct UnitLife {
   std::optional<double> horizon = {}, reached = {};  ///< the probability of the end within it
 
   double quantile(double p) const;  ///< between the shares a straight line in probits of log life
-  double cdf(double life_until) const;
 };
 
 /// Percentages at which lives are told, rising, with the risk of the question among them.
 std::vector<double> life_percentages(double risk);
 /// "1e4 cycles" in the unit in which lives are told. Throws InputError that names the option.
 double along_life(const char* option, const std::string& text, const std::string& unit);
-/// What follows from the shares: the next inspection, and what the horizon asks. Throws InputError.
-void answer(const LifeQuestion& question, UnitLife& life);
+/// What follows: the next inspection from the shares, and what the horizon asks from `cdf`, the distribution of the
+/// life in its unit, from `from` on. Throws InputError.
+void answer(const LifeQuestion& question, UnitLife& life,
+            const std::function<double(double until)>& cdf);
 
 /// Reads a study of the same data and law with other wishes.
 using ReadAsked = std::function<std::unique_ptr<const Study>(const Source& source)>;

@@ -9,6 +9,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/infer/model_weights.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/density_unit.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
@@ -49,6 +50,12 @@ std::string obstacle_of(const std::vector<Comparison::Entry>& studies) {
           "{} leaves out one {} at a time, {} one {}: their elpd are of different predictions, "
           "and no differences are given.",
           first.name, a.loo->observation, each.name, b.loo->observation);
+    }
+    if (a.loo->density_unit != b.loo->density_unit) {
+      return fmt::format(
+          "log densities of {} are of data in {}, those of {} in {}: give what is measured the "
+          "same unit in both.",
+          first.name, a.loo->density_unit, each.name, b.loo->density_unit);
     }
   }
   return {};
@@ -225,7 +232,12 @@ std::string comparison_text(const Comparison& comparison) {
   out +=
       (comparison.comparable ? "Prediction of each observation from all others\n" : "Studies\n") +
       text_table(rows);
-  if (comparison.comparable) out += wrapped(printable(weights_in_words(comparison)), 2, 4);
+  if (comparison.comparable) {
+    const std::string unit =
+        DensityUnit::in_words(comparison.studies.front().result.loo->density_unit);
+    if (!unit.empty()) out += wrapped(printable("Log densities (elpd, AIC, BIC): " + unit), 2, 4);
+    out += wrapped(printable(weights_in_words(comparison)), 2, 4);
+  }
   if (!comparison.obstacle.empty()) out += wrapped(printable(comparison.obstacle), 2, 4);
 
   Rows parameters = {{""}};
@@ -264,11 +276,9 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
                  {"trusted", result.header.trusted}};
     if (result.loo) {
       const Loo& loo = result.loo->loo;
-      each["loo"] = {{"elpd", loo.elpd()},
-                     {"se", loo.se()},
-                     {"error", loo.error},
-                     {"p_loo", loo.p_loo()},
-                     {"khat_max", loo.khat_max()}};
+      each["loo"] = {{"elpd", loo.elpd()},   {"se", loo.se()},
+                     {"error", loo.error},   {"density_unit", result.loo->density_unit},
+                     {"p_loo", loo.p_loo()}, {"khat_max", loo.khat_max()}};
     }
     if (behind) {
       each["behind"] = {{"elpd", behind->value}, {"se", behind->se}};
@@ -276,6 +286,7 @@ nlohmann::ordered_json to_json(const Comparison& comparison) {
     }
     if (const auto mode = mode_of(result)) {
       each["mode"] = {{"log_likelihood", mode->log_likelihood},
+                      {"density_unit", mode->density_unit},
                       {"maximum_likelihood", mode->maximum_likelihood},
                       {"aic", mode->aic},
                       {"bic", mode->bic}};

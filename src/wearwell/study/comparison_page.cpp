@@ -9,6 +9,7 @@
 #include "wearwell/present/section.h"
 #include "wearwell/study/comparison.h"
 #include "wearwell/study/comparison_overlays.h"
+#include "wearwell/study/density_unit.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
@@ -53,11 +54,13 @@ Section verdict_section(const Comparison& comparison) {
                             static_cast<double>(result.parameters.size())});
     }
     section.add(std::move(table));
-    section.add(
-        Prose{"elpd is the expected log predictive density, summed over the observations (natural "
-              "logarithm, data in SI units); larger is better. Weights are those of the mixture "
-              "that predicts "
-              "best (stacking). Smaller AIC and BIC are better."});
+    const std::string data_unit =
+        DensityUnit::in_words(comparison.studies.front().result.loo->density_unit);
+    section.add(Prose{fmt::format(
+        "elpd is the expected log predictive density, summed over the observations (natural "
+        "logarithm{}); larger is better. Weights are those of the mixture that predicts best "
+        "(stacking). Smaller AIC and BIC are better.",
+        data_unit.empty() ? "" : ", " + data_unit)});
   }
   for (const std::string& caution : comparison.cautions) section.add(Prose{caution});
   return section;

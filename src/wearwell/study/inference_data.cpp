@@ -192,7 +192,8 @@ Group likelihood_group(const PosteriorStudy& study, const PosteriorSummary& resu
     for (Eigen::Index d = 0; d < chain.rows(); ++d)
       for (Eigen::Index i = 0; i < chain.cols(); ++i) values.push_back(chain(d, i));
   }
-  group.variables.push_back({name, {"chain", "draw", noun}, std::move(values)});
+  group.variables.push_back(
+      {name, {"chain", "draw", noun}, std::move(values), {{"density_unit", study.density.text}}});
   return group;
 }
 
@@ -251,7 +252,8 @@ std::vector<Eigen::MatrixXd> log_likelihood(const PosteriorStudy& study,
         likelihood->pointwise(natural(study, result.posterior_draws[c], d));
     Eigen::Index column = 0;
     for (std::size_t t = 0; t < each.size(); ++t) {
-      for (int n = 0; n < counts[t]; ++n) all[c](static_cast<Eigen::Index>(d), column++) = each[t];
+      const double term = each[t] + (study.density.terms.empty() ? 0 : study.density.terms[t]);
+      for (int n = 0; n < counts[t]; ++n) all[c](static_cast<Eigen::Index>(d), column++) = term;
     }
   });
   return all;

@@ -10,16 +10,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+const char* method_of(bool by_quadrature) {
+  return by_quadrature ? "quadrature" : "draws";
+}
+
+// The best values there are; what the draws say of the same stands beside them.
+template <class Values, class Write>
+void add_best(const Values& drawn, const std::optional<Values>& exact, const Write& write,
+              Json& json) {
+  json.update(write(exact ? *exact : drawn));
+  json["by"] = method_of(exact.has_value());
+  if (exact) json["draws"] = write(drawn);
+}
+
 Json to_json(const ParameterSummary& p) {
-  Json json = {{"unit", p.unit},         {"mean", p.mean}, {"sd", p.sd},   {"mcse", p.mcse},
-               {"q05", p.q05},           {"q50", p.q50},   {"q95", p.q95}, {"ess_bulk", p.ess_bulk},
-               {"ess_tail", p.ess_tail}, {"rhat", p.rhat}};
-  if (p.exact) {
-    json["exact"] = {{"mean", p.exact->mean},
-                     {"sd", p.exact->sd},
-                     {"q05", p.exact->q05},
-                     {"q50", p.exact->q50},
-                     {"q95", p.exact->q95}};
+  const ExactSummary best = p.best();
+  Json json = {{"unit", p.unit},  {"mean", best.mean}, {"sd", best.sd},
+               {"q05", best.q05}, {"q50", best.q50},   {"q95", best.q95}};
+  json["by"] = p.drawn ? method_of(p.exact.has_value()) : "least squares";
+  if (p.drawn) {
+    json["draws"] = {
+        {"mean", p.mean}, {"sd", p.sd},   {"mcse", p.mcse},         {"q05", p.q05},
+        {"q50", p.q50},   {"q95", p.q95}, {"ess_bulk", p.ess_bulk}, {"ess_tail", p.ess_tail},
+        {"rhat", p.rhat}};
   }
   if (!p.prior.empty()) json["prior"] = {{"words", p.prior}, {"default", p.prior_is_default}};
   return json;
@@ -33,11 +46,11 @@ Json to_json(const std::vector<PredictionSummary>& predictions) {
   Json json = Json::array();
   for (const PredictionSummary& p : predictions) {
     Json each = {{p.at_name, p.at}, {"quantity", p.quantity}, {"unit", p.unit}};
-    each.update(to_json(p.drawn));
+    add_best(
+        p.drawn, p.exact, [](const Prediction& values) { return to_json(values); }, each);
     if (p.measured) each["measured"] = *p.measured;
     if (!p.at_unit.empty()) each["at_unit"] = p.at_unit;
     if (!p.mean_of.empty()) each.update({{"mean_of", p.mean_of}, {"pi_of", p.measured_of}});
-    if (p.exact) each["exact"] = to_json(*p.exact);
     json.push_back(std::move(each));
   }
   return json;
@@ -57,8 +70,9 @@ Json to_json(const std::vector<QuantitySummary>& quantities) {
     Json each = {{"name", q.name}, {"of", q.of}, {"at", q.at}, {"unit", q.unit}};
     if (q.credible_level) each["credible_level"] = *q.credible_level;
     if (q.safe_end) each["safe_end"] = *q.safe_end;
-    each.update(to_json(q.drawn, q.is_life));
-    if (q.exact) each["exact"] = to_json(*q.exact, q.is_life);
+    add_best(
+        q.drawn, q.exact,
+        [&](const QuantityQuantiles& values) { return to_json(values, q.is_life); }, each);
     json.push_back(std::move(each));
   }
   return json;
@@ -109,6 +123,7 @@ Json to_json(const ModeSummary& mode) {
   Json json = {{"parameters", parameters},
                {"log_likelihood", mode.log_likelihood},
                {"log_posterior", mode.log_posterior},
+               {"density_unit", mode.density_unit},
                {"maximum_likelihood", mode.maximum_likelihood},
                {"aic", mode.aic},
                {"bic", mode.bic},
@@ -133,8 +148,8 @@ Json to_json(const LifeSummary& life) {
                {"now", life.now},
                {"risk", life.risk}};
   if (!life.of.empty()) json["of"] = life.of;
-  json.update(to_json(life.drawn));
-  if (life.exact) json["exact"] = to_json(*life.exact);
+  add_best(
+      life.drawn, life.exact, [](const Life& values) { return to_json(values); }, json);
   return json;
 }
 
@@ -175,6 +190,7 @@ Json to_json(const LooSummary& summary) {
   Json json = {{"elpd", loo.elpd()},
                {"se", loo.se()},
                {"error", loo.error},
+               {"density_unit", summary.density_unit},
                {"by_quadrature", loo.by_quadrature},
                {"p_loo", loo.p_loo()},
                {"khat_max", loo.khat_max()},
@@ -227,7 +243,8 @@ Json posterior_json(const PosteriorSummary& result) {
                           {"reached", result.quadrature->reached},
                           {"nodes", result.quadrature->nodes}};
   }
-  if (result.log_evidence) json["log_evidence"] = *result.log_evidence;
+  if (result.log_evidence)
+    json.update({{"log_evidence", *result.log_evidence}, {"density_unit", result.density_unit}});
   if (!result.added.body.is_null()) json.update(result.added.body);
   return json;
 }

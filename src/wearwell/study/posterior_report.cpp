@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "wearwell/study/answers.h"
+#include "wearwell/study/density_unit.h"
 #include "wearwell/study/figures.h"
 #include "wearwell/study/long_tables.h"
 #include "wearwell/study/posterior_tables.h"
@@ -150,10 +151,12 @@ void add_mode(const ModeSummary& mode, Section& section) {
         "Moolgavkar 1988). It need not be symmetric, and does not change with the way in which a "
         "parameter is written."});
   }
+  const std::string data_unit = DensityUnit::in_words(mode.density_unit);
   section.add(Prose{fmt::format(
-      "Log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f} ({} observations, densities in SI units{}). "
+      "Log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f} ({} observations{}{}). "
       "Standard errors are those of the curvature there; a parameter on its bound counts as known.",
       mode.log_likelihood, mode.aic, mode.bic, given(mode.observations),
+      data_unit.empty() ? "" : ", " + data_unit,
       mode.maximum_likelihood ? "" : "; the likelihood at the mode, not at its own maximum")});
 }
 
@@ -202,11 +205,13 @@ Section fit_section(const PosteriorSummary& result, const Plots& plots) {
   if (result.pointwise) section.add(pointwise_table(*result.pointwise));
   if (result.loo) {
     const Loo& loo = result.loo->loo;
-    section.add(Prose{fmt::format(
-        "Leave-one-out: expected log predictive density {:.2f}, {}, {:.1f} "
-        "effective parameters (natural logarithms, densities in SI units). Pareto k up to {:.2f} "
-        "is good.",
-        loo.elpd(), standard_error_in_words(loo), loo.p_loo(), loo.threshold)});
+    const std::string data_unit = DensityUnit::in_words(result.loo->density_unit);
+    section.add(
+        Prose{fmt::format("Leave-one-out: expected log predictive density {:.2f}, {}, {:.1f} "
+                          "effective parameters (natural logarithms{}). Pareto k up to {:.2f} "
+                          "is good.",
+                          loo.elpd(), standard_error_in_words(loo), loo.p_loo(),
+                          data_unit.empty() ? "" : ", " + data_unit, loo.threshold)});
     section.add(Details{fmt::format("Every {} left out", result.loo->observation),
                         {{loo_table(*result.loo)}}});
   }
@@ -231,7 +236,9 @@ Section method_section(const PosteriorSummary& result, const Plots& plots) {
                               result.chains, result.draws, result.warmup)},
        {"Seed", fmt::format("{}", result.seed)}}};
   if (result.log_evidence)
-    facts.facts.emplace_back("Log evidence", fmt::format("{:.4f}", *result.log_evidence));
+    facts.facts.emplace_back(
+        "Log evidence",
+        fmt::format("{:.4f} {}", *result.log_evidence, DensityUnit::in_words(result.density_unit)));
   for (const DataFile& file : plots.files)
     facts.facts.emplace_back(file.name, "SHA-1 " + file.sha1);
   facts.facts.emplace_back("Time taken", fmt::format("{:.2f} s", plots.seconds));

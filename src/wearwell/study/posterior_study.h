@@ -18,6 +18,7 @@
 #include "wearwell/input/source.h"
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/predict/prediction.h"
+#include "wearwell/study/density_unit.h"
 #include "wearwell/study/posterior_summary.h"
 #include "wearwell/study/sense.h"
 #include "wearwell/study/study.h"
@@ -75,10 +76,18 @@ struct QuantityRequest {
   bool headline = false;  ///< answers what was asked first
 };
 
+/// The predictive distribution of a life, SI, from where it counts on, given that the unit came so far.
+struct PredictiveLife {
+  LifeLaw law;
+  double survival = 1;  ///< the predictive probability that it came so far
+};
+
 /// Quantities that have no single driver: all of them at once from the points of a posterior, SI.
 struct QuantityGroup {
   std::vector<QuantityRequest> requests;  ///< without driver
   std::function<std::vector<QuantityQuantiles>(const WeightedDraws& draws)> from_draws;
+  /// Of each life among the requests, in their order; empty where there is none.
+  std::function<std::vector<PredictiveLife>(const WeightedDraws& draws)> lives = {};
 };
 
 /// A quantity of which the maximum likelihood value and the profile interval are told.
@@ -107,6 +116,7 @@ struct PosteriorStudy : Study {
   std::size_t data_rows = 0;  ///< data sets; the posterior can be updated after each
   /// What was observed, row by row in SI: what the likelihood is a density of.
   std::vector<double> observed;
+  DensityUnit density;  ///< in which log densities of what was observed are reported
   std::vector<DataColumn> data_columns;  ///< what was read, to find mistaken units
   std::string data_layout;               ///< how the table is written, in words
   std::string observation = "row";       ///< what the likelihood's factors are of: "row", "bearing"

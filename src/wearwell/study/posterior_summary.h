@@ -31,12 +31,14 @@ struct ExactSummary {
 struct ParameterSummary {
   std::string name;
   std::string unit;
+  // Of the draws; of least squares where nothing is drawn.
   double mean = 0, sd = 0, mcse = 0, q05 = 0, q50 = 0, q95 = 0;
   double ess_bulk = 0, ess_tail = 0, rhat = 0;
   std::optional<ExactSummary> exact;
   std::string meaning = {};  ///< "wear coefficient"
   std::string prior = {};    ///< in words
   bool prior_is_default = false;
+  bool drawn = true;
 
   ExactSummary best() const { return exact ? *exact : ExactSummary{mean, sd, q05, q50, q95}; }
 };
@@ -138,7 +140,8 @@ struct ModeSummary {
   std::string
       problem;  ///< why there is no mode; empty when there is one, else nothing below is set
   std::vector<ModeParameter> parameters;
-  double log_likelihood = 0;        ///< natural logarithm, data in SI
+  std::string density_unit{};       ///< in which data are for what follows: "km"
+  double log_likelihood = 0;        ///< natural logarithm, data in `density_unit`
   double log_posterior = 0;         ///< up to a constant where a prior is improper
   double aic = 0, bic = 0;          ///< of the likelihood there
   bool maximum_likelihood = false;  ///< all priors are flat or uniform, so it is that as well
@@ -155,7 +158,8 @@ struct ModeSummary {
 /// Leave-one-out cross-validation (infer/loo.h).
 struct LooSummary {
   std::string observation;  ///< what is left out: "row", "bearing"
-  Loo loo;
+  Loo loo;                  ///< data in `density_unit`
+  std::string density_unit = {};
 };
 
 struct LifeSummary {
@@ -235,7 +239,7 @@ struct PosteriorSummary {
   std::optional<LifeSummary> life;
   std::optional<PointwiseTable> pointwise;
   std::optional<CoverageTable> coverage;
-  std::optional<double> log_evidence;  ///< natural logarithm, data in SI
+  std::optional<double> log_evidence;  ///< natural logarithm, data in `density_unit`
   std::vector<Check> checks;
   bool trusted = true;
 
@@ -243,6 +247,7 @@ struct PosteriorSummary {
 
   std::optional<Plots> plots{};  ///< when a report was asked for
 
+  std::string density_unit{};      ///< of log densities: that of the response, "km"
   std::string data_fingerprint{};  ///< of what was observed: equal for the same data
   std::optional<ModeSummary> mode{};
   std::optional<LooSummary> loo{};  ///< of a proper posterior

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/fit.h"
@@ -90,6 +91,28 @@ std::optional<LooSummary> left_out_one_by_one(const PosteriorStudy& study,
   return LooSummary{study.observation, std::move(loo)};
 }
 
+// From SI to the unit in which log densities are reported.
+void to_density_unit(const DensityUnit& unit, LooSummary& summary) {
+  summary.density_unit = unit.text;
+  std::vector<LooTerm>& terms = summary.loo.terms;
+  if (unit.terms.empty()) return;
+  if (unit.terms.size() != terms.size())
+    throw std::logic_error("units of log densities are not those of the factors of the likelihood");
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    terms[i].elpd += unit.terms[i];
+    terms[i].lpd += unit.terms[i];
+  }
+}
+
+// Of which BIC takes the logarithm: as many as the likelihood counts.
+double observations_of(const PosteriorStudy& study, const Posterior& posterior,
+                       const std::optional<LooSummary>& loo) {
+  if (loo) return loo->loo.observations();
+  double counted = 0;
+  for (const int each : posterior.likelihood()->pointwise_counts()) counted += each;
+  return counted > 0 ? counted : static_cast<double>(study.data_rows);
+}
+
 // The study, its fit, and what follows from it: all but what judges it.
 PosteriorSummary described(const PosteriorStudy& study, const FitSettings& settings,
                            const Posterior& posterior, const Fit& fit) {
@@ -101,6 +124,7 @@ PosteriorSummary described(const PosteriorStudy& study, const FitSettings& setti
   result.equation = study.equation;
   result.data_file = study.data_file;
   result.data_rows = study.data_rows;
+  result.density_unit = study.density.text;
   result.data_fingerprint = fingerprint(study.quantity, study.observed);
   result.method = method_name(fit.method);
   result.chains = settings.run.chains;
@@ -123,6 +147,7 @@ PosteriorSummary described(const PosteriorStudy& study, const FitSettings& setti
   if (study.coverage) result.coverage = study.coverage(nodes);
   if (fit.exact) {
     result.log_evidence = fit.exact->log_evidence;
+    if (result.log_evidence) *result.log_evidence += study.density.total;
     result.quadrature = {settings.exact.tolerance, fit.exact->error,
                          static_cast<std::size_t>(fit.exact->nodes.values.rows())};
   }
@@ -221,9 +246,9 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
 
   PosteriorSummary result = described(study, settings, posterior, final);
   result.mode =
-      summarize_mode(study, posterior, final, natural,
-                     loo ? loo->loo.observations() : static_cast<double>(study.data_rows));
+      summarize_mode(study, posterior, final, natural, observations_of(study, whole, loo));
   result.checks = all_checks(study, posterior, final, loo);
+  if (loo) to_density_unit(study.density, *loo);
   result.loo = std::move(loo);
   if (result.life && result.life->now > 0) result.checks.push_back(limit_check(*result.life));
   result.checks.push_back(sense_check(result));

@@ -33,22 +33,27 @@ int count(const JsonReader& json, const char* key) {
   return static_cast<int>(json.at(key).integer(0, most));
 }
 
+bool by_quadrature(const JsonReader& json) {
+  return json.at("by").one_of({"quadrature", "draws"}) == "quadrature";
+}
+
 ParameterSummary read_parameter(const std::string& name, const JsonReader& json) {
-  ParameterSummary p{name,
-                     text(json, "unit"),
-                     number(json, "mean"),
-                     number(json, "sd"),
-                     number(json, "mcse"),
-                     number(json, "q05"),
-                     number(json, "q50"),
-                     number(json, "q95"),
-                     number(json, "ess_bulk"),
-                     number(json, "ess_tail"),
-                     number(json, "rhat"),
-                     {}};
-  if (const auto exact = json.find("exact")) {
-    p.exact = {number(*exact, "mean"), number(*exact, "sd"), number(*exact, "q05"),
-               number(*exact, "q50"), number(*exact, "q95")};
+  const std::string by = json.at("by").one_of({"quadrature", "draws", "least squares"});
+  ParameterSummary p{.name = name, .unit = text(json, "unit"), .exact = {}};
+  p.drawn = by != "least squares";
+  const JsonReader drawn = p.drawn ? json.at("draws") : json;
+  p.mean = number(drawn, "mean");
+  p.sd = number(drawn, "sd");
+  p.q05 = number(drawn, "q05");
+  p.q50 = number(drawn, "q50");
+  p.q95 = number(drawn, "q95");
+  p.mcse = p.drawn ? number(drawn, "mcse") : unknown;
+  p.ess_bulk = p.drawn ? number(drawn, "ess_bulk") : unknown;
+  p.ess_tail = p.drawn ? number(drawn, "ess_tail") : unknown;
+  p.rhat = p.drawn ? number(drawn, "rhat") : unknown;
+  if (by == "quadrature") {
+    p.exact = {number(json, "mean"), number(json, "sd"), number(json, "q05"), number(json, "q50"),
+               number(json, "q95")};
   }
   return p;
 }
@@ -90,6 +95,7 @@ ModeSummary read_mode(const JsonReader& json) {
                                  read_profile(each.at("profile"))});
     }
   }
+  mode.density_unit = text(json, "density_unit");
   mode.log_likelihood = number(json, "log_likelihood");
   mode.log_posterior = number(json, "log_posterior");
   mode.maximum_likelihood = json.at("maximum_likelihood").flag();
@@ -102,7 +108,7 @@ ModeSummary read_mode(const JsonReader& json) {
 }
 
 LooSummary read_loo(const JsonReader& json, const std::filesystem::path& folder) {
-  LooSummary summary{text(json, "observation"), {}};
+  LooSummary summary{text(json, "observation"), {}, text(json, "density_unit")};
   summary.loo.threshold = number(json, "khat_threshold");
   if (json.find("error")) summary.loo.error = number(json, "error");
   if (const auto exact = json.find("by_quadrature")) summary.loo.by_quadrature = exact->flag();
@@ -139,9 +145,9 @@ std::vector<QuantitySummary> read_quantities(const JsonReader& json) {
                       text(each, "at"),
                       text(each, "unit"),
                       each.find("b10").has_value(),
-                      read_quantiles(each),
+                      read_quantiles(by_quadrature(each) ? each.at("draws") : each),
                       {}};
-    if (const auto exact = each.find("exact")) q.exact = read_quantiles(*exact);
+    if (by_quadrature(each)) q.exact = read_quantiles(each);
     quantities.push_back(std::move(q));
   }
   return quantities;

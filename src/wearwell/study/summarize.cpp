@@ -252,10 +252,11 @@ ModeSummary summarize_mode(const PosteriorStudy& study, const Posterior& posteri
                                   places[static_cast<int>(mode.place[i])],
                                   {}});
   }
-  const double deviance = -2 * mode.log_likelihood;
+  summary.density_unit = study.density.text;
+  summary.log_likelihood = mode.log_likelihood + study.density.total;
+  const double deviance = -2 * summary.log_likelihood;
   const auto unknowns = static_cast<double>(posterior.dimension());
-  summary.log_likelihood = mode.log_likelihood;
-  summary.log_posterior = mode.log_posterior;
+  summary.log_posterior = mode.log_posterior + study.density.total;
   summary.aic = deviance + 2 * unknowns;
   summary.bic = deviance + unknowns * std::log(observations);
   summary.maximum_likelihood = mode.maximum;

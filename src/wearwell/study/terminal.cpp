@@ -12,6 +12,7 @@
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/answers.h"
+#include "wearwell/study/density_unit.h"
 #include "wearwell/study/long_tables.h"
 #include "wearwell/study/terminal_rows.h"
 #include "wearwell/study/trust_blocks.h"
@@ -70,8 +71,10 @@ std::string mode_lines(const ModeSummary& mode) {
                                 q.at.empty() ? "" : " ", q.at),
                     plain_number(q.value), "-", profile_ends(q.profile)});
   }
-  return text_table(rows) + fmt::format("  log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f}{}\n",
+  const std::string unit = DensityUnit::in_words(mode.density_unit);
+  return text_table(rows) + fmt::format("  log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f}{}{}\n",
                                         mode.log_likelihood, mode.aic, mode.bic,
+                                        unit.empty() ? "" : ", " + printable(unit),
                                         mode.maximum_likelihood ? "" : ", all at the mode");
 }
 
@@ -82,11 +85,12 @@ std::string mode_title(const ModeSummary& mode) {
 
 std::string loo_lines(const LooSummary& summary) {
   const Loo& loo = summary.loo;
+  const std::string unit = DensityUnit::in_words(summary.density_unit);
   return wrapped(
-      fmt::format("each {} from all others: elpd {:.2f} ({}), effective "
+      fmt::format("each {} from all others: elpd {:.2f} ({}{}), effective "
                   "parameters {:.1f}{}",
                   printable(summary.observation), loo.elpd(), standard_error_in_words(loo),
-                  loo.p_loo(),
+                  unit.empty() ? "" : ", " + printable(unit), loo.p_loo(),
                   loo.by_quadrature ? "" : fmt::format(", Monte Carlo error {:.2g}", loo.error)),
       2, 4);
 }

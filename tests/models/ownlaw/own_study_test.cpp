@@ -69,6 +69,78 @@ TEST_F(OwnStudy, WeibullLivesOfBallBearingsAreThePublishedOnes) {
   EXPECT_TRUE(result.mode->maximum_likelihood);
 }
 
+// Meeker and Escobar (1998), table C.2 and chapter 8: 27,719 km, shape 3.16, -123.995 with lives in km. A unit of the column
+// moves a log density by its logarithm for each failure, and for nothing that is censored.
+TEST_F(OwnStudy, LogDensitiesAreOfDataInTheUnitOfTheTable) {
+  const std::vector<std::pair<int, bool>> lives = {
+      {6700, 1},  {6950, 0},  {7820, 0},  {8790, 0},  {9120, 1},  {9660, 0},  {9820, 0},
+      {11310, 0}, {11690, 0}, {11850, 0}, {11880, 0}, {12140, 0}, {12200, 1}, {12870, 0},
+      {13150, 1}, {13330, 0}, {13470, 0}, {14040, 0}, {14300, 1}, {17520, 1}, {17540, 0},
+      {17890, 0}, {18450, 0}, {18960, 0}, {18980, 0}, {19410, 0}, {20100, 1}, {20100, 0},
+      {20150, 0}, {20320, 0}, {20900, 1}, {22700, 1}, {23490, 0}, {26510, 1}, {27410, 0},
+      {27490, 1}, {27890, 0}, {28100, 0}};
+  const auto study = [&](const std::string& unit, double scale) {
+    std::string csv = "life [" + unit + "],status\n";
+    for (const auto& [life, failed] : lives)
+      csv += fmt::format("{},{}\n", scale * life, failed ? "failure" : "censored");
+    write("lives.csv", csv);
+    return run(fmt::format(R"toml(
+model = "law"
+[data]
+file = "lives.csv"
+[data.columns]
+life = "life"
+status = "status"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+[prior]
+eta = {{ law = "uniform", lower = "1e3 km", upper = "1e6 km" }}
+beta = {{ law = "uniform", lower = 0.1, upper = 20 }}
+)toml"));
+  };
+  const PosteriorSummary km = study("km", 1), mega = study("Mm", 1e-3);
+  ASSERT_EQ(km.mode->problem, "");
+  EXPECT_EQ(km.mode->density_unit, "km");
+  EXPECT_NEAR(km.mode->log_likelihood, -123.995361, 2e-6);
+  EXPECT_NEAR(km.mode->aic, 4 + 2 * 123.995361, 4e-6);
+  EXPECT_NEAR(km.mode->bic, 2 * std::log(38.0) + 2 * 123.995361, 4e-6);
+  const double moved = 11 * std::log(1e3);
+  EXPECT_NEAR(mega.mode->log_likelihood, km.mode->log_likelihood + moved, 1e-6);
+  EXPECT_NEAR(mega.loo->loo.elpd(), km.loo->loo.elpd() + moved, 1e-3);
+  EXPECT_NEAR(*mega.log_evidence, *km.log_evidence + moved, 1e-3);
+  EXPECT_NEAR(mega.loo->loo.p_loo(), km.loo->loo.p_loo(), 1e-3);
+  for (std::size_t i = 0; i < lives.size(); ++i)
+    EXPECT_NEAR(mega.loo->loo.terms[i].elpd - km.loo->loo.terms[i].elpd,
+                lives[i].second ? std::log(1e3) : 0, 1e-3)
+        << i;
+}
+
+// Rows that stand for many, under a posterior that is improper, so that nothing is left out.
+TEST_F(OwnStudy, BicCountsObservationsNotRows) {
+  write("tubes.csv", "from,to,count\n0,1,5\n1,2,16\n2,3,12\n3,,267\n");
+  const PosteriorSummary result = run(R"toml(
+model = "law"
+[data]
+file = "tubes.csv"
+[data.columns]
+lower = "from"
+upper = "to"
+count = "count"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+[prior]
+eta = { law = "flat" }
+beta = { law = "flat" }
+)toml");
+  ASSERT_EQ(result.mode->problem, "");
+  EXPECT_EQ(result.mode->observations, 300);
+  EXPECT_NEAR(result.mode->bic, -2 * result.mode->log_likelihood + 2 * std::log(300.0), 1e-9);
+}
+
 // Meeker and Escobar (1998), table 19.1: -13.469 (2.887), 0.6279 (0.08287), 0.9778 (0.1326), -321.7.
 TEST_F(OwnStudy, ArrheniusLivesWithManyRunoutsAreThePublishedOnes) {
   copy("accelerated/device_a.csv");

@@ -111,6 +111,20 @@ FitData fit_data(const bearing::WearModel& model, const BearingData& data) {
           !model.has_scatter};
 }
 
+// Of bearings where they differ, else of inspections.
+DensityUnit density_of(const bearing::WearModel& model, const BearingData& data) {
+  const std::vector<double>& depth = data.inspections.depth;
+  DensityUnit unit = density_unit(data.depth_unit, depth.size());
+  if (!model.has_scatter) return unit;
+  const double each = std::log(data.depth_unit.scale);
+  unit.terms.clear();
+  for (const std::size_t bearing : data.inspections.bearing) {
+    unit.terms.resize(std::max(unit.terms.size(), bearing + 1));
+    unit.terms[bearing] += each;
+  }
+  return unit;
+}
+
 }  // namespace
 
 bearing::WearModel bearing::read_wear_model(const TomlReader& root) {
@@ -135,6 +149,7 @@ void read_bearing_study(const TomlReader& root, const Source& source, PosteriorS
   study.data_rows = data.inspections.depth.size();
   study.quantity = "wear depth";
   study.observed = data.inspections.depth;
+  study.density = density_of(model, data);
   study.data_columns = data.columns;
   study.data_layout = data.layout;
   if (model.has_scatter) study.observation = "bearing";

@@ -29,7 +29,7 @@ double log_normal_density(double x, double sd) {
 LooSummary leave_one_out(const ClutchResult& found) {
   const LinearFit& fit = found.maps.front().fit;
   const Eigen::VectorXd sd = point_sd(found.scatter_fit().law, found.points, fit.fitted);
-  LooSummary summary{"point", {}};
+  LooSummary summary{"point", {}, "mm^3/MJ"};
   for (Eigen::Index j = 0; j < sd.size(); ++j) {
     const double h = fit.leverages[j];
     summary.loo.terms.push_back(
@@ -58,7 +58,8 @@ std::vector<ParameterSummary> parameters_of(const RunInFit& fit) {
                           .ess_bulk = none,
                           .ess_tail = none,
                           .rhat = none,
-                          .exact = {}});
+                          .exact = {},
+                          .drawn = false});
   }
   return parameters;
 }

@@ -484,6 +484,12 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     group.from_draws = [=, stress = point.stress](const WeightedDraws& draws) {
       return at_point(law, draws, stress, predictions);
     };
+    group.lives = [=, stress = point.stress](const WeightedDraws& draws) {
+      auto next = std::make_shared<MixedLife>(next_life(law, draws, stress));
+      next->merge();
+      return std::vector<PredictiveLife>{{{[next](double life) { return next->cdf(life); },
+                                           [next](double p) { return next->quantile(p); }}}};
+    };
     study.quantity_groups.push_back(std::move(group));
   }
   for (const AllowedStress& allowed : predictions.allowed) {

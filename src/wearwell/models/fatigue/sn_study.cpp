@@ -259,6 +259,21 @@ SnLaw read_sn_law(const TomlReader& root) {
   return law;
 }
 
+namespace {
+
+// A test to failure has a density, any other a probability.
+DensityUnit density_of(const SnData& data) {
+  DensityUnit unit{data.life_unit.text, {}, 0};
+  for (const LifeTest& test : data.tests) {
+    const bool exact = test.outcome == fatigue::Outcome::failure;
+    unit.terms.push_back(exact ? std::log(data.life_unit.scale) : 0);
+    unit.total += test.count * unit.terms.back();
+  }
+  return unit;
+}
+
+}  // namespace
+
 void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
   const SnLaw law = read_sn_law(root);
   const SnData data = read_sn_data(root, source, law.correction);
@@ -292,6 +307,7 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
                            static_cast<double>(test.count)};
     study.observed.insert(study.observed.end(), std::begin(seen), std::end(seen));
   }
+  study.density = density_of(data);
   study.meanings = sn_meanings(law);
   study.likelihood = [=, tests = data.tests](std::size_t rows) {
     return fatigue::sn_likelihood(law, tests, rows);

@@ -62,6 +62,7 @@ void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& st
   study.data_columns.push_back({"alternating_stress", data.stress_si, stress.unit, stresses, true});
   study.data_layout = table.layout;
   study.data_rows = data.tests.size();
+  study.density.text = "1";
 }
 
 void read_wishes(const TomlReader& root, StairData& data) {

@@ -93,6 +93,7 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   study.pointwise = data.pointwise;
   study.quantity = "worn volume";
   study.observed = data.inspections.volume;
+  study.density = density_unit(data.volume_unit, data.inspections.volume.size());
   study.data_columns = data.columns;
   study.data_layout = data.layout;
   study.meanings = {"wear coefficient", "scatter of one measurement"};

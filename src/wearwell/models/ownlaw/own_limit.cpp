@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "wearwell/base/nearest.h"
+#include "wearwell/models/ownlaw/limit_group.h"
 #include "wearwell/models/ownlaw/own_process_lives.h"
-#include "wearwell/study/life_levels.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -67,142 +67,13 @@ void add_units(const Asked& asked, const TomlReader& table, const std::string& n
 
 using Lives = std::function<LimitedLives(const WeightedDraws&)>;
 
-// What is told of the lives to a limit beside the life of a new unit and what remains of each one seen.
-struct Told {
-  LifeLevels levels;
-  std::optional<Quantity> survived;  // then lives count from there, given that it was reached
-};
-
-Told read_told(const Asked& asked, LimitedPath& path) {
-  Told told{read_life_levels(asked.predict), {}};
-  path.survived = path.begin;
-  const auto survived = asked.predict.quantity("survived", law::si_text(asked.axis().unit.powers));
-  if (survived) {
-    if (!(survived->si() > path.begin)) {
-      asked.predict.fail("survived", fmt::format("must lie beyond {:.6g} {}, where paths begin",
-                                                 from_si(asked.axis().unit.unit, path.begin),
-                                                 asked.axis().unit.unit.text));
-    }
-    path.survived = survived->si();
-    told.survived = survived;
-  }
-  for (const double percent : told.levels.percents) path.shares.push_back(percent / 100);
-  return told;
-}
-
-// Lives from somewhere on.
-struct Remaining {
-  CellMixture lives;
-  double survival = 1;  // the probability that the unit came so far
-
-  // Of units that hardly ever come so far nothing is known; of those that are certainly there nothing
-  // remains.
-  double quantile(double p) const {
-    if (lives.mass() > 1e-6 && survival < 1e-3) return std::nan("");
-    return lives.mass() > 1e-6 ? lives.quantile(p) : 0;
-  }
-  QuantityQuantiles quantiles() const {
-    const double middle = quantile(0.5);
-    return {quantile(0.05), middle, quantile(0.95), quantile(0.01), quantile(0.1), middle};
-  }
-};
-
-class LimitGroup {
- public:
-  LimitGroup(const Asked& asked, const std::string& name, const Quantity& limit,
-             std::shared_ptr<const LimitedPath> path, Told told)
-      : path_(std::move(path)), told_(std::move(told)) {
-    const Unit& unit = asked.axis().unit.unit;
-    const std::string to = fmt::format("to {} = {}", name, in_words(limit));
-    const std::string at = joined(to, asked.given.words);
-    const auto from = [&](double place) {
-      return fmt::format("{} from {:.6g} {} on", at, from_si(unit, place), unit.text);
-    };
-    if (path_->next) add_life("life", "new " + asked.noun, at, unit);
-    if (path_->next && told_.survived) {
-      add_life("remaining life", "new " + asked.noun, from(path_->survived), unit);
-    }
-    for (std::size_t u = 0; u < path_->seen.size(); ++u) {
-      add_life("remaining life", asked.unit(path_->seen[u].unit), from(begin_of(u)), unit);
-    }
-    const std::size_t lives = group.requests.size();
-    if (told_.survived) {
-      const std::string survival = "survival to " + in_words(*told_.survived);
-      const auto add = [&](const std::string& of) {
-        group.requests.push_back(request(survival, of, at, Unit{"%", 0.01, 0}));
-      };
-      if (path_->next) add("new " + asked.noun);
-      for (std::size_t u = 0; u < path_->seen.size(); ++u) add(asked.unit(path_->seen[u].unit));
-    }
-    for (std::size_t i = path_->next && told_.survived ? 1 : 0; i < lives; ++i) {
-      for (const double percent : told_.levels.percents) {
-        const QuantityRequest life = group.requests[i];
-        const bool next = path_->next && i == (told_.survived ? 1 : 0);
-        group.requests.push_back(
-            b_life_request(percent, told_.levels, life, next ? asked.noun : life.of));
-      }
-    }
-  }
-
-  std::vector<QuantityQuantiles> answers(const LimitedLives& lives) const {
-    std::vector<Remaining> all;
-    if (path_->next) all.push_back({lives.next});
-    if (path_->next && told_.survived) {
-      all.push_back({lives.next.beyond(path_->survived)});
-      all.back().survival = all.back().lives.mass() / lives.next.mass();
-    }
-    for (std::size_t u = 0; u < path_->seen.size(); ++u) {
-      const double more = begin_of(u) - path_->seen[u].now, now = lives.remaining[u].mass();
-      all.push_back({more > 0 ? lives.remaining[u].beyond(more) : lives.remaining[u]});
-      const double survival = all.back().lives.mass() / (now + lives.passed[u]);
-      if (told_.survived) all.back().survival = survival;
-    }
-    std::vector<QuantityQuantiles> found;
-    for (const Remaining& each : all) found.push_back(each.quantiles());
-    const std::size_t first = path_->next && told_.survived ? 1 : 0;
-    for (std::size_t i = first; told_.survived && i < all.size(); ++i) {
-      const double p = all[i].survival;
-      found.push_back({p, p, p, 0, 0, 0});
-    }
-    for (std::size_t i = first; i < all.size(); ++i) {
-      const bool next = path_->next && i == first;
-      for (std::size_t k = 0; k < told_.levels.percents.size(); ++k) {
-        const double predictive = all[i].quantile(told_.levels.percents[k] / 100);
-        found.push_back(
-            next ? b_life(Remaining{lives.by_share[k], all[i].survival}, predictive, told_.levels)
-                 : b_life(all[i], predictive, told_.levels));
-      }
-    }
-    return found;
-  }
-
-  QuantityGroup group;
-
- private:
-  // Where the remaining life of a unit begins: its last row, or later.
-  double begin_of(std::size_t u) const {
-    return told_.survived ? std::max(path_->seen[u].now, path_->survived) : path_->seen[u].now;
-  }
-
-  void add_life(const std::string& name, const std::string& of, const std::string& at,
-                const Unit& unit) {
-    group.requests.push_back(request(name, of, at, unit));
-    group.requests.back().is_life = true;
-    group.requests.back().safe_end = 0.05;
-  }
-
-  std::shared_ptr<const LimitedPath> path_;
-  Told told_;
-};
-
 void request_lives(const Asked& asked, const std::string& name, const Quantity& limit,
-                   const std::shared_ptr<const LimitedPath>& path, const Told& told, Lives lives_of,
-                   PosteriorStudy& study) {
+                   const std::shared_ptr<const LimitedPath>& path, const LimitWishes& told,
+                   const Lives& lives_of, PosteriorStudy& study) {
   const auto rows = std::make_shared<const LimitGroup>(asked, name, limit, path, told);
   study.quantity_groups.push_back(
-      {rows->group.requests, [rows, lives_of = std::move(lives_of)](const WeightedDraws& draws) {
-         return rows->answers(lives_of(draws));
-       }});
+      {rows->requests(), [=](const WeightedDraws& draws) { return rows->answers(lives_of(draws)); },
+       [=](const WeightedDraws& draws) { return rows->predictive(lives_of(draws)); }});
 }
 
 // A first passage is known where variances are in proportion to means.
@@ -263,7 +134,7 @@ void read_process_limit(const Asked& asked, const TomlReader& limits, const std:
   add_units(asked, limits, name, wanted, path);
   // Each goes on from where its mean stands.
   for (LimitedPath::Seen& each : path.seen) each.behind.reset();
-  const Told told = read_told(asked, path);
+  const LimitWishes told = read_limit_wishes(asked, path);
   const std::shared_ptr<const ProcessLimit> known = asked_for;
   request_lives(
       asked, name, limit, {known, &known->path}, told,
@@ -333,7 +204,7 @@ void read_limit(const Asked& asked, PosteriorStudy& study) {
   set_reach(asked, *path);
   require_monotone(asked, limits, name, *path);
   if (asked.law->label || path->next->goes_on()) add_units(asked, limits, name, wanted, *path);
-  const Told told = read_told(asked, *path);
+  const LimitWishes told = read_limit_wishes(asked, *path);
   const std::shared_ptr<const LimitedPath> known = path;
   request_lives(
       asked, name, limit, known, told,

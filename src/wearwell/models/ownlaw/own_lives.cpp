@@ -1,5 +1,9 @@
 #include "wearwell/models/ownlaw/own_lives.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,6 +45,21 @@ class Part {
   }
 
   LimitedLives found;
+
+  // Where nothing differs from unit to unit: the one life of new units at a point.
+  double life_of_next(const double* x) {
+    next_->at().move_to(x);
+    solve(*next_, {}, 1, place_);
+    return place_[0];
+  }
+
+  // What remains of that unit from its last row on, at a point; not above 0 where it is there already.
+  double remaining_of_seen(std::size_t u, const double* x) {
+    ahead_[u].at().move_to(x);
+    solve(ahead_[u], {}, 1, place_);
+    path_.seen[u].ahead->goes_on() ? from_last_row(u) : from_place(u, x, fresh_);
+    return place_[0];
+  }
 
  private:
   std::size_t effects() const { return rows_.law().effects.size(); }
@@ -153,6 +172,57 @@ class Part {
   std::vector<double> place_, past_, level_;
 };
 
+// A posterior in terms of one number that follows from each of its points.
+template <class Value>
+WeightedDraws in_terms_of(const WeightedDraws& draws,
+                          tbb::enumerable_thread_specific<std::unique_ptr<Part>>& parts,
+                          const OwnRows& rows, const LimitedPath& path, const Value& value) {
+  const Eigen::Index n = draws.has_cells() ? draws.cells.mass.size() : draws.values.rows();
+  const double least = Distribution::least_weight(draws);
+  const auto of = [&](const Points& points) {
+    const Eigen::Index count = std::min(n, points.rows());
+    Points numbers = Points::Zero(count, 1);
+    tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, count, 256), [&](const auto& some) {
+      std::unique_ptr<Part>& part = parts.local();
+      if (!part) part = std::make_unique<Part>(rows, path);
+      for (Eigen::Index i = some.begin(); i < some.end(); ++i) {
+        if (draws.cell_weight(i) > least) numbers(i, 0) = value(*part, points.row(i).data());
+      }
+    });
+    return numbers;
+  };
+  WeightedDraws result{of(draws.values), draws.weights.head(n), {}, {}, draws.cells};
+  for (const Points& ends : draws.lower) result.lower.push_back(of(ends));
+  for (const Points& ends : draws.upper) result.upper.push_back(of(ends));
+  return result;
+}
+
+// Where nothing differs from unit to unit each point of the posterior has one life: all of them count, with the cells of
+// the quadrature, for points alone would leave a noise of one over the root of their number.
+LimitedLives lives_of_points(const OwnRows& rows, const LimitedPath& path,
+                             const WeightedDraws& draws) {
+  tbb::enumerable_thread_specific<std::unique_ptr<Part>> parts;
+  const auto cells_of = [&](const auto& value) {
+    const WeightedDraws lives = in_terms_of(draws, parts, rows, path, value);
+    CellMixture cells;
+    cells.add(Distribution(lives, [](const double* life) { return life[0]; }));
+    return cells;
+  };
+  LimitedLives lives;
+  if (path.next) {
+    lives.next = cells_of([](Part& part, const double* x) { return part.life_of_next(x); });
+    const bool all = path.survived <= path.begin;
+    lives.by_share.assign(path.shares.size(), all ? lives.next : lives.next.beyond(path.survived));
+  }
+  for (std::size_t u = 0; u < path.seen.size(); ++u) {
+    const CellMixture all =
+        cells_of([u](Part& part, const double* x) { return part.remaining_of_seen(u, x); });
+    lives.remaining.push_back(all.beyond(0));
+    lives.passed.push_back(std::max(0.0, all.mass() - lives.remaining.back().mass()));
+  }
+  return lives;
+}
+
 Most points_of(const Path& any) {
   if (!any.goes_on()) return {};
   return any.running->running.solved ? Most{400, 200} : Most{2000, 1000};
@@ -162,6 +232,8 @@ Most points_of(const Path& any) {
 
 LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
                            const WeightedDraws& draws) {
+  if (rows.law().effects.empty() && !rows.law().draws_units())
+    return lives_of_points(rows, path, draws);
   Most most = points_of(path.next ? *path.next : *path.seen.front().ahead);
   if (rows.law().draws_units()) most.next = std::min<std::size_t>(most.next, 400);
   LimitedLives lives;

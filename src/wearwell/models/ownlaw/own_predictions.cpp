@@ -82,6 +82,18 @@ struct AskedOfLife {
     while (answer != found.end()) add({});
     return all;
   }
+
+  std::vector<PredictiveLife> lives(const WeightedDraws& draws) const {
+    const auto next = std::make_shared<const LifeLaw::Next>(life->next(draws));
+    std::vector<PredictiveLife> all = {{{[next](double x) { return next->cdf(x); },
+                                         [next](double p) { return next->quantile(p); }}}};
+    if (!survived) return all;
+    const double from = survived->si(), gone = next->cdf(from);
+    all.push_back({{[=](double x) { return (next->cdf(from + x) - gone) / (1 - gone); },
+                    [=](double p) { return next->quantile(p, from); }},
+                   1 - gone});
+    return all;
+  }
 };
 
 class Predictions {
@@ -202,6 +214,7 @@ class Predictions {
     }
     const AskedOfLife of_life{life, fast, levels, survived, survival, hazard};
     group.from_draws = [of_life](const WeightedDraws& draws) { return of_life.answers(draws); };
+    group.lives = [of_life](const WeightedDraws& draws) { return of_life.lives(draws); };
     study_.quantity_groups.push_back(std::move(group));
   }
 

@@ -11,6 +11,7 @@
 #include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/identified.h"
 #include "wearwell/models/ownlaw/life_paper.h"
+#include "wearwell/models/ownlaw/own_density_unit.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_fit_data.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
@@ -192,6 +193,7 @@ void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy
   study.equation = in_words(*law);
   study.meanings = meanings(*law);
   study.data_notes = notes(*law);
+  study.density = ownlaw::density_unit(*law);
   tell_data(*law, study);
   if (law->varies()) {
     study.observation = *law->label;
