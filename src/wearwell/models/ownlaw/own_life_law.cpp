@@ -7,6 +7,7 @@
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_lives.h"
 #include "wearwell/predict/few_points.h"
+#include "wearwell/predict/interpolated.h"
 #include "wearwell/predict/prediction.h"
 
 namespace wearwell::ownlaw {
@@ -14,6 +15,8 @@ namespace {
 
 // Of items that come so far more rarely nothing is known from there on.
 constexpr double least_survival = 1e-3;
+
+constexpr std::size_t few_points = 2000;
 
 double probability(ResponseFamily family, double life, const double* slots) {
   return std::exp(log_cdf(family, life, slots));
@@ -156,7 +159,7 @@ LifeLaw::Next LifeLaw::next(const WeightedDraws& draws) const {
 // Where every point needs an equation solved there are few.
 WeightedDraws LifeLaw::points(const WeightedDraws& draws) const {
   if (slots_->law->effects.empty()) return draws;
-  FewPoints few(draws, 2000);
+  FewPoints few(draws, few_points);
   WeightedDraws result;
   result.values = std::move(few.values);
   result.weights = Eigen::Map<const Eigen::VectorXd>(few.weights.data(),
@@ -164,12 +167,26 @@ WeightedDraws LifeLaw::points(const WeightedDraws& draws) const {
   return result;
 }
 
+// Of a number that follows from the parameters: where that is expensive it is known at few points.
+template <class Value>
+Distribution LifeLaw::over(const WeightedDraws& draws, const Value& value) const {
+  if (slots_->law->effects.empty()) return {draws, value};
+  const FewPoints few(draws, few_points);
+  Points at_few(few.values.rows(), 1);
+  for (Eigen::Index i = 0; i < at_few.rows(); ++i) at_few(i, 0) = value(few.values.row(i).data());
+  if (auto whole = interpolated(draws, few, at_few).front()) return std::move(*whole);
+  WeightedDraws points;
+  points.values = at_few;
+  points.weights = Eigen::Map<const Eigen::VectorXd>(few.weights.data(), at_few.rows());
+  return {points, [](const double* x) { return x[0]; }};
+}
+
 Distribution LifeLaw::quantile(const WeightedDraws& draws, double p) const {
   AtPoint at(*this);
-  return {points(draws), [&](const double* x) {
-            at.move_to(x);
-            return at.quantile(p);
-          }};
+  return over(draws, [&](const double* x) {
+    at.move_to(x);
+    return at.quantile(p);
+  });
 }
 
 Distribution LifeLaw::quantile(const WeightedDraws& draws, double p, double from) const {
@@ -200,27 +217,27 @@ Distribution LifeLaw::quantile(const WeightedDraws& draws, double p, double from
 
 Distribution LifeLaw::survival(const WeightedDraws& draws, double life) const {
   AtPoint at(*this);
-  return {points(draws), [&](const double* x) {
-            at.move_to(x);
-            return 1 - at.cdf(life);
-          }};
+  return over(draws, [&](const double* x) {
+    at.move_to(x);
+    return 1 - at.cdf(life);
+  });
 }
 
 Distribution LifeLaw::hazard(const WeightedDraws& draws, double life) const {
   AtPoint at(*this);
-  return {points(draws), [&](const double* x) {
-            at.move_to(x);
-            return at.hazard(life);
-          }};
+  return over(draws, [&](const double* x) {
+    at.move_to(x);
+    return at.hazard(life);
+  });
 }
 
 Distribution LifeLaw::ratio(const WeightedDraws& draws, const LifeLaw& other) const {
   AtPoint here(*this), there(other);
-  return {points(draws), [&](const double* x) {
-            here.move_to(x);
-            there.move_to(x);
-            return here.quantile(0.5) / there.quantile(0.5);
-          }};
+  return over(draws, [&](const double* x) {
+    here.move_to(x);
+    there.move_to(x);
+    return here.quantile(0.5) / there.quantile(0.5);
+  });
 }
 
 }  // namespace wearwell::ownlaw

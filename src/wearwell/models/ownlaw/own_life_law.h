@@ -52,6 +52,8 @@ class LifeLaw {
  private:
   class AtPoint;
   WeightedDraws points(const WeightedDraws& draws) const;
+  template <class Value>
+  Distribution over(const WeightedDraws& draws, const Value& value) const;
 
   std::shared_ptr<const Path> slots_;
   ResponseFamily family_;

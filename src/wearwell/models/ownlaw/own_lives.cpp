@@ -10,7 +10,7 @@
 
 #include "wearwell/models/ownlaw/effect_lines.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
-#include "wearwell/predict/few_points.h"
+#include "wearwell/predict/interpolated.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -244,7 +244,9 @@ LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
     lives = sum_over(FewPoints(draws, most.seen), [&] { return Part(rows, seen); });
   }
   if (!path.next) return lives;
-  LimitedLives of_next = sum_over(FewPoints(draws, most.next), [&] { return Part(rows, next); });
+  const FewPoints few(draws, most.next);
+  LimitedLives of_next = sum_over(few, [&] { return Part(rows, next); });
+  of_next.spread_shares(path, draws, few);
   lives.next = std::move(of_next.next);
   lives.by_share = std::move(of_next.by_share);
   return lives;
@@ -255,13 +257,27 @@ void LimitedLives::add_shares(const LimitedPath& path, const CellMixture& units)
   const CellMixture& left = all ? units : units.beyond(path.survived);
   const double mass = left.mass();
   by_share.resize(path.shares.size());
-  for (std::size_t i = 0; mass > 0 && i < path.shares.size(); ++i) {
-    const double life = left.quantile(path.shares[i]);
-    by_share[i].add(mass, life, life);
+  for (std::size_t i = 0; i < path.shares.size(); ++i) {
+    at_points.push_back(mass > 0 ? left.quantile(path.shares[i]) : std::nan(""));
+    if (mass > 0) by_share[i].add(mass, at_points.back(), at_points.back());
+  }
+}
+
+void LimitedLives::spread_shares(const LimitedPath& path, const WeightedDraws& draws,
+                                 const FewPoints& few) {
+  const auto shares = static_cast<Eigen::Index>(path.shares.size());
+  if (shares == 0 || path.survived > path.begin) return;
+  const Eigen::Map<const Points> lives(at_points.data(), few.values.rows(), shares);
+  const auto whole = interpolated(draws, few, lives);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    if (!whole[i]) continue;
+    by_share[i] = {};
+    by_share[i].add(*whole[i]);
   }
 }
 
 void LimitedLives::add(const LimitedLives& other) {
+  at_points.insert(at_points.end(), other.at_points.begin(), other.at_points.end());
   next.add(other.next);
   by_share.resize(std::max(by_share.size(), other.by_share.size()));
   for (std::size_t i = 0; i < other.by_share.size(); ++i) by_share[i].add(other.by_share[i]);

@@ -7,6 +7,7 @@
 #include "wearwell/models/ownlaw/own_crossing.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/predict/cell_mixture.h"
+#include "wearwell/predict/few_points.h"
 
 namespace wearwell::ownlaw {
 
@@ -41,9 +42,14 @@ struct LimitedLives {
   /// Of each of LimitedPath::shares: the life by which such a share of units has reached the limit,
   /// over the posterior given that a unit has come to `survived`, from there on.
   std::vector<CellMixture> by_share = {};
+  /// The same lives, point after point.
+  std::vector<double> at_points = {};
 
   /// From the lives of all units at one point of the posterior.
   void add_shares(const LimitedPath& path, const CellMixture& units);
+
+  /// After all of `few` points: where lives count from the beginning, `by_share` over the whole posterior.
+  void spread_shares(const LimitedPath& path, const WeightedDraws& draws, const FewPoints& few);
 
   void add(const LimitedLives& other);  ///< of other points
 };

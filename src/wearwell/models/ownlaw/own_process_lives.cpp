@@ -190,7 +190,9 @@ LimitedLives process_lives(const OwnRows& rows, const ProcessLimit& limit,
   if (!limit.path.next) return lives;
   // Lives of new units hang on the tail of what is known of the population.
   const std::size_t most = rows.law().draws_units() ? most_points : most_points_of_next;
-  LimitedLives of_next = sum_over(FewPoints(draws, most), [&] { return Part(rows, next); });
+  const FewPoints few(draws, most);
+  LimitedLives of_next = sum_over(few, [&] { return Part(rows, next); });
+  of_next.spread_shares(limit.path, draws, few);
   lives.next = std::move(of_next.next);
   lives.by_share = std::move(of_next.by_share);
   return lives;
