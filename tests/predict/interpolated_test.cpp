@@ -10,8 +10,8 @@ namespace {
 
 // Two correlated normal parameters as the cells of a quadrature.
 WeightedDraws normal_cells() {
-  constexpr int n = 161;
-  constexpr double step = 0.07, rho = 0.6;
+  constexpr int n = 281;
+  constexpr double step = 0.04, rho = 0.6;
   WeightedDraws draws;
   draws.values.resize(n * n, 2);
   draws.weights.resize(n * n);
