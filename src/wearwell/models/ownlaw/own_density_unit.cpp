@@ -33,9 +33,10 @@ std::vector<bool> has_density(const OwnLaw& law, const Measured& measured) {
 
 DensityUnit density_unit(const OwnLaw& law) {
   DensityUnit unit{"", {}, 0};
-  if (law.by_unit()) unit.terms.resize(law.units.size());
+  const bool by_unit = law.by_unit() || law.draws_units();
+  if (by_unit) unit.terms.resize(law.units.size());
   for (const Measured& measured : law.measured) {
-    if (!measured.form->counted && !measured.trials &&
+    if (!measured.form->counted && !measured.trials && measured.unit.text != "1" &&
         (", " + unit.text + ",").find(", " + measured.unit.text + ",") == std::string::npos)
       unit.text += (unit.text.empty() ? "" : ", ") + measured.unit.text;
     const std::vector<bool> has = has_density(law, measured);
@@ -44,7 +45,7 @@ DensityUnit density_unit(const OwnLaw& law) {
       const double each = has[i] ? log_scale : 0;
       const double all = each * measured.observed.counts[i];
       unit.total += all;
-      if (law.by_unit()) {
+      if (by_unit) {
         unit.terms[law.unit_of_row[measured.observed.rows[i]]] += all;
       } else {
         unit.terms.push_back(each);
