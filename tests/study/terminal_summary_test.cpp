@@ -122,7 +122,7 @@ TEST(TerminalSummary, OneObservationHasNoStandardError) {
   EXPECT_THAT(terminal_summary(result, {}), HasSubstr("(standard error 1.50)"));
   result.loo->loo.terms = {{-1.5, -1.25, 0.25}};
   const std::string text = terminal_summary(result, {});
-  EXPECT_THAT(text, HasSubstr("elpd -1.50 (of one observation without a standard error)"));
+  EXPECT_THAT(text, HasSubstr("elpd -1.50 (of one observation without a standard error, data in mm^3)"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
