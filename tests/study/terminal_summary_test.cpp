@@ -119,10 +119,11 @@ TEST(TerminalSummary, AnswersFirstAndRowsOnDemand) {
 
 TEST(TerminalSummary, OneObservationHasNoStandardError) {
   PosteriorSummary result = sample_result();
-  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("(standard error 1.50)"));
+  EXPECT_THAT(terminal_summary(result, {}), HasSubstr("(standard error 1.50, data in mm^3)"));
   result.loo->loo.terms = {{-1.5, -1.25, 0.25}};
   const std::string text = terminal_summary(result, {});
-  EXPECT_THAT(text, HasSubstr("elpd -1.50 (of one observation without a standard error, data in mm^3)"));
+  EXPECT_THAT(text,
+              HasSubstr("elpd -1.50 (of one observation without a standard error, data in mm^3)"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
