@@ -31,6 +31,27 @@ TEST(Plot, AnyNameIsOneColumn) {
   EXPECT_EQ(layer["encoding"]["tooltip"][0]["field"], "N m    2  u2028");
 }
 
+// A plot without marks is no Vega-Lite; an end that is not finite is none of JSON's numbers.
+TEST(Plot, NothingToDrawIsSaid) {
+  const Json spec = plot("Hazard", {"x", false, NAN, INFINITY}, {"y"}, {}, 280, true);
+  ASSERT_EQ(spec["layer"].size(), 1);
+  EXPECT_EQ(spec["layer"][0]["mark"]["text"], "no finite value to draw");
+  EXPECT_FALSE(spec["layer"][0].contains("params"));
+  EXPECT_EQ(Json::parse(spec.dump()), spec);
+}
+
+TEST(Plot, EndsThatAreNoNumbersAreLeftToTheMarks) {
+  const auto scale = [](const Axis& x) {
+    const Json spec = plot("", x, {"y"}, {line({{"x", {1, 2}}, {"y", {3, 4}}}, {"#123456"})});
+    return spec["layer"][0]["encoding"]["x"]["scale"];
+  };
+  EXPECT_EQ(scale({"x", false, 0, 5})["domainMax"], 5);
+  EXPECT_EQ(scale({"x", false, 0, 5})["domainMin"], 0);
+  EXPECT_FALSE(scale({"x", false, -INFINITY, 5}).contains("domainMin"));
+  EXPECT_FALSE(scale({"x", false, 0, NAN}).contains("domainMax"));
+  EXPECT_FALSE(scale({"x", true, 0, 5}).contains("domainMin"));
+}
+
 TEST(Plot, OneLegendForAllMarks) {
   const Json spec = plot("", {"x"}, {"y"},
                          {area({{"x", {1}}, {"y", {2}}, {"y2", {1}}}, {"#aaaaaa", "band"}),

@@ -82,8 +82,12 @@ Json scale(const Axis& axis) {
   } else {
     json["zero"] = false;
   }
-  if (axis.low) json["domainMin"] = *axis.low;
-  if (axis.high) json["domainMax"] = *axis.high;
+  // An end that is not finite, or that a logarithm does not have, is left to the marks.
+  const auto is_end = [&](const std::optional<double>& end) {
+    return end && std::isfinite(*end) && (!axis.logarithmic || *end > 0);
+  };
+  if (is_end(axis.low)) json["domainMin"] = *axis.low;
+  if (is_end(axis.high)) json["domainMax"] = *axis.high;
   if (!axis.names.empty()) {
     json["domain"] = {0.5, static_cast<double>(axis.names.size()) + 0.5};
     json["nice"] = false;
@@ -261,10 +265,22 @@ Json legend_of(const std::vector<Entry>& entries) {
               {"size", {{"value", 150}}}}}}}};
 }
 
+// Says that there is nothing to see, where Vega-Lite would refuse a plot without marks.
+Json nothing_to_draw() {
+  return {
+      {"data", {{"values", Json::array({Json::object()})}}},
+      {"mark", {{"type", "text"}, {"text", "no finite value to draw"}, {"fill", colour::prior}}},
+      {"encoding", Json::object()}};
+}
+
 }  // namespace
 
 Json plot(const std::string& description, const Axis& x, const Axis& y, std::vector<Json> marks,
           int height, bool zoom) {
+  if (marks.empty()) {
+    marks.push_back(nothing_to_draw());
+    zoom = false;
+  }
   const std::vector<Entry> entries = entries_of(marks);
   Json labels = Json::array(), colours = Json::array();
   for (const Entry& entry : entries) {

@@ -25,7 +25,7 @@ inline constexpr const char* chains[] = {"#2f7fd6", "#d9822b", "#2e9e6b", "#9a6d
 struct Axis {
   std::string title;
   bool logarithmic = false;
-  std::optional<double> low = {}, high = {};  ///< what lies outside is cut off
+  std::optional<double> low = {}, high = {};  ///< what lies outside is cut off; none if not finite
   std::vector<std::string> names = {};        ///< instead of numbers, at 1, 2, ...
   bool numbers = true;                        ///< false: a density, whose numbers say nothing
 };
@@ -64,7 +64,7 @@ Json vertical_line(double x, const Look& look);  ///< a line across the plot
 Json horizontal_line(double y, const Look& look);
 Json text(double x, double y, const std::string& words, const std::string& colour);
 
-/// The specification. `description` is what a screen reader says of it. `zoom`: wheel with Shift
+/// The specification; without marks it says that there is no finite value to draw. `description` is what a screen reader says of it. `zoom`: wheel with Shift
 /// and dragging move the axes.
 Json plot(const std::string& description, const Axis& x, const Axis& y, std::vector<Json> marks,
           int height = 280, bool zoom = false);

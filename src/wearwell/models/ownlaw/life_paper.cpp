@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "wearwell/models/ownlaw/own_life_law.h"
 #include "wearwell/models/ownlaw/own_path.h"
@@ -131,12 +132,8 @@ class Drawing {
         draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled, few_draws)) {
     for (const Group& group : groups) {
       for (const Response& each : group.responses) {
-        for (const double y : {each.at, each.until}) {
-          if (!std::isfinite(y) || (positive() && !(y > 0)) || (y == 0 && y == each.until))
-            continue;
-          low_ = std::min(low_, y);
-          high_ = std::max(high_, y);
-        }
+        cover(each.at);
+        if (each.seen == Seen::between) cover(each.until);
       }
       positions_.push_back(plotting_positions(group.responses, group.counts));
       for (const PlottingPosition& each : positions_.back()) {
@@ -144,8 +141,10 @@ class Drawing {
         most_ = std::max(most_, 1 - 0.5 * (1 - each.p));
       }
     }
-    const double room = positive() ? std::max(1.5, std::pow(high_ / low_, 0.15))
-                                   : 0.1 * std::max(high_ - low_, 1e-9 * std::abs(high_));
+    if (!(low_ <= high_)) low_ = high_ = measured_.unit.scale;  // no finite observation
+    double room = positive() ? std::max(1.5, std::pow(high_ / low_, 0.15))
+                             : 0.1 * std::max(high_ - low_, 1e-9 * std::abs(high_));
+    if (room == 0) room = measured_.unit.scale;  // all readings are zero
     low_ = positive() ? low_ / room : low_ - room;
     high_ = positive() ? high_ * room : high_ + room;
     for (std::size_t i = 0; i < curve_points; ++i) {
@@ -182,7 +181,8 @@ class Drawing {
                        marks, 380, true)};
   }
 
-  html::Figure hazard() const {
+  // None where no curve is finite anywhere.
+  std::optional<html::Figure> hazard() const {
     std::vector<plot::Json> marks;
     const double per = measured_.unit.scale;
     double least = INFINITY, most = 0;
@@ -208,18 +208,24 @@ class Drawing {
       marks.push_back(plot::line({{"x", x}, {"y", middle}, {"hazard", middle}},
                                  {colour_of(g), label(g), 1, 2}));
     }
+    if (marks.empty()) return {};
     const std::string unit = measured_.unit.text == "1"
                                  ? ""
                                  : fmt::format(" [{}]", html::unit(per_unit(measured_.unit)));
-    return {"hazard", "Hazard: the rate at which those fail that have come so far",
-            "The line is the posterior median, the band holds 90 %.",
-            plot::plot(fmt::format("Hazard against {}", measured_.column), axis(),
-                       {"Hazard" + unit, true, least > 0 ? least / 5 : 1e-12, 5 * most}, marks, 280,
-                       true)};
+    return html::Figure{"hazard", "Hazard: the rate at which those fail that have come so far",
+                        "The line is the posterior median, the band holds 90 %.",
+                        plot::plot(fmt::format("Hazard against {}", measured_.column), axis(),
+                                   {"Hazard" + unit, true, least > 0 ? least / 5 : 1e-12, 5 * most},
+                                   marks, 280, true)};
   }
 
  private:
   bool positive() const { return measured_.form->positive; }
+  void cover(double y) {
+    if (!std::isfinite(y) || (positive() && !(y > 0))) return;
+    low_ = std::min(low_, y);
+    high_ = std::max(high_, y);
+  }
   double shown(double y) const { return from_si(measured_.unit, y); }
   plot::Axis axis() const {
     const std::string unit = html::unit(measured_.unit.text);
@@ -323,7 +329,7 @@ void show_life_paper(const TomlReader& root, std::shared_ptr<const OwnLaw> law,
     auto exhibits = before ? before(fit) : std::map<std::string, std::vector<html::Figure>>();
     const Drawing drawing(*law, *groups, fit);
     exhibits["verdict"].push_back(drawing.paper());
-    exhibits["predictions"].push_back(drawing.hazard());
+    if (auto hazard = drawing.hazard()) exhibits["predictions"].push_back(std::move(*hazard));
     return exhibits;
   };
 }
