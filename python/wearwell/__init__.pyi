@@ -104,6 +104,8 @@ class Study:
         predict: Mapping[str, Any] | None = ...,
         sampler: Mapping[str, Any] | None = ...,
         title: str | None = ...,
+        status: str | Mapping[str, Any] | None = ...,
+        unused: str | Sequence[str] | None = ...,
     ) -> None: ...
     @classmethod
     def from_toml(

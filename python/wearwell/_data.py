@@ -191,6 +191,30 @@ def _is_series(data):
     return hasattr(data, "iloc") and not hasattr(data, "columns")
 
 
+def columns_of_few_kinds(data, headings):
+    """Those of ``headings`` whose column holds a few numbers or words again and again: it may say how each life ended."""
+    if hasattr(data, "iloc"):
+        names = list(data.columns)
+        columns = {h: data.iloc[:, names.index(h)] for h in headings}
+    elif isinstance(data, np.ndarray) or not hasattr(data, "fetchnumpy"):
+        columns = {h: data[h] for h in headings}
+    else:
+        found = data.fetchnumpy()
+        columns = {h: found[h] for h in headings}
+    return {h for h, column in columns.items() if _has_few_kinds(column)}
+
+
+def _has_few_kinds(column):
+    most = 6
+    try:
+        values = _values(column, "data, column 'x'")
+    except InputError:
+        return False  # a column that nobody uses may hold anything
+    if isinstance(values, list):
+        return len({each for each in values if each}) <= most
+    return len(np.unique(values[values == values])) <= most
+
+
 def headings_of(data, name="data"):
     """Names of the columns, without reading them where that can be. InputError where they are no texts."""
     headings = _found_headings(data)

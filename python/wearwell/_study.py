@@ -4,7 +4,7 @@ import os
 import re
 
 from . import _core, _toml
-from ._data import headings_of, table_of
+from ._data import columns_of_few_kinds, headings_of, table_of
 from ._errors import InputError
 from ._fit import Fit
 from ._progress import reporter
@@ -63,6 +63,24 @@ def _lines(law):
     return lines
 
 
+def _status(status, columns, headings):
+    """(heading, what stands in [data.columns])"""
+    entry = dict(status) if isinstance(status, dict) else {"column": status}
+    heading = columns.get(entry.get("column"), entry.get("column"))
+    if heading not in headings:
+        raise InputError(f"status: data has no column '{heading}' (columns: {', '.join(map(str, headings))}); it is like 'event' or "
+                         "{'column': 'event', 'failure': 1}")
+    entry["column"] = heading
+    return heading, entry if "failure" in entry else heading
+
+
+def _in_python(message):
+    """What a message says of keys of a study file, as arguments of Study."""
+    message = re.sub(r'status = \{ column = ("[^"]*"), failure = (\d) \}', r'status={"column": \1, "failure": \2}', message)
+    message = re.sub(r'status = ("[^"]*")', r"status=\1", message)
+    return re.sub(r"unused = (\[[^\]]*\]) under \[data\]", r"unused=\1", message)
+
+
 def _middles(lines, likelihood):
     """The law without what says how measurements scatter about it."""
     scatters = ("family", "sd", "log_sd", "log10_sd", "shape", "df", "trials")
@@ -109,12 +127,15 @@ class Study:
     of k is the parameter k_scatter (half-normal, scale 1, where ``priors`` does not say).
     family, scatter: how what is measured scatters about the law: "normal" with the parameter sigma, ...; or
     ``likelihood``: tables as [likelihood.NAME] of docs/law-study.md. constants, predict, sampler: as there.
+    status: the column that says how each life ended, "event" or {"column": "event", "failure": 1} where it holds codes and its
+    heading does not tell what a failure is written as; by default the column "status", if there is one. unused: columns that look
+    like that and say something else.
 
     Raises InputError (a ValueError) in the words of the command line. Nothing is fitted yet.
     """
 
     def __init__(self, law, data, *, priors, units=None, unit=None, varies=None, family="normal", scatter=None,
-                 likelihood=None, constants=None, predict=None, sampler=None, title=None):
+                 likelihood=None, constants=None, predict=None, sampler=None, title=None, status=None, unused=None):
         units = {k: _toml.unit_text(v) for k, v in (units or {}).items()}
         headings = headings_of(data)
         table = None
@@ -147,10 +168,17 @@ class Study:
         priors.update(added)
         used = _names_in(lines, likelihood, predict or {}, [k for k in likelihood]) | set(_special) | {unit}
         chosen = {n: h for n, h in columns.items() if n in used}
+        in_file = {n: {"column": h, "unit": units[n]} if n in units else h for n, h in chosen.items()}
+        if status is not None:
+            chosen["status"], in_file["status"] = _status(status, columns, headings)
+        unused = [unused] if isinstance(unused, str) else list(unused or ())
+        for key in unused:
+            if key not in name_of and key not in columns and key not in headings:
+                raise InputError(f"unused: data has no column '{key}' (columns: {', '.join(map(str, headings))})")
+        unused = [columns.get(key, key) for key in unused]
         parts = [_toml.table("", {"title": title or "; ".join(f"{k} = {v}" for k, v in _lines(law).items()), "model": "law"})]
-        parts.append(_toml.table("data", {"file": "data"}))
-        parts.append(_toml.table("data.columns", {
-            n: {"column": h, "unit": units[n]} if n in units else h for n, h in chosen.items()}))
+        parts.append(_toml.table("data", {"file": "data", **({"unused": unused} if unused else {})}))
+        parts.append(_toml.table("data.columns", in_file))
         if constants:
             parts.append(_toml.table("constants", {k: _toml.quantity(v, f"constants.{k}") for k, v in constants.items()}))
         if lines:
@@ -164,8 +192,16 @@ class Study:
             parts.append(_toml.table("predict", predict))
         if sampler:
             parts.append(_toml.table("sampler", sampler))
-        tables = {"data": table if table is not None else table_of(data, only=set(chosen.values()))}
-        self._set("\n".join(parts), "study", tables, {"data": (data, {}, None if table is not None else set(chosen.values()))})
+        only = None
+        if table is None:
+            # Columns that may say how lives ended go along: the library refuses to pass over them.
+            only = set(chosen.values())
+            only |= columns_of_few_kinds(data, [h for h in headings if h not in only and h not in unused])
+            table = table_of(data, only=only)
+        try:
+            self._set("\n".join(parts), "study", {"data": table}, {"data": (data, {}, only)})
+        except InputError as error:
+            raise InputError(_in_python(str(error))) from None
 
     @staticmethod
     def _likelihood(lines, columns, family, scatter):

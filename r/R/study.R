@@ -106,8 +106,32 @@ named_columns <- function(headings) {
   columns
 }
 
+# What stands in [data.columns] of the column that says how each life ended.
+status_entry <- function(status, columns, headings) {
+  entry <- if (is.list(status)) status else list(column = status)
+  if (isTRUE(entry$column %in% names(columns))) entry$column <- columns[[entry$column]]
+  if (!isTRUE(entry$column %in% headings)) {
+    stop_input("status: data has no column '", words(entry$column), "' (columns: ", words(headings), "); it is like \"event\" or ",
+               "list(column = \"event\", failure = 1)")
+  }
+  if (is.null(entry$failure)) entry$column else list(column = entry$column, failure = as.integer(entry$failure))
+}
+
+# A column of a few numbers or words again and again.
+has_few_kinds <- function(column) {
+  kinds <- tryCatch(unique(column_values(column, "data, column 'x'")), wearwell_input_error = function(error) NULL)
+  !is.null(kinds) && sum(!is.na(kinds)) <= 6
+}
+
+# What a message says of keys of a study file, as arguments of ww_study().
+in_r <- function(message) {
+  message <- gsub("status = \\{ column = (\"[^\"]*\"), failure = ([0-9]) \\}", "status = list(column = \\1, failure = \\2)", message)
+  gsub("unused = \\[([^]]*)\\] under \\[data\\]", "unused = \\1", message)
+}
+
 ww_study <- function(law, data, units = NULL, priors, unit = NULL, varies = NULL, family = "normal", scatter = NULL,
-                     likelihood = NULL, constants = NULL, predict = NULL, sampler = NULL, title = NULL) {
+                     likelihood = NULL, constants = NULL, predict = NULL, sampler = NULL, title = NULL, status = NULL,
+                     unused = NULL) {
   units <- unit_texts(units, "units")
   table <- NULL
   if (is_path(data)) table <- table_of(data) else require_columns(data, "data")
@@ -144,8 +168,16 @@ ww_study <- function(law, data, units = NULL, priors, unit = NULL, varies = NULL
   in_table <- Map(function(name, heading) {
     if (name %in% names(units)) list(column = heading, unit = units[[name]]) else heading
   }, names(chosen), unname(chosen))
+  if (!is.null(status)) {
+    in_table$status <- status_entry(status, columns, headings)
+    chosen[["status"]] <- if (is.list(in_table$status)) in_table$status$column else in_table$status
+  }
+  unknown <- setdiff(unused, c(headings, names(columns)))
+  if (length(unknown)) stop_input("unused: data has no column '", unknown[1], "' (columns: ", words(headings), ")")
+  unused <- unname(ifelse(unused %in% names(columns), columns[unused], unused))
   if (is.null(title)) title <- paste(names(all_lines), all_lines, sep = " = ", collapse = "; ")
-  parts <- c(toml_table("", list(title = title, model = "law")), toml_table("data", list(file = "data")),
+  parts <- c(toml_table("", list(title = title, model = "law")),
+             toml_table("data", c(list(file = "data"), if (length(unused)) list(unused = as.list(unused)))),
              toml_table("data.columns", in_table))
   if (length(constants)) parts <- c(parts, toml_table("constants", Map(quantity, constants, paste0("constants.", names(constants)))))
   if (length(lines)) parts <- c(parts, toml_table("law", lines))
@@ -154,8 +186,12 @@ ww_study <- function(law, data, units = NULL, priors, unit = NULL, varies = NULL
   if (length(entries)) parts <- c(parts, toml_table(paste0("varies.", unit), entries))
   if (length(predict)) parts <- c(parts, toml_table("predict", predict))
   if (length(sampler)) parts <- c(parts, toml_table("sampler", sampler))
-  only <- if (is.null(table)) unname(chosen)
-  new_study(paste(parts, collapse = "\n"), "study", list(data = list(data = data, units = NULL, only = only)))
+  # Columns that may say how lives ended go along: the library refuses to pass over them.
+  others <- setdiff(headings, c(chosen, unused))
+  only <- if (is.null(table)) c(unname(unlist(chosen)), others[vapply(others, function(h) has_few_kinds(.subset2(data, h)), NA)])
+  text <- paste(parts, collapse = "\n")
+  tryCatch(new_study(text, "study", list(data = list(data = data, units = NULL, only = only))),
+           wearwell_input_error = function(error) stop_input(in_r(conditionMessage(error))))
 }
 
 ww_study_toml <- function(text, data = NULL, units = NULL, folder = "", name = "study") {

@@ -57,6 +57,7 @@ TEST_F(LifeStatusTest, CodesNeedAHeadingOrTheStudyToTell) {
   for (const char* heading : {"event", "Failed", "is_broken", "died"})
     EXPECT_THAT(seen(heading, {"0", "1"}), ElementsAre(Seen::above, Seen::exactly)) << heading;
   EXPECT_THAT(seen("failed", {"true", "false"}), ElementsAre(Seen::exactly, Seen::above));
+  EXPECT_THAT(seen("failed", {"True", "FALSE"}), ElementsAre(Seen::exactly, Seen::above));
   EXPECT_THAT(seen("censored", {"true", "false"}), ElementsAre(Seen::above, Seen::exactly));
   EXPECT_THAT(seen("d", {"0", "1", "-1", "2"}, "{ column = \"d\", failure = 0 }"),
               ElementsAre(Seen::exactly, Seen::above, Seen::below, Seen::between));

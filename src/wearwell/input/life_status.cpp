@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <cctype>
 #include <utility>
 #include <vector>
@@ -42,17 +43,28 @@ std::optional<Seen> find(const Words& words, const std::string& word) {
   return {};
 }
 
-bool is_code(const std::string& word) {
-  return find(codes(0), word) || find(codes(1), word);
+// Truth values in any letters: "True", as Python writes them.
+std::optional<Seen> find_code(int failure, const std::string& word) {
+  return find(codes(failure), boost::algorithm::to_lower_copy(word));
 }
 
-// "Censored?" says that 1 is a runout, "event" that it is a failure.
-std::optional<int> code_by_heading(const std::string& heading) {
+bool is_code(const std::string& word) {
+  return find_code(0, word) || find_code(1, word);
+}
+
+}  // namespace
+
+std::string letters_of(const std::string& heading) {
   std::string lower;
   for (const char each : heading) {
     if (std::isalpha(static_cast<unsigned char>(each)))
       lower += static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
   }
+  return lower;
+}
+
+std::optional<int> failure_code_of(const std::string& heading) {
+  const std::string lower = letters_of(heading);
   const auto says = [&](std::initializer_list<const char*> words) {
     return std::any_of(words.begin(), words.end(),
                        [&](const char* each) { return lower.find(each) != lower.npos; });
@@ -62,8 +74,6 @@ std::optional<int> code_by_heading(const std::string& heading) {
   if (of_censoring == of_event) return {};
   return of_censoring ? 0 : 1;
 }
-
-}  // namespace
 
 std::optional<LifeStatus> read_life_status(const TomlReader& columns, const Table& table) {
   const auto chosen = read_word_column(columns, "status", table);
@@ -78,7 +88,7 @@ std::optional<LifeStatus> read_life_status(const TomlReader& columns, const Tabl
   }
   for (std::size_t i = 0; i < table.rows; ++i) {
     if (const std::string word = cell_word(column, i); is_code(word)) {
-      status.failure_code = code_by_heading(status.column);
+      status.failure_code = failure_code_of(status.column);
       if (status.failure_code) return status;
       columns.fail(
           "status",
@@ -95,7 +105,7 @@ Seen seen_in(const Table& table, const LifeStatus& status, std::size_t row) {
   const std::string word = cell_word(table.column(status.column), row);
   if (const auto seen = find(plain_words(), word)) return *seen;
   if (status.failure_code) {
-    if (const auto seen = find(codes(*status.failure_code), word)) return *seen;
+    if (const auto seen = find_code(*status.failure_code, word)) return *seen;
   }
   const std::vector<std::string> names = {"failure", "runout", "left", "interval"};
   throw InputError(fmt::format(

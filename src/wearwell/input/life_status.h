@@ -26,4 +26,10 @@ std::optional<LifeStatus> read_life_status(const TomlReader& columns, const Tabl
 /// What a row says of its life. Throws InputError that names its cell.
 Seen seen_in(const Table& table, const LifeStatus& status, std::size_t row);
 
+/// What a failure is written as by what a heading says: "censored?" has 0, "event" 1; nothing where it does not tell.
+std::optional<int> failure_code_of(const std::string& heading);
+
+/// The letters of a heading, small, without what stands between them.
+std::string letters_of(const std::string& heading);
+
 }  // namespace wearwell

@@ -230,6 +230,12 @@ StudyKey status_code_key() {
       "(1 is a runout, -1 left, 2 interval) or 1 (0 is a runout, 2 left, 3 interval)"};
 }
 
+StudyKey unused_columns_key() {
+  return {"data.unused", "[\"event\"]",
+          "headings of columns that look like a status and are none "
+          "([tables.md](tables.md#how-a-test-ended))"};
+}
+
 StudyKeys layout_keys(const std::string& table) {
   return {{table + ".decimal", "\",\"", "decimal mark"},
           {table + ".thousands", "\".\"", "mark for thousands, or none"},

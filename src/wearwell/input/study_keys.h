@@ -35,6 +35,8 @@ void add_keys(StudyKeys& keys, const StudyKeys& more);
 StudyKeys column_keys(const std::string& table = "data");
 /// Of a column of status (input/life_status.h).
 StudyKey status_code_key();
+/// Of columns that look like a status (input/idle_status.h).
+StudyKey unused_columns_key();
 
 /// How a table is written, of [data] or of whatever table names a file.
 StudyKeys layout_keys(const std::string& table = "data");

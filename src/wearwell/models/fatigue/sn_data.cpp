@@ -9,6 +9,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/heading.h"
+#include "wearwell/input/idle_status.h"
 #include "wearwell/models/fatigue/read_outcome.h"
 #include "wearwell/models/fatigue/spring.h"
 
@@ -283,6 +284,8 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   auto until = read_column(columns, "life_until", "cycle", table);
   if (until) until->unit = life_unit(until->unit);
   const auto status = read_life_status(columns, table);
+  static_cast<void>(section.texts("unused"));
+  if (!status && !until) refuse_idle_status(section, table, RowKind::life);
   const auto count = read_column(columns, "count", "1", table);
   const auto label = read_word_column(columns, "label", table);
   const auto part = read_word_column(columns, "part", table);

@@ -141,6 +141,7 @@ StudyKeys study_keys() {
        {"data.columns.status", "\"status\"",
         "failure, runout, left or interval; without it all failed"},
        status_code_key(),
+       unused_columns_key(),
        {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
        {"data.columns.label", "\"type\"", "a name, for predict.types and the report"},
        {"data.columns.part", "\"part\"",

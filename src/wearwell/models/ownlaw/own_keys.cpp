@@ -45,6 +45,7 @@ StudyKeys law_keys() {
         "is "
         "known of an observation"},
        status_code_key(),
+       unused_columns_key(),
        {"data.rows_of", "\"machine\"",
         "of several labels that parameters vary with: whose levels are the units"},
        {"constants.*", "\"50 mm^2\"", "a number with its unit, or a plain one"},

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "wearwell/base/error.h"
+#include "wearwell/input/idle_status.h"
 
 namespace wearwell::ownlaw {
 
@@ -90,6 +91,36 @@ void require_failures(const OwnLaw& law) {
                       law.data.table.source, each.column, parameter.name, parameter.law));
     }
   }
+}
+
+namespace {
+
+// Times, counts and distances that something lasts; a length below a metre is a wear depth.
+bool is_life(const Measured& measured) {
+  const ResponseForm& form = *measured.form;
+  if (!form.positive && form.family != ResponseFamily::smallest_extreme_value &&
+      form.family != ResponseFamily::largest_extreme_value)
+    return false;
+  const law::Powers& powers = measured.powers;
+  if (powers.empty()) return true;
+  if (powers.size() > 1 || powers.begin()->second != 1) return false;
+  const std::string& base = powers.begin()->first;
+  return base == "s" || base == "cycle" || (base == "m" && measured.unit.scale >= 1);
+}
+
+}  // namespace
+
+void require_status(const OwnLaw& law, const TomlReader& root) {
+  const TomlReader data = root.required_table("data");
+  static_cast<void>(data.texts("unused"));
+  if (law.measured.size() != 1 || law.along || law.data.status) return;
+  const Measured& measured = law.measured.front();
+  const SpecialColumns special = special_columns(law.data);
+  if (measured.form->counted || measured.program.has_paths() || special.lower || special.upper) {
+    return;
+  }
+  refuse_idle_status(data, law.data.table,
+                     is_life(measured) ? RowKind::life : RowKind::measurement);
 }
 
 }  // namespace wearwell::ownlaw

@@ -15,4 +15,7 @@ void require_rising(const OwnLaw& law);
 /// Lives without one failure have no upper end but their prior's. Throws InputError.
 void require_failures(const OwnLaw& law);
 
+/// A study of lives names the column that says how each ended, where its table has one. Throws InputError.
+void require_status(const OwnLaw& law, const TomlReader& root);
+
 }  // namespace wearwell::ownlaw

@@ -68,6 +68,7 @@ class Reader {
     compile_measured();
     order_rows(*law_, root_);
     require_rising(*law_);
+    require_status(*law_, root_);
     require_failures(*law_);
     return law_;
   }

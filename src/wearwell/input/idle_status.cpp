@@ -1,0 +1,177 @@
+#include "wearwell/input/idle_status.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/trim.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "wearwell/base/error.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/life_status.h"
+
+namespace wearwell {
+namespace {
+
+using Words = std::set<std::string>;
+
+const Words& failure_words() {
+  static const Words words = {"failure", "failed", "fail", "f",        "broke",
+                              "broken",  "dead",   "died", "observed", "event"};
+  return words;
+}
+
+const Words& other_words() {
+  static const Words words = {
+      "runout",   "run-out", "run out",    "right",     "s",        "left",        "interval",
+      "censored", "c",       "suspended",  "susp",      "survived", "survivor",    "alive",
+      "running",  "ok",      "in service", "unbroken",  "intact",   "not failed",  "no failure",
+      "passed",   "pass",    "suspension", "surviving", "censor",   "uncensored?", "active"};
+  return words;
+}
+
+const Words& truths() {
+  static const Words words = {"1", "true", "yes", "y"};
+  return words;
+}
+
+const Words& falsehoods() {
+  static const Words words = {"0", "false", "no", "n"};
+  return words;
+}
+
+bool is_code(const std::string& word) {
+  static const Words others = {"-1", "2", "3"};
+  return truths().contains(word) || falsehoods().contains(word) || others.contains(word);
+}
+
+bool is_word(const std::string& word) {
+  return failure_words().contains(word) || other_words().contains(word);
+}
+
+template <class Property>
+bool all(const Words& words, const Property& property) {
+  return std::all_of(words.begin(), words.end(), property);
+}
+
+// What its cells hold, in small letters; nothing where these are too many to be kinds of an end.
+std::optional<Words> kinds_in(const Column& column, std::size_t rows) {
+  constexpr std::size_t most = 6;
+  Words words;
+  for (std::size_t i = 0; i < rows; ++i) {
+    std::string word = cell_word(column, i);
+    boost::algorithm::trim(word);
+    boost::algorithm::to_lower(word);
+    if (word.empty()) continue;
+    words.insert(std::move(word));
+    if (words.size() > most) return {};
+  }
+  if (words.empty()) return {};
+  return words;
+}
+
+// A heading that says how something ended, whatever stands around the word.
+bool is_named_status(const std::string& heading) {
+  if (failure_code_of(heading)) return true;
+  const std::string letters = letters_of(heading);
+  static const Words whole = {"status", "state", "outcome", "result", "ended", "end"};
+  return whole.contains(letters) || letters.find("status") != letters.npos ||
+         letters.find("cens") != letters.npos || letters.find("suspen") != letters.npos;
+}
+
+// Whether it calls every row a failure, as the study takes them.
+bool says_failure_throughout(const Column& column, const Words& kinds) {
+  if (kinds.size() != 1) return false;
+  const std::string& word = *kinds.begin();
+  if (failure_words().contains(word)) return true;
+  if (!is_code(word)) return false;
+  // Of a heading that does not tell, that all lives were cut off is no reading.
+  const std::optional<int> code = failure_code_of(column.name);
+  return !code || (*code == 1 ? truths() : falsehoods()).contains(word);
+}
+
+bool looks_like_status(const Column& column, const Words& kinds, RowKind kind) {
+  const bool codes = all(kinds, is_code), words = all(kinds, is_word);
+  const bool truth_values = kinds.size() == 2 && truths().contains(*kinds.rbegin()) &&
+                            falsehoods().contains(*kinds.begin());
+  if (is_named_status(column.name)) {
+    return (codes || words) && !says_failure_throughout(column, kinds);
+  }
+  if (kind != RowKind::life) return false;
+  const bool both_ends = words && kinds.size() > 1 &&
+                         std::any_of(kinds.begin(), kinds.end(), [](const std::string& each) {
+                           return failure_words().contains(each);
+                         });
+  return truth_values || both_ends;
+}
+
+// Headings that keys of [data.columns] name.
+std::set<std::string> named_columns(const TomlReader& columns, const Table& table) {
+  std::set<std::string> names;
+  for (const std::string& key : columns.keys()) {
+    std::optional<std::string> heading;
+    if (columns.is_text(key)) {
+      heading = columns.text(key);
+    } else if (const auto choice = columns.table(key)) {
+      heading = choice->text("column");
+    }
+    if (!heading) continue;
+    try {
+      names.insert(table.column(*heading).name);
+    } catch (const InputError&) {  // its reader says so
+    }
+  }
+  return names;
+}
+
+std::string bare(const Column& column) {
+  const std::string name = column.name.substr(0, column.name.find_first_of("[("));
+  return boost::algorithm::trim_copy(name);
+}
+
+std::string reading_as_status(const Column& column, const Words& kinds) {
+  if (!all(kinds, is_code)) {
+    return fmt::format("status = \"{}\" (its words: failure, runout, left, interval, or F and S)",
+                       column.name);
+  }
+  if (failure_code_of(column.name)) return fmt::format("status = \"{}\"", column.name);
+  const bool numbers = kinds.contains("0") || kinds.contains("1");
+  return fmt::format(
+      "status = {{ column = \"{}\", failure = 1 }} where {} is a failure, or failure = 0 where it "
+      "is a runout",
+      column.name, numbers ? "1" : *kinds.rbegin());
+}
+
+}  // namespace
+
+void refuse_idle_status(const TomlReader& data, const Table& table, RowKind kind) {
+  const std::vector<std::string> unused = data.texts("unused");
+  const TomlReader columns = data.required_table("columns");
+  const std::set<std::string> named = named_columns(columns, table);
+  const std::string sql = data.text("sql").value_or("");
+  for (const Column& column : table.columns) {
+    if (named.contains(column.name)) continue;
+    if (std::any_of(unused.begin(), unused.end(), [&](const std::string& each) {
+          return each == column.name || each == bare(column);
+        }))
+      continue;
+    if (!sql.empty() && boost::algorithm::icontains(sql, bare(column))) continue;
+    const std::optional<Words> kinds = kinds_in(column, table.rows);
+    if (!kinds || !looks_like_status(column, *kinds, kind)) continue;
+    columns.fail(
+        "status",
+        fmt::format("is missing, and column '{}' of {} ({}) looks as if it said how each life "
+                    "ended: without it all {} rows are taken for failures. If it says that, write "
+                    "{}. If it says something else, write unused = [\"{}\"] under [data]",
+                    column.name, table.source, fmt::join(*kinds, ", "), table.rows,
+                    reading_as_status(column, *kinds), column.name));
+  }
+}
+
+}  // namespace wearwell
