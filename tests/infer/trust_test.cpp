@@ -3,9 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "infer/test_posteriors.h"
 #include "support/formula.h"
 #include "wearwell/base/error.h"
+#include "wearwell/infer/agreement.h"
 #include "wearwell/math/constants.h"
 
 namespace wearwell {
@@ -221,6 +225,72 @@ TEST(Trust, WrongDrawsDisagreeWithQuadrature) {
   EXPECT_EQ(check(trust_checks(posterior, wrong), "exact-agreement").verdict, Verdict::pass);
   wrong.pooled.values.col(0).array() += 0.3e-13;  // a third of a standard deviation
   EXPECT_EQ(check(trust_checks(posterior, wrong), "exact-agreement").verdict, Verdict::fail);
+}
+
+// A difference that no one would see is none, however small the Monte Carlo error.
+TEST(Trust, ADifferenceFarBelowAStandardDeviationIsNoDisagreement) {
+  const Posterior posterior = joint_posterior(false, false, 15, 5);
+  Fit moved = fit(posterior, {});
+  const double sd = moved.exact->sd[0];
+  moved.pooled.values.col(0).array() += moved.exact->mean[0] - moved.pooled.values.col(0).mean();
+  for (Diagnostics& each : moved.diagnostics) {
+    each.mcse_mean *= 1e-6;
+    each.mcse_q05 *= 100, each.mcse_q50 *= 100, each.mcse_q95 *= 100;
+  }
+  const auto of_k = [&] {
+    const auto all = disagreements(moved, agreement_level);
+    return std::count_if(all.begin(), all.end(),
+                         [](const auto& each) { return each.parameter == 0; });
+  };
+  moved.pooled.values.col(0).array() += 0.003 * sd;
+  EXPECT_EQ(of_k(), 0);
+  moved.pooled.values.col(0).array() += 0.01 * sd;
+  EXPECT_EQ(of_k(), 1);
+}
+
+// Right draws that lie far out by chance are drawn again from random numbers of their own.
+TEST(Trust, DrawsThatDisagreeByChanceAreDrawnAgain) {
+  const Posterior posterior = joint_posterior(false, false, 15, 5);
+  FitSettings often;
+  often.redraw_level = 0.999;  // a fifth of a standard error is enough
+  const Fit first = fit(posterior, {}), again = fit(posterior, often);
+  EXPECT_FALSE(first.redrawn);
+  ASSERT_TRUE(again.redrawn);
+  EXPECT_NE(first.pooled.values(0, 0), again.pooled.values(0, 0));
+  EXPECT_EQ(check(trust_checks(posterior, again), "exact-agreement").verdict, Verdict::pass);
+  EXPECT_THAT(check(trust_checks(posterior, again), "exact-agreement").detail,
+              HasSubstr("drawn again"));
+}
+
+// x^-2.2 e^(-100/x) from 1 on: nearly half of it lies within a twentieth of its central 90 % from the bound, where its density is
+// 1e-39 of its highest.
+TEST(Trust, ASkewedDensityThatVanishesAtABoundIsNotAccused) {
+  class InverseGamma final : public LogDensity {
+   public:
+    int dimension() const override { return 1; }
+    double value(std::span<const double> x) const override {
+      return -2.2 * std::log(x[0]) - 100 / x[0];
+    }
+    double value_and_gradient(std::span<const double> x,
+                              std::span<double> gradient) const override {
+      gradient[0] = -2.2 / x[0] + 100 / (x[0] * x[0]);
+      return value(x);
+    }
+  };
+  Parameter parameter = flat_parameter("x", 80, 40);
+  parameter.natural_lower = 0;
+  parameter.prior = make_law(Uniform{}, 1, 1e5);
+  for (const Method method : {Method::nuts, Method::exact}) {
+    FitSettings settings;
+    settings.method = method;
+    const Posterior vanishing({parameter}, std::make_shared<InverseGamma>());
+    EXPECT_EQ(check(checks_of(vanishing, settings), "bounds").verdict, Verdict::pass);
+  }
+  // The same cut where it is high, and one that rises towards the bound.
+  parameter.prior = make_law(Uniform{}, 50, 1e5);
+  EXPECT_EQ(
+      check(checks_of(Posterior({parameter}, std::make_shared<InverseGamma>())), "bounds").verdict,
+      Verdict::warn);
 }
 
 TEST(Trust, StepsThatAreTooLongDiverge) {

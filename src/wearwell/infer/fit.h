@@ -27,6 +27,8 @@ struct FitSettings {
   ExactSettings exact;
   /// Where no quadrature vouches for draws that have not mixed: twice as many with twice the warm-up, up to twice.
   bool extend = false;
+  /// Draws that disagree with quadrature are drawn again once, with other random numbers: right ones with this probability.
+  double redraw_level = 1e-4;
 };
 
 /// A posterior as one method drew it, and beside it the exact one where quadrature can reach.
@@ -53,6 +55,7 @@ struct Fit {
 
   /// The local maxima beside the one that the whitening is about, for other integrals of much the same posterior.
   std::vector<Mode> other_maxima() const;
+  bool redrawn = false;  ///< the first draws disagreed with quadrature
 };
 
 /// Whether the draws suffice, as the checks of convergence and divergences ask for it (sampler_checks.h).

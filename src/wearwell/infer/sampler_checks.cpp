@@ -1,13 +1,11 @@
 #include "wearwell/infer/sampler_checks.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "wearwell/infer/agreement.h"
 #include "wearwell/infer/diagnostics.h"
 
 namespace wearwell {
@@ -106,43 +104,25 @@ Check energy(const Fit& fit) {
 }
 
 Check exact_agreement(const Posterior& posterior, const Fit& fit) {
-  constexpr double tolerated = 4;  // Monte Carlo standard errors
   Findings findings("exact-agreement");
   if (!fit.exact) {
     findings.add(Verdict::warn, fmt::format("no quadrature to compare with: {}", fit.no_exact),
                  "Rely on the other checks.");
     return findings.result("");
   }
-  using Distances = std::vector<std::pair<std::string, double>>;
-  std::vector<Distances> all(fit.diagnostics.size());
-  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    const Distribution& exact = fit.marginals[i];
-    const Distribution drawn(fit.pooled, [i](const double* x) { return x[i]; });
-    const Diagnostics& d = fit.diagnostics[i];
-    Distances& distances = all[i];
-    distances = {{"5 % quantile", (drawn.quantile(0.05) - exact.quantile(0.05)) / d.mcse_q05},
-                 {"median", (drawn.quantile(0.5) - exact.quantile(0.5)) / d.mcse_q50},
-                 {"95 % quantile", (drawn.quantile(0.95) - exact.quantile(0.95)) / d.mcse_q95}};
-    // A mean without variance has no Monte Carlo standard error to speak of.
-    if (std::isfinite(fit.exact->sd[static_cast<Eigen::Index>(i)])) {
-      distances.emplace_back("mean", (drawn.mean() - exact.mean()) / d.mcse_mean);
-    }
-  });
   double worst = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (const auto& [what, distance] : all[i]) {
-      worst = std::max(worst, std::abs(distance));
-      if (!(std::abs(distance) <= tolerated)) {
-        findings.add(
-            Verdict::fail,
-            fmt::format("the {} of {} is {:.1f} Monte Carlo standard errors from quadrature", what,
-                        posterior.parameters()[i].name, distance),
-            "Believe the numbers by quadrature, and draw more.");
-      }
-    }
+  for (const Disagreement& each : distances_from_exact(fit)) {
+    worst = std::max(worst, std::abs(each.errors));
+  }
+  for (const Disagreement& each : disagreements(fit, agreement_level)) {
+    findings.add(Verdict::fail,
+                 fmt::format("the {} of {} is {:.1f} Monte Carlo standard errors from quadrature",
+                             each.number, posterior.parameters()[each.parameter].name, each.errors),
+                 "Believe the numbers by quadrature, and draw more.");
   }
   return findings.result(
-      fmt::format("within {:.1f} Monte Carlo standard errors of quadrature", worst));
+      fmt::format("within {:.1f} Monte Carlo standard errors of quadrature{}", worst,
+                  fit.redrawn ? "; the first draws were not, and were drawn again" : ""));
 }
 
 }  // namespace wearwell
