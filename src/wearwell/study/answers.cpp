@@ -143,6 +143,7 @@ std::string of_whom(const LifeSummary& summary) {
 
 std::vector<std::string> answers(const PosteriorSummary& result, Wording wording) {
   Clauses clauses(wording);
+  if (!result.nothing_seen.check.empty()) clauses.all.push_back(result.nothing_seen.clause);
   if (result.life) clauses.life(result);
   const auto first = headlines(result);
   for (std::size_t i = 0; i < std::min(first.size(), most_headlines); ++i)

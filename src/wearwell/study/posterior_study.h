@@ -141,6 +141,7 @@ struct PosteriorStudy : Study {
   std::optional<PointwiseTable> pointwise;
   std::string quantity;                 ///< what is measured, in words: "worn volume"
   std::vector<std::string> data_notes;  ///< what else to know of the data, in sentences
+  NothingSeen nothing_seen;             ///< what the answers and the checks begin with then
   std::vector<std::string> meanings;    ///< of the parameters: "wear coefficient"
   /// What the trade checks beside the engine's checks, and shows in each section of the report;
   /// both may be empty.

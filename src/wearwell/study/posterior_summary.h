@@ -225,6 +225,13 @@ struct TradeAddition {
   std::string text = {};  ///< for a terminal, after the design values; lines end with newlines
 };
 
+/// Where no failure or no wear was observed: what then rests on the prior.
+struct NothingSeen {
+  std::string check;   ///< its name: "no-failures"; empty where something was observed
+  std::string clause;  ///< without capital and full stop, for people
+  std::string advice;
+};
+
 struct PosteriorSummary {
   std::string version;
   std::string title, model, equation, data_file;
@@ -256,6 +263,7 @@ struct PosteriorSummary {
   std::string curve{};     ///< the law with its numbers, a clause; empty where it has no use
   std::shared_ptr<const Fit> fit{};  ///< nodes and pooled draws, for what is asked later; no draws
   TradeAddition added{};
+  NothingSeen nothing_seen{};
 };
 
 }  // namespace wearwell

@@ -29,6 +29,9 @@ std::vector<Check> all_checks(const PosteriorStudy& study, const Posterior& post
     checks.push_back(fit_check(judge_fit(*study.fit_data, fit.pooled, loo ? loo->loo : Loo{})));
   }
   if (loo) checks.push_back(loo_check(loo->loo, loo->observation, posterior.dimension()));
+  if (const NothingSeen& nothing = study.nothing_seen; !nothing.check.empty()) {
+    checks.push_back({nothing.check, Verdict::warn, nothing.clause, nothing.advice});
+  }
   if (const auto units = units_check(study.data_columns)) checks.push_back(*units);
   if (!study.reaches.empty()) checks.push_back(extrapolation_check(study.reaches));
   if (study.checks) {
@@ -138,6 +141,7 @@ PosteriorSummary described(const PosteriorStudy& study, const FitSettings& setti
     result.parameters[i].prior = prior_in_words(study.parameters[i]);
     result.parameters[i].prior_is_default = study.parameters[i].is_default;
   }
+  result.nothing_seen = study.nothing_seen;
   if (study.curve) result.curve = study.curve(nodes);
   result.predictions = summarize(study.predictions, fit);
   result.quantities = summarize_quantities(study, fit);

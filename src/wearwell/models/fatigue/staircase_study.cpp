@@ -257,6 +257,16 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
   study.quantity = "outcome";
   study.data_notes = {
       fmt::format("{:.0f} tests: {:.0f} failures, {:.0f} run-outs", tests, failed, tests - failed)};
+  if (failed == 0 || failed == tests) {
+    const bool failures = failed > 0;
+    study.nothing_seen = {
+        failures ? "no-run-outs" : "no-failures",
+        fmt::format("no {} was observed among {:.0f} test{}: the data only exclude {} limits, and "
+                    "the {} end of every limit rests on the prior",
+                    failures ? "run-out" : "failure", tests, tests == 1 ? "" : "s",
+                    failures ? "high" : "low", failures ? "lower" : "upper"),
+        fmt::format("Test at {} stresses, until both ends occur.", failures ? "lower" : "higher")};
+  }
   study.likelihood = [=](std::size_t rows) {
     return fatigue::staircase_likelihood(
         data.limit, {data.tests.begin(), data.tests.begin() + static_cast<std::ptrdiff_t>(rows)});

@@ -97,6 +97,16 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   study.data_columns = data.columns;
   study.data_layout = data.layout;
   study.meanings = {"wear coefficient", "scatter of one measurement"};
+  const std::vector<double>& volumes = data.inspections.volume;
+  if (*std::max_element(volumes.begin(), volumes.end()) <= 0) {
+    study.nothing_seen = {
+        "no-wear",
+        fmt::format("no wear was observed: none of {} inspections shows a worn volume above zero, "
+                    "so the data only exclude fast wear, and the upper end of every life rests on "
+                    "the prior",
+                    volumes.size()),
+        "State what is known of k from a tribometer or a like joint, and inspect again."};
+  }
   if (law.has_constant) study.meanings.push_back("volume before any work");
   if (law.has_exponent) study.meanings.push_back("exponent of the work");
   study.likelihood = [=, inspections = data.inspections](std::size_t rows) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "wearwell/base/error.h"
 #include "wearwell/bayes/posterior.h"
@@ -24,6 +25,7 @@ namespace {
 
 using ownlaw::Effect;
 using ownlaw::Measured;
+using ownlaw::Observed;
 using ownlaw::OwnLaw;
 using ownlaw::OwnRows;
 
@@ -117,6 +119,42 @@ std::vector<std::string> notes(const OwnLaw& law) {
   return all;
 }
 
+bool saw_no_wear(const Observed& observed) {
+  return std::all_of(observed.responses.begin(), observed.responses.end(), [](const Response& y) {
+    return y.seen == Seen::below || (y.seen == Seen::exactly && y.at <= 0);
+  });
+}
+
+// Of lives no failure, of wear along an axis no reading above zero.
+NothingSeen nothing_seen(const OwnLaw& law) {
+  const auto all = [&](auto property) {
+    return std::all_of(law.measured.begin(), law.measured.end(), property);
+  };
+  const auto counted = [](const Measured& each) { return each.form->counted; };
+  if (std::any_of(law.measured.begin(), law.measured.end(), counted)) return {};
+  const Measured& first = law.measured.front();
+  const int count = std::accumulate(first.observed.counts.begin(), first.observed.counts.end(), 0);
+  const std::string give_prior =
+      "State what is known of the parameters before the data; until something is observed, read "
+      "every upper end as a statement of the prior.";
+  if (!law.along && all([](const Measured& each) { return each.observed.failures == 0; })) {
+    return {"no-failures",
+            fmt::format("no failure was observed among {} observation{} of {}: the data only "
+                        "exclude short lives, and the upper end of every life rests on the prior",
+                        count, count == 1 ? "" : "s", first.column),
+            give_prior};
+  }
+  if (law.along && all([](const Measured& each) { return saw_no_wear(each.observed); })) {
+    return {"no-wear",
+            fmt::format("no wear was observed: none of {} reading{} of {} lies above zero, so the "
+                        "data only exclude fast wear, and the upper end of every life rests on "
+                        "the prior",
+                        count, count == 1 ? "" : "s", first.column),
+            give_prior};
+  }
+  return {};
+}
+
 // What the likelihood is a density of, and what it stands on.
 void tell_data(const OwnLaw& law, PosteriorStudy& study) {
   std::vector<std::string> names;
@@ -194,6 +232,7 @@ void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy
   study.meanings = meanings(*law);
   study.data_notes = notes(*law);
   study.density = ownlaw::density_unit(*law);
+  study.nothing_seen = nothing_seen(*law);
   tell_data(*law, study);
   if (law->varies()) {
     study.observation = *law->label;
