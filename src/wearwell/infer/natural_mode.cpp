@@ -100,6 +100,9 @@ NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
     at_start[i] = density.value(view(all[i]));
     summits[i] = maximize(density, all[i], width, box);
+    // Draws of an improper posterior may lie where doubles end.
+    if (!(summits[i].value < INFINITY)) summits[i].value = -INFINITY;
+    if (!(at_start[i] < INFINITY)) at_start[i] = -INFINITY;
   });
   const double highest_start = *std::max_element(at_start.begin(), at_start.end());
   const auto best =

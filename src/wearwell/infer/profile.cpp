@@ -7,6 +7,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "wearwell/infer/natural_density.h"
 #include "wearwell/math/view.h"
@@ -148,9 +149,7 @@ class Search {
       const double moved = last_ - target_.at_mode;
       const double share = moved != 0 ? (at - target_.at_mode) / moved : 1;
       const Eigen::VectorXd ahead = mode_others_ + share * (last_others_ - mode_others_);
-      summit = maximize(held, ahead, others_unit_, others_box_);
-      if (!std::isfinite(summit.value))
-        summit = maximize(held, last_others_, others_unit_, others_box_);
+      summit = highest_from({ahead, last_others_, mode_others_}, held);
     }
     if (summit.value == -std::numeric_limits<double>::infinity()) return INFINITY;
     const double fall = highest_ - summit.value;
@@ -165,6 +164,19 @@ class Search {
     last_ = at;
     last_others_ = summit.x;
     return std::sqrt(2 * std::max(fall, 0.0)) - root_;
+  }
+
+  // The first climb that comes to an end; where none does, the same in smaller steps, and at last the highest of all.
+  Maximum highest_from(const std::vector<Eigen::VectorXd>& starts, const Held& held) const {
+    std::optional<Maximum> best;
+    for (const double size : {1.0, 0.05}) {
+      for (const Eigen::VectorXd& start : starts) {
+        Maximum summit = maximize(held, start, size * others_unit_, others_box_);
+        if (summit.converged && std::isfinite(summit.value)) return summit;
+        if (!best || summit.value > best->value) best = std::move(summit);
+      }
+    }
+    return *best;
   }
 
   // False position with the Illinois correction.
@@ -206,12 +218,22 @@ class Search {
   std::string problem_;
 };
 
+// The likelihood's own: the posterior's may be those of a tail that has no end.
+Eigen::VectorXd widths_about(const NaturalMode& mode, Eigen::VectorXd widths) {
+  constexpr double most = 30;  // standard errors
+  for (Eigen::Index i = 0; i < widths.size(); ++i) {
+    const double error = mode.standard_error[i];
+    if (error > 0 && !(widths[i] <= most * error && widths[i] * most >= error)) widths[i] = error;
+  }
+  return widths;
+}
+
 class Profiler {
  public:
   Profiler(const Posterior& posterior, const Fit& fit, const NaturalMode& mode, double level)
       : density_(posterior),
         mode_(mode),
-        unit_(natural_widths(posterior, fit.whitening)),
+        unit_(widths_about(mode, natural_widths(posterior, fit.whitening))),
         box_(natural_box(posterior, unit_)),
         // The root of chi-square's quantile with one degree of freedom.
         root_(boost::math::quantile(boost::math::normal(), 0.5 * (1 + level))) {}

@@ -22,6 +22,10 @@ constexpr double slack = 0.05;
 constexpr double far_log = 40;
 constexpr int steps = 20;
 
+// Where another parameter has moved by so many factors of e, the ridge has left what is walked along that one, whose own
+// tails say how the posterior ends there; a density that is met beyond is no mode.
+constexpr double out_of_reach = 60;
+
 // Stations without a conditional mode, after which the ridge is lost.
 constexpr int most_failures = 6;
 
@@ -63,10 +67,11 @@ struct Walk {
   std::vector<bool> converged;  // whether the others had a mode there
   bool lost = false;            // the others' conditional mode, or the numbers
   bool vanished = false;        // there is no density left
+  bool left = false;            // another parameter ran out of reach
 
   // Without the stations where the others had no mode.
   Walk sound() const {
-    Walk kept{{}, {}, {}, {}, lost, vanished};
+    Walk kept{{}, {}, {}, {}, lost, vanished, left};
     for (std::size_t i = 0; i < converged.size(); ++i) {
       if (!converged[i]) continue;
       kept.log_distance.push_back(log_distance[i]);
@@ -79,13 +84,22 @@ struct Walk {
   std::size_t stations() const { return log_density.size(); }
 
   // By the far half, the median of slopes between neighbours: one bad station does not matter.
-  double index() const { return index_from(std::max<std::size_t>(1, stations() / 2)); }
-  double index_from(std::size_t first) const {
+  double index(bool towards_bound) const {
+    return index_from(std::max<std::size_t>(1, stations() / 2), towards_bound);
+  }
+  double index_from(std::size_t first, bool towards_bound) const {
     std::vector<double> slopes;
     for (std::size_t i = first; i < stations(); ++i) {
       slopes.push_back((log_density[i] - log_density[i - 1]) /
                        (log_distance[i] - log_distance[i - 1]));
     }
+    // A tail like a power of the logarithm (a Weibull scale under a flat prior) falls ever more slowly.
+    constexpr std::size_t last = 1;
+    const bool slower =
+        !towards_bound && slopes.size() > last && std::is_sorted(slopes.begin(), slopes.end()) &&
+        std::all_of(slopes.end() - last, slopes.end(),
+                    [](double slope) { return slope < 0 && slope >= -(1 + slack); });
+    if (slower) return -slopes.back();
     const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
     std::nth_element(slopes.begin(), middle, slopes.end());
     return -*middle;
@@ -140,7 +154,7 @@ double width_at(const Mode& mode, int i) {
 bool levels_out(Walk& walk) {
   constexpr std::size_t end = 5;
   const Walk sound = walk.sound();
-  if (sound.stations() < end + 1 || !(sound.index_from(sound.stations() - end) > 1 - slack))
+  if (sound.stations() < end + 1 || !(sound.index_from(sound.stations() - end, true) > 1 - slack))
     return false;
   const auto keep = [&](auto& values) { values.erase(values.begin(), values.end() - end); };
   keep(walk.log_distance);
@@ -148,6 +162,18 @@ bool levels_out(Walk& walk) {
   keep(walk.log_likelihood);
   keep(walk.converged);
   return true;
+}
+
+// Of the others, those with a bound: their real line counts factors of e.
+bool is_out_of_reach(const Posterior& posterior, const Mode& mode, int i,
+                     const Eigen::VectorXd& rest) {
+  for (Eigen::Index j = 0; j < rest.size(); ++j) {
+    const Eigen::Index from = j + (j >= i);
+    const Law& prior = parameter_of(posterior, static_cast<int>(from)).prior;
+    const bool bounded = std::isfinite(prior.lower) || std::isfinite(prior.upper);
+    if (bounded && !(std::abs(rest[j] - mode.position[from]) < out_of_reach)) return true;
+  }
+  return false;
 }
 
 // `to_the_end`: where the density has vanished as well.
@@ -170,6 +196,10 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
     if (!std::isfinite(station.log_density)) {
       // The end of the likelihood's domain, or of the range of doubles on the way up.
       if (!walk.vanished) (last.log_marginal > top + 1 ? walk.lost : walk.vanished) = true;
+      break;
+    }
+    if (is_out_of_reach(posterior, mode, i, station.rest)) {
+      walk.left = true;
       break;
     }
     if (tail.highest_at.size() == 0 || station.log_density > tail.highest) {
@@ -222,12 +252,14 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
   const Walk all = walk(posterior, mode, tail, outward, to_the_end), way = all.sound();
   tail.index = tail.towards_bound ? -infinity : infinity;
   if (!way.vanished && way.stations() >= enough) {
-    tail.index = way.index();
+    tail.index = way.index(tail.towards_bound);
+  } else if (way.left) {
+    // Along the other parameter the tail is measured from there on.
   } else if (!way.vanished) {
     // Where the others have no mode either, the posterior may be improper along all of them: that much
     // is told by any stations.
     tail.known = false;
-    const double index = all.stations() >= enough ? all.index() : tail.index;
+    const double index = all.stations() >= enough ? all.index(tail.towards_bound) : tail.index;
     if (!Tail{i, upward, tail.towards_bound, index}.integrable()) {
       tail.index = index;
       tail.known = true;

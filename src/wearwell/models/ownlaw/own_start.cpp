@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/maximize.h"
@@ -103,6 +104,55 @@ std::vector<Parameter> started_at(std::vector<Parameter> parameters, const std::
   return parameters;
 }
 
+// Prior times likelihood on the real line, without the Jacobian: where priors are flat the likelihood, which has a maximum though
+// the density of the real line may grow without end (an improper posterior).
+class WithoutJacobian final : public LogDensity {
+ public:
+  explicit WithoutJacobian(const Posterior& posterior) : posterior_(posterior) {}
+  int dimension() const override { return posterior_.dimension(); }
+  double value(std::span<const double> z) const override {
+    std::vector<double> x(z.size());
+    posterior_.to_natural(z, x);
+    return posterior_.natural_value(x);
+  }
+  double value_and_gradient(std::span<const double> z, std::span<double> gradient) const override {
+    std::vector<double> x(z.size());
+    posterior_.to_natural(z, x);
+    const double value = posterior_.natural_value_and_gradient(x, gradient);
+    for (std::size_t i = 0; i < z.size(); ++i)
+      gradient[i] *= posterior_.transforms()[i].from_real(z[i]).slope;
+    return value;
+  }
+
+ private:
+  const Posterior& posterior_;
+};
+
+// From the likeliest candidates to a maximum of the likelihood; nothing where no climb ends at one.
+std::optional<std::vector<double>> likeliest(const LogDensity& likelihood,
+                                             const std::vector<Parameter>& parameters,
+                                             const std::vector<Candidate>& from) {
+  constexpr std::size_t climbs = 6;
+  const auto n = static_cast<Eigen::Index>(parameters.size());
+  const Box everywhere{Eigen::VectorXd::Constant(n, -infinity),
+                       Eigen::VectorXd::Constant(n, infinity)};
+  std::optional<std::vector<double>> best;
+  double highest = -infinity;
+  for (std::size_t c = 0; c < std::min(climbs, from.size()); ++c) {
+    if (!(from[c].log_density > -infinity)) break;
+    const Posterior posterior(started_at(parameters, from[c].x), borrowed(likelihood));
+    const Maximum summit = maximize(WithoutJacobian(posterior), posterior.start(),
+                                    Eigen::VectorXd::Ones(n), everywhere, 1e-6);
+    if (!summit.converged || !(summit.value > highest)) continue;
+    std::vector<double> x(parameters.size());
+    posterior.to_natural(view(summit.x), x);
+    if (!(log_density_at(likelihood, parameters, x) > -infinity)) continue;
+    highest = summit.value;
+    best = std::move(x);
+  }
+  return best;
+}
+
 }  // namespace
 
 void find_starts(const LogDensity& likelihood, std::vector<Parameter>& parameters) {
@@ -135,6 +185,19 @@ void find_starts(const LogDensity& likelihood, std::vector<Parameter>& parameter
       const double width = here[static_cast<std::size_t>(i)].scale / std::sqrt(bend);
       if (std::isfinite(width) && width > 0) each.scale = width;
     }
+  }
+  // Under flat priors the real line's density may grow for ever; a climb that follows it ends at the end of doubles, where the
+  // likelihood is low.
+  constexpr double far_below = 5;
+  const bool flat = std::any_of(parameters.begin(), parameters.end(),
+                                [](const Parameter& each) { return !each.prior.proper; });
+  if (flat) {
+    std::vector<double> x;
+    for (const Parameter& each : best) x.push_back(each.start);
+    const double here = log_density_at(likelihood, parameters, x);
+    const auto there = likeliest(likelihood, parameters, from);
+    if (there && !(here > log_density_at(likelihood, parameters, *there) - far_below))
+      best = started_at(parameters, *there);
   }
   parameters = std::move(best);
 }
