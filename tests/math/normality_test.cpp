@@ -83,5 +83,27 @@ TEST(Normality, PlotHasNormalQuantiles) {
   EXPECT_NEAR(plot.quantile[2], 0.967421566101701, 1e-12);
 }
 
+// Numbers of tests/golden/score_tests.R.
+TEST(AndersonDarling, StatisticAndP) {
+  const AndersonDarlingTest test =
+      anderson_darling_test({2.1, 3.4, 1.9, 5.6, 4.4, 3.8, 9.7, 2.8, 4.1, 3.3});
+  EXPECT_NEAR(test.statistic, 0.7253291580945, 1e-11);
+  EXPECT_NEAR(test.p, 0.0391969783412, 1e-11);
+}
+
+// Rounded values, most of which are equal, are spread: they have the shape that they had.
+TEST(AndersonDarling, RoundingIsNoShape) {
+  Rng rng(3, 0);
+  std::vector<double> fine(2000), rounded, coarse;
+  for (double& each : fine) each = rng.normal();
+  for (const double each : fine) {
+    rounded.push_back(0.05 * std::round(each / 0.05));
+    coarse.push_back(0.25 * std::round(each / 0.25));
+  }
+  const double p = anderson_darling_test(fine).p;
+  EXPECT_NEAR(anderson_darling_test(rounded).p, p, 0.1);
+  EXPECT_GT(anderson_darling_test(coarse).p, 0.05);
+}
+
 }  // namespace
 }  // namespace wearwell

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,29 @@ struct UnitEffect {
   std::vector<std::string> of;  ///< "laser 1", ...
 };
 
+/// What tells observations apart by name: a machine, a supplier.
+struct Label {
+  std::string name;
+  std::vector<std::size_t> level;  ///< of each observation
+};
+
+/// What was measured, to find rows that are copies.
+struct MeasuredValues {
+  std::vector<double>
+      value;  ///< of each observation, in the unit it was written in; NaN where not exact
+  std::vector<double> unit;  ///< of each observation: that unit in SI
+  /// log density of each observation in SI; empty: leave-one-out has them as terms.
+  std::function<std::vector<double>(const double* x)> log_density = {};
+};
+
+/// What a user can try, in sentences; an empty one is replaced by a general one.
+struct Remedies {
+  std::string scatter;      ///< that follows the mean or a driver
+  std::string heavy_tails;  ///< on both sides
+  std::string offset;
+  bool life = false;  ///< observations are lives: modes, thresholds, truncation
+};
+
 /// What a study tells of its observations.
 struct FitData {
   Scores scores;  ///< of the observations, then those of `effects`, one effect after the other
@@ -52,6 +76,13 @@ struct FitData {
   bool cheap = true;                   ///< may be asked for at every node of a quadrature
   std::vector<std::size_t> unit = {};  ///< of each observation, where units differ
   std::vector<UnitEffect> effects = {};
+  std::vector<Label> labels = {};
+  /// What the law expects of each observation, where that is more than one driver's; empty where it is not.
+  std::function<std::vector<double>(const double* x)> fitted = {};
+  std::vector<std::size_t> column =
+      {};                        ///< of each observation, where several columns are measured
+  MeasuredValues measured = {};  ///< empty: copies are not looked for
+  Remedies remedies = {};
 };
 
 /// One test, over all draws.
@@ -60,12 +91,23 @@ struct FitTest {
   double p = 1;         ///< of something as far off, when the law is right
   std::string finding;  ///< in words, for when it is small
   std::string advice;
+  double share = 1;  ///< of the level of the check: what p is divided by
+
+  double judged() const { return p < share ? p / share : 1; }
+};
+
+/// Observations that repeat another one in all that was measured.
+struct CopiedRows {
+  std::size_t rows = 0, of = 0;
+  double expected = 0;  ///< by chance, of rounded numbers
+  double p = 1;         ///< of as many by chance
 };
 
 struct FitOutcome {
   std::vector<FitTest> tests;
   std::vector<double> residuals;  ///< the median score of each observation over the draws
-  double p = 1;                   ///< of all tests together: the number of tests times the smallest
+  double p = 1;                   ///< of all tests together: the smallest p over its share
+  std::optional<CopiedRows> copies = {};
 };
 
 /// A right law is warned of in one study of a hundred at most, and fails in one of a thousand.

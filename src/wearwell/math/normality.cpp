@@ -36,6 +36,34 @@ double standardized_distance(std::vector<double>& values) {
   return distance(values, mean, sd);
 }
 
+// Ascending values of which equal ones are spread over the middle half of the gaps beside them.
+void spread_ties(std::vector<double>& sorted) {
+  const std::vector<double> at = sorted;
+  for (std::size_t i = 0; i < at.size();) {
+    std::size_t end = i + 1;
+    while (end < at.size() && at[end] == at[i]) ++end;
+    if (end - i > 1 && end - i < at.size()) {
+      const double before = i > 0 ? at[i] - at[i - 1] : at[end] - at[i];
+      const double after = end < at.size() ? at[end] - at[i] : before;
+      const double low = at[i] - 0.5 * before, width = 0.5 * (before + after);
+      for (std::size_t j = i; j < end; ++j) {
+        sorted[j] = low + width * (static_cast<double>(j - i) + 0.5) / static_cast<double>(end - i);
+      }
+    }
+    i = end;
+  }
+}
+
+// Of A^2 with estimated mean and standard deviation, modified for n.
+double anderson_darling_p(double a) {
+  constexpr double largest = 100;  // beyond, the parabola of the logarithm turns
+  a = std::min(a, largest);
+  if (a >= 0.6) return std::exp(1.2937 - 5.709 * a + 0.0186 * a * a);
+  if (a >= 0.34) return std::exp(0.9177 - 4.279 * a - 1.38 * a * a);
+  if (a >= 0.2) return 1 - std::exp(-8.318 + 42.796 * a - 59.938 * a * a);
+  return 1 - std::exp(-13.436 + 101.14 * a - 223.73 * a * a);
+}
+
 /// A matrix times 10^exponent, so that its powers do not overflow.
 struct Scaled {
   Eigen::MatrixXd matrix;
@@ -111,6 +139,26 @@ KolmogorovTest lilliefors_test(std::vector<double> values, std::uint64_t seed) {
     larger += standardized_distance(values) > d;
   }
   return {d, static_cast<double>(larger) / lilliefors_samples};
+}
+
+AndersonDarlingTest anderson_darling_test(std::vector<double> values) {
+  constexpr std::size_t fewest = 5;
+  std::sort(values.begin(), values.end());
+  if (values.size() < fewest || !(values.front() < values.back())) return {};
+  spread_ties(values);
+  Eigen::Map<Eigen::ArrayXd> x(values.data(), std::ssize(values));
+  const double n = static_cast<double>(values.size()), mean = x.mean();
+  const double sd = std::sqrt((x - mean).square().sum() / (n - 1));
+  x = (x - mean) / sd;
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    constexpr double least = 1e-300;  // of what has a logarithm
+    const double below = std::max(normal_cdf(values[i]), least);
+    const double above = std::max(normal_cdf(-values[values.size() - 1 - i]), least);
+    sum += (2 * static_cast<double>(i) + 1) * (std::log(below) + std::log(above));
+  }
+  const double statistic = -n - sum / n;
+  return {statistic, anderson_darling_p(statistic * (1 + 0.75 / n + 2.25 / (n * n)))};
 }
 
 NormalPlot normal_plot(std::vector<double> values) {

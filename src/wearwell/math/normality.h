@@ -19,6 +19,18 @@ KolmogorovTest kolmogorov_test(std::vector<double> values);
 /// has a standard error of up to 0.005. At least four values that are not all the same.
 KolmogorovTest lilliefors_test(std::vector<double> values, std::uint64_t seed = 1);
 
+struct AndersonDarlingTest {
+  double statistic =
+      0;  ///< A^2 of the values, standardized by their own mean and standard deviation
+  double p = 1;
+};
+
+/// Anderson-Darling test of normality with estimated mean and standard deviation (Stephens 1974, JASA 69, 730-737);
+/// the p value is that of D'Agostino and Stephens (1986), Goodness-of-Fit Techniques, table 4.9. Equal values are
+/// spread evenly over half the way to their neighbours, so that rounding is not taken for a shape. p is 1 of
+/// fewer than five values and of values that are all the same.
+AndersonDarlingTest anderson_darling_test(std::vector<double> values);
+
 /// Points of a normal probability plot: values in ascending order against the normal quantiles of
 /// (i - 1/2)/n.
 struct NormalPlot {

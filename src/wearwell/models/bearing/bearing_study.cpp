@@ -102,13 +102,23 @@ FitData fit_data(const bearing::WearModel& model, const BearingData& data) {
   }
   const Rise rise{"wear depth grows with pressure times revolutions", loading, inspections.depth,
                   group, true};
-  return {bearing::wear_scores(model, inspections),
-          {},
-          {{"pressure times revolutions", loading}},
-          rise,
-          "row",
-          !model.has_scatter,
-          !model.has_scatter};
+  FitData result{bearing::wear_scores(model, inspections),
+                 {},
+                 {{"pressure times revolutions", loading}},
+                 rise,
+                 "row",
+                 !model.has_scatter,
+                 !model.has_scatter};
+  for (const double depth : inspections.depth) {
+    result.measured.value.push_back(from_si(data.depth_unit, depth));
+    result.measured.unit.push_back(data.depth_unit.scale);
+  }
+  result.remedies.scatter =
+      model.family == ObservationFamily::normal
+          ? "A scatter that grows with the wear depth: try family = \"lognormal\"."
+          : "A scatter in proportion to the wear depth does not fit: try family = \"normal\".";
+  result.labels = {{"bearing", inspections.bearing}};
+  return result;
 }
 
 // Of bearings where they differ, else of inspections.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/prior.h"
@@ -205,6 +206,24 @@ FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Paramet
     rise.value.push_back(std::log10(test.life));
   }
   if (law.correction != MeanStress::none) result.drivers.push_back({"mean stress", mean});
+  if (!data.labels.empty()) {
+    std::map<std::string, std::size_t> levels;
+    Label label{"the type of specimen", {}};
+    for (const std::string& each : data.labels)
+      label.level.push_back(levels.emplace(each, levels.size()).first->second);
+    result.labels = {label};
+  }
+  for (const LifeTest& test : data.tests) {
+    const bool exact = test.outcome == fatigue::Outcome::failure;
+    result.measured.value.push_back(exact ? from_si(data.life_unit, test.life) : NAN);
+    result.measured.unit.push_back(data.life_unit.scale);
+  }
+  result.remedies.life = true;
+  result.remedies.scatter = law.scatter_grows
+                                ? "Scatter grows already: look for a second failure mode at the "
+                                  "stresses where lives scatter most."
+                                : "Lives often scatter more the longer they are: try [law] scatter "
+                                  "= \"grows\"; or look for a second failure mode.";
   return result;
 }
 

@@ -122,6 +122,16 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
                                 {},
                                 !law.has_constant},
                            "inspection"};
+  for (const double volume : data.inspections.volume) {
+    study.fit_data->measured.value.push_back(from_si(data.volume_unit, volume));
+    study.fit_data->measured.unit.push_back(data.volume_unit.scale);
+  }
+  study.fit_data->remedies.scatter =
+      family == ObservationFamily::normal
+          ? "A scatter that grows with the worn volume: try family = \"lognormal\"."
+          : "A scatter in proportion to the worn volume does not fit: try family = \"normal\".";
+  study.fit_data->remedies.offset =
+      "Try prior.V0, the volume before any work (running-in, an error of the zero point).";
   joint::add_predictions(root, law, family, data, study);
 }
 

@@ -27,8 +27,14 @@ double place(ResponseFamily family, double value, const double* slots, double tr
 
 // Places of observations in their laws; of a count those of its ends.
 NormalScore score(const Measured& measured, const Response& y, const double* slots) {
+  const ResponseFamily family = measured.form->family;
+  // Of what would not have been seen below its entry, given that it was: log P(Y > value | Y > entry).
+  const double entered = y.entry > -infinity ? log_survival(family, y.entry, slots, y.trials) : 0;
   const auto at = [&](double value) {
-    return place(measured.form->family, value, slots, y.trials);
+    if (!(y.entry > -infinity)) return place(family, value, slots, y.trials);
+    const double above =
+        value > y.entry ? log_survival(family, value, slots, y.trials) - entered : 0;
+    return normal_score(std::log(-std::expm1(above)), above);
   };
   if (measured.form->counted) {
     const double high = y.trials > 0 && y.at >= y.trials ? infinity : at(y.at);
@@ -112,6 +118,96 @@ std::vector<Driver> drivers_of(const OwnLaw& law) {
   return all;
 }
 
+// Labels that the study names, where they tell observations apart.
+std::vector<Label> labels_of(const OwnLaw& law) {
+  std::vector<Label> all;
+  for (const LabelColumn& column : law.data.labels) {
+    Label label{column.name, {}};
+    for (const Measured& measured : law.measured) {
+      for (const std::size_t row : measured.observed.rows)
+        label.level.push_back(static_cast<std::size_t>(column.at[row]));
+    }
+    all.push_back(std::move(label));
+  }
+  return all;
+}
+
+// What was measured exactly, as it was written; of processes nothing, whose readings lean on each other.
+MeasuredValues measured_values(const OwnLaw& law) {
+  MeasuredValues values;
+  for (const Measured& measured : law.measured) {
+    for (const Response& each : measured.observed.responses) {
+      const bool exact = each.seen == Seen::exactly && !measured.form->counted && !measured.process;
+      values.value.push_back(exact ? from_si(measured.unit, each.at) : NAN);
+      values.unit.push_back(measured.unit.scale);
+    }
+  }
+  return values;
+}
+
+// The slot that says where a family lies, or else how large its values are.
+std::size_t place_slot(const ResponseForm& form) {
+  for (const SlotKind kind : {SlotKind::place, SlotKind::size}) {
+    for (std::size_t s = 0; s < form.slots.size(); ++s) {
+      if (form.slots[s].kind == kind && !form.slots[s].optional) return s;
+    }
+  }
+  return 0;
+}
+
+// All that is told column by column, as one.
+std::vector<double> joined(const std::vector<std::vector<double>>& columns) {
+  std::vector<double> all;
+  for (const auto& column : columns) all.insert(all.end(), column.begin(), column.end());
+  return all;
+}
+
+std::vector<double> fitted_places(const OwnRows& rows, const double* x) {
+  const std::vector<double> z = drawn_effects(rows, x);
+  UnitRows& units = rows.mine().rows;
+  units.move_to(x);
+  const std::vector<std::vector<double>> slots = units.each_slot(z);
+  std::vector<double> places;
+  for (std::size_t c = 0; c < slots.size(); ++c) {
+    const Measured& measured = rows.law().measured[c];
+    const std::size_t slot = place_slot(*measured.form);
+    for (std::size_t i = slot; i < slots[c].size(); i += most_response_slots)
+      places.push_back(measured.process ? NAN : slots[c][i]);
+  }
+  return places;
+}
+
+std::vector<double> log_densities(const OwnRows& rows, const double* x) {
+  const std::vector<double> z = drawn_effects(rows, x);
+  UnitRows& units = rows.mine().rows;
+  units.move_to(x);
+  return joined(units.each_term(z));
+}
+
+Remedies remedies_of(const OwnLaw& law) {
+  const Measured& first = law.measured.front();
+  const ResponseFamily family = first.form->family;
+  Remedies remedies;
+  remedies.life = !law.along && law.measured.size() == 1 && first.form->positive &&
+                  !first.form->counted && !first.process && !first.program.has_paths();
+  if (first.process || first.form->counted) return remedies;
+  if (family == ResponseFamily::normal) {
+    remedies.scatter =
+        "A scatter that grows with the mean: try family = \"lognormal\", or a standard deviation "
+        "that is an "
+        "expression of what it follows.";
+    remedies.heavy_tails =
+        "Look at the outermost rows for mistakes; if there are none, try longer tails: family = "
+        "\"student-t\".";
+  } else {
+    remedies.scatter =
+        "Let the scatter (or shape) be an expression of what it follows; where it grows, look for "
+        "a second failure "
+        "mode.";
+  }
+  return remedies;
+}
+
 }  // namespace
 
 std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
@@ -119,7 +215,7 @@ std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
   FitData data;
   for (const Measured& measured : law.measured) {
     for (const Response& each : measured.observed.responses) {
-      if (each.entry > -infinity) return {};
+      if (each.entry > -infinity && measured.process) return {};
     }
     const std::vector<int>& counts = measured.observed.counts;
     data.counts.insert(data.counts.end(), counts.begin(), counts.end());
@@ -143,6 +239,15 @@ std::optional<FitData> fit_data(std::shared_ptr<const OwnRows> rows) {
     return scores;
   };
   data.drivers = drivers_of(law);
+  data.labels = labels_of(law);
+  data.fitted = [rows](const double* x) { return fitted_places(*rows, x); };
+  if (!law.has_process()) {
+    data.measured = measured_values(law);
+    data.measured.log_density = [rows](const double* x) { return log_densities(*rows, x); };
+  }
+  data.remedies = remedies_of(law);
+  for (std::size_t c = 0; law.measured.size() > 1 && c < law.measured.size(); ++c)
+    data.column.insert(data.column.end(), law.measured[c].observed.rows.size(), c);
   if (law.measured.size() > 1) data.noun = "observation";
   // Readings of one column follow each other: those of another may lie off the other way.
   for (std::size_t c = 0; c < law.measured.size(); ++c) {

@@ -1,0 +1,199 @@
+#include "wearwell/infer/distribution_tests.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "wearwell/base/rng.h"
+#include "wearwell/infer/residual_shape.h"
+#include "wearwell/infer/score_tests.h"
+
+namespace wearwell {
+namespace {
+
+// Of the level of the check; the tests of location, trend and order have their own.
+constexpr double shape_share = 0.3, scatter_share = 0.2, offset_share = 0.1;
+// More observations are judged by so many of them, drawn.
+constexpr std::size_t most_observations = 20'000;
+constexpr std::uint64_t seed = 20261124;
+
+using ScoreTest = std::function<double(std::span<const double>)>;
+
+// The score of each draw.
+std::vector<double> each_draw(std::size_t draws, const std::function<double(std::size_t)>& score) {
+  std::vector<double> all(draws);
+  tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t s) { all[s] = score(s); });
+  return all;
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Which of `count` are judged, in order: all, or a sample (Knuth's selection sampling).
+std::vector<std::size_t> judged(std::size_t count) {
+  std::vector<std::size_t> chosen;
+  Rng rng(seed, 0);
+  std::size_t wanted = std::min(count, most_observations);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (wanted == 0) break;
+    if (rng.uniform() * static_cast<double>(count - i) < static_cast<double>(wanted)) {
+      chosen.push_back(i);
+      --wanted;
+    }
+  }
+  return chosen;
+}
+
+template <class Value>
+std::vector<Value> taken(const std::vector<Value>& values, const std::vector<std::size_t>& which) {
+  std::vector<Value> some;
+  some.reserve(which.size());
+  for (const std::size_t i : which) some.push_back(values[i]);
+  return some;
+}
+
+std::vector<double> middles(const std::vector<std::vector<double>>& scores) {
+  std::vector<double> middle(scores.front().size());
+  for (const auto& z : scores) {
+    for (std::size_t i = 0; i < z.size(); ++i)
+      middle[i] += z[i] / static_cast<double>(scores.size());
+  }
+  return middle;
+}
+
+FitTest shape_test(const std::string& of, const std::vector<std::vector<double>>& scores,
+                   const Remedies& remedies, double share) {
+  const std::vector<double> each =
+      each_draw(scores.size(), [&](std::size_t s) { return shape_score(scores[s]); });
+  FitTest test{"distribution of " + of, combined_p(each, false), "", "", share};
+  if (!(test.judged() < 1)) return test;
+  const ResidualShapeFound found = shape_of(middles(scores));
+  test.finding = fmt::format("{} do not follow their distribution: {}", of,
+                             in_words(found, scores.front().size()));
+  test.advice = advice_on(found.shape, remedies);
+  return test;
+}
+
+std::string advice_on_scatter(const FitData& data) {
+  if (!data.remedies.scatter.empty()) return data.remedies.scatter;
+  return "A scatter that grows with the mean: try a lognormal family, or a standard deviation that "
+         "depends on what it "
+         "follows.";
+}
+
+// What scatter may follow: along which values, and in words.
+struct Along {
+  std::string name;
+  std::vector<double> rank;
+};
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto dot = [](const auto& x, const auto& y) {
+    return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
+  };
+  return dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
+}
+
+std::vector<Along> what_scatter_may_follow(const FitData& data, const ScoreSample& sample,
+                                           const std::vector<std::size_t>& row) {
+  const std::vector<std::size_t> column =
+      data.column.empty() ? std::vector<std::size_t>{} : taken(data.column, row);
+  std::vector<Along> all;
+  // Those that rank observations alike ask one question.
+  const auto add = [&](const std::string& name, const std::vector<double>& values) {
+    if (!std::all_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); })) return;
+    std::vector<double> rank = centered_ranks(values, column);
+    if (std::all_of(rank.begin(), rank.end(), [](double r) { return r == 0; })) return;
+    constexpr double alike = 0.99;
+    for (Along& other : all) {
+      if (std::abs(correlation(other.rank, rank)) > alike) return;
+    }
+    all.push_back({name, std::move(rank)});
+  };
+  for (const Driver& driver : data.drivers) add(driver.name, taken(driver.value, row));
+  if (data.fitted) {
+    const Eigen::VectorXd x = sample.draws.values.row(sample.draws.values.rows() / 2);
+    const std::vector<double> fitted = data.fitted(x.data());
+    add("the fitted value", taken(fitted, row));
+  }
+  return all;
+}
+
+void add_scatter_tests(const FitData& data, const ScoreSample& sample,
+                       const std::vector<std::size_t>& row,
+                       const std::vector<std::vector<double>>& scores,
+                       std::vector<FitTest>& tests) {
+  const std::size_t draws = scores.size(), first = tests.size();
+  std::vector<std::vector<double>> size(draws);
+  tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t s) { size[s] = sizes(scores[s]); });
+  for (const Along& along : what_scatter_may_follow(data, sample, row)) {
+    const std::vector<double> each =
+        each_draw(draws, [&](std::size_t s) { return scatter_trend_score(size[s], along.rank); });
+    tests.push_back({"scatter along " + along.name, combined_p(each, true),
+                     fmt::format("residuals scatter more the {} {} is",
+                                 mean(each) > 0 ? "larger" : "smaller", along.name),
+                     advice_on_scatter(data)});
+  }
+  for (const Label& label : data.labels) {
+    const std::vector<std::size_t> level = taken(label.level, row);
+    const std::vector<double> each =
+        each_draw(draws, [&](std::size_t s) { return scatter_between_score(size[s], level); });
+    tests.push_back({"scatter between levels of " + label.name, combined_p(each, false),
+                     fmt::format("residuals scatter differently between levels of {}", label.name),
+                     fmt::format("Look at the levels of {} one by one; give them standard "
+                                 "deviations of their own, or fit them apart.",
+                                 label.name)});
+  }
+  for (std::size_t i = first; i < tests.size(); ++i) {
+    tests[i].share = scatter_share / static_cast<double>(tests.size() - first);
+  }
+}
+
+}  // namespace
+
+std::vector<FitTest> distribution_tests(const FitData& data, const ScoreSample& sample) {
+  const std::size_t draws = sample.scores.size();
+  const std::vector<std::size_t> which = judged(sample.row.size());
+  const std::vector<std::size_t> row = taken(sample.row, which);
+  std::vector<std::vector<double>> scores(draws);
+  tbb::parallel_for(std::size_t{0}, draws,
+                    [&](std::size_t s) { scores[s] = taken(sample.scores[s], which); });
+
+  std::vector<FitTest> tests;
+  const double shares = data.effects.empty() ? 1 : 2;
+  tests.push_back(shape_test("residuals", scores, data.remedies, shape_share / shares));
+  std::size_t begin = 0;
+  for (const UnitEffect& effect : data.effects) {
+    const auto end = static_cast<std::ptrdiff_t>(begin + effect.of.size());
+    std::vector<std::vector<double>> own(draws);
+    for (std::size_t s = 0; s < draws; ++s) {
+      const auto all = sample.effects[s].begin();
+      own[s].assign(all + static_cast<std::ptrdiff_t>(begin), all + end);
+    }
+    begin += effect.of.size();
+    tests.push_back(shape_test(effect.name + " of the units", own, {},
+                               shape_share / shares / static_cast<double>(data.effects.size())));
+  }
+  add_scatter_tests(data, sample, row, scores, tests);
+  if (data.rise && data.rise->from_zero) {
+    const std::vector<double> driver = taken(data.drivers.front().value, row);
+    const std::vector<double> each =
+        each_draw(draws, [&](std::size_t s) { return offset_score(scores[s], driver); });
+    tests.push_back(
+        {"offset", combined_p(each, true),
+         fmt::format("the data start {} zero: residuals share an offset",
+                     mean(each) > 0 ? "above" : "below"),
+         data.remedies.offset.empty()
+             ? "Look for an error of the zero point, or for running-in that the law does not know."
+             : data.remedies.offset,
+         offset_share});
+  }
+  return tests;
+}
+
+}  // namespace wearwell
