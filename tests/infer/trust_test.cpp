@@ -252,7 +252,7 @@ TEST(Trust, ADifferenceFarBelowAStandardDeviationIsNoDisagreement) {
 TEST(Trust, DrawsThatDisagreeByChanceAreDrawnAgain) {
   const Posterior posterior = joint_posterior(false, false, 15, 5);
   FitSettings often;
-  often.redraw_level = 0.999;  // a fifth of a standard error is enough
+  often.redraw_level = 0.999;  // half a standard error is enough
   const Fit first = fit(posterior, {}), again = fit(posterior, often);
   EXPECT_FALSE(first.redrawn);
   ASSERT_TRUE(again.redrawn);

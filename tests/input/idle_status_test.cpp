@@ -33,7 +33,7 @@ class IdleStatusTest : public ScratchTest {
 
 TEST_F(IdleStatusTest, ARefusalNamesBothReadings) {
   EXPECT_THAT(refusal("event", {"0", "1", "1"}),
-              AllOf(HasSubstr("s.toml:3:1: data.columns: status"), HasSubstr("'event'"),
+              AllOf(HasSubstr("data.columns.status: is missing"), HasSubstr("'event'"),
                     HasSubstr("(0, 1)"), HasSubstr("all 3 rows are taken for failures"),
                     HasSubstr("status = \"event\""), HasSubstr("unused = [\"event\"]")));
   EXPECT_THAT(refusal("status", {"0", "1"}),

@@ -84,10 +84,11 @@ struct Walk {
   std::size_t stations() const { return log_density.size(); }
 
   // By the far half, the median of slopes between neighbours: one bad station does not matter.
-  double index(bool towards_bound) const {
-    return index_from(std::max<std::size_t>(1, stations() / 2), towards_bound);
+  // `may_slow`: of a tail towards infinity under priors that are not proper.
+  double index(bool may_slow) const {
+    return index_from(std::max<std::size_t>(1, stations() / 2), may_slow);
   }
-  double index_from(std::size_t first, bool towards_bound) const {
+  double index_from(std::size_t first, bool may_slow) const {
     std::vector<double> slopes;
     for (std::size_t i = first; i < stations(); ++i) {
       slopes.push_back((log_density[i] - log_density[i - 1]) /
@@ -96,7 +97,7 @@ struct Walk {
     // A tail like a power of the logarithm (a Weibull scale under a flat prior) falls ever more slowly.
     constexpr std::size_t last = 1;
     const bool slower =
-        !towards_bound && slopes.size() > last && std::is_sorted(slopes.begin(), slopes.end()) &&
+        may_slow && slopes.size() > last && std::is_sorted(slopes.begin(), slopes.end()) &&
         std::all_of(slopes.end() - last, slopes.end(),
                     [](double slope) { return slope < 0 && slope >= -(1 + slack); });
     if (slower) return -slopes.back();
@@ -154,7 +155,7 @@ double width_at(const Mode& mode, int i) {
 bool levels_out(Walk& walk) {
   constexpr std::size_t end = 5;
   const Walk sound = walk.sound();
-  if (sound.stations() < end + 1 || !(sound.index_from(sound.stations() - end, true) > 1 - slack))
+  if (sound.stations() < end + 1 || !(sound.index_from(sound.stations() - end, false) > 1 - slack))
     return false;
   const auto keep = [&](auto& values) { values.erase(values.begin(), values.end() - end); };
   keep(walk.log_distance);
@@ -249,17 +250,18 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
   }
   constexpr std::size_t enough = 5;  // stations
   const bool to_the_end = tail.towards_bound && !prior.proper && of_prior > 1 - slack;
+  const bool may_slow = !tail.towards_bound && !proper;
   const Walk all = walk(posterior, mode, tail, outward, to_the_end), way = all.sound();
   tail.index = tail.towards_bound ? -infinity : infinity;
   if (!way.vanished && way.stations() >= enough) {
-    tail.index = way.index(tail.towards_bound);
+    tail.index = way.index(may_slow);
   } else if (way.left) {
     // Along the other parameter the tail is measured from there on.
   } else if (!way.vanished) {
     // Where the others have no mode either, the posterior may be improper along all of them: that much
     // is told by any stations.
     tail.known = false;
-    const double index = all.stations() >= enough ? all.index(tail.towards_bound) : tail.index;
+    const double index = all.stations() >= enough ? all.index(may_slow) : tail.index;
     if (!Tail{i, upward, tail.towards_bound, index}.integrable()) {
       tail.index = index;
       tail.known = true;

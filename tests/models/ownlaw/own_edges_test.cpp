@@ -76,11 +76,14 @@ k = { law = "normal", mean = 0, sd = 1 }
   EXPECT_NEAR(result.parameters[0].best().mean, 0, 1e-6);
   EXPECT_NEAR(result.parameters[0].best().sd, 1 / std::sqrt(15), 1e-5);
   const auto paper = result.plots->exhibits.at("verdict").front().specification;
+  bool drawn = false;
   for (const auto& layer : paper["layer"]) {
-    const auto& scale = layer["encoding"]["y"]["scale"];
-    if (!scale.contains("domainMin")) continue;
-    EXPECT_LT(scale["domainMin"].get<double>(), scale["domainMax"].get<double>());
+    if (!layer["encoding"].contains("x")) continue;
+    const auto& scale = layer["encoding"]["x"]["scale"];
+    EXPECT_LT(scale.at("domainMin").get<double>(), scale.at("domainMax").get<double>());
+    drawn = true;
   }
+  EXPECT_TRUE(drawn);
 }
 
 // Two units under flat priors of their mean and scatter: improper (Gelman 2006).
