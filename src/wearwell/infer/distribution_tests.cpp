@@ -16,7 +16,9 @@ namespace wearwell {
 namespace {
 
 // Of the level of the check; the tests of location, trend and order have their own.
-constexpr double shape_share = 0.3, scatter_share = 0.2, offset_share = 0.1;
+constexpr double shape_share = 0.25, scatter_share = 0.15, offset_share = 0.05;
+// Of the variance between draws; all of it would make tests of scatter of few rows accuse twice as often as they say.
+constexpr double credited_scatter = 0.6;
 // More observations are judged by so many of them, drawn.
 constexpr std::size_t most_observations = 20'000;
 constexpr std::uint64_t seed = 20261124;
@@ -134,7 +136,7 @@ void add_scatter_tests(const FitData& data, const ScoreSample& sample,
   for (const Along& along : what_scatter_may_follow(data, sample, row)) {
     const std::vector<double> each =
         each_draw(draws, [&](std::size_t s) { return scatter_trend_score(size[s], along.rank); });
-    tests.push_back({"scatter along " + along.name, combined_p(each, true),
+    tests.push_back({"scatter along " + along.name, combined_p(each, true, credited_scatter),
                      fmt::format("residuals scatter more the {} {} is",
                                  mean(each) > 0 ? "larger" : "smaller", along.name),
                      advice_on_scatter(data)});
@@ -143,7 +145,8 @@ void add_scatter_tests(const FitData& data, const ScoreSample& sample,
     const std::vector<std::size_t> level = taken(label.level, row);
     const std::vector<double> each =
         each_draw(draws, [&](std::size_t s) { return scatter_between_score(size[s], level); });
-    tests.push_back({"scatter between levels of " + label.name, combined_p(each, false),
+    tests.push_back({"scatter between levels of " + label.name,
+                     combined_p(each, false, credited_scatter),
                      fmt::format("residuals scatter differently between levels of {}", label.name),
                      fmt::format("Look at the levels of {} one by one; give them standard "
                                  "deviations of their own, or fit them apart.",
@@ -185,7 +188,7 @@ std::vector<FitTest> distribution_tests(const FitData& data, const ScoreSample& 
     const std::vector<double> each =
         each_draw(draws, [&](std::size_t s) { return offset_score(scores[s], driver); });
     tests.push_back(
-        {"offset", combined_p(each, true),
+        {"offset", combined_p(each, true, credited_scatter),
          fmt::format("the data start {} zero: residuals share an offset",
                      mean(each) > 0 ? "above" : "below"),
          data.remedies.offset.empty()

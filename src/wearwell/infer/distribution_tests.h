@@ -15,8 +15,8 @@ struct ScoreSample {
 };
 
 /// Whether scores have the shape of their distribution, and scatter alike along drivers, along what the law expects and
-/// between labels; of laws that start from zero, whether an offset was left out. Of right laws these warn in 6 of 1000
-/// studies at most, and fail in 6 of 10,000, together (`FitTest::share`).
+/// between labels; of laws that start from zero, whether an offset was left out. Of right laws these warn in 4.5 of 1000
+/// studies at most, and fail in 4.5 of 10,000, together (`FitTest::share`).
 std::vector<FitTest> distribution_tests(const FitData& data, const ScoreSample& sample);
 
 }  // namespace wearwell

@@ -33,9 +33,9 @@ std::vector<double> centered_ranks(std::span<const double> values,
                                    std::span<const std::size_t> group);
 
 /// The p value of what draws of a posterior say of one data set. Under a right law the score of each draw is standard
-/// normal, and draws share the data: their mean has the variance 1 - v, v the variance between draws. It holds its
-/// level where the scores of draws are jointly normal; at most half of the variance is taken for the draws', so that
-/// data of which little is seen accuse nothing.
-double combined_p(std::span<const double> scores, bool two_sided);
+/// normal, and draws share the data: their mean has the variance 1 - v, v the variance between draws. It is divided by the
+/// root of 1 - `credited` v, and of no less than 1/2, so that data of which little is seen accuse nothing. `credited` is 1
+/// where scores of draws are nearly jointly normal, and smaller where they have longer tails.
+double combined_p(std::span<const double> scores, bool two_sided, double credited = 1);
 
 }  // namespace wearwell
