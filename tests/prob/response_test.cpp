@@ -142,6 +142,24 @@ TEST(Response, OutsideItsSupportHasNoDensity) {
   EXPECT_EQ(log_response_value(ResponseFamily::binomial, {.at = 4, .trials = 5}, sure), -infinity);
 }
 
+// A sampler tries them: a zero density and an infinite slope are answers, an exception is none.
+TEST(Response, ExtremeParametersAreNoExceptions) {
+  constexpr double extremes[] = {5e-324, 1e-310, 1e-300, 1e-9, 1, 1e15, 1e300, 1.7e308};
+  for (const Case& each : cases()) {
+    for (const double a : extremes) {
+      for (const double b : extremes) {
+        const double slots[] = {a, b, each.slots[2]};
+        for (const double y : {1e-300, each.at[1], 1e300}) {
+          for (const Seen seen : {Seen::exactly, Seen::above, Seen::below}) {
+            ASSERT_NO_THROW(log_response(each.family, {seen, y}, slots))
+                << static_cast<int>(each.family) << " " << a << " " << b << " " << y;
+          }
+        }
+      }
+    }
+  }
+}
+
 // R: dbinom(7, 20, 0.3, log = TRUE); pbinom(7, 20, 0.3); ppois(7, 5.5).
 TEST(Response, Counts) {
   const double p[] = {0.3, 0, 0}, mean[] = {5.5, 0, 0};

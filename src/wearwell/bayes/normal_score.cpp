@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "wearwell/math/boost_policy.h"
+
 namespace wearwell {
 namespace {
 
@@ -12,8 +14,7 @@ namespace {
 double lower_tail(double log_p) {
   constexpr double smallest = -700;  // of the logarithms of doubles
   if (log_p > smallest) {
-    using InDoubles = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-    return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * std::exp(log_p), InDoubles());
+    return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * std::exp(log_p), QuietInDouble());
   }
   if (std::isinf(log_p)) return log_p;
   // -log Phi(-t) = t^2/2 + log(t sqrt(2 pi)) + 1/t^2 - 5/2 1/t^4 + O(1/t^6).

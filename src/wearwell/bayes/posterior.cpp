@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -16,6 +17,16 @@ constexpr double minus_infinity = -std::numeric_limits<double>::infinity();
 // A likelihood that overflowed is far outside of where any parameter can be.
 double in_support(double value) {
   return std::isnan(value) ? minus_infinity : value;
+}
+
+// The same where the density has no gradient that a double holds, which no search can climb by.
+double in_support(double value, std::span<double> gradient) {
+  for (const double each : gradient) {
+    if (std::isfinite(each)) continue;
+    value = minus_infinity;
+  }
+  if (!std::isfinite(value)) std::fill(gradient.begin(), gradient.end(), 0.0);
+  return in_support(value);
 }
 
 }  // namespace
@@ -88,7 +99,7 @@ double Posterior::value_and_gradient(std::span<const double> z, std::span<double
   sum += likelihood_->value_and_gradient(std::span(x.data(), parameters_.size()), gradient);
   for (std::size_t i = 0; i < parameters_.size(); ++i)
     gradient[i] = gradient[i] * slope[i] + rest[i];
-  return in_support(sum);
+  return in_support(sum, gradient.first(parameters_.size()));
 }
 
 double Posterior::log_prior(std::span<const double> x) const {
@@ -115,7 +126,7 @@ double Posterior::natural_value_and_gradient(std::span<const double> x,
     sum += prior.value;
     gradient[i] += prior.slope;
   }
-  return in_support(sum);
+  return in_support(sum, gradient.first(parameters_.size()));
 }
 
 void Posterior::to_natural(std::span<const double> z, std::span<double> x) const {

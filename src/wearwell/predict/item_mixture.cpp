@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "wearwell/math/boost_policy.h"
 #include "wearwell/math/root.h"
 
 namespace wearwell {
@@ -51,7 +52,8 @@ void stratified_normals(std::size_t draw, std::size_t count, std::vector<double>
   z.clear();
   for (std::size_t j = 0; j < count; ++j) {
     const double p = (static_cast<double>(j) + shift) / static_cast<double>(count);
-    z.push_back(-std::sqrt(2.0) * boost::math::erfc_inv(2 * std::clamp(p, 1e-15, 1 - 1e-15)));
+    z.push_back(-std::sqrt(2.0) *
+                boost::math::erfc_inv(2 * std::clamp(p, 1e-15, 1 - 1e-15), Quiet()));
   }
 }
 

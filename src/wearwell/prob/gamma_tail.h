@@ -1,9 +1,9 @@
 #pragma once
 
-#include <boost/math/special_functions/digamma.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
+#include "wearwell/math/boost_policy.h"
 #include "wearwell/math/dual.h"
 
 namespace wearwell {
@@ -11,7 +11,7 @@ namespace wearwell {
 /// log Gamma(x), x > 0, for a formula's scalar.
 template <class T>
 T log_gamma(const T& x) {
-  return chained(x, boost::math::lgamma(scalar(x)), boost::math::digamma(scalar(x)));
+  return chained(x, boost::math::lgamma(scalar(x), Quiet()), digamma<Quiet>(scalar(x)));
 }
 
 namespace detail {

@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/math/boost_policy.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 
@@ -58,19 +59,19 @@ Properties properties(const Lognormal& law) {
 Properties properties(const Gamma& law) {
   require_positive("gamma", "shape", law.shape);
   require_positive("gamma", "scale", law.scale);
-  return {{0, infinity}, boost::math::lgamma(law.shape) + law.shape * std::log(law.scale)};
+  return {{0, infinity}, boost::math::lgamma(law.shape, Quiet()) + law.shape * std::log(law.scale)};
 }
 Properties properties(const InverseGamma& law) {
   require_positive("inverse-gamma", "shape", law.shape);
   require_positive("inverse-gamma", "scale", law.scale);
-  return {{0, infinity}, boost::math::lgamma(law.shape) - law.shape * std::log(law.scale)};
+  return {{0, infinity}, boost::math::lgamma(law.shape, Quiet()) - law.shape * std::log(law.scale)};
 }
 Properties properties(const StudentT& law) {
   require_positive("student-t", "df", law.df);
   require_finite("student-t", "location", law.location);
   require_positive("student-t", "scale", law.scale);
   return {{-infinity, infinity},
-          std::log(boost::math::beta(0.5, 0.5 * law.df)) + 0.5 * std::log(law.df) +
+          std::log(boost::math::beta(0.5, 0.5 * law.df, Quiet())) + 0.5 * std::log(law.df) +
               std::log(law.scale)};
 }
 Properties properties(const Beta& law) {
@@ -78,8 +79,8 @@ Properties properties(const Beta& law) {
   require_positive("beta", "beta", law.beta);
   // Of gammas: the beta function itself underflows from alpha = beta = 515 on.
   return {{0, 1},
-          boost::math::lgamma(law.alpha) + boost::math::lgamma(law.beta) -
-              boost::math::lgamma(law.alpha + law.beta)};
+          boost::math::lgamma(law.alpha, Quiet()) + boost::math::lgamma(law.beta, Quiet()) -
+              boost::math::lgamma(law.alpha + law.beta, Quiet())};
 }
 Properties properties(const Flat&) {
   return {{-infinity, infinity}, 0};
@@ -127,22 +128,25 @@ Standardized<Distribution> standardized(const Distribution& distribution, double
 }
 
 auto standardized(const Normal& law) {
-  return standardized(boost::math::normal(), law.mean, law.sd);
+  return standardized(boost::math::normal_distribution<double, Quiet>(), law.mean, law.sd);
 }
 auto standardized(const Lognormal& law) {
-  return standardized(boost::math::lognormal(0, law.zeta), 0.0, std::exp(law.eta));
+  return standardized(boost::math::lognormal_distribution<double, Quiet>(0, law.zeta), 0.0,
+                      std::exp(law.eta));
 }
 auto standardized(const Gamma& law) {
-  return standardized(boost::math::gamma_distribution<>(law.shape, 1), 0.0, law.scale);
+  return standardized(boost::math::gamma_distribution<double, Quiet>(law.shape, 1), 0.0, law.scale);
 }
 auto standardized(const InverseGamma& law) {
-  return standardized(boost::math::inverse_gamma_distribution<>(law.shape, 1), 0.0, law.scale);
+  return standardized(boost::math::inverse_gamma_distribution<double, Quiet>(law.shape, 1), 0.0,
+                      law.scale);
 }
 auto standardized(const StudentT& law) {
-  return standardized(boost::math::students_t(law.df), law.location, law.scale);
+  return standardized(boost::math::students_t_distribution<double, Quiet>(law.df), law.location,
+                      law.scale);
 }
 auto standardized(const Beta& law) {
-  return standardized(boost::math::beta_distribution<>(law.alpha, law.beta), 0.0, 1.0);
+  return standardized(boost::math::beta_distribution<double, Quiet>(law.alpha, law.beta), 0.0, 1.0);
 }
 
 // P(lower < X < upper), by whichever tail does not cancel.
@@ -209,6 +213,9 @@ Law make_law(const Family& family, double lower, double upper) {
   const Properties natural = std::visit([](const auto& f) { return properties(f); }, family);
   if (!(lower < upper)) {
     throw InputError(fmt::format("lower bound {} is not below upper bound {} (SI)", lower, upper));
+  }
+  if (!std::isfinite(natural.log_integral)) {
+    throw InputError("the law's parameters are too extreme: its normalizing constant overflows");
   }
   Law law{family, std::max(lower, natural.support.lower), std::min(upper, natural.support.upper)};
   if (!(law.lower < law.upper)) {

@@ -137,7 +137,8 @@ double student_far_out(double df, double t) {
     sum += term;
   }
   return std::log(0.5) + a * std::log(x) + 0.5 * std::log1p(-x) + std::log(sum) - std::log(a) -
-         (boost::math::lgamma(a) + boost::math::lgamma(0.5) - boost::math::lgamma(a + 0.5));
+         (boost::math::lgamma(a, Quiet()) + boost::math::lgamma(0.5, Quiet()) -
+          boost::math::lgamma(a + 0.5, Quiet()));
 }
 
 double student_log_survival(double df, double t) {
@@ -146,8 +147,8 @@ double student_log_survival(double df, double t) {
     return std::log1p(-std::exp(mirrored));
   }
   const double x = df / (df + t * t);
-  const double p = t * t < df ? 0.5 - 0.5 * boost::math::ibeta(0.5, 0.5 * df, 1 - x)
-                              : 0.5 * boost::math::ibeta(0.5 * df, 0.5, x);
+  const double p = t * t < df ? 0.5 - 0.5 * boost::math::ibeta(0.5, 0.5 * df, 1 - x, Quiet())
+                              : 0.5 * boost::math::ibeta(0.5 * df, 0.5, x, Quiet());
   return p > 1e-280 ? std::log(p) : student_far_out(df, t);
 }
 
@@ -233,11 +234,12 @@ template <class T>
 T log_density_of(ResponseFamily family, double y, const T* s, double trials) {
   if (family == ResponseFamily::poisson) {
     if (scalar(s[0]) == 0) return y == 0 ? T(-s[0]) : nothing<T>();
-    return y * log(s[0]) - s[0] - boost::math::lgamma(y + 1);
+    return y * log(s[0]) - s[0] - boost::math::lgamma(y + 1, Quiet());
   }
   if (family == ResponseFamily::binomial) {
-    const double ways = boost::math::lgamma(trials + 1) - boost::math::lgamma(y + 1) -
-                        boost::math::lgamma(trials - y + 1);
+    const double ways = boost::math::lgamma(trials + 1, Quiet()) -
+                        boost::math::lgamma(y + 1, Quiet()) -
+                        boost::math::lgamma(trials - y + 1, Quiet());
     const double p = scalar(s[0]);
     if ((p == 0 && y > 0) || (p == 1 && y < trials)) return nothing<T>();
     T sum(ways);

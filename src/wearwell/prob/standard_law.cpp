@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 
+#include "wearwell/math/boost_policy.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/quadrature.h"
 
@@ -216,7 +217,7 @@ double quantile(StandardLaw law, double p) {
     case StandardLaw::normal:
       break;
   }
-  return -M_SQRT2 * boost::math::erfc_inv(2 * p);
+  return -M_SQRT2 * boost::math::erfc_inv(2 * p, Quiet());
 }
 
 }  // namespace wearwell

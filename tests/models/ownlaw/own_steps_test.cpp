@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "support/scratch.h"
+#include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/models/ownlaw/own_reader.h"
 
@@ -43,6 +44,44 @@ s = { law = "half-normal", scale = 1 }
     return read_own_law(TomlReader::parse(source.study), source);
   }
 };
+
+// Units far out in a wide population: searches and tails go there.
+TEST_F(OwnSteps, ExtremesAreFiniteOrNoDensity) {
+  for (const std::string family : {"gamma-process", "inverse-gaussian-process", "wiener-process"}) {
+    const auto law = read(family, "scale = \"u\"\n", "k*t^p", true);
+    const auto columns = bind_columns(*law, law->data.table.rows);
+    ASSERT_TRUE(is_proportional(*law, columns)) << family;
+    const auto likelihood = own_likelihood(std::make_shared<const OwnRows>(law, 7));
+    UnitRows rows(*law, columns);
+    StepUnits steps(rows);
+    for (const double k : {1e-300, 1e-150, 1e-8, 1.0, 1e8, 1e150, 1e300}) {
+      for (const double u : {1e-300, 1e-100, 1e-8, 1.0, 1e8, 1e300}) {
+        for (const double s : {1e-300, 0.4, 30.0, 300.0, 1e5}) {
+          const std::vector<double> x = {k, 1.1, u, s};
+          std::vector<double> gradient(4, 0.0);
+          double value = 0;
+          ASSERT_NO_THROW(value = likelihood->value_and_gradient(x, gradient))
+              << family << " " << k << " " << u << " " << s;
+          EXPECT_FALSE(std::isnan(value) || value == infinity)
+              << family << " " << k << " " << u << " " << s;
+          rows.move_to(x.data());
+          steps.move();
+          for (const double z : {-30.0, -8.0, -1.0, 0.0, 8.0, 30.0}) {
+            const std::vector<double> at = {z, -z};
+            const std::vector<std::uint8_t> all = {1, 1};
+            std::vector<double> each(2), slope(2);
+            ASSERT_NO_THROW(steps.evaluate(at, all, each, slope));
+            for (int unit = 0; unit < 2; ++unit) {
+              EXPECT_TRUE(each[unit] == -infinity ||
+                          (std::isfinite(each[unit]) && std::isfinite(slope[unit])))
+                  << family << " " << k << " " << u << " " << s << " " << z;
+            }
+          }
+        }
+      }
+    }
+  }
+}
 
 TEST_F(OwnSteps, AreWhatTheRowsSay) {
   const std::vector<std::pair<std::string, std::string>> processes = {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/special_functions/digamma.hpp>
 #include <cmath>
 
+#include "wearwell/math/boost_policy.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/math/quadrature.h"
 
@@ -101,8 +101,6 @@ const Tables& tables() {
   return all;
 }
 
-using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-
 }  // namespace
 
 struct HiddenStep::Law {
@@ -115,7 +113,7 @@ struct HiddenStep::Law {
       rest = 0.5 * (std::log(shape) - log_two_pi) - 1 / (12 * shape);
     } else if (gamma) {
       rest = -std::lgamma(shape);
-      digamma = boost::math::digamma(shape, InDouble());
+      digamma = wearwell::digamma(shape);
     } else {
       rest = std::log(dm) - 0.5 * (log_two_pi + log_scale);
     }

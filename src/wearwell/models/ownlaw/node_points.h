@@ -5,13 +5,15 @@
 #include <cmath>
 #include <span>
 
+#include "wearwell/math/boost_policy.h"
+
 namespace wearwell::ownlaw {
 
 inline constexpr std::size_t points_of_node =
     4;  ///< of the law of a first passage, or of a path ahead
 
 inline double normal_quantile(double p) {
-  return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p);
+  return -std::sqrt(2.0) * boost::math::erfc_inv(2 * p, Quiet());
 }
 
 /// The fractions of multiples of an irrational number lie evenly.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/bayes/normal_score.h"
+#include "wearwell/math/boost_policy.h"
 #include "wearwell/math/root.h"
 
 namespace wearwell::ownlaw {
@@ -29,7 +30,7 @@ double scaled_tail(double e, double x) {
 
 // The probability that a path with scale 1 has gone `d` by the time its mean is m.
 double passed(Process process, double m, double d) {
-  if (process == Process::gamma) return boost::math::gamma_q(m, d);
+  if (process == Process::gamma) return boost::math::gamma_q(m, d, Quiet());
   const bool wiener = process == Process::wiener;
   const double r = std::sqrt(wiener ? m : d), off = (m - d) / r;
   const double tail = scaled_tail(-0.5 * off * off, (m + d) / r);
@@ -38,7 +39,7 @@ double passed(Process process, double m, double d) {
 
 // Of a process with scale 1.
 double unit_quantile(Process process, double d, double p) {
-  if (d > 1e6) return d - std::sqrt(2 * d) * boost::math::erfc_inv(2 * p);
+  if (d > 1e6) return d - std::sqrt(2 * d) * boost::math::erfc_inv(2 * p, Quiet());
   // On the logarithm: it may be far below the distance where the scale is large.
   const double root =
       solve_increasing([&](double x) { return passed(process, std::exp(x), d) - p; }, std::log(d),
@@ -55,10 +56,10 @@ double passage_quantile(Process process, double distance, double scale, double p
 double increment_quantile(Process process, double mean, double scale, double p) {
   const double m = mean / scale;
   if (process == Process::wiener) {
-    return mean - scale * std::sqrt(2 * m) * boost::math::erfc_inv(2 * p);
+    return mean - scale * std::sqrt(2 * m) * boost::math::erfc_inv(2 * p, Quiet());
   }
   if (m > 1e6) return increment_quantile(Process::wiener, mean, scale, p);
-  if (process == Process::gamma) return scale * boost::math::gamma_p_inv(m, p);
+  if (process == Process::gamma) return scale * boost::math::gamma_p_inv(m, p, Quiet());
   const auto below = [&](double log_x) {
     const double x = std::exp(log_x), r = std::sqrt(x), off = (x - m) / r;
     return normal_cdf(off) + scaled_tail(-0.5 * off * off, (x + m) / r);

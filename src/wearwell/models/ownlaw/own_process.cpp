@@ -1,9 +1,9 @@
 #include "wearwell/models/ownlaw/own_process.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/digamma.hpp>
 #include <cmath>
 
+#include "wearwell/math/boost_policy.h"
 #include "wearwell/math/constants.h"
 
 #include "wearwell/models/ownlaw/own_hidden_path.h"
@@ -90,18 +90,15 @@ class Logarithm {
   double at_ = std::nan(""), value_ = 0;
 };
 
-// Not in long double, which is several times as dear.
-using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-
 class LogGamma {
  public:
   double value(double x) {
     go_to(x);
-    return x == at_ ? value_ : value_ + (x - at_) * digamma(at_);
+    return x == at_ ? value_ : value_ + (x - at_) * slope_there();
   }
   double slope(double x) {
     go_to(x);
-    return digamma(at_);  // its relative change is less than theirs
+    return slope_there();  // its relative change is less than theirs
   }
 
  private:
@@ -111,8 +108,8 @@ class LogGamma {
     value_ = std::lgamma(x);
     digamma_ = std::nan("");
   }
-  double digamma(double x) {
-    if (std::isnan(digamma_)) digamma_ = boost::math::digamma(x, InDouble());
+  double slope_there() {
+    if (std::isnan(digamma_)) digamma_ = digamma(at_);
     return digamma_;
   }
   double at_ = std::nan(""), value_ = 0, digamma_ = std::nan("");
@@ -172,6 +169,7 @@ void growing_terms(const ProcessForm& form, const ProcessRows& rows, std::span<d
     double by_mean = 0, by_scale = 0;
     if (gamma) {
       const double a = dm / u, log_share = log_dy - log_u;
+      if (!(a >= least_gamma_argument)) return fail(value, slope);
       value[i] = (a - 1) * log_share - dy / u - log_u - log_gamma.value(a);
       if (!sloped) continue;
       const double off = log_share - log_gamma.slope(a);
@@ -223,9 +221,17 @@ std::span<const ProcessForm> process_forms() {
 void process_terms(const ProcessForm& form, const ProcessRows& rows, std::span<double> value,
                    std::span<double> slope) {
   if (rows.reading.empty()) return;
-  if (is_hidden(form, rows)) return hidden_terms(form, rows, value, slope);
-  form.process == Process::wiener ? wiener_terms(form, rows, value, slope)
-                                  : growing_terms(form, rows, value, slope);
+  if (is_hidden(form, rows)) {
+    hidden_terms(form, rows, value, slope);
+  } else if (form.process == Process::wiener) {
+    wiener_terms(form, rows, value, slope);
+  } else {
+    growing_terms(form, rows, value, slope);
+  }
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  const bool whole = std::all_of(value.begin(), value.end(), is_finite) &&
+                     std::all_of(slope.begin(), slope.end(), is_finite);
+  if (!whole) fail(value, slope);
 }
 
 Standing standing(const ProcessForm& form, const ProcessRows& rows) {

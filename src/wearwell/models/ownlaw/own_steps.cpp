@@ -1,20 +1,17 @@
 #include "wearwell/models/ownlaw/own_steps.h"
 
 #include <algorithm>
-#include <boost/math/special_functions/digamma.hpp>
 #include <cmath>
 
+#include "wearwell/math/boost_policy.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
 namespace wearwell::ownlaw {
 namespace {
 
-// Not in long double, which is several times as dear.
-double digamma(double x) {
-  using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-  return boost::math::digamma(x, InDouble());
-}
+// No smaller factor of the mean has a slope that a double holds.
+constexpr double least_factor = 1e-290;
 
 bool in_proportion(UnitRows& rows, double middle) {
   constexpr double factors[] = {1, 2, 0.3, 40};
@@ -161,18 +158,25 @@ void StepUnits::evaluate(std::span<const double> z, std::span<const std::uint8_t
     const double q = population.value(law_, 0, &z[u]) / base_;
     value[u] = -infinity;
     if (!slope.empty()) slope[u] = 0;
-    if ((positive && !(q > 0)) || !std::isfinite(q) || !(unit.constant > -infinity)) continue;
+    if ((positive && !(q > least_factor)) || !std::isfinite(q) || !(unit.constant > -infinity))
+      continue;
     double at = unit.constant + unit.by_one * q + unit.by_square * q * q;
     if (positive) {
       const double log_q =
           lognormal && base_ == population.middle[0] ? population.scatter[0] * z[u] : std::log(q);
       at += unit.by_log * log_q + unit.by_inverse / q;
     }
-    for (const Alike& each : unit.alike) at -= each.count * std::lgamma(q * each.shape);
-    if (std::isnan(at) || at == infinity) continue;
+    for (const Alike& each : unit.alike) {
+      const double shape = q * each.shape;
+      at -= shape >= least_gamma_argument ? each.count * std::lgamma(shape) : infinity;
+    }
+    if (!std::isfinite(at)) continue;
     value[u] = at;
     if (slope.empty()) continue;
     slope[u] = slope_of(unit, q) * population.scatter[0] * (lognormal ? q : 1 / base_);
+    if (std::isfinite(slope[u])) continue;
+    value[u] = -infinity;
+    slope[u] = 0;
   }
 }
 
