@@ -156,7 +156,8 @@ TEST(Unit, EngineersSpellings) {
   EXPECT_DOUBLE_EQ(read_unit("mm³/Nm", "m^3/(N m)").scale, 1e-9);
   EXPECT_DOUBLE_EQ(read_unit("mm³/(N⋅m)", "m^3/(N m)").scale, 1e-9);
   EXPECT_DOUBLE_EQ(read_unit("kWh", "J").scale, 3.6e6);
-  for (const char* micrometre : {"um", "µm", "μm", "micron"})
+  for (const char* micrometre :
+       {"um", "µm", "μm", "micron", "microns", "Micron", "mikron", "Mikron"})
     EXPECT_DOUBLE_EQ(read_unit(micrometre, "m").scale, 1e-6) << micrometre;
   for (const char* celsius : {"degC", "°C", "celsius"})
     EXPECT_DOUBLE_EQ(read_unit(celsius, "K").offset, 273.15) << celsius;
@@ -167,10 +168,11 @@ TEST(Unit, EngineersSpellings) {
 
 TEST(Unit, WordsOfTwoSizesAreRefusedWithBoth) {
   EXPECT_THAT(refusal("ton", "kg"), AllOf(HasSubstr("1000 kg"), HasSubstr("907.185 kg")));
-  EXPECT_THAT(refusal("mils", "m"), AllOf(HasSubstr("25.4 um"), HasSubstr("1000 um")));
+  EXPECT_THAT(refusal("gallons", "m^3"), AllOf(HasSubstr("3.785 l"), HasSubstr("4.546 l")));
   EXPECT_THAT(refusal("gr", "kg"), HasSubstr("grain"));
   EXPECT_THAT(refusal("kton/m^3", "kg/m^3"), HasSubstr("is not a unit"));
-  EXPECT_DOUBLE_EQ(read_unit("thou", "m").scale, 25.4e-6);
+  for (const char* thousandth : {"thou", "mil", "mils"})
+    EXPECT_DOUBLE_EQ(read_unit(thousandth, "m").scale, 25.4e-6) << thousandth;
 }
 
 TEST(Unit, WhatMeansSomethingElseHasAnotherDimension) {

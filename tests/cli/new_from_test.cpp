@@ -77,16 +77,73 @@ TEST_F(NewFrom, AUnitThatIsGuessedIsCalledAGuess) {
 }
 
 TEST_F(NewFrom, DepthsOfSeveralBearings) {
-  const std::string said = runs(
-      "inspections.csv",
-      "bearing,radial clearance [um],load [N],bearing length [mm],revolutions,wear depth [um]\n"
-      "A,25,400,20,50000,16.7\nA,25,400,20,100000,31.9\nB,35,400,20,50000,12.0\nB,35,400,20,100000,"
-      "22.5\n"
-      "C,35,400,20,50000,19.0\nC,35,400,20,100000,34.5\n");
+  const std::string said =
+      runs("inspections.csv",
+           "bearing,contact,journal radius [mm],radial clearance [um],load [N],bearing length "
+           "[mm],revolutions,wear depth [um]\n"
+           "A,stationary,10,25,400,20,50000,16.7\nA,stationary,10,25,400,20,100000,31.9\n"
+           "B,stationary,10,35,400,20,50000,12.0\nB,stationary,10,35,400,20,100000,22.5\n"
+           "C,stationary,10,35,400,20,50000,19.0\nC,stationary,10,35,400,20,100000,34.5\n");
   EXPECT_THAT(said, AllOf(HasSubstr("depth: column 'wear depth [um]' in um"),
-                          HasSubstr("radius = \"10 mm\" is a guess")));
+                          Not(HasSubstr("State what no heading says"))));
   EXPECT_EQ(result_["model"], "bearing-wear");
   EXPECT_TRUE(result_["parameters"].contains("k_scatter"));
+}
+
+// A condition that no heading names is left to be stated: nothing runs with one that nobody stated.
+TEST_F(NewFrom, WhatNobodyStatedIsNoGroundForAResult) {
+  write("depths.csv", "revolutions,wear [um]\n50000,16.7\n100000,31.9\n150000,45.1\n");
+  const CommandResult run = here("new --from depths.csv out");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("State what no heading says"), HasSubstr("pressure: "),
+                             HasSubstr("radius: "), HasSubstr("clearance: "),
+                             HasSubstr("contact: "), HasSubstr("It does not run yet")));
+  const CommandResult fit = here("fit out/study.toml");
+  EXPECT_EQ(fit.exit_code, 2);
+  EXPECT_THAT(fit.err, AllOf(HasSubstr("nobody has stated conditions.pressure (like \"1.5 MPa\"), "
+                                       "conditions.radius (like \"10 mm\"), conditions.clearance "),
+                             HasSubstr("conditions.contact")));
+  EXPECT_FALSE(std::filesystem::exists(folder() / "study-results"));
+  std::string study = content("out/study.toml");
+  for (const auto& [name, value] : {std::pair{"pressure", "1 MPa"},
+                                    {"radius", "10 mm"},
+                                    {"clearance", "30 um"},
+                                    {"contact", "stationary"}}) {
+    const std::string unstated = std::string(name) + " = \"?\"";
+    ASSERT_NE(study.find(unstated), std::string::npos) << unstated;
+    study.replace(study.find(unstated), unstated.size(),
+                  std::string(name) + " = \"" + value + "\"");
+    write("out/study.toml", study);
+    EXPECT_EQ(here("fit out/study.toml --quiet --draws 100 --no-report -o r").exit_code == 2,
+              study.find("= \"?\"") != std::string::npos)
+        << name;
+  }
+  write("volumes.csv", "cycles,worn volume [mm^3]\n1000,3\n2000,5\n3000,8\n");
+  EXPECT_EQ(here("new --from volumes.csv").exit_code, 1);
+  EXPECT_THAT(here("fit volumes-study/study.toml").err,
+              HasSubstr("nobody has stated conditions.work_per_cycle"));
+}
+
+// What stands in brackets is a unit, or is said to be none.
+TEST_F(NewFrom, BracketsAreNeverDropped) {
+  const auto asked = [&](const std::string& heading) {
+    std::filesystem::remove_all(folder() / "out");
+    write("d.csv", "revolutions," + heading +
+                       ",pressure [MPa],radius [mm],clearance [um],contact\n"
+                       "50000,16.7,1,10,30,stationary\n100000,31.9,1,10,30,stationary\n");
+    return here("new bearing out --from d.csv");
+  };
+  EXPECT_THAT(asked("Wear [mil]").out, HasSubstr("column 'Wear [mil]' in mil"));
+  EXPECT_THAT(asked("Wear [mikron]").out, HasSubstr("column 'Wear [mikron]' in mikron"));
+  for (const std::string bracket : {"[left]", "[x1000 mm]", "(left)", "[N]"}) {
+    const CommandResult run = asked("Wear " + bracket);
+    EXPECT_EQ(run.exit_code, 1) << run.out;
+    EXPECT_THAT(run.out, AllOf(HasSubstr("column 'Wear " + bracket + "': "),
+                               HasSubstr("expected one like 'm'"), Not(HasSubstr("has no unit in")),
+                               Not(HasSubstr("is a guess"))))
+        << bracket;
+    EXPECT_EQ(here("fit out/study.toml").exit_code, 2) << bracket;
+  }
 }
 
 TEST_F(NewFrom, RefusesWhatSaysNothing) {

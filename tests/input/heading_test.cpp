@@ -101,6 +101,44 @@ TEST_F(HeadingTest, WhatIsNoUnit) {
   EXPECT_THAT(refused("n [1/s]", "V = 'n'", "rev/s"), HasSubstr("write rev/s (rpm, Hz) or rad/s"));
 }
 
+// What stands in brackets is a unit or an error. A mil is 25.4 um (NIST SP 811, appendix B.8).
+TEST_F(HeadingTest, BracketsAreNeverDropped) {
+  for (const std::string mil : {"Wear [mil]", "Wear [mils]", "Wear (mil)", "Wear [thou]"})
+    EXPECT_THAT(read(mil, "V = '" + mil + "'", "m"),
+                ElementsAre(DoubleEq(2 * 25.4e-6), DoubleEq(3 * 25.4e-6)))
+        << mil;
+  for (const std::string micrometre :
+       {"Wear [mikron]", "Wear [Mikron]", "Wear (microns)", "Wear [Mikrometer]"})
+    EXPECT_THAT(read(micrometre, "V = '" + micrometre + "'", "m"),
+                ElementsAre(DoubleEq(2e-6), DoubleEq(3e-6)))
+        << micrometre;
+  EXPECT_THAT(read("Wear [um] (left)", "V = 'Wear [um] (left)'", "m"),
+              ElementsAre(DoubleEq(2e-6), DoubleEq(3e-6)));
+  EXPECT_THAT(refused("Wear [left]", "V = 'Wear'", "m"),
+              AllOf(HasSubstr("column 'Wear [left]': 'left' is not a unit (expected one like 'm'"),
+                    HasSubstr("state the unit: V = { column = \"Wear [left]\", unit = \"m\" }")));
+  EXPECT_THAT(refused("Wear [left] of pin", "V = 'Wear [left] of pin'", "m"),
+              HasSubstr("'left' is not a unit"));
+  EXPECT_THAT(refused("Wear [milimeter]", "V = 'Wear'", "m"),
+              HasSubstr("'milimeter' is not a unit"));
+  EXPECT_THAT(refused("Wear [microm]", "V = 'Wear'", "m"), HasSubstr("did you mean 'micron'?"));
+  EXPECT_THAT(refused("Wear [x1000 mm]", "V = 'Wear'", "m"),
+              AllOf(HasSubstr("'x1000 mm' is not a unit"), HasSubstr("did you mean '1000 mm'?")));
+  EXPECT_THAT(refused("life (x1000)", "V = 'life'", "cycle"),
+              AllOf(HasSubstr("'x1000' is not a unit"), HasSubstr("did you mean '1000'?")));
+  // The study may state the unit of a column whose brackets hold a remark; a factor is no remark.
+  EXPECT_THAT(read("Wear [left]", "V = { column = 'Wear [left]', unit = 'um' }", "m"),
+              ElementsAre(DoubleEq(2e-6), DoubleEq(3e-6)));
+  EXPECT_THAT(refused("Wear [x1000 mm]", "V = { column = 'Wear', unit = 'mm' }", "m"),
+              HasSubstr("is in x1000 mm by its heading, and mm is given as its unit"));
+  EXPECT_THAT(read("Wear [x1000 mm]", "V = { column = 'Wear', unit = '1000 mm' }", "m"),
+              ElementsAre(DoubleEq(2), DoubleEq(3)));
+  EXPECT_THAT(refused("Wear [mil]", "V = { column = 'Wear', unit = 'um' }", "m"),
+              HasSubstr("(1 mil is 25.4 um)"));
+  // Within other brackets they are part of a name.
+  EXPECT_EQ(read_heading("a (log10[MPa])", "").unit, "");
+}
+
 // A unit in a heading means what it means in a study, however the heading has it.
 RC_GTEST_PROP(Heading, MeansWhatAStudyWouldMean, ()) {
   struct Kind {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <boost/algorithm/string/erase.hpp>
 #include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/trim.hpp>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 
 // Longer than others: every way to refuse or read a unit looks at the same parsed text.
@@ -77,35 +77,6 @@ double rotation_factor(const ParsedUnit& unit, const Dimension& wanted, int rota
   return std::pow(two_pi, in_turns ? rotations : -rotations);
 }
 
-constexpr std::size_t most_letters = 8;
-
-// The same letters with other capitals that are a unit of this dimension, fewest changes first:
-// "MPa" and "mPa" of "mpa".
-std::string other_capitals(const std::string& written, const Dimension& wanted) {
-  std::vector<std::size_t> letters;
-  for (std::size_t i = 0; i < written.size(); ++i) {
-    if (std::isalpha(static_cast<unsigned char>(written[i]))) letters.push_back(i);
-  }
-  if (letters.size() > most_letters) return {};
-  std::vector<std::pair<int, std::string>> found;
-  for (unsigned change = 1; change < 1U << letters.size(); ++change) {
-    std::string candidate = written;
-    for (std::size_t i = 0; i < letters.size(); ++i) {
-      if (change >> i & 1U) candidate[letters[i]] = static_cast<char>(candidate[letters[i]] ^ 0x20);
-    }
-    const auto unit = parse_unit(candidate);
-    if (unit && unit->linear && unit->dimension == wanted)
-      found.emplace_back(std::popcount(change), candidate);
-  }
-  if (found.empty()) return {};
-  std::sort(found.begin(), found.end());
-  constexpr std::size_t most_shown = 2;
-  std::string hint = "; did you mean '" + found.front().second + "'";
-  for (std::size_t i = 1; i < std::min(found.size(), most_shown); ++i)
-    hint += " or '" + found[i].second + "'";
-  return hint + "?";
-}
-
 [[noreturn]] void refuse_dimension(const Dimension& dimension, const Dimension& wanted,
                                    std::string_view written, std::string_view si) {
   Dimension reciprocal = dimension;
@@ -126,7 +97,7 @@ std::string other_capitals(const std::string& written, const Dimension& wanted) 
     const auto hinted = parse_unit(hint);
     hint = hinted && hinted->dimension == wanted ? fmt::format("; did you mean '{}'?", hint) : "";
   }
-  if (hint.empty()) hint = other_capitals(std::string(written), wanted);
+  if (hint.empty()) hint = unit_hint(std::string(written), wanted);
   throw InputError(
       fmt::format("unit '{}' {} (expected one like '{}'{})", written, fault, example(si), hint));
 }
@@ -177,7 +148,7 @@ Unit read_linear(const std::string& written, std::string_view si, double value) 
     const std::string sizes = two_sizes(written);
     throw InputError(sizes.empty()
                          ? fmt::format("'{}' is not a unit (expected one like '{}'{})", written,
-                                       example(si), other_capitals(written, wanted->dimension))
+                                       example(si), unit_hint(written, wanted->dimension))
                          : fmt::format("'{}' has two sizes: {}", written, sizes));
   }
   if (!unit->linear) {

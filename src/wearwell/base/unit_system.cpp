@@ -33,7 +33,7 @@ struct Name {
   const char* symbol;
   const char* meaning;
 };
-constexpr std::array<Name, 21> ours = {{{"reversal", "0.5 cycle"},
+constexpr std::array<Name, 29> ours = {{{"reversal", "0.5 cycle"},
                                         {"reversals", "0.5 cycle"},
                                         {"hertz", "cycle/s"},
                                         {"Hz", "cycle/s"},
@@ -53,15 +53,22 @@ constexpr std::array<Name, 21> ours = {{{"reversal", "0.5 cycle"},
                                         {"hrs", "h"},
                                         {"mins", "min"},
                                         {"thou", "0.001 inch"},
+                                        {"mil", "0.001 inch"},
+                                        {"mils", "0.001 inch"},
+                                        {"mikron", "um"},
+                                        {"Mikron", "um"},
+                                        {"mikrons", "um"},
+                                        {"Mikrons", "um"},
+                                        {"mikrometer", "um"},
+                                        {"Mikrometer", "um"},
                                         {"permil", "0.001"}}};
 
 struct TwoSizes {
   std::string_view word;
   const char* sizes;
 };
-constexpr std::array<TwoSizes, 8> ambiguous = {{
+constexpr std::array<TwoSizes, 7> ambiguous = {{
     {"ton", "a metric ton is 1000 kg, a short ton 907.185 kg; write t or short_ton"},
-    {"mil", "a thousandth of an inch is 25.4 um, a millimetre 1000 um; write thou or mm"},
     {"gr", "a gram is 1 g, a grain 0.0648 g; write g or grain"},
     {"ppt", "a part per thousand is 1e-3, one per trillion 1e-12; write the number"},
     {"oz", "an ounce is 28.35 g, a fluid ounce 29.57 cm^3; write avoirdupois_ounce or fluid_ounce"},

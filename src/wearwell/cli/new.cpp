@@ -85,6 +85,8 @@ int run_from(NewOptions options, Models models) {
   for (const std::string& each : first.taken) text += wrapped(each, 2, 4);
   if (!first.guesses.empty()) text += "Look at what is a guess:\n";
   for (const std::string& each : first.guesses) text += wrapped(each, 2, 4);
+  if (!first.unstated.empty()) text += "State what no heading says:\n";
+  for (const std::string& each : first.unstated) text += wrapped(each, 2, 4);
   fmt::print("{}", printable_lines(text));
   try {
     read_study(source_of(study), models)->in_words();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/heading.h"
 
@@ -71,6 +72,15 @@ std::optional<NamedColumn> read_name(const TomlReader& columns, const std::strin
 
 }  // namespace
 
+std::string no_unit_of(const Table& table, const Column& column, const std::string& name,
+                       const std::string& unit, const std::string& why) {
+  return fmt::format(
+      "{}, column '{}': {}. What stands in brackets{} is the column's unit; where it is a remark, "
+      "state the unit: {} = {{ column = \"{}\", unit = \"{}\" }}",
+      table.source, column.name, why, column.unit.empty() ? "" : " or in the row of units", name,
+      column.name, unit);
+}
+
 Unit column_unit(const Table& table, const Column& column, const std::string& si,
                  const std::optional<Unit>& given) {
   const WrittenUnit written = written_unit(column, si);
@@ -78,10 +88,11 @@ Unit column_unit(const Table& table, const Column& column, const std::string& si
     if (written.text.empty()) return Unit{"1", 1, 0};
     return read_written(table, column, written.text, si);
   }
-  // In brackets there may stand what is no unit: "volume [corrected]".
-  if (written.text.empty() || !is_any_unit(written.text)) return *given;
+  // In brackets there may stand what is no unit: "volume [corrected]". A factor is part of one.
+  const std::string text = without_times(written.text);
+  if (text.empty() || !is_any_unit(text)) return *given;
   if (written.may_be_index) return *given;
-  const Unit read = read_written(table, column, written.text, si);
+  const Unit read = read_written(table, column, text, si);
   if (!same(read, *given))
     throw InputError(fmt::format(
         "{0}, column '{1}' is in {2} by its {3}, and {4} is given as its unit (1 {2} is {5:.6g} "
@@ -102,6 +113,13 @@ std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::st
     columns.fail(name, fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}, or "
                                    "'{} [{}]' as the heading in {}",
                                    name, column.name, si, column.name, si, table.source));
+  }
+  if (!named->unit && !written.text.empty() && !is_any_unit(written.text)) {
+    try {
+      read_unit(written.text, si);
+    } catch (const InputError& error) {
+      columns.fail(name, no_unit_of(table, column, name, si, error.what()));
+    }
   }
   return ColumnChoice{column.name, column_unit(table, column, si, named->unit)};
 }

@@ -33,6 +33,11 @@ std::optional<ColumnChoice> read_word_column(const TomlReader& columns, const st
 Unit column_unit(const Table& table, const Column& column, const std::string& si,
                  const std::optional<Unit>& given);
 
+/// What is said of a column `name` in whose heading there stands in brackets what is no unit, `why`:
+/// the heading, and how a study states the unit, one like `unit`.
+std::string no_unit_of(const Table& table, const Column& column, const std::string& name,
+                       const std::string& unit, const std::string& why);
+
 /// A cell as a word: a number is written as short as it can be, and empty where there is none.
 std::string cell_word(const Column& column, std::size_t row);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 
 namespace wearwell {
@@ -56,6 +57,20 @@ std::optional<Heading> in_brackets(std::string_view text, char open, char close)
                  false};
 }
 
+/// Square brackets with words behind: "depth [um] (left)", but not "a (log10[MPa])".
+std::optional<Heading> within(const std::string& text) {
+  const std::size_t last = text.rfind(']');
+  if (last == text.npos) return {};
+  auto found = in_brackets(text.substr(0, last + 1), '[', ']');
+  if (!found) return {};
+  const auto count = [&](char c) { return std::count(found->name.begin(), found->name.end(), c); };
+  if (count('(') != count(')')) return {};
+  found->name = trimmed(found->name + text.substr(last + 1));
+  found->unit = bare_unit(found->unit);
+  found->certain = true;
+  return found;
+}
+
 }  // namespace
 
 Heading read_heading(std::string_view heading, std::string_view si) {
@@ -69,7 +84,8 @@ Heading read_heading(std::string_view heading, std::string_view si) {
     found->unit = bare_unit(found->unit);
     if (found->name.ends_with('/'))
       found->name = trimmed(found->name.substr(0, found->name.size() - 1));
-    if (is_unit(found->unit, si)) return *found;
+    found->certain = without_times(found->unit) != found->unit;
+    if (found->certain || is_unit(found->unit, si)) return *found;
   }
   // The longest unit first: "speed in 1/min" is no "speed in 1" in minutes.
   constexpr std::array<std::string_view, 4> separators = {" / ", " in ", ", ", "/"};
@@ -84,6 +100,7 @@ Heading read_heading(std::string_view heading, std::string_view si) {
     const Heading found{text.substr(0, at), text.substr(at + 1), false, true};
     if (is_unit(found.unit, si, true)) return found;
   }
+  if (const auto found = within(text)) return *found;
   return {text, "", false};
 }
 

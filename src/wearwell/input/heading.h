@@ -8,13 +8,14 @@
 
 namespace wearwell {
 
-/// A heading and the unit that stands in it: "volume [mm³]", "volume (mm³)", "volume / mm³",
-/// "volume in mm³", "volume, mm³", "volume_mm3".
+/// A heading and the unit that stands in it: "volume [mm³]", "volume [mm³] (left)", "volume (mm³)",
+/// "volume / mm³", "volume in mm³", "volume, mm³", "volume_mm3".
 struct Heading {
   std::string name;  ///< "volume"
   std::string unit;  ///< "mm³"; empty where there is none
-  /// Whether the heading says that it is a unit, by square brackets; the other ways may mean
-  /// something else, as in "life (N)" or "stress_a".
+  /// Whether the heading says that it is a unit, by square brackets or, as in "life (x1000)", by a
+  /// factor: it is one or an error. The other ways may mean something else, as in "life (N)" or
+  /// "stress_a".
   bool certain = false;
   bool suffix = false;  ///< the unit stands behind '_', where an index may stand as well
 };

@@ -32,12 +32,21 @@ std::string plain_powers(std::string text) {
   return text;
 }
 
+// What stands in the last brackets of a heading.
+std::string bracketed(const std::string& heading) {
+  const std::size_t close = heading.find_last_of("])");
+  if (close == heading.npos) return "";
+  const std::size_t open = heading.rfind(heading[close] == ']' ? '[' : '(', close);
+  return open == heading.npos ? "" : bare_unit(heading.substr(open + 1, close - open - 1));
+}
+
 // Name and unit of a heading; no unit where it has none of the dimension. Words may stand behind
 // brackets, and a unit behind a blank alone.
 Heading named(const std::string& heading, std::string_view si) {
   const std::size_t close = heading.find_last_of("])");
   const bool brackets = close != heading.npos && heading.find_first_of("[(") < close;
-  Heading found = read_heading(brackets ? heading.substr(0, close + 1) : heading, si);
+  Heading found = read_heading(heading, si);
+  if (brackets && found.unit.empty()) found = read_heading(heading.substr(0, close + 1), si);
   found.unit = plain_powers(found.unit);
   if (found.certain && !is_unit(found.unit, si)) found.unit.clear();
   if (brackets || !found.unit.empty()) return found;
@@ -131,6 +140,18 @@ std::optional<HeadingGuesses::Found> HeadingGuesses::take(
   found.column = find(si, names, numbers, unit);
   if (!found.column) return {};
   used_.push_back(found.column);
+  const std::string brackets = unit.empty() ? bracketed(found.column->name) : "";
+  if (!brackets.empty() && found.column->unit.empty()) {
+    try {
+      read_unit(brackets, si);
+    } catch (const InputError& error) {
+      if (!may_be_plain(si)) {
+        taken.push_back(fmt::format("{}: column '{}'", what, found.column->name));
+        unstated.push_back(fmt::format("column '{}': {}", found.column->name, error.what()));
+        return found;
+      }
+    }
+  }
   found.unit_guessed = unit.empty() && !may_be_plain(si);
   found.unit = unit.empty() ? std::string(usual) : unit;
   taken.push_back(fmt::format("{}: column '{}'{}", what, found.column->name,
@@ -147,8 +168,15 @@ std::string HeadingGuesses::line(const std::string& name, const Found& found) {
                      toml_text(found.unit), found.unit_guessed ? "    # the unit is a GUESS" : "");
 }
 
+std::string HeadingGuesses::unstated_line(const std::string& name, const std::string& what,
+                                          const std::string& like) {
+  unstated.push_back(fmt::format("{}: {}, like {}", name, what, toml_text(like)));
+  return fmt::format("{} = {}    # STATE IT: {}, like {}\n", name, toml_text(not_stated), what,
+                     toml_text(like));
+}
+
 FirstStudy HeadingGuesses::study(std::string text) const {
-  FirstStudy study{std::move(text), taken, guesses};
+  FirstStudy study{std::move(text), taken, guesses, unstated};
   for (const Column& column : table_.columns) {
     if (std::find(used_.begin(), used_.end(), &column) == used_.end())
       study.guesses.push_back(fmt::format("column '{}' is not used", column.name));

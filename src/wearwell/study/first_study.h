@@ -9,11 +9,16 @@
 
 namespace wearwell {
 
+/// The value of a condition that nobody has stated yet: `read_study` refuses it.
+inline constexpr const char* not_stated = "?";
+
 /// A study written from the headings of a table, with what of it is a guess.
 struct FirstStudy {
   std::string text;                       ///< TOML
   std::vector<std::string> taken;         ///< "volume: column 'worn volume' in mm^3"
   std::vector<std::string> guesses = {};  ///< what no heading says, in sentences: to be looked at
+  /// What no heading says and nothing can be guessed of: the study does not run until it is stated.
+  std::vector<std::string> unstated = {};
 };
 
 /// Columns of a table by what people call them: words in lower case, of any language, told apart from
@@ -38,8 +43,13 @@ class HeadingGuesses {
   /// guess.
   static std::string line(const std::string& name, const Found& found);
 
-  /// What was taken, and what was guessed.
-  std::vector<std::string> taken, guesses;
+  /// "radius = "?"", with a comment: a condition that no heading names. `like`: a value that it may
+  /// have.
+  std::string unstated_line(const std::string& name, const std::string& what,
+                            const std::string& like);
+
+  /// What was taken, what was guessed, and what is left to be stated.
+  std::vector<std::string> taken, guesses, unstated;
 
   /// The study of that text, with these and the headings that nobody asked for.
   FirstStudy study(std::string text) const;

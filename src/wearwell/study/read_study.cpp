@@ -5,6 +5,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/study/first_study.h"
 #include "wearwell/study/model.h"
 
 namespace wearwell {
@@ -29,12 +30,32 @@ const Model& model_of(const TomlReader& root, Models models) {
                        [&](const Model& each) { return each.key == *name; });
 }
 
+// Conditions that nobody has stated yet are no ground for a result.
+void require_stated(const TomlReader& root, const StudyKeys& keys) {
+  std::vector<std::string> missing;
+  for (const TomlReader::Present& each : root.present()) {
+    const bool unit = each.path.starts_with("data.columns.") && each.path.ends_with(".unit");
+    if (each.text != not_stated || !(unit || each.path.starts_with("conditions."))) continue;
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const StudyKey& known) {
+      return matches_key(known.path, each.path);
+    });
+    missing.push_back(each.path + (key == keys.end() || key->example.empty() || unit
+                                       ? ""
+                                       : fmt::format(" (like {})", key->example)));
+  }
+  if (missing.empty()) return;
+  throw InputError(fmt::format("{}: nobody has stated {}; write {} in place of \"{}\"", root.file(),
+                               fmt::join(missing, ", "), missing.size() > 1 ? "each" : "it",
+                               not_stated));
+}
+
 }  // namespace
 
 std::unique_ptr<const Study> read_study(const Source& source, Models models) {
   const TomlReader root = TomlReader::parse(source.study);
   const Model& model = model_of(root, models);
   const StudyKeys keys = model.keys ? model.keys() : StudyKeys();
+  require_stated(root, keys);
   std::unique_ptr<const Study> study;
   try {
     study = model.read(root, source);

@@ -263,7 +263,8 @@ at = ["40 km"]
 
 TEST_F(OwnStudy, UnitsStandInHeadingsToo) {
   write("wear.csv", "d [um],s [km],corrected [yes]\n1.1,1,1\n1.9,2,1\n3.2,3,2\n");
-  const auto study = [](const char* depth, const char* path) {
+  const char* const named_flag = "{ column = \"corrected [yes]\", unit = \"1\" }";
+  const auto study = [&](const char* depth, const char* path, const char* flag) {
     return fmt::format(R"toml(
 model = "law"
 [data]
@@ -271,7 +272,7 @@ file = "wear.csv"
 [data.columns]
 depth = {}
 path = {}
-flag = "corrected [yes]"
+flag = {}
 [likelihood.depth]
 family = "normal"
 mean = "k*path*flag^0"
@@ -280,18 +281,25 @@ sd = "sigma"
 k = {{ law = "half-normal", scale = "1 um/km" }}
 sigma = {{ law = "half-normal", scale = "1 um" }}
 )toml",
-                       depth, path);
+                       depth, path, flag);
   };
   const char* const named_depth = "{ column = \"d [um]\", unit = \"um\" }";
   const char* const named_path = "{ column = \"s [km]\", unit = \"km\" }";
-  const PosteriorSummary said = run(study(named_depth, named_path));
-  const PosteriorSummary read = run(study("\"d [um]\"", "\"s\""));
+  const PosteriorSummary said = run(study(named_depth, named_path, named_flag));
+  const PosteriorSummary read = run(study("\"d [um]\"", "\"s\"", named_flag));
   EXPECT_EQ(said.parameters[0].exact->mean, read.parameters[0].exact->mean);
   EXPECT_EQ(said.data_fingerprint, read.data_fingerprint);
   EXPECT_NEAR(read.parameters[0].exact->mean, 1.02, 0.1);
-  const std::string refused = refusal(study(named_depth, "{ column = \"s [km]\", unit = \"m\" }"));
+  const std::string refused =
+      refusal(study(named_depth, "{ column = \"s [km]\", unit = \"m\" }", named_flag));
   EXPECT_NE(refused.find("'s [km]' is in km by its heading, and m is given"), std::string::npos)
       << refused;
+  // What stands in brackets is a unit, unless the study states it.
+  const std::string remark = refusal(study(named_depth, named_path, "\"corrected [yes]\""));
+  EXPECT_NE(remark.find("column 'corrected [yes]': 'yes' is not a unit"), std::string::npos)
+      << remark;
+  EXPECT_NE(remark.find("flag = { column = \"corrected [yes]\", unit = \"1\" }"), std::string::npos)
+      << remark;
 }
 
 // Lasers of Meeker and Escobar (1998), straight paths: what is known of a path ahead is what is known of

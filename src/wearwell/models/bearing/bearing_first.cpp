@@ -32,11 +32,8 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
     if (found) columns += HeadingGuesses::line(name, *found);
     return found;
   };
-  const auto or_guess = [&](bool found, const char* name, const char* guess, const char* what) {
-    if (found) return;
-    conditions += fmt::format("{} = \"{}\"    # a GUESS: {}\n", name, guess, what);
-    headings.guesses.push_back(
-        fmt::format("no heading names the {}: {} = \"{}\" is a guess", what, name, guess));
+  const auto or_state = [&](bool found, const char* name, const char* like, const char* what) {
+    if (!found) conditions += headings.unstated_line(name, what, like);
   };
   const auto revolutions = column("revolutions", "rev", "1",
                                   {"revolutions", "turns", "umdrehungen", "rev", "cycles", "giri"});
@@ -46,7 +43,7 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
                   {"time", "duration", "hours", "zeit", "laufzeit", "stunden", "temps"});
     if (!time) return {};
     speed = column("speed", "rev/s", "rpm", {"speed", "drehzahl", "rpm", "vitesse"});
-    or_guess(speed.has_value(), "speed", "60 rpm", "speed of the journal");
+    or_state(speed.has_value(), "speed", "60 rpm", "speed of the journal");
   }
   const auto pressure =
       column("pressure", "Pa", "MPa", {"pressure", "flächenpressung", "pressung", "pression"});
@@ -56,19 +53,20 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
     if (force) {
       const auto length =
           column("length", "m", "mm", {"bearing length", "length", "width", "länge", "breite"});
-      or_guess(length.has_value(), "length", "20 mm", "length of the bearing");
+      or_state(length.has_value(), "length", "20 mm", "length of the bearing");
     } else {
-      or_guess(false, "pressure", "1 MPa", "pressure, force over projected area");
+      or_state(false, "pressure", "1 MPa", "pressure, force over projected area");
     }
   }
   const auto clearance =
       column("clearance", "m", "um", {"radial clearance", "clearance", "spiel", "lagerspiel"});
   const auto radius =
       column("radius", "m", "mm", {"journal radius", "radius", "shaft radius", "wellenradius"});
-  or_guess(radius.has_value(), "radius", "10 mm", "radius of the journal");
-  or_guess(clearance.has_value(), "clearance", "30 um", "radial clearance");
-  or_guess(false, "contact", "stationary",
-           "contact: stationary (a scar in the bushing), journal or bushing");
+  or_state(radius.has_value(), "radius", "10 mm", "radius of the journal");
+  or_state(clearance.has_value(), "clearance", "30 um", "radial clearance");
+  const auto contact = column("contact", "1", "1", {"contact", "kontakt"}, false);
+  or_state(contact.has_value(), "contact", "stationary",
+           "what the load turns with: stationary (a scar in the bushing), journal or bushing");
   const auto bearing = column("bearing", "1", "1",
                               {"bearing", "bearing id", "lager", "specimen", "probe", "id"}, false);
   columns += HeadingGuesses::line("depth", *depth);

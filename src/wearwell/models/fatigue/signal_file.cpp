@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
+#include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/heading.h"
 
@@ -76,7 +77,12 @@ void SignalFile::choose(const SignalChoice& choice) {
     if (column.is_number && choice.time.empty() && column.name != column_ && is_time(column))
       unread_times_ = column.name;
   unit_ = load_heading(*chosen).unit;
-  if (choice.unit.empty()) return;
+  if (choice.unit.empty()) {
+    if (!unit_.empty() && !parse_unit(unit_))
+      throw InputError(fmt::format("{}, column '{}': '{}' is no unit{}; say the unit: --unit UNIT",
+                                   source(), column_, unit_, unit_hint(unit_, std::nullopt)));
+    return;
+  }
   const auto wanted = parse_unit(choice.unit);
   if (!wanted) throw InputError(fmt::format("--unit: '{}' is no unit", choice.unit));
   const auto said = unit_.empty() ? std::nullopt : parse_unit(unit_);

@@ -34,15 +34,9 @@ std::optional<FirstStudy> first_study(const Table& table, const std::string& fil
     columns += HeadingGuesses::line("force", *force) + HeadingGuesses::line("slip", *slip);
   std::string conditions;
   if (!work && !slip) {
-    conditions =
-        "\n[conditions]\n"
-        "work_per_cycle = \"1 N m\"               # a GUESS: the table has no friction work; put "
-        "force "
-        "times slip of one cycle here\n";
-    headings.guesses.push_back(
-        "no heading names friction work, or force and sliding distance: work_per_cycle is 1 N m "
-        "until "
-        "you put the work of one cycle there; k is the volume of a cycle till then");
+    conditions = "\n[conditions]\n" +
+                 headings.unstated_line("work_per_cycle",
+                                        "friction work of one cycle, force times slip", "5 N m");
   }
   const auto values = values_of(*cycles->column);
   const double last = values.empty() ? 1 : *std::max_element(values.begin(), values.end());

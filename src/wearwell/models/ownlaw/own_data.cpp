@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/heading.h"
@@ -225,21 +226,21 @@ void OwnData::require_complete(const NumberColumn& column) const {
 namespace {
 
 // Whether the table has a unit for the column: in a row of units, or in square brackets in the
-// heading, where other words may stand as well.
+// heading.
 bool says_unit(const Column& column) {
   return !column.unit.empty() || read_heading(column.name, "").certain;
 }
 
-law::AnyUnit written_unit(const Table& table, const Column& column) {
+law::AnyUnit written_unit(const Table& table, const Column& column, const std::string& name) {
   if (!says_unit(column)) return law::read_any_unit("1");
   const bool row = !column.unit.empty();
   const Heading heading = read_heading(column.name, "");
   const std::string text = row ? bare_unit(column.unit) : heading.unit;
-  if (!row && !parse_unit(text)) return law::read_any_unit("1");
   try {
     return law::read_any_unit(text);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}, column '{}': {}", table.source, column.name, error.what()));
+    throw InputError(
+        no_unit_of(table, column, name, "1", error.what() + unit_hint(text, std::nullopt)));
   }
 }
 
@@ -290,7 +291,7 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
       data.labels.push_back(read_labels(data.table, name, *column));
     } else {
       if (!unit) {
-        unit = written_unit(data.table, *column);
+        unit = written_unit(data.table, *column, name);
       } else if (const std::string si = si_of(*unit); !si.empty() && says_unit(*column)) {
         unit->unit = column_unit(data.table, *column, si, unit->unit);  // refuses what contradicts
       }
