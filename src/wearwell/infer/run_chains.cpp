@@ -21,14 +21,19 @@
 namespace wearwell {
 namespace {
 
-// As Stan does on its own scale: uniform on (-2, 2) in every direction, until inside the support.
+// As Stan does on its own scale: uniform on (-2, 2) in every direction, until inside the support,
+// where the density has a gradient too.
 Eigen::VectorXd random_start(const LogDensity& whitened, Rng& rng) {
-  Eigen::VectorXd u(whitened.dimension());
+  Eigen::VectorXd u(whitened.dimension()), slope(whitened.dimension());
   for (int attempt = 0; attempt < 100; ++attempt) {
     for (double& each : u) each = rng.uniform(-2, 2);
-    if (std::isfinite(whitened.value(view(u)))) return u;
+    if (std::isfinite(whitened.value(view(u))) &&
+        std::isfinite(whitened.value_and_gradient(view(u), view(slope))))
+      return u;
   }
-  throw InputError("no start with a positive posterior density in 100 attempts");
+  throw InputError(
+      "no start with a positive posterior density and a finite gradient in 100 attempts: are the "
+      "units of data and priors right?");
 }
 
 // About the maximum that is chain c's, in the coordinates of `whitening`.

@@ -94,12 +94,20 @@ void refuse_thousands_marks(const Table& table, const Column& column) {
 
 }  // namespace
 
+namespace {
+
+// Cubes of what is measured, and their reciprocals, are doubles. Plain numbers may be of any size.
+constexpr double smallest_si = 1e-100, largest_si = 1e100;
+
+}  // namespace
+
 std::vector<double> si_numbers(const Table& table, std::string_view name, const Unit& unit) {
   const Column& column = table.column(name);
   std::vector<double> values;
   values.reserve(table.rows);
   for (std::size_t i = 0; i < table.rows; ++i) values.push_back(cell_number(table, column, i));
   if (!column.is_number && !column.marks) refuse_thousands_marks(table, column);
+  const bool measured = unit.text != "1";
   for (std::size_t i = 0; i < table.rows; ++i) {
     if (!std::isfinite(values[i])) {
       throw InputError(
@@ -107,9 +115,15 @@ std::vector<double> si_numbers(const Table& table, std::string_view name, const 
                       std::isnan(values[i]) ? "no value (empty or NaN)" : "the value is infinite"));
     }
     const double si = to_si(unit, values[i]);
-    if (!std::isfinite(si))
+    if (!std::isfinite(si) || (measured && !(std::abs(si) < largest_si)))
       throw InputError(fmt::format("{}: {} {} is too large a number", place(table, name, i),
                                    values[i], unit.text));
+    if (measured && si != 0 && std::abs(si) < smallest_si)
+      throw InputError(
+          fmt::format("{}: {} {} is too small a number to compute with, {:.3g} in SI units (0, or "
+                      "from {:.0e} on); "
+                      "is the unit right?",
+                      place(table, name, i), values[i], unit.text, si, smallest_si));
     values[i] = si;
   }
   return values;
