@@ -17,6 +17,7 @@
 #include "wearwell/study/inference_data.h"
 #include "wearwell/study/posterior_study.h"
 #include "wearwell/study/result_writer.h"
+#include "wearwell/study/run_study.h"
 
 namespace wearwell {
 namespace {
@@ -47,6 +48,10 @@ int run_fit(const FitOptions& options, Models models) {
   const auto* const of_posterior = dynamic_cast<const PosteriorStudy*>(study.get());
   std::optional<Source> carried;
   if (of_posterior) carried = prognosis::carried_source(source, *of_posterior);
+  if (of_posterior && !options.quiet) {
+    const std::string note = method_note(*of_posterior, options.sampler);
+    if (!note.empty()) fmt::print(stderr, "wearwell: {}\n", note);
+  }
   ResultFolder folder(output);
   std::optional<StagedFile> draws;
   if (netcdf) draws.emplace(options.netcdf);
@@ -88,7 +93,7 @@ void add_fit_command(CLI::App& app, Models models, int& exit_code) {
   fit->add_option("-o,--output", options->output,
                   "Folder for the results (default: STUDY-results here)");
   fit->add_option("--method", options->method,
-                  "How draws are made (default nuts); exact: up to 4 parameters")
+                  "How draws are made (default nuts); exact: by quadrature, up to 4 parameters")
       ->check(one_of({"nuts", "metropolis", "exact"}))
       ->type_name("METHOD");
   fit->add_option("--chains", options->sampler.chains, "Independent chains (default 4)")

@@ -195,6 +195,12 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const Shape& shape
 
 }  // namespace
 
+std::string beyond_quadrature(std::size_t parameters) {
+  if (parameters <= max_exact_dimension) return "";
+  return fmt::format("{} parameters are more than quadrature reaches ({})", parameters,
+                     max_exact_dimension);
+}
+
 bool proper(const Fit& fit) {
   return all_integrable(fit.tails);
 }
@@ -303,8 +309,7 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
   };
   ExactPosterior integral;
   if (posterior.dimension() > max_exact_dimension) {
-    fit.no_exact = fmt::format("{} parameters are more than quadrature reaches ({})",
-                               posterior.dimension(), max_exact_dimension);
+    fit.no_exact = beyond_quadrature(posterior.parameters().size());
   } else if (!all([](const Tail& t) { return t.integrable(); })) {
     fit.no_exact = "the posterior is improper";
   } else if (posterior.dimension() > most_slow_dimension && posterior.likelihood()->is_slow()) {

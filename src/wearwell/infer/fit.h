@@ -67,6 +67,9 @@ Chains chains_of(const Draws& draws, Eigen::Index parameter);
 /// Every tail of every parameter can be integrated.
 bool proper(const Fit& fit);
 
+/// Why quadrature is out of reach of so many parameters; empty where it is not.
+std::string beyond_quadrature(std::size_t parameters);
+
 /// Finds the mode, examines the tails, searches for other local maxima, integrates exactly when there are at most
 /// `max_exact_dimension` parameters and the posterior is proper, and draws.
 Fit fit(const Posterior& posterior, const FitSettings& settings);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/present/text_table.h"
 #include "wearwell/study/data_in_words.h"
 #include "wearwell/study/run_study.h"
 
@@ -82,7 +83,9 @@ std::string study_in_words(const PosteriorStudy& study) {
   out += study.stages && study.data_rows <= most_stages
              ? fmt::format("  after each of 1, 2, ... {} rows\n", study.data_rows)
              : fmt::format("  from all {} rows\n", study.data_rows);
-  const FitSettings settings = fit_settings(study, {});
+  FitSettings settings = fit_settings(study, {});
+  const std::string note = method_note(study, {});
+  if (!note.empty()) settings.method = Method::nuts;
   const RunSettings& run = settings.run;
   if (settings.method == Method::exact) {
     out += "  by quadrature";
@@ -92,6 +95,7 @@ std::string study_in_words(const PosteriorStudy& study) {
                        study.parameters.size() <= max_exact_dimension ? ", beside quadrature" : "");
   }
   out += fmt::format("; seed {}\n", run.seed);
+  if (!note.empty()) out += wrapped(note, 2, 4);
   if (!study.predictions.empty() || !study.quantities.empty() || !study.quantity_groups.empty() ||
       study.life) {
     out += "\nWill be predicted\n";

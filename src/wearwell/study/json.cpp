@@ -228,6 +228,7 @@ Json posterior_json(const PosteriorSummary& result) {
                  {"draws", result.draws},
                  {"seed", result.seed}}},
                {"parameters", to_json(result.parameters)}};
+  if (!result.method_note.empty()) json["sampler"]["note"] = result.method_note;
   if (result.mode) json["mode"] = to_json(*result.mode);
   if (result.loo) json["loo"] = to_json(*result.loo);
   Json stages = Json::array();

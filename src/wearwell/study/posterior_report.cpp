@@ -88,6 +88,7 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"verdict", "Verdict"};
   section.add(Prose{verdict_sentence(result), true});
   section.add(trust_callout(result.checks));
+  if (!result.method_note.empty()) section.add(Prose{result.method_note + "."});
   std::vector<html::Tile> tiles;
   if (result.life) add_life_tiles(*result.life, tiles);
   for (const QuantitySummary* each : headlines(result)) {

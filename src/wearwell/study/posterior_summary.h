@@ -236,7 +236,8 @@ struct PosteriorSummary {
   std::string version;
   std::string title, model, equation, data_file;
   std::size_t data_rows = 0;
-  std::string method;  ///< "exact", "nuts" or "metropolis"
+  std::string method;  ///< that made the draws: "exact" (quadrature), "nuts" or "metropolis"
+  std::string method_note = {};  ///< why it is not the one that was asked for; empty where it is
   int chains = 0, warmup = 0, draws = 0;
   std::uint64_t seed = 0;
   std::vector<ParameterSummary> parameters;

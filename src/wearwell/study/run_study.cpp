@@ -205,6 +205,24 @@ FitSettings fit_settings(const PosteriorStudy& study, const SamplerChoice& choic
   return settings;
 }
 
+namespace {
+
+std::string sampler_instead(const std::string& why) {
+  return why.empty() ? ""
+                     : fmt::format(
+                           "Method: NUTS, not quadrature, which --method exact asks for: {}; "
+                           "all numbers carry Monte Carlo error",
+                           why);
+}
+
+}  // namespace
+
+std::string method_note(const PosteriorStudy& study, const SamplerChoice& choice) {
+  return fit_settings(study, choice).method == Method::exact
+             ? sampler_instead(beyond_quadrature(study.parameters.size()))
+             : "";
+}
+
 const char* method_name(Method method) {
   switch (method) {
     case Method::exact:
@@ -231,6 +249,8 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
                   static_cast<std::size_t>(monitor.threads));
   }
   FitSettings settings = fit_settings(study, choice);
+  const bool wants_quadrature = settings.method == Method::exact;
+  if (!method_note(study, choice).empty()) settings.method = Method::nuts;
   Progress progress(monitor, "iterations");
   progress.expect(iterations(study, settings));
   settings.run.progress = &progress;
@@ -249,6 +269,7 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   }
 
   PosteriorSummary result = described(study, settings, posterior, final);
+  if (wants_quadrature) result.method_note = sampler_instead(final.no_exact);
   result.mode =
       summarize_mode(study, posterior, final, natural, observations_of(study, whole, loo));
   result.checks = all_checks(study, posterior, final, loo);

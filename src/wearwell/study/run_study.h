@@ -8,6 +8,10 @@ namespace wearwell {
 /// What the study and `choice` (which comes first) say of how to fit, with the method's defaults.
 FitSettings fit_settings(const PosteriorStudy& study, const SamplerChoice& choice);
 
+/// What is to be known before a run: that quadrature, which was asked for, does not reach the study
+/// and NUTS draws instead. Empty where the method is the one asked for.
+std::string method_note(const PosteriorStudy& study, const SamplerChoice& choice);
+
 /// Throws InputError where no posterior can be made of the study: prior, data and law contradict
 /// each other, at the end or at a stage.
 void require_posterior(const PosteriorStudy& study);

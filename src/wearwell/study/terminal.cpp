@@ -317,6 +317,7 @@ std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle
   std::string out =
       wrapped(printable(result.title), 0, 2) + wrapped(printable(result.equation), 2, 4) +
       wrapped(fmt::format("{}: {} rows", printable(result.data_file), result.data_rows), 2, 4);
+  if (!result.method_note.empty()) out += wrapped(result.method_note, 2, 4);
   const std::string trust = printable(trust_line(result.checks));
   out += "\n" + wrapped(trust, 0, 2);
   out += "\nAnswers\n" + answer_lines(result);
