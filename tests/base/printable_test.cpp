@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace wearwell {
 namespace {
 
@@ -42,6 +44,18 @@ TEST(Printable, ShowsBytesThatAreNoUtf8) {
   EXPECT_EQ(printable("\xe0\x80\x9b"), "\\xe0\\x80\\x9b");
   EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");
   EXPECT_EQ(printable("\xe2\x80"), "\\xe2\\x80");
+}
+
+// RFC 8259, 7: any character may be written by its number, and means the same.
+TEST(Printable, JsonReadsBackAsItWas) {
+  const nlohmann::json json = {{"a\u202eb", "\x1b[31m\x7f\u009b \u00b5m \u200f\u2068"},
+                               {"lines", 2}};
+  const std::string text = json.dump(2), shown = printable_json(text);
+  EXPECT_EQ(nlohmann::json::parse(shown), json);
+  EXPECT_EQ(printable_lines(shown), shown);
+  EXPECT_NE(shown.find("\\u202e"), std::string::npos);
+  EXPECT_NE(shown.find("\u00b5m"), std::string::npos);
+  EXPECT_EQ(printable_json("{\n  \"x\": 1\n}"), "{\n  \"x\": 1\n}");
 }
 
 TEST(Printable, KeepsLinesWhereTheyBelong) {

@@ -352,6 +352,103 @@ TEST_F(FitCommand, MistakenUnitsAreNamed) {
   EXPECT_THROW(check(found("400,8.2\n900,17.5\n1600,32.6\n", "mm^3"), "units"), std::runtime_error);
 }
 
+// Where cubes and squares of the data leave the range of doubles: one message, and no internal error.
+TEST_F(FitCommand, ValuesBeyondDoublesAreRefusedByName) {
+  for (const char* power : {"e-300", "e-120", "e-80"}) {
+    std::string table = "cycles,volume\n";
+    for (const char* row : {"1,4.44", "100,5.105", "1000,8.825", "5000,24.175", "10000,45.31"})
+      table += row + std::string(power) + "\n";
+    write("a.csv", table);
+    const auto study =
+        write("a.toml",
+              "model = \"archard-joint\"\n[data]\nfile = \"a.csv\"\n[data.columns]\ncycles = "
+              "\"cycles\"\nvolume = { column = \"volume\", unit = \"mm^3\" }\n[conditions]\n"
+              "work_per_cycle = \"5.966 N m\"\n[likelihood]\nfamily = \"lognormal\"\n[prior]\n"
+              "k = { law = \"flat\", lower = \"0 mm^3/(N m)\" }\n"
+              "sigma = { law = \"uniform\", lower = \"0 mm^3\", upper = \"7 mm^3\" }\n");
+    const CommandResult run = fit(study.string() + " --draws 100");
+    EXPECT_EQ(run.err.find("internal error"), std::string::npos) << run.err;
+    if (power == std::string("e-80")) {
+      EXPECT_LE(run.exit_code, 2) << run.err;
+    } else {
+      EXPECT_EQ(run.exit_code, 2);
+      EXPECT_THAT(run.err, HasSubstr("row 1, column 'volume': 4.44"));
+      EXPECT_THAT(run.err, HasSubstr("mm^3 is too small a number to compute with"));
+    }
+  }
+}
+
+// A label that commands a terminal (ECMA-48) or turns text round (Unicode Standard Annex 9) is the
+// same harmless text in every file, and a command finds it by that text and by what the table has.
+TEST_F(FitCommand, LabelsCommandNoTerminal) {
+  const std::string bearing = PROJECT_SOURCE_DIR "/examples/bearing/";
+  std::string table = slurp(bearing + "inspections.csv");
+  const std::string label = "\x1b]0;owned\x07\u202e\u200f!",
+                    shown = R"(\x1b]0;owned\x07\u202e\u200f!)";
+  for (std::size_t at = 0; (at = table.find("\nA,", at)) != table.npos; at += 3)
+    table.replace(at + 1, 1, label);
+  write("inspections.csv", table);
+  const auto study =
+      write("study.toml", slurp(bearing + "study.toml") + "life_of = '" + shown + "'\n");
+  ASSERT_LE(fit(study.string() + " --draws 100").exit_code, 1);
+  int files = 0;
+  for (const auto& each : fs::recursive_directory_iterator(results())) {
+    if (!each.is_regular_file() || each.path().filename() == "state.bin") continue;
+    ++files;
+    const std::string text = slurp(each.path());
+    for (const char* bad : {"\x1b", "\x07", "\u202e", "\u200f"})
+      EXPECT_EQ(text.find(bad), text.npos) << each.path();
+  }
+  EXPECT_GT(files, 5);
+  EXPECT_THAT(slurp(results() / "tables" / "quantities.csv"), HasSubstr(shown));
+  for (const std::string& asked : {shown, label}) {
+    const CommandResult life =
+        run_wearwell("life '" + results().string() + "' --unit '" + asked + "'");
+    EXPECT_LE(life.exit_code, 1) << life.err;
+    EXPECT_THAT(life.out, HasSubstr(shown));
+  }
+}
+
+// Quadrature that was asked for and does not reach is said to be none before the run, and after.
+TEST_F(FitCommand, ExactBeyondFourParametersIsSaidToBeASampler) {
+  write("a.csv",
+        "a,b,c,y\n1,2,0,3.1\n2,1,1,4.2\n3,3,0,7.9\n4,1,2,9.3\n5,2,1,11.2\n6,1,0,10.1\n"
+        "7,3,1,16.2\n8,2,2,17.1\n");
+  const auto study = write("a.toml",
+                           "model = \"law\"\n[data]\nfile = \"a.csv\"\n[data.columns]\na = \"a\"\n"
+                           "b = \"b\"\nc = \"c\"\ny = \"y\"\n[likelihood.y]\nfamily = \"normal\"\n"
+                           "mean = \"p + q*a + r*b + t*c\"\nsd = \"s\"\n[prior]\n"
+                           "p = { law = \"normal\", mean = 0, sd = 5 }\n"
+                           "q = { law = \"normal\", mean = 0, sd = 5 }\n"
+                           "r = { law = \"normal\", mean = 0, sd = 5 }\n"
+                           "t = { law = \"normal\", mean = 0, sd = 5 }\n"
+                           "s = { law = \"half-normal\", scale = 1 }\n"
+                           "[sampler]\nmethod = \"exact\"\n")
+                         .string();
+  const char* const said =
+      "Method: NUTS, not quadrature, which --method exact asks for: 5 "
+      "parameters are more than quadrature reaches (4)";
+  EXPECT_THAT(run_wearwell("check " + study).out, HasSubstr("by nuts, 4 chains"));
+  const auto in_one_line = [](std::string text) {
+    return std::regex_replace(text, std::regex("\n +"), " ");
+  };
+  EXPECT_THAT(in_one_line(run_wearwell("check " + study).out), HasSubstr(said));
+  const CommandResult run = fit(study);
+  EXPECT_LE(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr(said));
+  const std::string out = in_one_line(run.out);
+  EXPECT_LT(out.find(said), out.find("Answers"));
+  EXPECT_THAT(out, HasSubstr("Draws (nuts, 4 chains"));
+  const json summary = json::parse(slurp(results() / "summary.json"));
+  EXPECT_EQ(summary["sampler"]["method"], "nuts");
+  EXPECT_THAT(summary["sampler"]["note"].get<std::string>(), HasSubstr(said));
+  EXPECT_FALSE(summary["parameters"]["p"].contains("exact"));
+  EXPECT_THAT(slurp(results() / "report.html"), HasSubstr(said));
+  // One fewer, and quadrature does what it was asked to.
+  EXPECT_EQ(
+      fit_json(examples + "study.toml --method exact --draws 100", 0)["sampler"].count("note"), 0u);
+}
+
 // Study and data are changed while the fit runs: the results hold what was run.
 TEST_F(FitCommand, KeepsTheStudyThatWasRun) {
   fs::copy(examples + "study.toml", folder() / "study.toml");

@@ -28,6 +28,13 @@ TEST(Table, IsWrittenWithAllDigitsAndUnits) {
             "'=1+1,inf,,,\r\n");
 }
 
+// ECMA-48 and Unicode Standard Annex 9: `cat` shows a file without being commanded by it.
+TEST(Table, CommandsNoTerminal) {
+  Table table{"t", "T", {{"Of \x1b[2J"}}};
+  table.rows = {{"\x1b[31mA\u202eB\r"}, {"two\nlines"}};
+  EXPECT_EQ(csv(table), "Of \\x1b[2J\r\n\\x1b[31mA\\u202eB\\x0d\r\n\"two\nlines\"\r\n");
+}
+
 TEST(Table, IsShownAsPeopleReadIt) {
   const Table table = sample();
   EXPECT_EQ(in_words(table.rows[0][1], table.columns[1]), "21 580");

@@ -41,6 +41,8 @@ bool commands_a_terminal(std::uint32_t code) {
 }  // namespace
 
 std::string printable(std::string_view text, std::string_view kept) {
+  const auto is_plain = [](char c) { return c >= 0x20 && c < 0x7f; };
+  if (std::all_of(text.begin(), text.end(), is_plain)) return std::string(text);
   std::string out;
   out.reserve(text.size());
   for (std::size_t at = 0; at < text.size();) {
@@ -63,6 +65,25 @@ std::string printable(std::string_view text, std::string_view kept) {
 
 std::string printable_lines(std::string_view text) {
   return printable(text, "\n");
+}
+
+std::string printable_json(std::string_view json) {
+  // Bytes that such characters begin with: DEL, and the first of two or three in UTF-8.
+  if (json.find_first_of("\x7f\xc2\xd8\xe2") == json.npos) return std::string(json);
+  std::string out;
+  out.reserve(json.size());
+  for (std::size_t at = 0; at < json.size();) {
+    const Character next = character_at(json, at);
+    const std::size_t size = std::max<std::size_t>(next.size, 1);
+    // Line feeds stand between values; within texts the writer escapes them.
+    if (next.size == 0 || json[at] == '\n' || !commands_a_terminal(next.code)) {
+      out += json.substr(at, size);
+    } else {
+      fmt::format_to(std::back_inserter(out), "\\u{:04x}", next.code);
+    }
+    at += size;
+  }
+  return out;
 }
 
 std::string valid_utf8(std::string_view text) {

@@ -14,6 +14,9 @@ std::string printable(std::string_view text, std::string_view kept = "");
 /// The same of many lines, which stay.
 std::string printable_lines(std::string_view text);
 
+/// JSON whose texts hold the same characters as "\u001b" and "\u202e": it reads back as it was.
+std::string printable_json(std::string_view json);
+
 /// Text with U+FFFD for every byte that is not UTF-8: names of files are bytes, JSON wants text.
 std::string valid_utf8(std::string_view text);
 

@@ -101,7 +101,7 @@ int run_backtest(const BacktestOptions& options, Models models) {
                                  options.readings.string()));
   if (!options.output.empty()) write_file(options.output, as_csv(test, tracker));
   if (options.json) {
-    fmt::print("{}\n", as_json(test).dump(2));
+    fmt::print("{}\n", printable_json(as_json(test).dump(2)));
   } else {
     fmt::print("{}", told(test, tracker));
     if (!options.output.empty()) fmt::print("Each forecast is in {}\n", options.output.string());

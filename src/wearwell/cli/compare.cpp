@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/study/comparison.h"
 #include "wearwell/study/saved_result.h"
@@ -33,7 +34,7 @@ int run_compare(const CompareOptions& options) {
   const Comparison comparison = compare(std::move(results));
   if (!options.page.empty()) write_file(options.page, comparison_page(comparison));
   if (options.json) {
-    fmt::print("{}\n", to_json(comparison).dump(2));
+    fmt::print("{}\n", printable_json(to_json(comparison).dump(2)));
   } else {
     fmt::print("{}", comparison_text(comparison));
     if (!options.page.empty()) fmt::print("The page is {}\n", options.page.string());

@@ -267,7 +267,7 @@ int run_decide(const DecideOptions& options, Models models) {
   if (!options.output.empty()) folder.emplace(options.output);
   if (folder) {
     const std::vector<present::Section> sections = decisions_sections(report);
-    folder->write("decisions.json", decisions_json(report).dump(2) + "\n");
+    folder->write("decisions.json", printable_json(decisions_json(report).dump(2)) + "\n");
     for (const present::Table* table : present::tables(sections))
       folder->write(fmt::format("tables/{}.csv", table->id), present::csv(*table));
     folder->write("report.html",
@@ -275,7 +275,7 @@ int run_decide(const DecideOptions& options, Models models) {
     folder->commit();
   }
   if (options.json) {
-    fmt::print("{}\n", decisions_json(report).dump(2));
+    fmt::print("{}\n", printable_json(decisions_json(report).dump(2)));
   } else {
     fmt::print("{}", decisions_text(report));
     if (folder) fmt::print("Results are in {}\n", options.output.string());

@@ -228,7 +228,7 @@ int run_life(const LifeOptions& options, Models models) {
   refuse_overwriting({{"the result", options.result}, {"the readings", options.readings}},
                      {{"--output", options.output}, {"--path", options.path}});
   prognosis::LifeQuestion question;
-  question.unit = options.unit;
+  question.unit = printable(options.unit);  // as tables are read
   if (!options.survived.empty()) question.survived = options.survived;
   if (!options.horizon.empty()) question.horizon = options.horizon;
   if (!options.risk.empty()) question.risk = risk_of(options.risk);
@@ -241,7 +241,7 @@ int run_life(const LifeOptions& options, Models models) {
   if (!options.output.empty()) write_file(options.output, present::csv(table_of(life)));
   if (!options.path.empty()) write_file(options.path, path);
   if (options.json) {
-    fmt::print("{}\n", json_of(life, moved, state.trusted).dump(2));
+    fmt::print("{}\n", printable_json(json_of(life, moved, state.trusted).dump(2)));
   } else {
     print(life, moved, state.trusted);
     if (!options.output.empty())

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/cli/selection_header.h"
 #include "wearwell/input/option_value.h"
@@ -103,7 +104,7 @@ int run_select(const SelectOptions& options) {
   const bool found = !result.selection.search.models.empty();
   nlohmann::ordered_json json = to_json(selection_header(result));
   json.update(to_json(result), true);
-  const std::string summary = json.dump(2) + "\n";
+  const std::string summary = printable_json(json.dump(2)) + "\n";
   if (writes) write_folder(options.output, result, summary, draws && found);
   if (options.json) {
     fmt::print("{}", summary);

@@ -1,6 +1,7 @@
 #include "wearwell/embed/run.h"
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/models/registry.h"
 #include "wearwell/netcdf/netcdf_file.h"
@@ -92,10 +93,10 @@ Files files_of(const Run& run) {
     files.emplace_back("tables/" + table->id + ".csv", present::csv(*table));
   if (!result.sections.empty()) {
     using Json = nlohmann::ordered_json;
-    files.emplace_back(
-        "report.json",
-        present::to_json(result.sections).dump(-1, ' ', false, Json::error_handler_t::replace) +
-            "\n");
+    files.emplace_back("report.json",
+                       printable_json(present::to_json(result.sections)
+                                          .dump(-1, ' ', false, Json::error_handler_t::replace)) +
+                           "\n");
   }
   files.emplace_back("study.toml", run.of.text);
   return files;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/cli/selection_header.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/models/fatigue/rainflow.h"
@@ -43,7 +44,8 @@ Selected select(const SelectData& asked, const Table* table, const SelectOptions
   result.settings.search.stop = nullptr;
   nlohmann::ordered_json json = to_json(selection_header(result));
   json.update(to_json(result), true);
-  Selected selected{json.dump(2) + "\n", selection_text(result), models_csv(result), {}};
+  Selected selected{
+      printable_json(json.dump(2)) + "\n", selection_text(result), models_csv(result), {}};
   if (options.report && !result.selection.search.models.empty())
     selected.page = selection_report(result);
   return selected;

@@ -120,4 +120,8 @@ std::string csv_cell(const std::string& text) {
   return out + '"';
 }
 
+std::string printable_csv_cell(const std::string& text) {
+  return csv_cell(printable(text, "\n\t"));
+}
+
 }  // namespace wearwell

@@ -42,4 +42,7 @@ class CsvReader {
 /// A cell, in quotes where it needs them.
 std::string csv_cell(const std::string& text);
 
+/// The same of a file that people get: nothing in it commands a terminal (base/printable.h).
+std::string printable_csv_cell(const std::string& text);
+
 }  // namespace wearwell

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/input/as_read.h"
 #include "wearwell/input/column_stream.h"
 #include "wearwell/input/csv_reader.h"
@@ -33,6 +34,14 @@ void describe(const DuckdbSession& session, Column& column) {
   column.doubt = known->doubt;
 }
 
+/// Appends texts as they are shown everywhere (base/printable.h), so that a label is the same in the
+/// study, in what is written, and where a command asks for it.
+void append_words(duckdb_vector vector, idx_t count, std::vector<std::string>& words) {
+  const std::size_t before = words.size();
+  append_text(vector, count, words);
+  for (std::size_t i = before; i < words.size(); ++i) words[i] = printable(words[i], "\n\t");
+}
+
 /// Adds the columns of the table `result`: all numbers as double, all else as text.
 void add_result(const DuckdbSession& session, bool described, Table& table) {
   std::vector<std::string> selected;
@@ -54,7 +63,7 @@ void add_result(const DuckdbSession& session, bool described, Table& table) {
       if (column.is_number) {
         append_numbers(vector, count, column.numbers);
       } else {
-        append_text(vector, count, column.text);
+        append_words(vector, count, column.text);
       }
     }
     table.rows += count;
@@ -248,7 +257,7 @@ bool ColumnStream::next(Batch& batch) {
     batch.columns[c].clear();
     if (state_->named == c) {
       std::vector<std::string> words;
-      append_text(duckdb_data_chunk_get_vector(chunk, c), batch.rows, words);
+      append_words(duckdb_data_chunk_get_vector(chunk, c), batch.rows, words);
       for (const std::string& word : words)
         batch.columns[c].push_back(word.empty() ? NAN : state_->place(word));
       continue;

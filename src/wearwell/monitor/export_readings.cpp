@@ -58,16 +58,16 @@ std::string readings_as_parquet(Store& store, const prognosis::Tracker& tracker,
 
 std::string readings_as_csv(Store& store, const prognosis::Tracker& tracker, std::uint64_t& count) {
   const auto columns = tracker.columns();
-  std::string text = csv_cell(tracker.noun().empty() ? "unit" : tracker.noun());
-  for (const std::string& each : tracker.labels()) text += "," + csv_cell(each);
+  std::string text = printable_csv_cell(tracker.noun().empty() ? "unit" : tracker.noun());
+  for (const std::string& each : tracker.labels()) text += "," + printable_csv_cell(each);
   text += ",key,time,received";
-  for (const auto& each : columns) text += "," + csv_cell(heading(each));
+  for (const auto& each : columns) text += "," + printable_csv_cell(heading(each));
   text += "\n";
   count = 0;
   for_each_reading(store, [&](const StoredReading& reading) {
     ++count;
-    text += csv_cell(reading.unit);
-    for (const std::string& each : reading.labels) text += "," + csv_cell(each);
+    text += printable_csv_cell(reading.unit);
+    for (const std::string& each : reading.labels) text += "," + printable_csv_cell(each);
     text += fmt::format(",{},{},{}", reading.key,
                         reading.time_ms ? iso_of_unix_ms(reading.time_ms) : "",
                         iso_of_unix_ms(reading.received_ms));

@@ -1,4 +1,5 @@
 #include "wearwell/monitor/fleet_json.h"
+#include "wearwell/base/printable.h"
 
 #include <cmath>
 
@@ -108,7 +109,7 @@ Json json_of(const Delivery& delivery) {
 }
 
 std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 }  // namespace wearwell::monitor

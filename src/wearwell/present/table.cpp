@@ -31,7 +31,8 @@ bool looks_like_formula(const std::string& text) {
 }
 
 std::string quoted(const std::string& text) {
-  const std::string safe = looks_like_formula(text) ? "'" + text : text;
+  const std::string shown = printable(text, "\n\t");
+  const std::string safe = looks_like_formula(shown) ? "'" + shown : shown;
   if (safe.find_first_of(",\"\n\r") == safe.npos) return safe;
   std::string out = "\"";
   for (const char c : safe) {

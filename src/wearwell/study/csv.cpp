@@ -16,9 +16,9 @@ void add_predictions(std::string& out, std::size_t rows,
   for (const PredictionSummary& p : predictions) {
     const Prediction& b = p.best();
     fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{},{},{},{}{}\n", rows, p.at,
-                   p.quantity, p.unit, b.mean, b.ci05, b.ci95, b.pi05, b.pi95,
-                   p.measured ? fmt::format("{}", *p.measured) : "",
-                   of_items ? "," + csv_cell(p.measured_of) : "");
+                   printable_csv_cell(p.quantity), printable_csv_cell(p.unit), b.mean, b.ci05,
+                   b.ci95, b.pi05, b.pi95, p.measured ? fmt::format("{}", *p.measured) : "",
+                   of_items ? "," + printable_csv_cell(p.measured_of) : "");
   }
 }
 
@@ -36,15 +36,16 @@ std::string lives_csv(const PosteriorSummary& result) {
       b10 = b.b10;
     }
     fmt::format_to(end, "{},{},{},{},{},{},{},{},{},{},{},{},,\n", result.data_rows,
-                   csv_cell(q.name), csv_cell(q.of), csv_cell(q.at), csv_cell(q.unit), b.q05, b.q50,
-                   b.q95, cell(b.bound), cell(b.predictive), cell(b1), cell(b10));
+                   printable_csv_cell(q.name), printable_csv_cell(q.of), printable_csv_cell(q.at),
+                   printable_csv_cell(q.unit), b.q05, b.q50, b.q95, cell(b.bound),
+                   cell(b.predictive), cell(b1), cell(b10));
   }
   if (!result.coverage) return out;
   for (const CoverageRow& row : result.coverage->rows) {
     const std::string of = row.label.empty() ? "test" : "test of type " + row.label;
-    fmt::format_to(end, "{},life,{},row {},{},{},,{},,,,{},{},{}\n", result.data_rows, csv_cell(of),
-                   row.row, csv_cell(result.coverage->unit), row.q05, row.q95, row.b10, row.life,
-                   row.outcome);
+    fmt::format_to(end, "{},life,{},row {},{},{},,{},,,,{},{},{}\n", result.data_rows,
+                   printable_csv_cell(of), row.row, printable_csv_cell(result.coverage->unit),
+                   row.q05, row.q95, row.b10, row.life, row.outcome);
   }
   return out;
 }
@@ -93,7 +94,8 @@ std::string predictions_csv(const PosteriorSummary& result) {
   std::string at = "cycles";
   if (!result.predictions.empty()) {
     const PredictionSummary& first = result.predictions.front();
-    at = csv_cell(present::heading(first.at_name, first.at_unit.empty() ? "1" : first.at_unit));
+    at = printable_csv_cell(
+        present::heading(first.at_name, first.at_unit.empty() ? "1" : first.at_unit));
   }
   // Where some are of items that were seen, each row says whose measurement it is.
   const bool of_items = std::any_of(

@@ -27,9 +27,9 @@ std::string coverage_csv(const CoverageTable& table) {
   std::string out = "row,label,outcome,life,until,probability,q05,q95,b10\n";
   auto end = std::back_inserter(out);
   for (const CoverageRow& row : table.rows) {
-    fmt::format_to(end, "{},{},{},{},{},{},{},{},{}\n", row.row, csv_cell(row.label), row.outcome,
-                   row.life, row.until ? fmt::format("{}", *row.until) : "", row.probability,
-                   row.q05, row.q95, row.b10);
+    fmt::format_to(end, "{},{},{},{},{},{},{},{},{}\n", row.row, printable_csv_cell(row.label),
+                   row.outcome, row.life, row.until ? fmt::format("{}", *row.until) : "",
+                   row.probability, row.q05, row.q95, row.b10);
   }
   return out;
 }

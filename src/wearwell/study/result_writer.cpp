@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/present/section_json.h"
 
 namespace wearwell {
@@ -10,7 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string dumped(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printable_json(json.dump(indent, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 }  // namespace

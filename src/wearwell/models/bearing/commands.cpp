@@ -17,6 +17,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/bearing/chart_command.h"
 #include "wearwell/models/bearing/options.h"
@@ -312,7 +313,7 @@ void run(const Question& question, const Options& options) {
   const Answer answer = answer_of(question, options);
   for (const std::string& warning : warnings(answer)) fmt::print(stderr, "warning: {}\n", warning);
   if (options.json) {
-    fmt::print("{}\n", json_of(answer).dump(2));
+    fmt::print("{}\n", printable_json(json_of(answer).dump(2)));
     if (!answer.margin.empty()) fmt::print(stderr, "{}\n", answer.margin);
   } else {
     print_text(answer);

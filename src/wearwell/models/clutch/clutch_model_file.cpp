@@ -275,7 +275,7 @@ std::string state_text(const std::vector<PlateWear>& plates, const std::string& 
                      {"version", state_version},
                      {"model", model},
                      {"plates", std::move(list)}};
-  return json.dump(1) + "\n";
+  return printable_json(json.dump(1)) + "\n";
 }
 
 std::vector<PlateWear> read_state(const std::filesystem::path& file, const std::string& model,

@@ -146,7 +146,8 @@ std::string trace_lines(std::size_t every, const Batch& batch, const CycleSum::T
         trace.skipped[i] ? "skipped"
                          : names_of_inputs(bits) + (bits & CycleSum::negative ? " negative" : "");
     const std::string plate =
-        batch.names ? csv_cell((*batch.names)[static_cast<std::size_t>(batch.cycles.plate[i]) - 1])
+        batch.names ? printable_csv_cell(
+                          (*batch.names)[static_cast<std::size_t>(batch.cycles.plate[i]) - 1])
                     : fmt::format("{}", batch.cycles.plate[i]);
     fmt::format_to(end, "{},{},{:.9g}", plate, batch.cycles.number[i], trace.volume[i] / mm3);
     const auto interval = [&](double sd) {

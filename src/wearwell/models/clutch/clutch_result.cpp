@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/input/fingerprint.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_report.h"
@@ -84,7 +85,7 @@ Result result_of(const ClutchStudy& study, const ClutchResult& found, bool repor
   result.body = summary_body(study, found);
   result.body["parameters"] = to_json(parameters_of(found.run_in));
   result.body["loo"] = to_json(leave_one_out(found));
-  result.files.emplace_back("model.json", to_json(found.model).dump(1) + "\n");
+  result.files.emplace_back("model.json", printable_json(to_json(found.model).dump(1)) + "\n");
   result.files.emplace_back("predictions.csv", sequences_csv(found));
   if (report) result.sections = report_sections(study, found);
   result.text = [text = summary_text(study, found)](const TerminalStyle&) { return text; };

@@ -187,8 +187,9 @@ std::string sequences_csv(const ClutchResult& r) {
   for (const SequenceResult& s : r.sequences) {
     for (const auto& w : s.weighings)
       fmt::format_to(std::back_inserter(csv), "{},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}\n",
-                     csv_cell(s.name), csv_cell(r.plate_name(s.plate)), w.cycle, w.energy / MJ,
-                     w.measured / mm3, w.predicted / mm3, w.sd / mm3, w.full_sd / mm3);
+                     printable_csv_cell(s.name), printable_csv_cell(r.plate_name(s.plate)), w.cycle,
+                     w.energy / MJ, w.measured / mm3, w.predicted / mm3, w.sd / mm3,
+                     w.full_sd / mm3);
   }
   return csv;
 }

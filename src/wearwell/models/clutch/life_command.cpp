@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_tables.h"
@@ -65,7 +66,7 @@ void run(const LifeOptions& options) {
                                          {"volume", life.volume / mm3},
                                          {"outside", names_of_inputs(life.outside)},
                                          {"levels", std::move(rows)}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", printable_json(json.dump(2)));
     return;
   }
   fmt::print(

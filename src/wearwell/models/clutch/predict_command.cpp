@@ -11,6 +11,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/lock_file.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/input/fingerprint.h"
@@ -101,7 +102,7 @@ void run(const PredictOptions& options) {
   if (state) state->commit();
   lock.reset();
   if (options.json) {
-    fmt::print("{}\n", wear_json(model, sum, full).dump(2));
+    fmt::print("{}\n", printable_json(wear_json(model, sum, full).dump(2)));
   } else {
     print_table(model, sum, full);
   }

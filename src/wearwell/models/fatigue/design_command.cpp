@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/fatigue/averaged_design_report.h"
 #include "wearwell/models/fatigue/command_parts.h"
@@ -55,7 +56,7 @@ DesignQuestion read_question(const DesignOptions& options,
 
 void write_folder(const AveragedDesignReport& report, ResultFolder& folder) {
   const std::vector<present::Section> sections = averaged_design_sections(report);
-  folder.write("design.json", averaged_design_json(report).dump(2) + "\n");
+  folder.write("design.json", printable_json(averaged_design_json(report).dump(2)) + "\n");
   for (const present::Table* table : present::tables(sections))
     folder.write(fmt::format("tables/{}.csv", table->id), present::csv(*table));
   folder.write("report.html", html_page({WEARWELL_VERSION, "Design curves averaged over models",
@@ -77,7 +78,7 @@ int run(const DesignOptions& options) {
   report.points = averaged_design(report.from.models, report.question);
   if (folder) write_folder(report, *folder);
   if (options.json) {
-    fmt::print("{}\n", averaged_design_json(report).dump(2));
+    fmt::print("{}\n", printable_json(averaged_design_json(report).dump(2)));
   } else {
     fmt::print("{}", averaged_design_text(report));
     if (folder) fmt::print("Results are in {}\n", options.output.string());

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/input/json_reader.h"
 
 namespace wearwell::fatigue {
@@ -89,7 +90,7 @@ std::string state_text(const SavedHistory& saved) {
         {"up", levels.up},
         {"down", levels.down}}}};
   if (s.point) json["point"] = *s.point;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return printable_json(json.dump(-1, ' ', false, Json::error_handler_t::replace)) + "\n";
 }
 
 SavedHistory read_history_state(const std::filesystem::path& file) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/option_value.h"
@@ -113,7 +114,7 @@ double reduction(const SnResult& result, const DamageRule& rule, const LoadCycle
 
 void write_folder(const LoadLifeReport& report, ResultFolder& folder) {
   const std::vector<present::Section> sections = load_life_sections(report);
-  folder.write("life.json", load_life_json(report).dump(2) + "\n");
+  folder.write("life.json", printable_json(load_life_json(report).dump(2)) + "\n");
   for (const present::Table* table : present::tables(sections))
     folder.write(fmt::format("tables/{}.csv", table->id), present::csv(*table));
   folder.write("report.html", html_page({WEARWELL_VERSION, "Life under a load history",
@@ -152,7 +153,7 @@ int run(const LoadLifeOptions& options) {
   report.reduction = reduction(report.result, question.rule, report.block.cycles, report.cycles);
   if (folder) write_folder(report, *folder);
   if (options.json) {
-    fmt::print("{}\n", load_life_json(report).dump(2));
+    fmt::print("{}\n", printable_json(load_life_json(report).dump(2)));
   } else {
     fmt::print("{}", load_life_text(report));
     if (folder) fmt::print("Results are in {}\n", options.output.string());

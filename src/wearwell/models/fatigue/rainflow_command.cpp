@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/lock_file.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/base/unit.h"
@@ -63,7 +64,7 @@ void refuse_without_cycles(const SignalFile& file, const LoadHistory::Counted& c
 }
 
 void write_folder(const HistoryReport& report, ResultFolder& folder) {
-  folder.write("rainflow.json", history_json(report).dump(2) + "\n");
+  folder.write("rainflow.json", printable_json(history_json(report).dump(2)) + "\n");
   for (const present::Table& table :
        {cycles_table(report), matrix_table(report), spectrum_table(report), levels_table(report)}) {
     folder.write(fmt::format("tables/{}.csv", table.id), present::csv(table));
@@ -109,7 +110,7 @@ void run(const RainflowOptions& options) {
   if (state) state->commit();
   lock.reset();
   if (options.json) {
-    fmt::print("{}\n", history_json(report).dump(2));
+    fmt::print("{}\n", printable_json(history_json(report).dump(2)));
   } else {
     fmt::print("{}", history_text(report));
     if (folder) fmt::print("Results are in {}\n", options.output.string());
