@@ -88,7 +88,7 @@ class Search {
   double left() const {
     const auto w = static_cast<double>(found_.size());
     const auto n = static_cast<double>(searches_);
-    return n > w + 2 ? w * (w + 1) / (n - w - 2) : INFINITY;
+    return w * (w + 1) / std::max(n - w - 2, 1.0);
   }
   // Whether more searches would hardly find more.
   bool exhausted() const { return left() < 0.5; }
