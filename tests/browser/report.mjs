@@ -1,11 +1,13 @@
 // Opens reports in headless Chromium and refuses what a reader would stumble over: an error on the console, a request to
-// the network, a plot without marks, a violation of WCAG AA, a page wider than the screen.
+// the network, a plot without marks, a text of a plot that is cut off or covered, a violation of WCAG AA, a page wider
+// than the screen.
 //
 //   node report.mjs NODE_MODULES SCREENSHOTS LEAST_PLOTS REPORT.html...
 import {createRequire} from 'node:module';
 import {mkdirSync, readFileSync} from 'node:fs';
 import {basename, dirname, join, resolve} from 'node:path';
 import {pathToFileURL} from 'node:url';
+import {boxFaults} from './plot_boxes.mjs';
 
 const [modules, screenshots, least, ...reports] = process.argv.slice(2);
 const require = createRequire(join(resolve(modules), 'any.js'));
@@ -16,6 +18,7 @@ const views = [
   {name: 'wide', viewport: {width: 1280, height: 900}, colorScheme: 'light'},
   {name: 'phone', viewport: {width: 390, height: 844}, colorScheme: 'light'},
   {name: 'wide-dark', viewport: {width: 1280, height: 900}, colorScheme: 'dark'},
+  {name: 'phone-dark', viewport: {width: 390, height: 844}, colorScheme: 'dark'},
 ];
 
 // What is wrong with the plots, in words.
@@ -87,7 +90,12 @@ try {
       const complaints = [];
       const page = await open(context, report, complaints);
       complaints.push(...await plotFaults(page));
+      complaints.push(...await boxFaults(page));
       await page.screenshot({path: join(screenshots, `${name}.png`), fullPage: true});
+      // What is seen first; docs/images/joint-report.png is the one of joint/study.
+      if (view === 'wide')
+        await page.screenshot({path: join(screenshots, `${name}-first.png`), clip: {x: 0, y: 0, width: 1280, height: 1180},
+                               fullPage: true});
       if (view === 'wide') await page.pdf({path: join(screenshots, `${name}.pdf`), format: 'A4'});
       complaints.push(...await accessibilityFaults(page));
       await page.close();

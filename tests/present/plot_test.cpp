@@ -92,7 +92,8 @@ TEST(Plot, LegendsLookAsTheirMarks) {
             area({{"x", {1}}, {"y", {2}}}, {"#cccccc", "band"}),
             arrows({{"x", {1}}, {"y", {2}}}, "triangle-right", {"#dddddd", "run-outs"})});
   const Json& symbols = spec["layer"][0]["encoding"]["color"]["legend"]["encoding"]["symbols"];
-  const std::string labels = R"([indexof(["all","scatter","band","run-outs"], datum.value)])";
+  const std::string labels =
+      R"([indexof(["all","scatter","band","run-outs"], isObject(datum) ? datum.value : datum)])";
   EXPECT_EQ(symbols["shape"]["value"]["signal"],
             R"(["stroke","stroke","square","triangle-right"])" + labels);
   EXPECT_EQ(symbols["strokeDash"]["value"]["signal"], "[[4,3],[1,0],[1,0],[1,0]]" + labels);

@@ -251,8 +251,11 @@ Json legend_of(const std::vector<Entry>& entries) {
   const auto signal = [](const std::string& expression) {
     return Json{{"value", {{"signal", expression}}}};
   };
+  // Vega asks for the size of the largest symbol, beside which labels stand, with the bare label as
+  // datum; where it gets no number, labels stand on their symbols.
   const auto of_entry = [&](const Json& values) {
-    return signal(fmt::format("{}[indexof({}, datum.value)]", values.dump(), labels.dump()));
+    return signal(fmt::format("{}[indexof({}, isObject(datum) ? datum.value : datum)]",
+                              values.dump(), labels.dump()));
   };
   const Json colour = signal("scale('color', datum.value)");
   return {{"encoding",
