@@ -317,6 +317,23 @@ TEST_F(Clutch, PredictTracesAndFlagsCycles) {
               HasSubstr("slip_speed 1, temperature 1"));
 }
 
+// 1/2 x 50 N m x 178 rad/s x 2 s is 8.9 kJ.
+TEST_F(Clutch, PredictHoldsEnergyAgainstTorqueSlipAndTime) {
+  write("j.csv", heading + "5,1,1700,50,170,2,9000\n5,2,1700,50,170,2,9000\n");
+  write("kj.csv",
+        "plate,cycle,slip_speed [rpm],torque [N m],temperature [degC],closing_time [s],energy "
+        "[kJ]\n5,1,1700,50,170,2,9000\n6,1,1700,50,170,2,9\n");
+  const CommandResult right = here("clutch predict " + model() + " j.csv --json");
+  EXPECT_EQ(right.exit_code, 0) << right.err;
+  EXPECT_EQ(json::parse(right.out)["trusted"], true);
+  const CommandResult wrong = here("clutch predict " + model() + " kj.csv --json");
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("NOT TRUSTED: the energy of plate 5 is 1.01e+03 times"));
+  EXPECT_THAT(wrong.err, testing::Not(HasSubstr("plate 6")));
+  EXPECT_EQ(json::parse(wrong.out)["trusted"], false);
+  EXPECT_EQ(json::parse(wrong.out)["problems"].size(), 1u);
+}
+
 // A speed in revolutions a minute is one in rad/s; cycles are counted in any multiple.
 TEST_F(Clutch, PredictReadsEveryUnit) {
   const std::string predict = "clutch predict " + model();

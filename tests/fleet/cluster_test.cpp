@@ -149,6 +149,36 @@ TEST_F(Cluster, SumsOfAnotherOptionOrVersionAreRefusedInPostgres) {
   refused(model_ + engine, "another version of wearwell");
 }
 
+// Two fleets under one prefix: each has its own units. The same table in other units is refused, since it may hold only what is new.
+TEST_F(Cluster, SumsBelongToTheirTable) {
+  const PostgresServer server(folder() / "postgres");
+  ASSERT_EQ(server.sql(create).exit_code, 0);
+  load(server, cycles_);
+  const std::string engine = model_ + " --engine " + server.url() + output();
+  const json first = fleet_summary(engine + " --table cycles" + columns);
+  ASSERT_EQ(
+      server
+          .sql("create table other as select 'second ' || vin as vin, cycle, n, m, temp, t, e "
+               "from cycles where vin in ('unit 1', 'unit 2')")
+          .exit_code,
+      0);
+  const json second = fleet_summary(engine + " --table other" + columns);
+  EXPECT_THAT(second["title"].get<std::string>(), HasSubstr("A fleet of 2 units"));
+  double cycles = 0;
+  for (const auto& each : second["worst"]) {
+    EXPECT_THAT(each["unit"].get<std::string>(), testing::StartsWith("second unit "));
+    cycles += each["cycles"].get<double>();
+  }
+  EXPECT_EQ(second["data"]["rows"].get<double>(), cycles);
+  EXPECT_EQ(first["worst"].dump(),
+            fleet_summary(engine + " --table cycles" + columns)["worst"].dump());
+  std::string kilojoule = columns;
+  kilojoule.replace(kilojoule.find("e:J"), 3, "e:kJ");
+  const CommandResult refused = run_wearwell("fleet " + engine + " --table cycles" + kilojoule);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("holds sums of this table by other columns or units"));
+}
+
 TEST_F(Cluster, ALawInPostgresHasTheNumbersOfTheLibrary) {
   const PostgresServer server(folder() / "postgres");
   const CommandResult made = server.sql(

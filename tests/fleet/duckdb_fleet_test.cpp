@@ -276,6 +276,39 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   refused(changed, "beyond what the sums hold");
 }
 
+// One cycle of 1.6e9 J among 500 of some ten thousand.
+TEST_F(DuckdbFleet, AnEnergyThatNoClosingHasIsNotTrusted) {
+  auto cycles = fleet_cycles(2000, 4, 7);
+  cycles[50].energy *= 1e5;
+  const CommandResult run =
+      run_wearwell("fleet " + model() + " " + file("kilo.csv", cycles) + output() + " --json");
+  EXPECT_EQ(run.exit_code, 1) << run.err;
+  const json summary = json::parse(run.out);
+  EXPECT_EQ(summary["trusted"], false);
+  for (const auto& check : summary["checks"]) {
+    EXPECT_EQ(check["verdict"] == "fail", check["name"] == "energy");
+    if (check["name"] == "energy")
+      EXPECT_THAT(check["detail"].get<std::string>(),
+                  AllOf(HasSubstr("of 1 of 4 units"), HasSubstr(cycles[50].unit)));
+  }
+}
+
+TEST_F(DuckdbFleet, TwoColumnsOfOneNameAreRefused) {
+  const std::string name = model();
+  const auto refused = [&](const std::string& heading) {
+    write("twice.csv",
+          "plate,cycle,slip_speed [rad/s],torque [N m],temperature [degC],closing_time [s],energy "
+          "[J]," +
+              heading + "\n1,1,200,40,150,2,8000,8\n1,2,200,40,150,2,8000,8\n");
+    const CommandResult run = run_wearwell("fleet " + name + " " + path("twice.csv") + output());
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr("columns 7 and 8 have one name"));
+    EXPECT_FALSE(std::filesystem::exists(folder() / "results"));
+  };
+  refused("energy [J]");
+  refused("Energy [J]");
+}
+
 // Names are quoted and texts are data, whatever is in them.
 TEST_F(DuckdbFleet, HostileNamesAndLabelsAreHarmless) {
   auto cycles = fleet_cycles(600, 3, 8);

@@ -110,5 +110,48 @@ TEST(FleetCounts, AreThoseOfTheMixtureOverReplicates) {
   EXPECT_LT(n.low, n.high);
 }
 
+// Where every model says that all units are beyond the level, or none, the interval is that number.
+TEST(FleetCounts, WithoutDoubtHaveNoInterval) {
+  WearModel model = long_lived();
+  const UnitSums sums = after(model, 3000);
+  for (const double share : {1e-3, 1e3}) {
+    model.worn_out = share * sums.volume;
+    FleetCounts counts(model, true, {1}, {0});
+    for (int i = 0; i < 15; ++i) counts.add(sums);
+    const UnitCount n = counts.reached(0, 0);
+    EXPECT_NEAR(n.expected, share < 1 ? 15 : 0, 1e-9);
+    EXPECT_LE(n.low, n.expected);
+    EXPECT_GE(n.high, n.expected);
+    EXPECT_NEAR(n.low, n.expected, 1e-6);
+    EXPECT_NEAR(n.high, n.expected, 1e-6);
+  }
+}
+
+// 1/2 x torque x slip speed x closing time of 250 rad/s, 40 N m, 2 s is 10 kJ.
+TEST(FleetCounts, EnergyIsHeldAgainstTorqueSlipAndTime) {
+  const WearModel model = long_lived();
+  UnitSums sums = after(model, 3000);
+  for (std::size_t i = 0; i < 4; ++i) sums.inputs[i] = 3000 * (at.*inputs[i].value);
+  const auto implausible = [&](double factor) {
+    FleetCounts counts(model, true, {1}, {0});
+    UnitSums changed = sums;
+    changed.energy *= factor;
+    counts.add(sums);
+    changed.unit = "changed";
+    counts.add(changed);
+    return counts.implausible();
+  };
+  EXPECT_EQ(implausible(1).units, 0u);
+  EXPECT_EQ(implausible(2.5).units, 0u);
+  EXPECT_EQ(implausible(0.4).units, 0u);
+  for (const double factor : {1000.0, 1e-3}) {
+    const FleetCounts::Implausible found = implausible(factor);
+    EXPECT_EQ(found.units, 1u);
+    EXPECT_EQ(found.worst, "changed");
+    EXPECT_NEAR(found.ratio / factor, 1, 1e-12);
+    EXPECT_NEAR(found.volume / sums.volume, 1, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace wearwell::clutch

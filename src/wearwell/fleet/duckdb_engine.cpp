@@ -72,6 +72,7 @@ class DuckdbEngine : public Engine, public ColumnEngine {
   }
   std::vector<std::string> expand(const std::vector<std::string>& patterns);
   std::string view_of(const std::vector<std::string>& files, const std::string& unit);
+  void refuse_repeated_headings(const std::string& file);
   [[noreturn]] void fail(const std::string& message) const;
 
   ScratchFolder spill_;
@@ -115,6 +116,7 @@ DuckdbEngine::DuckdbEngine(const DuckdbSettings& settings)
                     fmt::join(allowed, ", "), quoted(spill_.path().string() + "/", '\'')));
     view_ = "create or replace temp view cycles as select * from " + view_of(files, "");
     execute(view_);
+    for (const std::string& file : files) refuse_repeated_headings(file);
     bool has_rows = false;
     rows("select 1e0 from cycles limit 1", 0, [&](const Row&) { has_rows = true; });
     if (!has_rows) throw InputError(fmt::format("{} has no rows", source_));
@@ -203,6 +205,39 @@ std::string DuckdbEngine::view_of(const std::vector<std::string>& files, const s
       "auto_type_candidates = ['DOUBLE', 'VARCHAR']{})",
       fmt::join(names, ", "),
       unit.empty() ? "" : fmt::format(", types = {{{}: 'VARCHAR'}}", quoted(unit, '\'')));
+}
+
+// DuckDB gives the second of two columns of one name another name, and takes capital and small letters for the same.
+void DuckdbEngine::refuse_repeated_headings(const std::string& file) {
+  Answer answer;
+  std::vector<std::string> names;
+  const auto text = [&](idx_t column, idx_t row) {
+    char* const value = duckdb_value_varchar(&answer.result, column, row);
+    names.emplace_back(value ? value : "");
+    duckdb_free(value);
+  };
+  if (csv_) {
+    execute(
+        fmt::format("select * from read_csv({}, header = false, all_varchar = true, delim = ',', "
+                    "quote = '\"', escape = '\"', ignore_errors = true) limit 1",
+                    quoted(file, '\'')),
+        answer);
+    if (duckdb_row_count(&answer.result) == 0) return;
+    for (idx_t c = 0; c < duckdb_column_count(&answer.result); ++c) text(c, 0);
+  } else {
+    // The first row is the schema itself; what has children is no column that could be asked for.
+    execute(fmt::format("select name from parquet_schema({}) where coalesce(num_children, 0) = 0",
+                        quoted(file, '\'')),
+            answer);
+    for (idx_t r = 0; r < duckdb_row_count(&answer.result); ++r) text(0, r);
+  }
+  for (std::size_t b = 1; b < names.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      if (names[b].empty() || !boost::algorithm::iequals(names[a], names[b])) continue;
+      throw InputError(fmt::format("{}: columns {} and {} have one name, '{}': rename one of them",
+                                   printable(file), a + 1, b + 1, printable(names[b])));
+    }
+  }
 }
 
 std::vector<EngineColumn> DuckdbEngine::columns() {

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Eigen::Index;
 
-constexpr int model_version = 1, state_version = 1;
+constexpr int model_version = 1, state_version = 2;
 constexpr const char* model_format = "wearwell clutch wear model";
 constexpr const char* state_format = "wearwell clutch wear state";
 
@@ -145,6 +145,7 @@ PlateWear read_plate(const JsonReader& json, std::size_t replicates) {
   p.cycles = json.at("cycles").integer(0);
   p.last_number = json.at("last_cycle").integer(0);
   p.energy = json.at("energy").number(0);
+  p.closings = json.at("closings").number(0);
   p.volume = json.at("volume").number(0);
   p.variance = json.at("variance").number(0);
   const auto outside = json.at("outside").items();
@@ -262,6 +263,7 @@ std::string state_text(const std::vector<PlateWear>& plates, const std::string& 
                     {"cycles", p.cycles},
                     {"last_cycle", p.last_number},
                     {"energy", p.energy},
+                    {"closings", p.closings},
                     {"volume", p.volume},
                     {"variance", p.variance},
                     {"outside", p.outside},

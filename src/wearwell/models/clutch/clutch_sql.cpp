@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "wearwell/models/clutch/sql_writer.h"
+#include "wearwell/models/clutch/sums_key.h"
 
 namespace wearwell::clutch {
 using fleet::number;
@@ -17,7 +18,8 @@ SqlWriter::SqlWriter(const WearModel& model, const std::string& id, fleet::Diale
     : model_(model),
       dialect_(dialect),
       source_(source),
-      id_(fleet::literal(dialect, id)),
+      table_key_(dialect == fleet::Dialect::duckdb ? "" : table_key(id, source)),
+      id_(fleet::literal(dialect, table_key_.empty() ? id : table_key_ + columns_key(source))),
       parameters_(sql_parameters(model, replicates)),
       units_(fixed_units(model)),
       types_(fleet::types(dialect)),

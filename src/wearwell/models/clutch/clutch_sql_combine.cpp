@@ -337,11 +337,4 @@ std::string SqlWriter::exists() const {
   return clickhouse() ? "exists table " + sums_table_ : "";
 }
 
-std::string SqlWriter::others() const {
-  return fmt::format(
-      "select max(model) as model, {} as models from {} having count(*) > 0 and "
-      "max(case when model = {} then 1 else 0 end) = 0",
-      fleet::real(dialect_, "count(distinct model)"), sums_table_, id_);
-}
-
 }  // namespace wearwell::clutch

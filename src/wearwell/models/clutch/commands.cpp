@@ -13,7 +13,7 @@ void add_clutch_command(CLI::App& app, int& exit_code) {
   clutch::add_design_command(*command);
   clutch::add_simulate_command(*command);
   clutch::add_features_command(*command, exit_code);
-  clutch::add_predict_command(*command);
+  clutch::add_predict_command(*command, exit_code);
   clutch::add_life_command(*command);
   clutch::add_compare_command(*command);
   clutch::add_sql_command(app);

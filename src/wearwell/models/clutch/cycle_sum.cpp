@@ -165,6 +165,7 @@ bool CycleSum::step(PlateWear& p, const CycleColumns& cycles, const Rates& rates
   p.volume = volume;
   p.variance = variance;
   p.energy += energy;
+  p.closings += closing_energy({cycles.slip_speed[i], cycles.torque[i], 0, cycles.closing_time[i]});
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/wear_model.h"
 
 namespace wearwell::clutch {
@@ -23,6 +24,7 @@ struct PlateWear {
   std::string name = {};  ///< where plates have names; else empty
   long long cycles = 0, last_number = 0;
   double energy = 0;                   ///< Ec, J
+  double closings = 0;                 ///< J, 1/2 Mz omega0 t2 of the same cycles (EnergyBalance)
   double volume = 0;                   ///< V, m^3
   double variance = 0;                 ///< of V by the scatter of cycles, m^6
   std::array<long long, 4> outside{};  ///< cycles outside the range of validity, by input
@@ -32,6 +34,7 @@ struct PlateWear {
   Eigen::ArrayXd replicates;  ///< V of each replicate; empty when not asked for
 
   std::string in_words() const { return name.empty() ? std::to_string(plate) : name; }
+  EnergyBalance balance() const { return {energy, closings}; }
   double sd() const { return std::sqrt(variance); }
   /// With the uncertainty of coefficients, exponents, terms, run-in (mean square of the replicates
   /// about V) and of the plate's factor.

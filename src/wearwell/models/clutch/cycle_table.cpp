@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/labelled.h"
 #include "wearwell/models/clutch/clutch_tables.h"
@@ -62,6 +63,18 @@ CycleColumns cycle_columns(const Table& table, std::vector<std::string>& names) 
   return cycles;
 }
 
+std::vector<std::string> energy_problems(const CycleSum& sum) {
+  std::vector<std::string> problems;
+  for (const PlateWear& p : sum.plates()) {
+    if (p.balance().is_plausible()) continue;
+    problems.push_back(fmt::format(
+        "the energy of plate {} is {}. Check the unit of the column energy, and look for single "
+        "cycles with an energy that no closing has.",
+        printable(p.in_words()), p.balance().description()));
+  }
+  return problems;
+}
+
 nlohmann::ordered_json wear_json(const WearModel& model, const CycleSum& sum, bool full) {
   nlohmann::ordered_json plates = nlohmann::ordered_json::array();
   for (const PlateWear& p : sum.plates()) {
@@ -70,6 +83,7 @@ nlohmann::ordered_json wear_json(const WearModel& model, const CycleSum& sum, bo
                                    {"cycles", p.cycles},
                                    {"last_cycle", p.last_number},
                                    {"energy", p.energy},
+                                   {"energy_of_closings", p.closings},
                                    {"volume", p.volume / mm3},
                                    {"sd_scatter", p.sd() / mm3}};
     if (full) each["sd_full"] = p.full_sd(model.plate_sd) / mm3;
@@ -82,7 +96,11 @@ nlohmann::ordered_json wear_json(const WearModel& model, const CycleSum& sum, bo
     each["skipped"] = p.skipped;
     plates.push_back(std::move(each));
   }
-  return {{"units", {{"energy", "J"}, {"volume", "mm^3"}}}, {"plates", std::move(plates)}};
+  const std::vector<std::string> problems = energy_problems(sum);
+  return {{"units", {{"energy", "J"}, {"volume", "mm^3"}}},
+          {"trusted", problems.empty()},
+          {"problems", problems},
+          {"plates", std::move(plates)}};
 }
 
 }  // namespace wearwell::clutch

@@ -15,6 +15,9 @@ namespace wearwell::clutch {
 /// naming row and column.
 CycleColumns cycle_columns(const Table& table, std::vector<std::string>& names);
 
+/// Plates whose energy does not fit their torque, slip speed and closing time, a sentence each: their wear is not to be trusted.
+std::vector<std::string> energy_problems(const CycleSum& sum);
+
 /// What `wearwell clutch predict --json` prints; `full` where the sum has replicates.
 nlohmann::ordered_json wear_json(const WearModel& model, const CycleSum& sum, bool full);
 

@@ -10,6 +10,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/base/workers.h"
+#include "wearwell/models/clutch/energy_balance.h"
 
 namespace wearwell::clutch {
 
@@ -55,12 +56,31 @@ void FleetCounts::describe(const UnitSums& sums) {
     outside_[i] += sums.outside[i];
   }
   duty_[4].push_back(static_cast<float>(sums.energy / sums.cycles));
+  balance(sums);
   worn_.push_back(static_cast<float>(sums.volume / model_.worn_out));
   cycles_ += sums.cycles;
   energy_ += std::llround(sums.energy / energy_unit);
   outside_any_ += sums.outside_any;
   negative_ += sums.negative;
   units_outside_ += sums.outside_any > 0;
+}
+
+void FleetCounts::balance(const UnitSums& sums) {
+  volume_ += sums.volume;
+  OperatingPoint mean;
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    mean.*inputs[i].value = sums.inputs[i] / sums.cycles;
+  const EnergyBalance energy{sums.energy / sums.cycles, closing_energy(mean)};
+  if (energy.is_plausible()) return;
+  ++implausible_.units;
+  implausible_.volume += sums.volume;
+  const auto distance = [](double ratio) { return std::abs(std::log(ratio)); };
+  const double farther = distance(energy.ratio()) - distance(implausible_.ratio);
+  if (implausible_.worst.empty() || farther > 0 ||
+      (farther == 0 && sums.unit < implausible_.worst)) {
+    implausible_.worst = sums.unit;
+    implausible_.ratio = energy.ratio();
+  }
 }
 
 UnitRow FleetCounts::forecast(const UnitSums& sums, double per_day,
@@ -116,7 +136,8 @@ UnitCount FleetCounts::reached(std::size_t level, std::size_t horizon) const {
       const double half = 0.5 * (low + high);
       (below(half) < p ? low : high) = half;
     }
-    return 0.5 * (low + high);
+    // A bracket that holds the estimate is as close to it as numbers tell: where all replicates agree it is the interval's end.
+    return low <= count.expected && count.expected <= high ? count.expected : 0.5 * (low + high);
   };
   constexpr double tail = 0.025;
   count.low = quantile(tail);

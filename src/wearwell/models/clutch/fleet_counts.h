@@ -64,6 +64,16 @@ class FleetCounts {
   double negative() const { return negative_; }
   std::size_t units_outside() const { return units_outside_; }
 
+  /// Units whose energy does not fit their torque, slip speed and closing time (EnergyBalance).
+  struct Implausible {
+    std::size_t units = 0;
+    double volume = 0;  ///< what they have worn, m^3
+    std::string worst;  ///< the unit farthest off, by name where two are
+    double ratio = 1;   ///< its energy over that of its closings
+  };
+  const Implausible& implausible() const { return implausible_; }
+  double volume() const { return volume_; }  ///< of all units, m^3
+
  private:
   /// In fixed point, so that the order of the units changes nothing.
   struct Sum {
@@ -75,6 +85,7 @@ class FleetCounts {
   }
   UnitRow forecast(const UnitSums& sums, double per_day, std::vector<Sum>& reached) const;
   void describe(const UnitSums& sums);
+  void balance(const UnitSums& sums);
 
   const WearModel& model_;
   std::size_t models_;
@@ -86,6 +97,8 @@ class FleetCounts {
   std::int64_t energy_ = 0;
   double cycles_ = 0, outside_any_ = 0, negative_ = 0;
   std::array<double, 4> outside_{};
+  Implausible implausible_;
+  double volume_ = 0;
 };
 
 }  // namespace wearwell::clutch

@@ -254,6 +254,19 @@ std::vector<Check> checks_of(const FleetCounts& counts, const FleetFindings& fou
        fmt::format("the model's wear rate is below 0 in {:.0f} cycles, which count as no wear",
                    counts.negative()),
        ""});
+  const FleetCounts::Implausible& energy = counts.implausible();
+  checks.push_back(
+      {"energy", energy.units > 0 ? Verdict::fail : Verdict::pass,
+       energy.units == 0
+           ? "the energy of every unit's cycles fits their torque, slip speed and closing time"
+           : fmt::format("the energy of {} of {} units does not fit their torque, slip speed and "
+                         "closing time: that of unit {} is {:.3g} times 1/2 x torque x slip speed "
+                         "x closing time. These units have {:.3g} % of the fleet's wear",
+                         energy.units, counts.units(), printable(energy.worst), energy.ratio,
+                         100 * energy.volume / counts.volume()),
+       energy.units == 0 ? ""
+                         : "Check the unit of the column energy, and look for single cycles with "
+                           "an energy that no closing has."});
   checks.push_back({"interval", found.replicates ? Verdict::pass : Verdict::warn,
                     found.replicates
                         ? "the full interval knows of the map, run-in, plates and scatter"
@@ -283,6 +296,8 @@ Result fleet_result(const WearModel& model, const FleetCounts& counts, const Fle
   header.equation = "volume = sum of g(Ec) w E over the cycles of each unit, in fixed point";
   header.data = {found.files, static_cast<std::size_t>(found.rows), found.model_id};
   header.checks = checks_of(counts, found);
+  header.trusted = std::none_of(header.checks.begin(), header.checks.end(),
+                                [](const Check& each) { return each.verdict == Verdict::fail; });
   result.body = body_of(model, counts, found);
   result.files.emplace_back("units.parquet", units_file(model, found));
 

@@ -166,7 +166,7 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
     engine.run(shard.sql.setup, {}, "", 0);
     if (!request.first) {
       if (!before) refuse_other_layout(engine, shard.sql, request.prefix);
-      if (dynamic_cast<fleet::ColumnEngine*>(&engine)) refuse_others(engine, shard.sql, model.id);
+      refuse_others(engine, shard.sql, model.id, request.prefix);
       refuse_late(engine, shard.sql);
     }
     if (columns) {

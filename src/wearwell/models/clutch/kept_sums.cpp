@@ -69,8 +69,14 @@ void refuse_other_layout(fleet::Engine& engine, const ClutchSql& sql, const std:
                     where, elsewhere));
 }
 
-void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::string& model) {
+void refuse_others(fleet::Engine& engine, const ClutchSql& sql, const std::string& model,
+                   const std::string& prefix) {
   engine.rows(sql.others, 1, [&](const fleet::Row& row) {
+    if (engine.dialect() != fleet::Dialect::duckdb)
+      throw InputError(fmt::format(
+          "{}: {}_sums holds sums of this table by other columns or units (--columns): go on with "
+          "those, or sum all cycles anew, under another --prefix",
+          engine.source(), prefix));
     throw InputError(
         fmt::format("{}: --state holds the sums of another model ({}; this is {}), which cannot go "
                     "on: sum all cycles anew, into another file",

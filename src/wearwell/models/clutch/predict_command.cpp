@@ -71,7 +71,7 @@ std::string checked_state(const CycleSum& sum, const std::string& fingerprint) {
   return state_text(sum.plates(), fingerprint);
 }
 
-void run(const PredictOptions& options) {
+void run(const PredictOptions& options, int& exit_code) {
   refuse_overwriting({{"the model", options.model}, {"the cycles", options.cycles}},
                      {{"--state", options.state}, {"--trace", options.trace}});
   const ReadFile read(options.model);
@@ -106,11 +106,14 @@ void run(const PredictOptions& options) {
   } else {
     print_table(model, sum, full);
   }
+  const std::vector<std::string> problems = energy_problems(sum);
+  for (const std::string& each : problems) fmt::print(stderr, "NOT TRUSTED: {}\n", each);
+  exit_code = problems.empty() ? 0 : 1;
 }
 
 }  // namespace
 
-void add_predict_command(CLI::App& clutch) {
+void add_predict_command(CLI::App& clutch, int& exit_code) {
   CLI::App* command = clutch.add_subcommand(
       "predict", "Worn volume, cycle by cycle, with its 95 % interval; files may exceed memory");
   const auto options = std::make_shared<PredictOptions>();
@@ -140,7 +143,7 @@ void add_predict_command(CLI::App& clutch) {
   command->footer(
       "Example:\n  wearwell clutch predict study-results/model.json fleet.parquet --state "
       "fleet.json");
-  command->callback([options] { run(*options); });
+  command->callback([options, &exit_code] { run(*options, exit_code); });
 }
 
 }  // namespace wearwell::clutch

@@ -102,7 +102,8 @@ class SqlWriter {
   const WearModel& model_;
   fleet::Dialect dialect_;
   const SqlSource& source_;
-  std::string id_;
+  std::string table_key_;  ///< what keys of sums of this table begin with; empty for DuckDB
+  std::string id_;         ///< the key of this run's sums, as a literal
   SqlParameters parameters_;
   FixedUnits units_;
   fleet::Types types_;
