@@ -541,7 +541,8 @@ TEST_F(BadInput, Columns) {
   expect_refused(csv_study("cycles,volume\n1,2\n3,\n"), "row 2, column 'volume': no value");
   expect_refused(csv_study("cycles,volume\n-1,2\n3,4\n"),
                  "row 1, column 'cycles': -1 must be 0 or more");
-  expect_refused(csv_study("cycles,volume,volume\n1,2,3\n3,4,5\n"), "two columns named 'volume'");
+  expect_refused(csv_study("cycles,volume,volume\n1,2,3\n3,4,5\n"),
+                 "two columns named 'volume': columns 2 and 3");
   expect_refused(csv_study("cycles,volume\n1,2\n3,-4\n", "lognormal"),
                  "row 2, column 'volume': -4 must be positive for the lognormal likelihood");
 }

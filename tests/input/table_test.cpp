@@ -63,7 +63,8 @@ TEST_F(TableTest, FilesThatAreNotTables) {
   EXPECT_THAT(refusal(folder()), HasSubstr("is a folder"));
   EXPECT_THAT(refusal(write("empty.csv", "")), HasSubstr("is empty"));
   EXPECT_THAT(refusal(write("header.csv", "a,b\n")), HasSubstr("has no rows"));
-  EXPECT_THAT(refusal(write("twice.csv", "a,b,a\n1,2,3\n")), HasSubstr("two columns named 'a'"));
+  EXPECT_THAT(refusal(write("twice.csv", "a,b,a\n1,2,3\n")),
+              HasSubstr("two columns named 'a': columns 1 and 3"));
   EXPECT_THAT(refusal(write("bad.parquet", "not parquet at all")), HasSubstr("bad.parquet"));
   EXPECT_THAT(refusal(write("a.csv", "a\n1\n"), "select nothing from data"), HasSubstr("nothing"));
 }

@@ -32,11 +32,19 @@ ColumnChoice find_labelled(const std::vector<std::string>& headings, std::string
 
 ColumnChoice find_labelled(const Table& table, std::string_view name, std::string_view si) {
   std::vector<std::string> names;
+  const Column* found = nullptr;
   for (const Column& column : table.columns) {
-    if (column.name == name || read_heading(column.name, si).name == name)
-      return labelled(table, column, name, si);
     names.push_back(read_heading(column.name, si).name);
+    if (column.name != name && names.back() != name) continue;
+    if (found)
+      throw InputError(fmt::format(
+          "{} has two columns of '{}': '{}' (column {}) and '{}' (column {}): which is right? "
+          "Rename or remove the other",
+          table.source, name, found->name, found - table.columns.data() + 1, column.name,
+          names.size()));
+    found = &column;
   }
+  if (found) return labelled(table, *found, name, si);
   const auto nearest = std::find(names.begin(), names.end(), nearest_name(name, names));
   throw InputError(
       fmt::format("{} has no column '{}{}' (nearest: '{}')", table.source, name,

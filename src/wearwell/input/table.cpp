@@ -14,16 +14,26 @@ namespace wearwell {
 
 const Column& Table::column(std::string_view name) const {
   std::vector<std::string> names;
-  const Column* of_name = nullptr;
-  bool unique = true;
+  const Column *of_name = nullptr, *other = nullptr, *exact = nullptr;
+  const auto refuse_two = [&](const Column& a, const Column& b) {
+    throw InputError(fmt::format(
+        "{} has two columns of '{}': '{}' (column {}) and '{}' (column {}): which is right? Name "
+        "one "
+        "by its whole heading, or rename one where both are the same",
+        source, name, a.name, &a - columns.data() + 1, b.name, &b - columns.data() + 1));
+  };
   for (const Column& each : columns) {
-    if (each.name == name) return each;
     names.push_back(each.name);
+    if (each.name == name) {
+      if (exact) refuse_two(*exact, each);
+      exact = &each;
+    }
     if (read_heading(each.name, "").name != name) continue;
-    unique = of_name == nullptr;
-    of_name = &each;
+    (of_name ? other : of_name) = &each;
   }
-  if (of_name && unique) return *of_name;
+  if (exact) return *exact;
+  if (other) refuse_two(*of_name, *other);
+  if (of_name) return *of_name;
   throw InputError(fmt::format("{} has no column '{}' (nearest: '{}')", source, name,
                                nearest_name(name, names)));
 }

@@ -144,17 +144,19 @@ Cut find_cut(const TableFile& file, const TableSettings& settings, Encoding enco
 }
 
 void refuse_equal_names(const std::vector<std::string>& names, const std::string& source) {
-  std::map<std::string, std::string> seen;
-  for (const std::string& name : names) {
+  std::map<std::string, std::size_t> seen;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
     if (name.empty()) continue;
-    const auto [other, fresh] = seen.emplace(boost::algorithm::to_lower_copy(name), name);
+    const auto [other, fresh] = seen.emplace(boost::algorithm::to_lower_copy(name), i);
     if (fresh) continue;
-    if (other->second == name)
-      throw InputError(fmt::format("{} has two columns named '{}'", source, name));
+    if (names[other->second] == name)
+      throw InputError(fmt::format("{} has two columns named '{}': columns {} and {}; rename one",
+                                   source, name, other->second + 1, i + 1));
     throw InputError(
         fmt::format("{} has two columns, '{}' and '{}', that differ by capital "
                     "letters only; rename one",
-                    source, other->second, name));
+                    source, names[other->second], name));
   }
 }
 
