@@ -92,6 +92,27 @@ struct Scaled {
   }
 };
 
+// The numbers whose polynomials say what was left for judging.
+std::vector<Index> well_fitted(const FewPoints& few, const Points& at_few, const Scaled& scaled,
+                               const Points& terms, const Eigen::MatrixXd& coefficients,
+                               const std::vector<Index>& judging) {
+  std::vector<Index> good;
+  for (Index j = 0; j < at_few.cols(); ++j) {
+    double missed = 0, weights = 0, middle = 0;
+    for (const Index i : judging) {
+      const double weight = few.weights[static_cast<std::size_t>(i)];
+      const double off = terms.row(i).dot(coefficients.col(j)) - scaled.values(i, j);
+      missed += weight * off * off;
+      middle += weight * std::abs(at_few(i, j));
+      weights += weight;
+    }
+    const auto at = static_cast<std::size_t>(j);
+    const double scale = scaled.logarithm[at] ? 1 : middle / weights;
+    if (scaled.finite[at] && std::sqrt(missed / weights) <= tolerance * scale) good.push_back(j);
+  }
+  return good;
+}
+
 }  // namespace
 
 std::vector<std::optional<Distribution>> interpolated(const WeightedDraws& draws,
@@ -116,20 +137,7 @@ std::vector<std::optional<Distribution>> interpolated(const WeightedDraws& draws
     right.row(k) = root * scaled.values.row(i);
   }
   const Eigen::MatrixXd coefficients = left.colPivHouseholderQr().solve(right);
-  std::vector<Index> good;
-  for (Index j = 0; j < at_few.cols(); ++j) {
-    double missed = 0, weights = 0, middle = 0;
-    for (const Index i : judging) {
-      const double weight = few.weights[static_cast<std::size_t>(i)];
-      const double off = all.row(i).dot(coefficients.col(j)) - scaled.values(i, j);
-      missed += weight * off * off;
-      middle += weight * std::abs(at_few(i, j));
-      weights += weight;
-    }
-    const auto at = static_cast<std::size_t>(j);
-    const double scale = scaled.logarithm[at] ? 1 : middle / weights;
-    if (scaled.finite[at] && std::sqrt(missed / weights) <= tolerance * scale) good.push_back(j);
-  }
+  const std::vector<Index> good = well_fitted(few, at_few, scaled, all, coefficients, judging);
   if (good.empty()) return found;
   const auto count = static_cast<Index>(good.size());
   Eigen::MatrixXd chosen(basis.size(), count);
