@@ -1,4 +1,5 @@
-// What a reader would find unreadable in plots, from the boxes of their texts and symbols as the browser draws them.
+// What a reader would find unreadable in plots: from the boxes of texts and symbols as the browser draws them, and from
+// the colours of texts.
 
 // Runs in the page -> complaints. `selector`: the drawings. A text stands in the parallelogram of its font's height,
 // as turned; what is between capitals and that height is no ink, so boxes may touch by as much.
@@ -34,6 +35,17 @@ function faultsOf(selector) {
   function outside(points, box) {
     return Math.max(...points.flatMap(([x, y]) => [box.left - x, x - box.right, box.top - y, y - box.bottom]));
   }
+  // The ratio of luminances, as WCAG defines it.
+  function contrast(element) {
+    const numbers = (colour) => colour.match(/[\d.]+/g).map(Number);
+    const luminance = (colour) => numbers(colour).slice(0, 3).map((each) => each / 255)
+        .map((each) => each <= 0.04045 ? each / 12.92 : ((each + 0.055) / 1.055) ** 2.4)
+        .reduce((sum, each, i) => sum + [0.2126, 0.7152, 0.0722][i] * each, 0);
+    let behind = element;
+    while (behind.parentElement && numbers(getComputedStyle(behind).backgroundColor)[3] === 0) behind = behind.parentElement;
+    const both = [getComputedStyle(element).fill, getComputedStyle(behind).backgroundColor].map(luminance);
+    return (Math.max(...both) + 0.05) / (Math.min(...both) + 0.05);
+  }
   function shown(element) {
     for (let at = element; at && at.tagName !== 'svg'; at = at.parentElement) {
       const style = getComputedStyle(at);
@@ -51,12 +63,13 @@ function faultsOf(selector) {
     const ground = svg.querySelector('.role-frame .background')?.getBoundingClientRect();
     const texts = [...svg.querySelectorAll('text')].filter((each) => each.textContent.trim() && shown(each)).map(
         (each) => ({word: `"${each.textContent}"`, whole: corners(each, 0), letters: corners(each, inkless),
-                    within: each.closest('.role-mark') ? ground : null}));
+                    contrast: contrast(each), within: each.closest('.role-mark') ? ground : null}));
     const symbols = [...svg.querySelectorAll('.role-legend-symbol path')].filter(shown).map(
         (each) => ({word: 'a symbol of the legend', whole: corners(each, 0), letters: corners(each, 0)}));
     for (const each of [...texts, ...symbols]) {
       if (!each.whole.flat().every(Number.isFinite)) say(`${each.word} is nowhere`);
       if (outside(each.whole, frame) > slack) say(`${each.word} is cut off by the drawing`);
+      if (each.contrast < 3) say(`${each.word} is not seen on its ground`);
       // Marks are clipped at the frame of the axes.
       if (each.within && outside(each.letters, each.within) > slack) say(`${each.word} is cut off by the axes`);
     }

@@ -11,9 +11,10 @@
     view: {stroke: null},
     axis: {labelColor: soft, titleColor: ink, titleFontWeight: 500, titleFontSize: 12, labelFontSize: 11,
            gridColor: faint, domainColor: soft, tickColor: soft, titlePadding: 8, labelFlush: true},
-    axisX: {grid: false, tickCount: {signal: 'max(3, ceil(width / 90))'}},
+    // A tick so near to an end that its label may leave the plot: the label ends at the tick.
+    axisX: {labelFlush: 16, grid: false, tickCount: {signal: 'max(3, ceil(width / 90))'}},
     axisY: {tickCount: 6},
-    legend: {orient: 'top', direction: 'horizontal', title: null, labelColor: ink, labelFontSize: 12,
+    legend: {orient: 'top', direction: 'horizontal', title: null, titleColor: ink, labelColor: ink, labelFontSize: 12,
              labelLimit: 280, symbolType: 'square', symbolSize: 90, symbolOpacity: 0.9, symbolStrokeWidth: 0,
              columnPadding: 14, rowPadding: 3, offset: 8},
     text: {fontSize: 12, fontWeight: 600},
@@ -40,14 +41,21 @@
     delete specification.usermeta;  // options are ours
     const name = `${title} ${figure.id}`.replace(/[^\p{L}\p{N}]+/gu, '-');
     const plot = figure.querySelector('.plot');
-    // As many columns as fit, on paper too, where plots may be narrower than on the screen.
-    const labels = new Set(specification.layer.map((layer) => layer.encoding?.color?.datum).filter(Boolean));
-    const widths = [...labels].map((label) => 40 + 7 * label.length);
-    const needed = widths.reduce((sum, each) => sum + each, 0);
     const width = plot.clientWidth;
-    const fits = (columns) => columns * Math.max(...widths, 0) < Math.min(width, 330);
-    const legend = {...config.legend,
-                    columns: needed < Math.min(width, 330) || width > 900 ? 0 : width > 400 || fits(2) ? 2 : 1};
+    // As many columns as fit, on paper too, where plots may be narrower than on the screen; 0: all in one row.
+    function columns(labels) {
+      const widths = labels.map((label) => 40 + 7 * label.length), room = Math.min(width, 330);
+      if (width > 900 || widths.reduce((sum, each) => sum + each, 0) < room) return 0;
+      return Math.max(Math.floor(room / Math.max(...widths)), width > 400 ? 2 : 1);
+    }
+    const encodings = specification.layer.map((layer) => layer.encoding ?? {});
+    for (const {opacity} of encodings) {  // the scale of a heat map
+      const values = opacity?.legend?.values;
+      if (values) opacity.legend.columns = columns(values.map((value) => String(Number(value.toPrecision(3)))));
+    }
+    const labels = new Set(encodings.map((encoding) => encoding.color?.datum).filter(Boolean));
+    const legend = {...config.legend, columns: columns([...labels]),
+                    layout: {top: {direction: width > 400 ? 'horizontal' : 'vertical', margin: 4}}};
     await vegaEmbed(plot, specification, {
       config: {...config, legend},
       renderer: 'svg',

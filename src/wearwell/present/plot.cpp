@@ -102,6 +102,7 @@ Json ticks(const char* channel, const Axis& axis) {
     return {{"values", values},
             {"grid", false},
             {"labelOverlap", false},
+            {"labelFlush", false},
             {"labelAngle", axis.names.size() > 8 && channel[0] == 'x' ? -60 : 0},
             {"tickCount", values.size() + 1},
             {"labelExpr", Json(axis.names).dump() + "[datum.value - 1]"}};
