@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "wearwell/base/printable.h"
 #include "wearwell/input/parquet_writer.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/models/clutch/clutch_tables.h"
