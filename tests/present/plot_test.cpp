@@ -99,6 +99,15 @@ TEST(Plot, LegendsLookAsTheirMarks) {
   EXPECT_EQ(symbols["strokeDash"]["value"]["signal"], "[[4,3],[1,0],[1,0],[1,0]]" + labels);
 }
 
+// A selection needs both axes; a line across the plot has one.
+TEST(Plot, ZoomsByAMarkWithBothAxes) {
+  const Json spec = plot(
+      "", {"x"}, {"y"},
+      {horizontal_line(7, {"#aaaaaa"}), line({{"x", {1}}, {"y", {2}}}, {"#bbbbbb"})}, 280, true);
+  EXPECT_FALSE(spec["layer"][0].contains("params"));
+  EXPECT_EQ(spec["layer"][1]["params"][0]["name"], "zoom");
+}
+
 TEST(Plot, PointsHaveRoomAtTheEndsOfAxes) {
   const Json with = plot("", {"x"}, {"y"}, {points({{"x", {1}}, {"y", {2}}}, {"#aaaaaa"})});
   EXPECT_EQ(with["layer"][0]["encoding"]["x"]["scale"]["padding"], 6);

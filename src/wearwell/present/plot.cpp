@@ -304,8 +304,12 @@ Json plot(const std::string& description, const Axis& x, const Axis& y, std::vec
                               {"scale", {{"domain", labels}, {"range", colours}}}});
     for (const char* paint : {"stroke", "fill", "color"}) each["mark"].erase(paint);
   }
-  if (zoom) {
-    marks.front()["params"] =
+  // Of a mark with both axes: a line across the plot has but one.
+  const auto both = std::find_if(marks.begin(), marks.end(), [](const Json& each) {
+    return each["encoding"].contains("x") && each["encoding"].contains("y");
+  });
+  if (zoom && both != marks.end()) {
+    (*both)["params"] =
         Json::array({{{"name", "zoom"},
                       {"select", {{"type", "interval"}, {"zoom", "wheel![event.shiftKey]"}}},
                       {"bind", "scales"}}});
