@@ -287,9 +287,10 @@ TEST_F(DuckdbFleet, AnEnergyThatNoClosingHasIsNotTrusted) {
   EXPECT_EQ(summary["trusted"], false);
   for (const auto& check : summary["checks"]) {
     EXPECT_EQ(check["verdict"] == "fail", check["name"] == "energy");
-    if (check["name"] == "energy")
+    if (check["name"] == "energy") {
       EXPECT_THAT(check["detail"].get<std::string>(),
                   AllOf(HasSubstr("of 1 of 4 units"), HasSubstr(cycles[50].unit)));
+    }
   }
 }
 

@@ -276,7 +276,7 @@ class LeapingChain {
       moved = true;
       ++taken_;
     }
-    if (moved) nuts_.set_position(at);
+    if (moved) nuts_.move_to(at);
     return nuts_.step(rng_);
   }
 

@@ -84,15 +84,27 @@ template <int N>
 Nuts<N>::Nuts(const LogDensity& density, bool dense_metric, int max_treedepth)
     : metric(density.dimension(), dense_metric), density_(density), max_treedepth_(max_treedepth) {}
 
+// At rest; false where the density is zero.
+template <int N>
+bool Nuts<N>::evaluate(const Eigen::VectorXd& position, PhasePoint<N>& z) const {
+  z.position = position;
+  z.momentum.setZero(position.size());
+  z.gradient.resize(position.size());
+  z.log_density = density_.value_and_gradient(
+      std::span(position.data(), static_cast<std::size_t>(position.size())),
+      std::span(z.gradient.data(), static_cast<std::size_t>(position.size())));
+  return std::isfinite(z.log_density);
+}
+
 template <int N>
 void Nuts<N>::set_position(const Eigen::VectorXd& position) {
-  point_.position = position;
-  point_.momentum.setZero(position.size());
-  point_.gradient.resize(position.size());
-  point_.log_density = density_.value_and_gradient(
-      std::span(position.data(), static_cast<std::size_t>(position.size())),
-      std::span(point_.gradient.data(), static_cast<std::size_t>(position.size())));
-  if (!std::isfinite(point_.log_density)) throw std::logic_error("NUTS: start outside the support");
+  if (!evaluate(position, point_)) throw std::logic_error("NUTS: start outside the support");
+}
+
+template <int N>
+void Nuts<N>::move_to(const Eigen::VectorXd& position) {
+  PhasePoint<N> there;
+  if (evaluate(position, there)) point_ = std::move(there);
 }
 
 template <int N>

@@ -57,6 +57,8 @@ class Nuts {
 
   /// Throws std::logic_error when the density is zero there.
   void set_position(const Eigen::VectorXd& position);
+  /// The same for a proposal that was accepted by its value alone; stays where it is when the density has no finite gradient there.
+  void move_to(const Eigen::VectorXd& position);
 
   /// One transition: moves the position and says how.
   NutsStep step(Rng& rng);
@@ -73,6 +75,7 @@ class Nuts {
  private:
   struct Subtree;
   struct Totals;
+  bool evaluate(const Eigen::VectorXd& position, PhasePoint<N>& z) const;
   bool leapfrog(PhasePoint<N>& z, double epsilon) const;
   double hamiltonian(const PhasePoint<N>& z) const;
   bool build(int depth, double direction, PhasePoint<N>& edge, Subtree& tree, Totals& totals,

@@ -142,7 +142,7 @@ class NutsChain {
     if (jumps_) {
       const auto& point = nuts_.point();
       if (auto there = jumps_->jump(density_, point.position, point.log_density, rng_))
-        nuts_.set_position(*there);
+        nuts_.move_to(*there);
     }
     return nuts_.step(rng_);
   }

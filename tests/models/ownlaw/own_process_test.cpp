@@ -192,6 +192,7 @@ TEST_F(OwnProcessStudy, TheExampleFitsAsAGammaProcessToo) {
 
 // With noise, by the dense covariance of each laser (R), in both ways of writing it.
 TEST_F(OwnProcessStudy, AWienerProcessWithNoiseIsAJointNormalLaw) {
+  const double per_cent = 240 * std::log(100.0);  // densities of plain numbers here
   const auto value = [&](const std::string& spread, double u) {
     const PosteriorStudy study =
         wearwell::read_posterior_study(write("study.toml", lasers("wiener-process", spread)));
