@@ -124,7 +124,8 @@ def cycles_of(model, rng, n, plate="A"):
                  for end in ("lowest", "highest"))
     columns = {name: rng.uniform(a, b, n) for name, a, b in
                zip(("slip_speed [rad/s]", "torque [N m]", "temperature [degC]", "closing_time [s]"), low, high)}
-    return pd.DataFrame({"plate": plate, "cycle": np.arange(1, n + 1), **columns, "energy [J]": rng.uniform(1e3, 2e3, n)})
+    energy = 0.5 * columns["slip_speed [rad/s]"] * columns["torque [N m]"] * columns["closing_time [s]"]
+    return pd.DataFrame({"plate": plate, "cycle": np.arange(1, n + 1), **columns, "energy [J]": energy * rng.uniform(0.9, 1.1, n)})
 
 
 def test_clutch_cycles_are_the_programs(clutch, wearwell):

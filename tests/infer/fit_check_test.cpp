@@ -183,5 +183,14 @@ TEST(NormalScore, KeepsTheDigitsOfBothTails) {
   EXPECT_EQ(normal_score(-INFINITY, 0), -INFINITY);
 }
 
+// Readings that are all zero under a law through zero: what is left is rounding.
+TEST(ResidualTests, RoundingIsNoTrend) {
+  const std::vector<double> z = {-1e-17, -2e-17, -3e-17, -4e-17, -5e-17}, along = {1, 2, 3, 4, 5};
+  EXPECT_EQ(trend_test(z, along), 1);
+  EXPECT_EQ(neighbour_test(z), 1);
+  const std::vector<double> rising = {-2, -1, 0, 1, 2};
+  EXPECT_LT(trend_test(rising, along), 1e-6);
+}
+
 }  // namespace
 }  // namespace wearwell

@@ -8,10 +8,10 @@
 #include "wearwell/infer/agreement.h"
 #include "wearwell/infer/digits.h"
 #include "wearwell/infer/effects.h"
-#include "wearwell/infer/funnel.h"
 #include "wearwell/infer/leaps.h"
 #include "wearwell/infer/maxima_mixture.h"
 #include "wearwell/infer/mode.h"
+#include "wearwell/infer/posterior_shape.h"
 #include "wearwell/infer/surface.h"
 
 namespace wearwell {
@@ -55,76 +55,7 @@ Draws draw(const Posterior& posterior, const Fit& fit, const FitSettings& settin
   return run_nuts(posterior, fit.whitening, settings.nuts, settings.run, maxima_to_draw(fit));
 }
 
-// The mode and the tails about it. A walk along a tail that meets a higher density than the mode's
-// starts the search anew from there: sigma may lie 20 factors of e below where it was guessed.
-struct Shape {
-  Mode mode;
-  std::vector<Tail> tails;
-  double highest;   // density met anywhere
-  int throat = -1;  // the scale of a funnel (funnel.h): then the mode is the middle of the mass
-  Maxima maxima = {};
-};
-
-Shape mode_and_tails(const Posterior& posterior) {
-  constexpr int most_searches = 4;
-  constexpr double higher = 0.01;
-  Shape shape{find_mode(posterior, posterior.start()), {}, 0};
-  for (int search = 1;; ++search) {
-    shape.tails = tails(posterior, shape.mode);
-    shape.highest = shape.mode.log_density;
-    const Tail* best = nullptr;
-    for (const Tail& tail : shape.tails) {
-      if (tail.highest_at.size() == 0 || !(tail.highest > shape.highest)) continue;
-      shape.highest = tail.highest;
-      best = &tail;
-    }
-    if (!best || shape.highest < shape.mode.log_density + higher || search == most_searches) {
-      return shape;
-    }
-    Mode next = find_mode(posterior, best->highest_at);
-    if (!next.found || !(next.log_density > shape.mode.log_density)) return shape;
-    shape.mode = std::move(next);
-  }
-}
-
-bool all_integrable(const std::vector<Tail>& tails) {
-  return std::all_of(tails.begin(), tails.end(),
-                     [](const Tail& tail) { return tail.integrable(); });
-}
-
-// Other maxima than the mode; the one with by far the most mass takes its place. A search that began in a valley between two may
-// have found none.
-void search_further(const Posterior& posterior, Shape& shape) {
-  shape.maxima = find_maxima(posterior, shape.mode);
-  if (shape.maxima.found.empty()) return;
-  const Mode& first = shape.maxima.found.front().mode;
-  if (shape.mode.found && first.position == shape.mode.position) return;
-  shape.mode = first;
-  shape.tails = tails(posterior, shape.mode);
-  shape.highest = shape.mode.log_density;
-  for (const Tail& tail : shape.tails) {
-    if (tail.highest_at.size() > 0) shape.highest = std::max(shape.highest, tail.highest);
-  }
-}
-
-// Where there is no mode, about the middle of the mass. Other modes of an improper posterior do not matter.
-Shape examine(const Posterior& posterior) {
-  Shape shape = mode_and_tails(posterior);
-  if (shape.mode.found) {
-    if (all_integrable(shape.tails)) search_further(posterior, shape);
-    return shape;
-  }
-  if (auto funnel = funnel_middle(posterior, posterior.start())) {
-    shape.tails = tails(posterior, *funnel);
-    shape.throat = funnel->scale;
-    shape.mode = std::move(funnel->middle);
-    return shape;
-  }
-  if (all_integrable(shape.tails)) search_further(posterior, shape);
-  return shape;
-}
-
-std::vector<Shortfall> shortfalls(const Posterior& posterior, const Shape& shape,
+std::vector<Shortfall> shortfalls(const Posterior& posterior, const PosteriorShape& shape,
                                   const FitSettings& settings, const Fit& fit,
                                   const ExactPosterior& integral) {
   std::vector<Shortfall> found;
@@ -283,7 +214,7 @@ void redraw_where_they_disagree(const Posterior& posterior, FitSettings settings
 
 Fit fit(const Posterior& whole, const FitSettings& settings) {
   constexpr int most_slow_dimension = 2;
-  Shape shape = examine(whole);
+  PosteriorShape shape = posterior_shape(whole);
   Fit fit{settings.method,
           whitening_at(shape.mode),
           shape.tails,

@@ -24,6 +24,13 @@ double mean(std::span<const double> z) {
   return std::accumulate(z.begin(), z.end(), 0.0) / static_cast<double>(z.size());
 }
 
+// Residuals in standard deviations that are all alike (readings that are all zero) tell of no trend: rounding would.
+bool differ(std::span<const double> z) {
+  constexpr double least = 1e-9;
+  const auto [low, high] = std::minmax_element(z.begin(), z.end());
+  return *high - *low > least;
+}
+
 std::vector<double> centered(std::span<const double> z) {
   const double m = mean(z);
   std::vector<double> rest;
@@ -117,13 +124,13 @@ double location_test(std::span<const double> z) {
 }
 
 double trend_test(std::span<const double> z, std::span<const double> driver) {
-  if (z.size() < 3) return 1;
+  if (z.size() < 3 || !differ(z)) return 1;
   const std::vector<double> from_mean = scaled(centered(driver));
   return two_sided(cosine(centered(z), from_mean), static_cast<double>(z.size()) - 2);
 }
 
 double neighbour_test(std::span<const double> z) {
-  if (z.size() < 4) return 1;
+  if (z.size() < 4 || !differ(z)) return 1;
   const auto n = static_cast<double>(z.size());
   double differences = 0;
   for (std::size_t i = 0; i + 1 < z.size(); ++i) differences += std::pow(z[i + 1] - z[i], 2);

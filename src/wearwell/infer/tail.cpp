@@ -121,6 +121,11 @@ bool Tail::integrable() const {
   return towards_bound ? index < 1 - slack : index > 1 + slack;
 }
 
+bool all_integrable(const std::vector<Tail>& tails) {
+  return std::all_of(tails.begin(), tails.end(),
+                     [](const Tail& tail) { return tail.integrable(); });
+}
+
 bool Tail::has_moment(int order) const {
   return towards_bound || index > 1 + order + slack;
 }

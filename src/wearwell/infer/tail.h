@@ -36,4 +36,7 @@ struct Tail {
 /// All tails: two a parameter. `mode` is the posterior's.
 std::vector<Tail> tails(const Posterior& posterior, const Mode& mode);
 
+/// Every one of them.
+bool all_integrable(const std::vector<Tail>& tails);
+
 }  // namespace wearwell

@@ -12,7 +12,9 @@ namespace {
 using Eigen::Index;
 
 constexpr Index most_axes = 4;
-constexpr double tolerance = 3e-5;  // relative, of what the polynomials miss
+// Relative, of what the polynomials miss: a quantile of a unit's mixture of cells has noise of its own (0.7 to 2.4 % far out), which a
+// fit to thousands of points averages out.
+constexpr double tolerance = 0.03;
 
 // Products of Hermite polynomials of the whitened parameters, normalized under the normal distribution.
 class Basis {

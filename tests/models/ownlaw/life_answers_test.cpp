@@ -51,8 +51,8 @@ survival_to = ["300 h", "900 h"]
 // Sums over all nodes of the quadrature share nothing with the mixture that the program solves.
 TEST_F(LifeAnswers, SurvivalAndHorizonArePredictive) {
   write("lives.csv",
-        "life [h],status\n310,failure\n540,failure\n700,failure\n820,failure\n900,censored\n"
-        "900,censored\n");
+        "life [h],status\n310,failure\n540,failure\n700,failure\n820,failure\n900,runout\n"
+        "900,runout\n");
   const PosteriorSummary result = run(lives);
   ASSERT_TRUE(result.fit->exact);
   const WeightedDraws& nodes = result.fit->exact->nodes;

@@ -82,7 +82,7 @@ TEST_F(OwnStudy, LogDensitiesAreOfDataInTheUnitOfTheTable) {
   const auto study = [&](const std::string& unit, double scale) {
     std::string csv = "life [" + unit + "],status\n";
     for (const auto& [life, failed] : lives)
-      csv += fmt::format("{},{}\n", scale * life, failed ? "failure" : "censored");
+      csv += fmt::format("{},{}\n", scale * life, failed ? "failure" : "runout");
     write("lives.csv", csv);
     return run(fmt::format(R"toml(
 model = "law"

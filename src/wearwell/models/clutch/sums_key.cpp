@@ -27,7 +27,7 @@ std::string SqlWriter::others() const {
                          : fmt::format(" where substring(model, 1, {}) = {}", table_key_.size(),
                                        fleet::literal(dialect_, table_key_));
   return fmt::format(
-      "select max(model) as model, {} as models from {}{} having count(*) > 0 and "
+      "select max(model) as other, {} as others from {}{} having count(*) > 0 and "
       "max(case when model = {} then 1 else 0 end) = 0",
       fleet::real(dialect_, "count(distinct model)"), sums_table_, of_table, id_);
 }

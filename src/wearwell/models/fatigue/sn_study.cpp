@@ -4,17 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/models/fatigue/design_curve.h"
 #include "wearwell/models/fatigue/sn_data.h"
 #include "wearwell/models/fatigue/sn_exhibits.h"
+#include "wearwell/models/fatigue/sn_fit_data.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/models/fatigue/sn_parameters.h"
 #include "wearwell/models/fatigue/sn_predictions.h"
-#include "wearwell/models/fatigue/sn_scores.h"
 
 namespace wearwell {
 namespace {
@@ -181,52 +180,6 @@ QuantityGroup cyclic_curve(const TomlReader& root) {
           }};
 }
 
-// By what residuals may follow: the stress that the law takes for the cause, at the values where
-// searches start, and the mean stress.
-FitData fit_data(const SnLaw& law, const SnData& data, const std::vector<Parameter>& parameters) {
-  std::vector<double> start;
-  for (const Parameter& parameter : parameters) start.push_back(parameter.start);
-  FitData result{fatigue::sn_scores(law, data.tests),
-                 {},
-                 {{"stress", {}}},
-                 Rise{},
-                 "row",
-                 true,
-                 !law.integrated()};
-  std::vector<double> mean;
-  Rise& rise = *result.rise;
-  rise.law = "life grows as stress falls";
-  for (const LifeTest& test : data.tests) {
-    const double stress = law.log10_reversed(start.data(), test.stress);
-    result.counts.push_back(test.count);
-    result.drivers[0].value.push_back(stress);
-    mean.push_back(test.stress.mean);
-    if (test.outcome != fatigue::Outcome::failure) continue;
-    rise.driver.push_back(-stress);
-    rise.value.push_back(std::log10(test.life));
-  }
-  if (law.correction != MeanStress::none) result.drivers.push_back({"mean stress", mean});
-  if (!data.labels.empty()) {
-    std::map<std::string, std::size_t> levels;
-    Label label{"the type of specimen", {}};
-    for (const std::string& each : data.labels)
-      label.level.push_back(levels.emplace(each, levels.size()).first->second);
-    result.labels = {label};
-  }
-  for (const LifeTest& test : data.tests) {
-    const bool exact = test.outcome == fatigue::Outcome::failure;
-    result.measured.value.push_back(exact ? from_si(data.life_unit, test.life) : NAN);
-    result.measured.unit.push_back(data.life_unit.scale);
-  }
-  result.remedies.life = true;
-  result.remedies.scatter = law.scatter_grows
-                                ? "Scatter grows already: look for a second failure mode at the "
-                                  "stresses where lives scatter most."
-                                : "Lives often scatter more the longer they are: try [law] scatter "
-                                  "= \"grows\"; or look for a second failure mode.";
-  return result;
-}
-
 }  // namespace
 
 SnLaw read_sn_law(const TomlReader& root) {
@@ -331,7 +284,7 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
   study.likelihood = [=, tests = data.tests](std::size_t rows) {
     return fatigue::sn_likelihood(law, tests, rows);
   };
-  study.fit_data = fit_data(law, data, study.parameters);
+  study.fit_data = sn_fit_data(law, data, study.parameters);
   study.data_notes = notes(law, data);
   study.data_columns = data.columns;
   study.data_layout = data.layout;
