@@ -81,7 +81,7 @@ struct ClutchSql {
   std::string layout, exists;
   std::string
       others;  ///< SELECT: another key of which sums are kept, where there are none of this: of another model
-               ///< (DuckDB), of the same table by other columns (servers)
+      ///< (DuckDB), of the same table by other columns (servers)
 };
 inline constexpr const char* fresh_table = "wearwell_fresh";
 /// `id`: of the model, the SHA-1 of model.json. Without `replicates` there is only the interval by
