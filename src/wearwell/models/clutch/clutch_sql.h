@@ -79,9 +79,9 @@ struct ClutchSql {
   /// is of the key. Of ClickHouse the table may be missing, which `exists` tells (elsewhere empty).
   std::vector<std::string> columns;
   std::string layout, exists;
-  std::string
-      others;  ///< SELECT: another key of which sums are kept, where there are none of this: of another model
-      ///< (DuckDB), of the same table by other columns (servers)
+  /// SELECT: another key of which sums are kept, where there are none of this: of another model (DuckDB), of the same
+  /// table by other columns (servers).
+  std::string others;
 };
 inline constexpr const char* fresh_table = "wearwell_fresh";
 /// `id`: of the model, the SHA-1 of model.json. Without `replicates` there is only the interval by
