@@ -305,11 +305,11 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
   for (const std::string& name : columns.keys()) {
     std::string heading;
     std::optional<law::AnyUnit> unit;
-    std::optional<TomlReader> in_table;
+    const std::optional<TomlReader> in_table =
+        columns.is_text(name) ? std::nullopt : std::optional(columns.required_table(name));
     if (columns.is_text(name)) {
       heading = columns.required_text(name);
     } else {
-      in_table = columns.required_table(name);
       const TomlReader& choice = *in_table;
       heading = choice.required_text("column");
       if (const auto text = choice.text("unit")) {
