@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/heading.h"
@@ -170,6 +171,19 @@ std::optional<ColumnChoice> read_word_column(const TomlReader& columns, const st
 std::string cell_word(const Column& column, std::size_t row) {
   if (!column.is_number) return column.text[row];
   return std::isnan(column.numbers[row]) ? "" : fmt::format("{}", column.numbers[row]);
+}
+
+std::string label_word(const Table& table, const Column& column, std::size_t row) {
+  std::string word = cell_word(column, row);
+  if (!word.empty()) return word;
+  std::string above;
+  for (std::size_t i = row; above.empty() && i-- > 0;) above = cell_word(column, i);
+  throw InputError(fmt::format(
+      "{}: no value; a label must not be empty{}", place(table, column.name, row),
+      above.empty() ? std::string()
+                    : fmt::format(": it can be that of the rows above, '{}', or none; write "
+                                  "it in each row, or a word of its own for none",
+                                  printable(above))));
 }
 
 SeenNumbers seen_numbers(const Table& table, const ColumnChoice& choice) {

@@ -47,6 +47,9 @@ std::string no_unit_of(const Table& table, const Column& column, const std::stri
 /// A cell as a word: a number is written as short as it can be, and empty where there is none.
 std::string cell_word(const Column& column, std::size_t row);
 
+/// The label in a cell. Throws InputError where it is empty: it may be that of a row above, or none.
+std::string label_word(const Table& table, const Column& column, std::size_t row);
+
 /// The table with each row as often as the column says that `count` names in `columns`; the table
 /// itself where there is no such key. Throws InputError.
 Table with_counts(const TomlReader& columns, Table table);

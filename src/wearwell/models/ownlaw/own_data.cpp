@@ -26,11 +26,7 @@ auto find(const Columns& columns, const std::string& name) {
 LabelColumn read_labels(const Table& table, const std::string& name, const Column& column) {
   LabelColumn result{name, column.name, {}, {}};
   for (std::size_t i = 0; i < table.rows; ++i) {
-    const std::string text = cell_word(column, i);
-    if (text.empty()) {
-      throw InputError(
-          fmt::format("{}: no value; a label must not be empty", place(table, column.name, i)));
-    }
+    const std::string text = label_word(table, column, i);
     const auto at = std::find(result.levels.begin(), result.levels.end(), text);
     result.at.push_back(static_cast<int>(at - result.levels.begin()));
     if (at == result.levels.end()) result.levels.push_back(text);
