@@ -283,8 +283,8 @@ std::string si_of(const law::AnyUnit& unit) {
 // What "<LOD" stands for in a column of this unit, SI; NaN where the study does not say it.
 double detection_limit(const TomlReader& choice, const law::AnyUnit& unit) {
   const std::string si = si_of(unit);
-  const auto limit = si.empty() ? std::nullopt : choice.quantity("detection_limit", si);
-  return limit ? limit->si() : NAN;
+  if (!choice.text("detection_limit") || si.empty()) return NAN;
+  return choice.required_quantity("detection_limit", si).si();
 }
 
 }  // namespace
