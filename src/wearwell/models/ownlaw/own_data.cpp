@@ -320,7 +320,8 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
     if (is_label(name) && unit) {
       columns.fail(name, "has a unit, but the study uses it as a label; keep one of the two");
     }
-    if (is_label(name) || (!unit && is_text(*column))) {
+    const bool words = is_text(*column) || (name == "status" && !column->is_number);
+    if (is_label(name) || (!unit && words)) {
       data.labels.push_back(read_labels(data.table, name, *column));
     } else {
       if (!unit) {
