@@ -8,6 +8,7 @@
 
 #include "wearwell/base/nearest.h"
 
+// Longer than others: the keys that all models share, and what a study lacks or has too many of them.
 namespace wearwell {
 namespace {
 

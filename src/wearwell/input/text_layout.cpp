@@ -11,8 +11,8 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
-#include "wearwell/base/unit_system.h"
 #include "wearwell/input/cell_text.h"
+#include "wearwell/input/column_evidence.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/input/summary_words.h"
 #include "wearwell/input/table.h"
@@ -25,215 +25,12 @@ namespace {
 
 constexpr std::size_t most_to_see = 8 << 20;  // bytes, where more could change nothing
 
-/// A cell that shows something, and its row of data.
-struct Witness {
-  std::size_t row = 0, line = 0;
-  std::string cell;
-};
-
-/// What the cells of a column show of its numbers.
-struct Evidence {
-  std::optional<Witness> decimal[2], doubtful[2];  // of '.' and ','
-  std::set<char> thousands;
-  bool any_number = false, any_text = false;
-  bool other_signs = false;  ///< such as no C number has
-  // Cells that are more than a number, or none.
-  std::optional<Witness> missing, limit, bare, with_unit, other_unit;
-  std::size_t missing_cells = 0, limits = 0;
-  std::string unit;  ///< of `with_unit`
-
-  bool shows(std::size_t mark) const { return decimal[mark].has_value(); }
-  bool agrees_with(const NumberMarks& marks) const;
-  /// Whether its numbers are as C has them.
-  bool is_plain(char decimal_mark) const {
-    if (!thousands.empty() || other_signs || missing || shows(1) || doubtful[1]) return false;
-    return decimal_mark == '.' || (!shows(0) && !doubtful[0]);
-  }
-};
-
 /// A line that is no UTF-8.
 struct NotUtf8 {
   std::size_t line = 0;
   std::string text;
   bool others_are = false;  ///< lines above it hold characters of UTF-8
 };
-
-constexpr char marks[2] = {'.', ','};
-std::size_t place_of(char mark) {
-  return mark == ',';
-}
-
-bool Evidence::agrees_with(const NumberMarks& with) const {
-  const std::size_t other = with.decimal == '.';
-  if (shows(other)) return false;
-  const auto may_be = [&](char mark) {
-    return mark != with.decimal && (with.thousands == '*' || with.thousands == mark);
-  };
-  return std::all_of(thousands.begin(), thousands.end(), may_be) &&
-         (!doubtful[other] || may_be(marks[other]));
-}
-
-void look_at(std::string_view cell, std::size_t row, std::size_t line, Evidence& seen) {
-  NumberForm form = number_form(cell);
-  if (form.kind == NumberForm::Kind::empty) return;
-  const auto note = [&](std::optional<Witness>& witness) {
-    if (!witness) witness = {row, line, std::string(cell)};
-  };
-  if (form.kind == NumberForm::Kind::text) {
-    if (is_missing_mark(cell)) {
-      note(seen.missing);
-      ++seen.missing_cells;
-      return;
-    }
-    const auto found = cell_text(cell);
-    if (!found) {
-      seen.any_text = true;
-      return;
-    }
-    if (found->sign) {
-      note(seen.limit);
-      ++seen.limits;
-    }
-    if (found->number.empty()) return;
-    form = number_form(found->number);
-    const std::string unit(found->unit);
-    if (unit.empty()) {
-      note(seen.bare);
-    } else if (!seen.with_unit) {
-      note(seen.with_unit);
-      seen.unit = unit;
-    } else if (unit != seen.unit) {
-      note(seen.other_unit);
-    }
-    cell = found->number;
-  } else if (!seen.bare) {
-    note(seen.bare);
-  }
-  seen.any_number = true;
-  if (form.doubtful) note(seen.doubtful[place_of(form.doubtful)]);
-  if (form.decimal) note(seen.decimal[place_of(form.decimal)]);
-  if (form.thousands) seen.thousands.insert(form.thousands);
-  // A mark for thousands cannot be the decimal mark.
-  if (form.thousands == '.' && !form.decimal) note(seen.decimal[1]);
-  if (form.thousands == ',' && !form.decimal) note(seen.decimal[0]);
-  if (form.thousands || cell.front() == '+' || static_cast<unsigned char>(cell.front()) >= 0x80 ||
-      static_cast<unsigned char>(cell.back()) >= 0x80)
-    seen.other_signs = true;
-}
-
-std::string at(const Witness& witness, const std::string& column) {
-  return fmt::format("{}, column '{}'", row_name(witness.row, witness.line), column);
-}
-
-/// The decimal mark that the columns of numbers show; 0 where they show none, '?' where both.
-char shown_by_all(const std::vector<Evidence>& all) {
-  bool shown[2] = {};
-  for (const Evidence& each : all) {
-    if (each.any_text) continue;
-    for (const std::size_t m : {0u, 1u}) shown[m] = shown[m] || each.shows(m);
-  }
-  return shown[0] && shown[1] ? '?' : shown[0] ? '.' : shown[1] ? ',' : 0;
-}
-
-const Witness& witness_of(const std::vector<Evidence>& all, std::size_t mark) {
-  for (const Evidence& each : all) {
-    if (!each.any_text && each.shows(mark)) return *each.decimal[mark];
-  }
-  return *all.front().decimal[mark];  // nobody asks where there is none
-}
-
-/// Which marks the numbers of a column have, or why nobody can tell.
-void decide(const Evidence& seen, char of_all, const std::vector<Evidence>& all, char delimiter,
-            const TableSettings& settings, TextColumn& column) {
-  column.is_number = seen.any_number && !seen.any_text && !seen.limit && !seen.with_unit;
-  column.marks.thousands = settings.thousands.value_or('*');
-  const auto is_set = [&](char decimal) {
-    column.marks.decimal = decimal;
-    column.is_number = column.is_number && seen.agrees_with(column.marks);
-  };
-  if (settings.decimal) return is_set(*settings.decimal);
-  if (settings.thousands == '.') return is_set(',');
-  if (settings.thousands == ',') return is_set('.');
-  if (seen.shows(0) && seen.shows(1)) {
-    const Witness &point = *seen.decimal[0], &comma = *seen.decimal[1];
-    const bool first = comma.row < point.row;
-    column.doubt = fmt::format(
-        "{}: '{}' has a decimal {} and '{}' in row {} a decimal {}; a column has one of them (say "
-        "which in [data], as in decimal = \".\")",
-        at(first ? point : comma, column.name), (first ? point : comma).cell,
-        first ? "point" : "comma", (first ? comma : point).cell, (first ? comma : point).row,
-        first ? "comma" : "point");
-    return;
-  }
-  if (seen.shows(0) || seen.shows(1)) {
-    column.marks.decimal = marks[seen.shows(1)];
-    return;
-  }
-  if (!seen.doubtful[0] && !seen.doubtful[1]) {
-    // Of whole numbers the others' mark, for what people are told.
-    column.marks.decimal = of_all == ',' ? ',' : '.';
-    return;
-  }
-  const auto doubt = [&](const std::string& why) {
-    const Witness& witness = *seen.doubtful[seen.doubtful[0] ? 0 : 1];
-    column.doubt = fmt::format("{}: {}{}; or say in [data] which it is, as in decimal = \",\"",
-                               at(witness, column.name), two_readings(witness.cell), why);
-  };
-  const auto others = [&](std::size_t mark) {
-    const Witness& other = witness_of(all, mark);
-    return fmt::format(" (the file has '{}', with a decimal {})", other.cell,
-                       mark ? "comma" : "point");
-  };
-  if (seen.doubtful[0] && seen.doubtful[1]) return doubt("");
-  if (of_all == '?') return doubt(others(seen.doubtful[0] ? 1 : 0));
-  // Where commas separate the columns, the point is the decimal mark of most files.
-  if (of_all == ',' && seen.doubtful[0] && delimiter == ',') return doubt(others(1));
-  if (of_all == 0 && seen.doubtful[0] && delimiter == ',') {
-    column.marks.decimal = '.';
-  } else if (of_all == 0) {
-    doubt("");
-  } else {
-    column.marks.decimal = of_all;
-  }
-}
-
-/// Whether what was seen so far settles every column, whatever follows.
-bool is_settled(const std::vector<Evidence>& all, char delimiter) {
-  const char of_all = shown_by_all(all);
-  if (of_all != '.' && !(of_all == 0 && delimiter == ',')) return false;
-  return std::none_of(all.begin(), all.end(), [](const Evidence& each) {
-    return each.shows(1) || each.doubtful[1] || each.other_signs || each.missing || each.limit ||
-           each.with_unit || (each.doubtful[0] && !each.shows(0));
-  });
-}
-
-/// The unit in the cells of a column of numbers, or why nobody can tell.
-void decide_unit(const Evidence& seen, TextColumn& column) {
-  if (!seen.with_unit || seen.any_text || !column.doubt.empty()) return;
-  const Witness& first = *seen.with_unit;
-  const auto refuse = [&](const Witness& other, const std::string& has) {
-    column.doubt = fmt::format(
-        "{}: '{}' has the unit {} and '{}' in {} has {}; write the numbers of a column in "
-        "one unit, and the unit once, as in '{} [{}]' as the heading",
-        at(first, column.name), first.cell, seen.unit, other.cell, row_name(other.row, other.line),
-        has, column.name, seen.unit);
-  };
-  if (seen.other_unit) return refuse(*seen.other_unit, "another");
-  if (seen.bare) return refuse(*seen.bare, "none");
-  const std::string above =
-      !column.unit.empty() ? bare_unit(column.unit) : read_heading(column.name, "").unit;
-  const auto heading = parse_unit(above), cells = parse_unit(seen.unit);
-  if (!above.empty() && heading && cells &&
-      (heading->dimension != cells->dimension || heading->scale != cells->scale)) {
-    column.doubt =
-        fmt::format("{}: '{}' is in {}, and the column is in {} by its {}; which is right?",
-                    at(first, column.name), first.cell, seen.unit, above,
-                    column.unit.empty() ? "heading" : "row of units");
-    return;
-  }
-  column.unit = seen.unit;
-  column.unit_in_cells = true;
-}
 
 class Survey {
  public:
@@ -432,12 +229,12 @@ class Survey {
     const char of_all = shown_by_all(evidence_);
     layout_.plain = is_plain();
     for (std::size_t c = 0; c < heading_.names.size(); ++c) {
-      const Evidence& seen = evidence_[c];
+      const ColumnEvidence& seen = evidence_[c];
       TextColumn column;
       column.name = heading_.names[c].empty() ? fmt::format("column{}", c + 1) : heading_.names[c];
       if (c < units_.size() && !is_units_word(units_[c]))
         column.unit = boost::algorithm::trim_copy(units_[c]);
-      decide(seen, of_all, evidence_, layout_.delimiter, settings_, column);
+      decide_marks(seen, of_all, evidence_, layout_.delimiter, settings_, column);
       decide_unit(seen, column);
       layout_.plain =
           layout_.plain && !seen.limit && !seen.with_unit &&
@@ -449,7 +246,7 @@ class Survey {
   }
 
   /// For people: what stands in the cells of a column beside numbers.
-  void add_notes(const Evidence& seen, const TextColumn& column, bool no_heading) {
+  void add_notes(const ColumnEvidence& seen, const TextColumn& column, bool no_heading) {
     if (no_heading && (seen.any_number || seen.any_text))
       layout_.notes.push_back(fmt::format("a column without a heading, read as '{}'", column.name));
     if (seen.any_text || !seen.any_number) return;
@@ -470,17 +267,18 @@ class Survey {
   }
 
   /// For people: the marks that numbers have.
-  void tell(const Evidence& seen, const TextColumn& column) {
+  void tell(const ColumnEvidence& seen, const TextColumn& column) {
     if (seen.any_text || !seen.any_number || !column.doubt.empty()) return;
     const auto add = [](std::string& to, char mark) {
       if (to.find(mark) == to.npos) to += mark;
     };
     for (const std::size_t m : {0u, 1u}) {
       if (seen.doubtful[m])
-        add(marks[m] == column.marks.decimal ? layout_.decimal_marks : layout_.thousands_marks,
-            marks[m]);
+        add(decimal_signs[m] == column.marks.decimal ? layout_.decimal_marks
+                                                     : layout_.thousands_marks,
+            decimal_signs[m]);
     }
-    if (seen.shows(place_of(column.marks.decimal)))
+    if (seen.shows(mark_place(column.marks.decimal)))
       add(layout_.decimal_marks, column.marks.decimal);
     for (const char mark : seen.thousands) add(layout_.thousands_marks, mark);
   }
@@ -489,7 +287,7 @@ class Survey {
   const TableSettings& settings_;
   TextHeading heading_;
   TextLayout layout_;
-  std::vector<Evidence> evidence_;
+  std::vector<ColumnEvidence> evidence_;
   std::vector<std::string> units_;
   std::vector<PendingRow> pending_;
   std::set<std::string> summaries_that_are_data_;

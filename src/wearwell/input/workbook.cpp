@@ -13,26 +13,22 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/csv_reader.h"
 #include "wearwell/input/memory_text.h"
+#include "wearwell/input/merged_cells.h"
 #include "wearwell/input/sheet_numbers.h"
 #include "wearwell/input/spreadsheet_cell.h"
 #include "wearwell/input/zip_xml.h"
 
+// Longer than others: the parts of a workbook, and one pass through the XML of a sheet.
 namespace wearwell {
 namespace {
 
 constexpr std::size_t most_sheet = std::size_t(512) << 20, most_parts = 64 << 20;  // bytes
-constexpr std::size_t most_columns = 16'384, most_rows = 1'048'576;                // of a sheet
 constexpr std::size_t most_text = 1 << 16;      // of a cell; Excel has half of it
 constexpr std::size_t most_cells = 50'000'000;  // of what is used, empty ones too
 
 struct SheetName {
   std::string name, part;
   bool hidden = false;
-};
-
-/// The cells that are read, both ends included.
-struct Range {
-  CellName first{1, 1}, last{most_columns, most_rows};
 };
 
 int whole(std::string_view text) {
@@ -44,23 +40,6 @@ int whole(std::string_view text) {
 std::string attribute(const XmlHandler::Attributes& attributes, std::string_view name) {
   const auto found = attributes.find(name);
   return found == attributes.end() ? "" : found->second;
-}
-
-/// "B3:F20", "B:F".
-Range read_range(const std::string& text, const std::string& source) {
-  std::string_view rest;
-  Range range{read_cell_name(text, rest), {}};
-  if (rest.starts_with(':')) range.last = read_cell_name(rest.substr(1), rest);
-  const auto or_all = [](std::size_t& value, std::size_t all) { value = value ? value : all; };
-  const bool has_columns = range.first.column > 0 && range.last.column > 0;
-  or_all(range.first.row, 1);
-  or_all(range.last.row, most_rows);
-  if (!rest.empty() || !has_columns || range.last.column > most_columns ||
-      range.last.row > most_rows || range.first.column > range.last.column ||
-      range.first.row > range.last.row)
-    throw InputError(
-        fmt::format("{}: '{}' is no range of a sheet; write one like B3:F20 or B:F", source, text));
-  return range;
 }
 
 /// What an .xlsx holds beside its sheets.
@@ -75,22 +54,11 @@ class Workbook {
   const std::string& source() const { return source_; }
   const std::vector<SheetName>& sheets() const { return sheets_; }
 
-  struct Cell {
-    std::size_t column = 0;
-    std::string text;
-    bool is_text = false;  ///< and no number, date or truth value
-  };
-  using Cells = std::vector<Cell>;
-  struct Row {
-    std::size_t number = 0;
-    bool hidden = false;
-    Cells cells;
-  };
   /// Calls `row` with each row that holds something. Ranges of merged cells, which stand behind the rows, are
   /// added to `merged`.
-  void read_rows(const SheetName& sheet, const Range& range,
-                 const std::function<void(Row& row)>& row,
-                 std::vector<Range>* merged = nullptr) const;
+  void read_rows(const SheetName& sheet, const SheetRange& range,
+                 const std::function<void(SheetRow& row)>& row,
+                 std::vector<SheetRange>* merged = nullptr) const;
 
  private:
   void read_sheet_names() {
@@ -178,8 +146,8 @@ class Workbook {
 /// Goes through the XML of a sheet.
 class SheetParser {
  public:
-  SheetParser(const Workbook& book, const SheetName& sheet, const Range& range,
-              const std::function<void(Workbook::Row&)>& row, std::vector<Range>* merged)
+  SheetParser(const Workbook& book, const SheetName& sheet, const SheetRange& range,
+              const std::function<void(SheetRow&)>& row, std::vector<SheetRange>* merged)
       : book_(book), sheet_(sheet), range_(range), give_(row), merged_(merged) {}
 
   void start(std::string_view name, const XmlHandler::Attributes& attributes) {
@@ -196,7 +164,8 @@ class SheetParser {
         std::string_view rest;
         at_ = read_cell_name(cell, rest);
       }
-      if (at_.row == 0 || at_.row > most_rows || at_.column <= column_ || at_.column > most_columns)
+      if (at_.row == 0 || at_.row > most_sheet_rows || at_.column <= column_ ||
+          at_.column > most_sheet_columns)
         throw InputError(
             fmt::format("sheet '{}' has no cell {}", sheet_.name, attribute(attributes, "r")));
       column_ = at_.column;
@@ -212,7 +181,7 @@ class SheetParser {
     } else if (name == "rPh") {
       in_reading_ = true;
     } else if (name == "mergeCell" && merged_) {
-      merged_->push_back(read_range(attribute(attributes, "ref"), sheet_.name));
+      merged_->push_back(read_sheet_range(attribute(attributes, "ref"), sheet_.name));
     }
   }
 
@@ -228,7 +197,7 @@ class SheetParser {
     if (name == "rPh") in_reading_ = false;
     if (name == "c") end_cell();
     if (name != "row" || cells_.empty()) return;
-    Workbook::Row row{row_, hidden_, std::move(cells_)};
+    SheetRow row{row_, hidden_, std::move(cells_)};
     cells_.clear();
     give_(row);
   }
@@ -267,10 +236,10 @@ class SheetParser {
 
   const Workbook& book_;
   const SheetName& sheet_;
-  const Range& range_;
-  const std::function<void(Workbook::Row&)>& give_;
-  std::vector<Range>* merged_;
-  Workbook::Cells cells_;
+  const SheetRange& range_;
+  const std::function<void(SheetRow&)>& give_;
+  std::vector<SheetRange>* merged_;
+  std::vector<SheetCell> cells_;
   std::size_t row_ = 0, column_ = 0, style_ = 0;
   CellName at_;
   std::string type_, value_;
@@ -278,9 +247,9 @@ class SheetParser {
        has_formula_ = false;
 };
 
-void Workbook::read_rows(const SheetName& sheet, const Range& range,
-                         const std::function<void(Row& row)>& row,
-                         std::vector<Range>* merged) const {
+void Workbook::read_rows(const SheetName& sheet, const SheetRange& range,
+                         const std::function<void(SheetRow& row)>& row,
+                         std::vector<SheetRange>* merged) const {
   SheetParser parser(*this, sheet, range, row, merged);
   zip_.read(sheet.part,
             {[&](std::string_view name, const auto& attributes) { parser.start(name, attributes); },
@@ -291,75 +260,30 @@ void Workbook::read_rows(const SheetName& sheet, const Range& range,
 
 /// What is found of a sheet before it is read: its columns, its last row (0 where it is empty), and what its cells of
 /// text and its merged cells say.
-struct Survey {
-  std::size_t first = most_columns + 1, last = 0, last_row = 0;
+struct SheetSurvey {
+  std::size_t first = most_sheet_columns + 1, last = 0, last_row = 0;
   SheetNumbers numbers;
-  std::vector<Range> merged;
+  std::vector<SheetRange> merged;
 };
-Survey survey_of(const Workbook& book, const SheetName& sheet, const Range& range,
-                 const TableSettings& settings) {
-  Survey found{.numbers = SheetNumbers(settings), .merged = {}};
+SheetSurvey survey_of(const Workbook& book, const SheetName& sheet, const SheetRange& range,
+                      const TableSettings& settings) {
+  SheetSurvey found{.numbers = SheetNumbers(settings), .merged = {}};
   book.read_rows(
       sheet, range,
-      [&](Workbook::Row& row) {
+      [&](SheetRow& row) {
         if (row.hidden && settings.hidden_rows == false) return;
         found.first = std::min(found.first, row.cells.front().column);
         found.last = std::max(found.last, row.cells.back().column);
         found.last_row = std::max(found.last_row, row.number);
-        for (const Workbook::Cell& cell : row.cells) {
+        for (const SheetCell& cell : row.cells) {
           if (cell.is_text) found.numbers.look_at(cell.column, row.number, cell.text);
         }
       },
       &found.merged);
-  std::erase_if(found.merged, [](const Range& each) { return each.first.row >= each.last.row; });
+  std::erase_if(found.merged,
+                [](const SheetRange& each) { return each.first.row >= each.last.row; });
   return found;
 }
-
-/// Repeats what is merged over several rows in each of them.
-class MergedCells {
- public:
-  explicit MergedCells(const std::vector<Range>& ranges)
-      : ranges_(ranges), values_(ranges.size()) {}
-
-  void fill(Workbook::Row& row) {
-    for (std::size_t i = 0; i < ranges_.size(); ++i) {
-      const Range& range = ranges_[i];
-      if (row.number < range.first.row || row.number > range.last.row) continue;
-      const auto at = std::lower_bound(
-          row.cells.begin(), row.cells.end(), range.first.column,
-          [](const Workbook::Cell& cell, std::size_t column) { return cell.column < column; });
-      const bool there = at != row.cells.end() && at->column == range.first.column;
-      if (row.number == range.first.row) {
-        if (there) values_[i] = *at;
-      } else if (!there && values_[i].column > 0) {
-        row.cells.insert(at, values_[i]);
-        if (filled_.empty() || filled_.back() != i) filled_.push_back(i);
-      }
-    }
-  }
-
-  /// "merged cells A2:A4, A5:A7 read in each of their rows"; empty where none were.
-  std::string in_words() const {
-    constexpr std::size_t most = 3;
-    std::vector<std::string> names;
-    for (const std::size_t i : filled_) {
-      const Range& range = ranges_[i];
-      if (names.size() == most) {
-        names.push_back(fmt::format("... ({} in all)", filled_.size()));
-        break;
-      }
-      names.push_back(fmt::format("{}{}:{}{}", column_letters(range.first.column), range.first.row,
-                                  column_letters(range.last.column), range.last.row));
-    }
-    if (names.empty()) return {};
-    return fmt::format("merged cells {} read in each of their rows", fmt::join(names, ", "));
-  }
-
- private:
-  const std::vector<Range>& ranges_;
-  std::vector<Workbook::Cell> values_;
-  std::vector<std::size_t> filled_;
-};
 
 /// "2 hidden rows read like the others (rows 5, 9)".
 std::string hidden_in_words(const std::vector<std::size_t>& rows, bool read) {
@@ -390,9 +314,10 @@ const SheetName& named_sheet(const Workbook& book, const std::string& wanted) {
 
 SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
   const Workbook book(file);
-  const Range range = settings.range ? read_range(*settings.range, file.source()) : Range{};
+  const SheetRange range =
+      settings.range ? read_sheet_range(*settings.range, file.source()) : SheetRange{};
   const SheetName* sheet = nullptr;
-  Survey used{.numbers = SheetNumbers(settings), .merged = {}};
+  SheetSurvey used{.numbers = SheetNumbers(settings), .merged = {}};
   if (settings.sheet) {
     sheet = &named_sheet(book, *settings.sheet);
     used = survey_of(book, *sheet, range, settings);
@@ -400,7 +325,7 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
     std::vector<std::string> full;
     for (const SheetName& each : book.sheets()) {
       if (each.hidden) continue;
-      Survey here = survey_of(book, each, range, settings);
+      SheetSurvey here = survey_of(book, each, range, settings);
       if (here.last == 0) continue;
       full.push_back(each.name);
       if (!sheet) used = std::move(here);
@@ -425,7 +350,7 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
   std::string line;
   MergedCells merged(used.merged);
   std::vector<std::size_t> hidden;
-  book.read_rows(*sheet, range, [&](Workbook::Row& row) {
+  book.read_rows(*sheet, range, [&](SheetRow& row) {
     if (row.number < next_row)
       throw InputError(
           fmt::format("row {} of sheet '{}' stands out of order", row.number, sheet->name));

@@ -13,6 +13,7 @@
 #include "wearwell/input/heading.h"
 #include "wearwell/math/constants.h"
 
+// Longer than others: columns, and what each cell of a measured one says.
 namespace wearwell::ownlaw {
 namespace {
 
