@@ -100,7 +100,7 @@ Table read_table(const std::filesystem::path& path, const std::optional<std::str
 namespace {
 
 /// As a text has it, so that it is read back to the bit.
-std::string cell_text(const Table& table, const Column& column, bool numbers, std::size_t row) {
+std::string written_cell(const Table& table, const Column& column, bool numbers, std::size_t row) {
   if (!numbers) return csv_cell(column.text[row]);
   const double number = cell_number(table, column, row);
   return std::isnan(number) ? std::string() : fmt::format("{}", number);
@@ -119,7 +119,7 @@ Table query_table(const Table& table, const std::string& sql, const QueryLimits&
   text.add_line(fmt::format("{}", fmt::join(cells, ",")));
   for (std::size_t i = 0; i < table.rows; ++i) {
     for (std::size_t c = 0; c < cells.size(); ++c)
-      cells[c] = cell_text(table, table.columns[c], numbers[c], i);
+      cells[c] = written_cell(table, table.columns[c], numbers[c], i);
     text.add_line(fmt::format("{}", fmt::join(cells, ",")));
   }
   const std::unique_ptr<TableFile> file = text.table(table.source);
