@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/heading.h"
@@ -72,6 +73,18 @@ std::optional<NamedColumn> read_name(const TomlReader& columns, const std::strin
 
 }  // namespace
 
+const Column& study_column(const TomlReader& columns, const std::string& name,
+                           const std::string& heading, const Table& table) {
+  try {
+    return table.column(heading);
+  } catch (const InputError& error) {
+    std::vector<std::string> headings;
+    for (const Column& each : table.columns) headings.push_back(each.name);
+    const auto near = near_name(heading, headings);
+    columns.fail(name, error.what(), near ? Repair{heading, *near} : Repair{});
+  }
+}
+
 std::string no_unit_of(const Table& table, const Column& column, const std::string& name,
                        const std::string& unit, const std::string& why) {
   return fmt::format(
@@ -107,12 +120,17 @@ std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::st
                                         const std::string& si, const Table& table) {
   const auto named = read_name(columns, name, si);
   if (!named) return {};
-  const Column& column = table.column(named->column);
+  const Column& column = study_column(columns, name, named->column, table);
   const WrittenUnit written = written_unit(column, si);
   if (!named->unit && written.text.empty() && !may_be_plain(si)) {
-    columns.fail(name, fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}, or "
-                                   "'{} [{}]' as the heading in {}",
-                                   name, column.name, si, column.name, si, table.source));
+    const std::string quoted = fmt::format("\"{}\"", named->column);
+    const std::string with_unit = fmt::format("{}, unit = \"{}\"", quoted, si);
+    columns.fail(
+        name,
+        fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}, or "
+                    "'{} [{}]' as the heading in {}",
+                    name, column.name, si, column.name, si, table.source),
+        {quoted, columns.is_text(name) ? fmt::format("{{ column = {} }}", with_unit) : with_unit});
   }
   if (!named->unit && !written.text.empty() && !is_any_unit(written.text)) {
     try {
@@ -140,7 +158,7 @@ std::optional<ColumnChoice> read_word_column(const TomlReader& columns, const st
                                              const Table& table) {
   const auto named = read_name(columns, name, "1");
   if (!named) return {};
-  return ColumnChoice{table.column(named->column).name, Unit{"1", 1, 0}};
+  return ColumnChoice{study_column(columns, name, named->column, table).name, Unit{"1", 1, 0}};
 }
 
 std::string cell_word(const Column& column, std::size_t row) {

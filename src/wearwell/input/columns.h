@@ -24,6 +24,11 @@ std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::st
 ColumnChoice required_column(const TomlReader& columns, const std::string& name,
                              const std::string& si, const Table& table);
 
+/// The column of this heading, which `name` in the study's [columns] names. Throws InputError at that line of
+/// the study, with the nearest heading.
+const Column& study_column(const TomlReader& columns, const std::string& name,
+                           const std::string& heading, const Table& table);
+
 /// The same of a column of words; units in its heading mean nothing.
 std::optional<ColumnChoice> read_word_column(const TomlReader& columns, const std::string& name,
                                              const Table& table);

@@ -49,9 +49,12 @@ std::filesystem::path required_file(const TomlReader& section, const std::string
   std::filesystem::path file = folder / name;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
+    const std::vector<std::string> files = files_in(file.parent_path());
+    const auto near = near_name(file.filename().string(), files);
     section.fail(key,
                  fmt::format("no such file: {}{}", valid_utf8(file.string()),
-                             did_you_mean(file.filename().string(), files_in(file.parent_path()))));
+                             did_you_mean(file.filename().string(), files)),
+                 near ? Repair{file.filename().string(), *near} : Repair{});
   }
   if (std::filesystem::is_directory(file, ignored))
     section.fail(key, fmt::format("{} is a folder, not a file", valid_utf8(file.string())));

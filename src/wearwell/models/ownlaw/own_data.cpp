@@ -278,12 +278,7 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
         }
       }
     }
-    const Column* column = nullptr;
-    try {
-      column = &data.table.column(heading);
-    } catch (const InputError& error) {
-      columns.fail(name, error.what());
-    }
+    const Column* const column = &study_column(columns, name, heading, data.table);
     if (is_label(name) && unit) {
       columns.fail(name, "has a unit, but the study uses it as a label; keep one of the two");
     }

@@ -38,13 +38,13 @@ StudyKeys slot_keys() {
 
 StudyKeys law_keys() {
   StudyKeys keys = posterior_keys();
+  add_keys(keys, status_keys());
   add_keys(
       keys,
       {{"data.columns.*", "{ column = \"h_um\", unit = \"um\" }",
         "what expressions call `*`; `status`, `lower`, `upper`, `count` and `entry` say how much "
         "is "
         "known of an observation"},
-       status_code_key(),
        unused_columns_key(),
        {"data.rows_of", "\"machine\"",
         "of several labels that parameters vary with: whose levels are the units"},
