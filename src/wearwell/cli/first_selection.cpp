@@ -43,7 +43,7 @@ std::optional<FirstStudy> first_selection(ColumnRoles& roles) {
   const bool along = roles.has({"time", "cycles", "distance", "revolutions"});
   const auto unit = roles.find({"unit"});
   const bool of_units = unit && repeats(roles.table(), *unit->column);
-  if (roles.has({"life", "status"}) || (of_units && along && !stated)) return {};
+  if (roles.has({"life", "status"}) || (of_units && !stated)) return {};
   std::optional<ColumnRoles::Found> response;
   if (stated) {
     response = roles.take("response", {"response"});

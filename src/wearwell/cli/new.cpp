@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -114,6 +116,11 @@ void choose(NewOptions& options, const std::vector<std::string>& words) {
   }
 }
 
+// A question that nobody is there to answer.
+struct Unanswered {
+  std::string text;
+};
+
 void ask(NewOptions& options, const TableQuestion& question) {
   if (is_somebody_there()) {
     choose(options, question.readings[read_choice(question)].options);
@@ -125,13 +132,14 @@ void ask(NewOptions& options, const TableQuestion& question) {
     choose(chosen, each.options);
     commands.push_back(command(chosen));
   }
-  throw InputError(as_refusal(question, commands));
+  throw Unanswered{as_refusal(question, commands)};
 }
 
 // The table; nothing where it was asked which sheet, and the answer is in `options`.
 std::optional<Table> read_from(NewOptions& options) {
   const std::string settings = settings_text(options);
   try {
+    if (settings.empty()) return read_table(options.from);
     return read_table(options.from, {}, {},
                       read_table_settings(TomlReader::parse({"options of the table", settings})));
   } catch (const SeveralSheets& several) {
@@ -157,6 +165,8 @@ TableChoices choices_of(const NewOptions& options, const Table& table) {
   choices.failure = options.failure;
   choices.limit = options.limit;
   choices.settings = settings_text(options);
+  if (!options.limit.empty() && !std::isdigit(static_cast<unsigned char>(options.limit.front())))
+    throw InputError(fmt::format("--limit: '{}' is no quantity, as in '100 um'", options.limit));
   for (const std::string& each : options.columns) {
     const std::size_t at = each.find('=');
     if (at == each.npos)
@@ -344,7 +354,12 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
       "wrong, nothing written.");
   command->callback([options, models, &exit_code] {
     if (!options->from.empty()) {
-      exit_code = run_from(*options, models);
+      try {
+        exit_code = run_from(*options, models);
+      } catch (const Unanswered& question) {
+        fmt::print(stderr, "wearwell: {}\n", printable_lines(question.text));
+        exit_code = 2;
+      }
       return;
     }
     if (options->trade.empty()) throw CLI::RequiredError("TRADE");

@@ -94,11 +94,14 @@ std::optional<ColumnRoles::Match> ColumnRoles::match(const Column& column, const
   }
   for (std::size_t i = 0; i < form.words.size(); ++i) {
     const RoleWord& word = form.words[i];
-    if (!is_called(heading.name, word.text)) continue;
+    // "operating hours" names its unit: the word and not what is left of it counts.
+    const bool says_unit = !word.unit.empty() && column.unit.empty() &&
+                           bracketed(column.name).empty() && is_called(column.name, word.text);
+    if (!says_unit && !is_called(heading.name, word.text)) continue;
     if (is_of_longer_word(column, form, word.text)) return {};
     Match match;
     match.found = {&column, &form, si, heading.unit, false};
-    if (heading.unit.empty() && !word.unit.empty()) {
+    if (!word.unit.empty() && (says_unit || heading.unit.empty())) {
       match.found.unit = word.unit;
       const std::string of_word = dimension_of(form, match.found.unit);
       if (!of_word.empty()) match.found.si = of_word;
@@ -106,6 +109,8 @@ std::optional<ColumnRoles::Match> ColumnRoles::match(const Column& column, const
       match.found.unit = form.usual;
       match.found.unit_guessed = !form.si.empty() && !may_be_plain(si);
     }
+    if (may_be_plain(match.found.si) && !form.si.empty() && form.name != "count")
+      match.found.unit = with_multiple(column.name, match.found.unit);
     match.word = i;
     match.whole = is_exactly(heading.name, word.text);
     match.letter = heading.letter;
@@ -127,6 +132,7 @@ std::optional<ColumnRoles::Match> ColumnRoles::match_by_unit(const Column& colum
   }
   Match found;
   found.found = {&column, &form, si, heading.unit, false};
+  if (may_be_plain(si)) found.found.unit = with_multiple(column.name, heading.unit);
   found.by_unit = true;
   return found;
 }

@@ -1,5 +1,8 @@
 #include "wearwell/study/heading_words.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <utility>
@@ -112,6 +115,24 @@ NameAndUnit name_and_unit(const Column& column, std::string_view si) {
       return {heading.substr(0, at), unit};
   }
   return {found.name, found.unit};
+}
+
+std::string with_multiple(const std::string& heading, const std::string& unit) {
+  const std::string words = plain_words(heading);
+  const bool has_own =
+      !unit.empty() && std::isdigit(static_cast<unsigned char>(unit.front())) && unit != "1";
+  const auto says = [&](std::initializer_list<const char*> any) {
+    return std::any_of(any.begin(), any.end(), [&](const char* each) {
+      return words.find(fmt::format(" {} ", each)) != words.npos;
+    });
+  };
+  const std::string base = unit.empty() || unit == "1" ? "cycles" : unit;
+  if (has_own) return unit;
+  if (says({"million", "millions", "mio", "millionen", "millones", "milioni"}))
+    return "1e6 " + base;
+  if (says({"thousand", "thousands", "tsd", "tausend", "milliers", "miles de"}))
+    return "1e3 " + base;
+  return unit;
 }
 
 std::string plain_words(std::string_view text) {

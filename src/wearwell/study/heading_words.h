@@ -24,6 +24,9 @@ struct NameAndUnit {
 };
 NameAndUnit name_and_unit(const Column& column, std::string_view si);
 
+/// The unit of a count with the million or thousand that the heading says: "1e6 cycles" of "Mio. cycles".
+std::string with_multiple(const std::string& heading, const std::string& unit);
+
 /// Whether a heading has the word, as a word; long ones also within others, as languages put words together. Accents
 /// and capital letters do not matter.
 bool is_called(const std::string& heading, std::string_view word);

@@ -20,6 +20,7 @@ struct Lives {
   std::string columns;  ///< lines of [data.columns]
   std::string unit;     ///< of a life
   double largest = 1;   ///< in it
+  double middle = 1;    ///< the median of what is written
   bool stated = false;  ///< words or a status say that these are lives
 };
 
@@ -40,6 +41,14 @@ double largest_of(const Table& table, const Column& column) {
   return found == values.end() || !(*found > 0) ? 1 : *found;
 }
 
+double middle_of(const Table& table, const Column& column) {
+  auto values = values_of(table, column);
+  if (values.empty()) return 1;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle > 0 ? *middle : 1;
+}
+
 // A path that is read again and again is no list of lives.
 bool is_path(const ColumnRoles& roles) {
   return roles.has({"depth", "volume", "mass", "crack", "measured"}) ||
@@ -57,6 +66,7 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
     lives.unit = a.unit;
     lives.largest = std::max(largest_of(roles.table(), *lower.column),
                              largest_of(roles.table(), *upper.column));
+    lives.middle = middle_of(roles.table(), *lower.column);
     lives.stated = true;
     roles.guesses.push_back(
         "an empty upper end is taken for a run-out, an empty lower one for failed before");
@@ -71,6 +81,7 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
     lives.columns = column_line("life", *life);
     lives.unit = counting_unit(*life);
     lives.largest = largest_of(roles.table(), *life->column);
+    lives.middle = middle_of(roles.table(), *life->column);
     lives.stated = named;
     if (lives.unit == "1")
       roles.guesses.push_back(fmt::format(
@@ -93,7 +104,7 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
   return lives;
 }
 
-std::string life_priors(const Lives& lives, const char* scale) {
+std::string life_priors(const Lives& lives, const char* scale, double size) {
   return fmt::format(
       "# What was known before the data, as weak as it goes: PROPOSED from the size of the data. "
       "What you know of such\n"
@@ -103,7 +114,7 @@ std::string life_priors(const Lives& lives, const char* scale) {
       "slope = {{ law = \"lognormal\", median = 1.5, log_sd = 0.7 }}    # below 1: early failures, "
       "1: accidents, "
       "above: wear-out\n",
-      scale, toml_text(quantity_text(rounded_up(lives.largest), lives.unit)));
+      scale, toml_text(quantity_text(rounded_up(size), lives.unit)));
 }
 
 std::string head(const ColumnRoles& roles, const std::string& title) {
@@ -148,7 +159,7 @@ std::optional<FirstStudy> first_life_study(ColumnRoles& roles) {
       "lives of parts: one Weibull distribution",
       lives->stated ? ReadingFit::general : ReadingFit::possible,
       head(roles, "Lives") + lives->columns + "\n" + family + "\n" +
-          life_priors(*lives, "characteristic") + "\n[predict]\n" + answers +
+          life_priors(*lives, "characteristic", lives->largest) + "\n[predict]\n" + answers +
           fmt::format("# survival_to = {}                  # which share outlasts that?\n",
                       survival) +
           (conditions.empty() ? ""
@@ -178,13 +189,13 @@ std::optional<FirstStudy> first_accelerated_study(ColumnRoles& roles) {
     const Found found = *roles.take("temperature", {"temperature"});
     columns += ColumnRoles::line("temperature", found);
     const auto values = values_of(roles.table(), *found.column);
-    const double least = *std::min_element(values.begin(), values.end());
+    const auto [mild, harsh] = std::minmax_element(values.begin(), values.end());
     constants += fmt::format(
         "boltzmann = \"8.617333262e-5 eV/K\"\nreference = {}    # where life_ref is the "
         "characteristic life\n",
-        toml_text(quantity_text(least, found.unit)));
+        toml_text(quantity_text(*harsh, found.unit)));
     formula += " * exp(energy/boltzmann * (1/temperature - 1/reference))";
-    given += fmt::format("temperature = {}", toml_text(quantity_text(least, found.unit)));
+    given += fmt::format("temperature = {}", toml_text(quantity_text(*mild, found.unit)));
     priors +=
         "energy = { law = \"normal\", mean = \"0.7 eV\", sd = \"0.3 eV\" }    # of the process "
         "that ages them\n";
@@ -195,10 +206,11 @@ std::optional<FirstStudy> first_accelerated_study(ColumnRoles& roles) {
     const std::string name(each == "alternating_stress" ? "stress" : each);
     columns += ColumnRoles::line(name, found);
     const auto values = values_of(roles.table(), *found.column);
-    const double least = *std::min_element(values.begin(), values.end());
-    if (!(least > 0)) return {};
-    const std::string quantity = toml_text(quantity_text(least, found.unit));
-    constants += fmt::format("{}_ref = {}\n", name, quantity);
+    const auto [mild, harsh] = std::minmax_element(values.begin(), values.end());
+    if (!(*mild > 0)) return {};
+    const std::string quantity = toml_text(quantity_text(*mild, found.unit));
+    constants += fmt::format("{}_ref = {}    # where life_ref is the characteristic life\n", name,
+                             toml_text(quantity_text(*harsh, found.unit)));
     formula += fmt::format(" * ({0}/{0}_ref)^-{0}_power", name);
     given += fmt::format("{}{} = {}", given.empty() ? "" : ", ", name, quantity);
     priors += fmt::format(
@@ -220,7 +232,7 @@ std::optional<FirstStudy> first_accelerated_study(ColumnRoles& roles) {
           constants +
           "\n[law]                                    # the simplest law of such lives: " + how +
           "\ncharacteristic = \"" + formula + "\"\n\n" + family + "\n" +
-          life_priors(*lives, "life_ref") + priors + "\n[predict]\n" +
+          life_priors(*lives, "life_ref", lives->middle) + priors + "\n[predict]\n" +
           fmt::format(
               "given = {{ {} }}    # GUESS: the mildest conditions tested; state those of use\n",
               given) +
