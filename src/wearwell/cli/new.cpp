@@ -155,7 +155,7 @@ std::optional<Table> read_from(NewOptions& options) {
     std::vector<std::string> names;
     for (const auto& [key, help] : table_keys) names.push_back(option_of(key));
     throw InputError(
-        fmt::format("{}\nBefore there is a study, keys of [data] are options of wearwell new: {}",
+        fmt::format("{}. Before there is a study, keys of [data] are options of wearwell new: {}",
                     message, fmt::join(names, ", ")));
   }
 }

@@ -261,6 +261,13 @@ ColumnRoles::Found ColumnRoles::record(const std::string& key, const Match& matc
       return found;
     }
   }
+  if (const std::string inside = bracketed(name);
+      found.si.empty() && found.unit == "1" && name.ends_with(']') && inside != "1") {
+    found.no_unit = true;
+    guesses.push_back(
+        fmt::format("column '{}': {} is no unit that is known; its numbers are taken as they are",
+                    name, inside));
+  }
   taken.push_back(fmt::format("{}: column '{}'{}{}", name_of_role, name,
                               found.unit == "1" ? "" : " in " + found.unit,
                               match.by_unit ? ", by its unit" : ""));
@@ -293,9 +300,13 @@ std::vector<const Column*> ColumnRoles::other_labels() const {
 }
 
 std::string ColumnRoles::line(const std::string& name, const Found& found) {
-  if (found.unit == "1") return fmt::format("{} = {}\n", name, toml_text(found.column->name));
+  if (found.unit == "1" && !found.no_unit)
+    return fmt::format("{} = {}\n", name, toml_text(found.column->name));
   return fmt::format("{} = {{ column = {}, unit = {} }}{}\n", name, toml_text(found.column->name),
-                     toml_text(found.unit), found.unit_guessed ? "    # the unit is a GUESS" : "");
+                     toml_text(found.unit),
+                     found.unit_guessed ? "    # the unit is a GUESS"
+                     : found.no_unit    ? "    # GUESS: a plain number"
+                                        : "");
 }
 
 std::string ColumnRoles::unstated_line(const std::string& name, const std::string& what,

@@ -27,6 +27,7 @@ class ColumnRoles {
     std::string si;          ///< the dimension that it has
     std::string unit = "1";  ///< as the table has it, or as guessed
     bool unit_guessed = false;
+    bool no_unit = false;  ///< what stands in its brackets is none: its numbers are plain
   };
   using Roles = std::initializer_list<std::string_view>;
 

@@ -28,6 +28,20 @@ std::string factor(const std::string& unit) {
   return is_plain_unit(unit) ? unit : "(" + unit + ")";
 }
 
+// Several rows of each, and none without a name: no remarks.
+bool may_be_units(const Table& table, const Column& column) {
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    if (cell_word(column, i).empty()) return false;
+  }
+  return 2 * kinds_of(table, column).size() <= table.rows;
+}
+
+bool rises_throughout(const Table& table, const Column& axis) {
+  const std::vector<double> at = numbers_of(table, axis);
+  return std::adjacent_find(at.begin(), at.end(), [](double a, double b) { return !(b > a); }) ==
+         at.end();
+}
+
 }  // namespace
 
 std::string quantity_text(double value, const std::string& unit) {
@@ -124,13 +138,18 @@ bool has_units(const ColumnRoles& roles) {
   return false;
 }
 
-std::optional<ColumnRoles::Found> take_units(ColumnRoles& roles) {
+std::optional<ColumnRoles::Found> take_units(ColumnRoles& roles, const Column& axis) {
   const auto chosen = roles.choices().columns.find("unit");
   if (chosen != roles.choices().columns.end())
     return chosen->second.empty() ? std::nullopt : roles.take("unit", {"unit"});
   if (has_units(roles)) return roles.take("unit", {"unit"});
-  const std::vector<const Column*> labels = roles.other_labels();
+  std::vector<const Column*> labels = roles.other_labels();
+  std::erase_if(labels, [&](const Column* each) { return !may_be_units(roles.table(), *each); });
   if (labels.empty()) return {};
+  if (rises_throughout(roles.table(), axis)) {
+    roles.guesses.emplace_back("all rows are taken to be of one unit");
+    return {};
+  }
   TableQuestion question{
       fmt::format("Which column of {} says of which unit a row is?", roles.file()), {}};
   for (const Column* each : labels) {

@@ -27,9 +27,9 @@ std::string name_of(const Column& column, const std::string& otherwise);
 /// A line of [data.columns] with its unit.
 std::string column_line(const std::string& name, ColumnRoles::Found found);
 
-/// The label whose rows are those of one unit, where its cells repeat; where several columns may be it the question is
-/// asked.
-std::optional<ColumnRoles::Found> take_units(ColumnRoles& roles);
+/// The label whose rows are those of one unit, where its cells repeat. Where other columns may be it, and rows do not all
+/// follow each other along `axis`, the question is asked.
+std::optional<ColumnRoles::Found> take_units(ColumnRoles& roles, const Column& axis);
 
 /// Whether the table has several rows of a unit.
 bool has_units(const ColumnRoles& roles);

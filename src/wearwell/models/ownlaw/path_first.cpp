@@ -47,7 +47,7 @@ std::optional<Path> take_path(ColumnRoles& roles, bool with_force) {
   path.axis_name = axis->role->name;
   path.axis_unit = counting_unit(*axis);
   if (!with_force) {
-    path.unit = take_units(roles);
+    path.unit = take_units(roles, *axis->column);
   } else if (has_units(roles)) {
     path.unit = roles.take("unit", {"unit"});
   }
