@@ -49,6 +49,12 @@ bool ColumnRoles::is_free(const Column& column) const {
 }
 
 bool ColumnRoles::holds(const Column& column, Cells cells) const {
+  if (cells == Cells::names) {
+    const auto values = values_of(table_, column);
+    return !kinds_of(table_, column).empty() &&
+           std::all_of(values.begin(), values.end(),
+                       [](double each) { return each == std::floor(each); });
+  }
   if (cells == Cells::any) return !kinds_of(table_, column).empty();
   return !column.doubt.empty() || !values_of(table_, column).empty();
 }
@@ -236,11 +242,11 @@ std::optional<ColumnRoles::Found> ColumnRoles::take(const std::string& key, Role
 
 void ColumnRoles::pass_over(std::string_view role) {
   roles_.emplace(role);
-  for (const Match& each : matches(role_form(role))) {
-    used_.push_back(each.found.column);
-    taken.push_back(
-        fmt::format("column '{}' names rows, and is not used", each.found.column->name));
-  }
+  const auto found = matches(role_form(role));
+  if (found.size() != 1) return;  // several of a name are readings beside each other
+  used_.push_back(found.front().found.column);
+  taken.push_back(
+      fmt::format("column '{}' names rows, and is not used", found.front().found.column->name));
 }
 
 ColumnRoles::Found ColumnRoles::record(const std::string& key, const Match& match) {

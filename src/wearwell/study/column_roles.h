@@ -38,7 +38,7 @@ class ColumnRoles {
   std::optional<Found> find(Roles roles) const;
   bool has(Roles roles) const { return find(roles).has_value(); }
 
-  /// The columns of that role, which the study has no use for: names of rows.
+  /// The column of that role, which the study has no use for: names of rows.
   void pass_over(std::string_view role);
 
   /// A column whatever its heading, under a name of the study.

@@ -5,8 +5,8 @@
 
 namespace wearwell {
 
-/// What the cells of a column are.
-enum class Cells { numbers, any };
+/// What the cells of a column are; `names` are words or whole numbers.
+enum class Cells { numbers, names, any };
 
 /// A word that people write in a heading, in small letters, and the unit that the word itself says: "hours" is h.
 struct RoleWord {
