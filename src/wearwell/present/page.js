@@ -31,6 +31,13 @@
     });
   }
 
+  // A value of a tooltip as markup: escaped, and a power of ten as it is written elsewhere on the page.
+  function shown(value) {
+    const power = (exponent) => [...String(Number(exponent))].map((each) => each === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[each]).join('');
+    return String(value).replace(/&/g, '&amp;').replace(/</g, '&lt;')
+        .replace(/^([−-]?[\d.]+)e([+−-]?\d+)$/, (whole, digits, exponent) => `${digits} × 10${power(exponent.replace('−', '-'))}`);
+  }
+
   async function draw(figure) {
     const specification = JSON.parse(figure.querySelector('script').textContent);
     for (const {data} of specification.layer) {
@@ -65,7 +72,7 @@
       actions: {export: {svg: true, png: true}, source: false, compiled: false, editor: false},
       downloadFileName: name,
       scaleFactor: {svg: 1, png: 2},
-      tooltip: {theme: matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'},
+      tooltip: {theme: matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light', sanitize: shown},
     });
     // As text: Vega's own page of the source would take texts in it for markup.
     const source = document.createElement('a');
@@ -74,7 +81,7 @@
     source.href = URL.createObjectURL(new Blob([JSON.stringify(specification, null, 2)], {type: 'text/plain'}));
     figure.querySelector('.vega-actions').append(source);
     const summary = figure.querySelector('summary');
-    if (summary) summary.setAttribute('aria-label', `Menu: ${figure.querySelector('h3').textContent}`);
+    if (summary) summary.setAttribute('aria-label', `Menu: ${figure.querySelector('h3, h4').textContent}`);
     figure.dataset.drawn = 'true';
   }
 
