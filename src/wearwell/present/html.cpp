@@ -238,19 +238,21 @@ namespace {
 
 std::string plot_of(const Figure& figure) {
   return fmt::format(
-      "<div class=\"plot\"></div>\n<script type=\"application/json\">{}</script></figure>\n",
+      "<div class=\"plot\"></div>\n<script type=\"application/json\">{}</script>\n",
       script_safe(
           figure.specification.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
 }
 
+// The title stands above the plot, what to see in it below.
 std::string figure(const Figure& figure, bool wide) {
-  return fmt::format("<figure id=\"{0}\"{3}><figcaption><h3>{1}</h3><p>{2}</p></figcaption>\n{4}",
-                     escape(figure.id), escape(figure.title), escape(figure.caption),
-                     wide ? " class=\"wide\"" : "", plot_of(figure));
+  return fmt::format(
+      "<figure id=\"{}\"{}><figcaption><h3>{}</h3></figcaption>\n{}<p>{}</p></figure>\n",
+      escape(figure.id), wide ? " class=\"wide\"" : "", escape(figure.title), plot_of(figure),
+      escape(figure.caption));
 }
 
 std::string panel(const Figure& figure) {
-  return fmt::format("<figure id=\"{}\"><figcaption><h4>{}</h4></figcaption>\n{}",
+  return fmt::format("<figure id=\"{}\"><figcaption><h4>{}</h4></figcaption>\n{}</figure>\n",
                      escape(figure.id), escape(figure.title), plot_of(figure));
 }
 

@@ -95,33 +95,6 @@ Json scale(const Axis& axis) {
   return json;
 }
 
-// A tick's number as html::number writes it, in Vega's expressions: 10⁶, never 1e+6 or 1M.
-std::string tick_number(int least_exponent, int largest_exponent) {
-  const std::string exponent = "floor(log(abs(datum.value))*LOG10E+1e-9)";
-  const std::string mantissa = fmt::format("datum.value/pow(10,{})", exponent);
-  const auto digit = [&](const char* power) {
-    return fmt::format("['⁰','¹','²','³','⁴','⁵','⁶','⁷','⁸','⁹'][floor(abs({})/{})%10]", exponent,
-                       power);
-  };
-  const auto from = [&](const char* power) {
-    return fmt::format("(abs({})>={}?{}:'')", exponent, power, digit(power));
-  };
-  const std::string raised =
-      fmt::format("({}<0?'⁻':'')+{}+{}+{}", exponent, from("100"), from("10"), digit("1"));
-  return fmt::format(
-      "datum.value===0?'0':{0}>{1}||{0}<{2}?(abs({3}-1)<1e-6?'':format({3},'.3~r')+'×')+'10'+{4}:"
-      "format(datum.value,',.6~r')",
-      exponent, largest_exponent, least_exponent, mantissa, raised);
-}
-
-// Over decades their powers of ten have labels, over less their 1, 2 and 5, over little all ticks.
-std::string logarithmic_labels(const char* channel) {
-  const std::string ratio = fmt::format("domain('{0}')[1]/domain('{0}')[0]", channel);
-  const std::string digit = "round(datum.value/pow(10,floor(log(datum.value)*LOG10E+1e-9)))";
-  return fmt::format("({0}<8||indexof({0}<1000?[1,2,5]:[1],{1})>=0)?({2}):''", ratio, digit,
-                     tick_number(-2, 3));
-}
-
 Json named_ticks(const Axis& axis) {
   std::vector<double> values;
   std::string label = "''";
@@ -148,8 +121,9 @@ Json ticks(const char* channel, const Axis& axis) {
   }
   if (!axis.numbers) return {{"labels", false}, {"ticks", false}, {"grid", false}};
   if (!axis.ticks.empty()) return named_ticks(axis);
-  if (axis.logarithmic) return {{"labelExpr", logarithmic_labels(channel)}, {"tickCount", 5}};
-  return {{"labelExpr", tick_number(-4, 6)}};
+  // The page writes powers of ten as html::number does (page.js).
+  if (axis.logarithmic) return {{"format", "~g"}, {"tickCount", 5}};
+  return {{"format", ",~r"}};
 }
 
 // A point at the end of an axis is drawn whole: there is room beyond for half of it.
