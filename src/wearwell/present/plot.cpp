@@ -141,8 +141,11 @@ void set_axis(Json& encoding, const char* channel, const Axis& axis, bool has_po
 
 }  // namespace
 
+// Through its points in their order: Vega-Lite would sort them by x.
 Json line(const Columns& data, const Look& look) {
-  return layer(data, stroke("line", look), look);
+  Json json = layer(data, stroke("line", look), look);
+  json["encoding"]["order"] = nullptr;
+  return json;
 }
 
 Json steps(const Columns& data, const Look& look) {
