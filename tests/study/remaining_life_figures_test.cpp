@@ -16,8 +16,12 @@ using testing::Not;
 PosteriorSummary fleet(std::size_t units, bool alike = true) {
   PosteriorSummary result;
   for (std::size_t i = 0; i < units; ++i) {
-    QuantitySummary each{"remaining life", fmt::format("pump {}", i + 1),
-                         fmt::format("to wear = 1 mm from {} h on", alike ? 50 : 50 + i), "h", true};
+    QuantitySummary each;
+    each.name = "remaining life";
+    each.of = fmt::format("pump {}", i + 1);
+    each.at = fmt::format("to wear = 1 mm from {} h on", alike ? 50 : 50 + i);
+    each.unit = "h";
+    each.is_life = true;
     const double life = 10.0 * static_cast<double>(units - i);
     each.drawn = {0.8 * life, life, 1.3 * life, 0.7 * life, 0.85 * life, life};
     result.quantities.push_back(each);
