@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "wearwell/present/number.h"
+
 namespace wearwell::present {
 namespace {
 
@@ -9,11 +11,11 @@ std::string html_of(const std::vector<Block>& blocks);
 
 std::string html_of(const Prose& prose) {
   return fmt::format("<p{}>{}</p>\n", prose.lead ? " class=\"verdict\"" : "",
-                     html::escape(prose.text));
+                     html::escape(powers_in_words(prose.text, Script::page)));
 }
 
 std::string html_of(const Callout& callout) {
-  return html::callout(callout.kind, callout.word, callout.text);
+  return html::callout(callout.kind, callout.word, powers_in_words(callout.text, Script::page));
 }
 
 std::string html_of(const Tiles& tiles) {

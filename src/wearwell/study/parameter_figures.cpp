@@ -44,7 +44,7 @@ Figure belief_figure(const ParameterSummary& p, const ParameterPlots& plots) {
   }
   return {
       "belief-" + p.name, fmt::format("{} ({})", capital(p.meaning), p.name),
-      fmt::format("Prior: {}.", html::raised(p.prior) + (p.prior_is_default ? " (default)" : "")),
+      fmt::format("Prior: {}.", html::raised(powers_in_words(p.prior, Script::page)) + (p.prior_is_default ? " (default)" : "")),
       plot::plot(fmt::format("Density of {} before and after the data", p.name),
                  {scale.title(p.name)}, {"Density", false, 0.0, {}, {}, false}, marks)};
 }
@@ -106,7 +106,7 @@ std::vector<Figure> joint_figures(const PosteriorSummary& result, const Plots& p
         }
         figures.push_back(
             {"exact-joint", names + ", by quadrature",
-             "The density by quadrature, on the same axes: where it is dark, draws are to be.",
+             "The density by quadrature, on the same axes: the darker, the more draws are expected there.",
              plot::plot("Joint density by quadrature of " + names, x, y,
                         {plot::cells({{"x", xs(x1)},
                                       {"x2", xs(x2)},

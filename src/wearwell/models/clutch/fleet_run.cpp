@@ -44,8 +44,28 @@ std::string offender(fleet::Engine& engine, const ClutchSql& sql) {
   return found;
 }
 
+/// "slip_speed 1100 to 2800 rpm, ...": least and most of each input in the units of its column.
+std::string ranges_in_words(const fleet::Row& row, const SqlSource& source) {
+  const auto value = [](double si, const SqlColumn& column, bool is_temperature) {
+    if (std::isnan(si)) return std::string("no number");
+    return fmt::format("{:.6g}", is_temperature ? si : si / column.scale);
+  };
+  std::string words;
+  for (std::size_t i = 0; i < source.inputs.size(); ++i) {
+    const SqlColumn& column = source.inputs[i];
+    const std::string_view name = inputs[i].name;
+    const bool is_temperature = name == "temperature";
+    words += fmt::format("{} {} to {} {}, ", name,
+                         value(row.numbers[3 + 2 * i], column, is_temperature),
+                         value(row.numbers[4 + 2 * i], column, is_temperature),
+                         is_temperature ? "degC" : column.unit);
+  }
+  return words + fmt::format("energy up to {} {}", value(row.numbers[11], source.energy, false),
+                             source.energy.unit);
+}
+
 /// Throws InputError for rows that no sum can take.
-FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
+FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSource& source) {
   FleetCheck check;
   double refused = 0;
   engine.rows(sql.check, 0, [&](const fleet::Row& row) {
@@ -53,11 +73,7 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
     refused = row.numbers[1];
     const double nameless = row.numbers[2];
     if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
-    check.ranges = fmt::format(
-        "slip_speed {:.6g} .. {:.6g} rad/s, torque {:.6g} .. {:.6g} N m, temperature {:.6g} .. "
-        "{:.6g} degC, closing_time {:.6g} .. {:.6g} s, energy up to {:.6g} J",
-        row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6], row.numbers[7],
-        row.numbers[8], row.numbers[9], row.numbers[10], row.numbers[11]);
+    check.ranges = ranges_in_words(row, source);
     if (nameless > 0)
       throw InputError(fmt::format("{}: {:.0f} rows name no unit", engine.source(), nameless));
   });
@@ -101,7 +117,7 @@ struct Shard {
 [[noreturn]] void explain(Shard& shard, const InputError& error) {
   const std::string_view said = error.what();
   if (said.find("out of range") == std::string_view::npos) throw;  // as it is: a Lost is one
-  if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql).ranges;
+  if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql, shard.source).ranges;
   throw InputError(fmt::format(
       "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
       "They are: {} ({})",
@@ -155,7 +171,7 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   shard.source = source;
   fleet::ColumnEngine* const columns = columns_of(engine, request);
   if (!columns) {
-    const FleetCheck check = check_rows(engine, shard.sql);
+    const FleetCheck check = check_rows(engine, shard.sql, source);
     shard.rows = check.rows;
     shard.ranges = check.ranges;
   }

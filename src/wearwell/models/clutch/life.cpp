@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/present/number.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -98,7 +99,11 @@ struct Knowledge {
 }  // namespace
 
 std::string in_words(const LifeInterval& interval) {
-  return fmt::format("{:.0f} .. {}", interval.low,
+  const auto cycles = [](double x) {
+    return std::isfinite(x) ? given_in_words(std::round(x), Script::terminal) : "never";
+  };
+  return cycles(interval.low) + " to " + cycles(interval.high);
+} .. {}", interval.low,
                      std::isfinite(interval.high) ? fmt::format("{:.0f}", interval.high) : "never");
 }
 
