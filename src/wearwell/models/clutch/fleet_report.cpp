@@ -10,6 +10,7 @@
 #include "wearwell/input/parquet_writer.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/fleet_day_report.h"
 #include "wearwell/present/plot.h"
 

@@ -136,7 +136,7 @@ void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const Identif
                                          request.first, request.units_in_memory, monitor);
   shard.rows = found.rows;
   if (found.rows == 0 || found.refused + found.nameless > 0) {
-    check_rows(shard.engine, shard.sql);
+    check_rows(shard.engine, shard.sql, shard.source);
     throw InputError(fmt::format("{} changed while it was read", shard.engine.source()));
   }
 }

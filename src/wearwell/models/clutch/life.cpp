@@ -103,8 +103,6 @@ std::string in_words(const LifeInterval& interval) {
     return std::isfinite(x) ? given_in_words(std::round(x), Script::terminal) : "never";
   };
   return cycles(interval.low) + " to " + cycles(interval.high);
-} .. {}", interval.low,
-                     std::isfinite(interval.high) ? fmt::format("{:.0f}", interval.high) : "never");
 }
 
 Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,
