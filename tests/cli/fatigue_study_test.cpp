@@ -526,7 +526,8 @@ TEST_F(FatigueStudy, NewStudyRunsAndIsSaidInWords) {
        {"25 tests: 22 failures, 3 runouts",
         "alternating stress 260 to 600 MPa, mean stress 0 to 427.78 MPa",
         "life 16970 to 2\u202f000\u202f000 cycles", "S_f = S_a/(1 - S_m/S_ut)",
-        "B10 life [cycles] of the hanger at 280 MPa amplitude, R = 0.1 (mean 342.22 MPa); at least, "
+        "B10 life [cycles] of the hanger at 280 MPa amplitude, R = 0.1 (mean 342.22 MPa); at "
+        "least, "
         "with 90 % confidence "
         "(credible), and of the next one",
         "allowed alternating stress [MPa] of the specimen for 90 % to outlast "
@@ -537,7 +538,8 @@ TEST_F(FatigueStudy, NewStudyRunsAndIsSaidInWords) {
       "fit '" + mine + "/study.toml' --no-report --method exact --draws 100 -o '" + mine + "/out'");
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   for (const char* expected :
-       {"at 400 MPa amplitude, fully reversed, is at least 304\u202f000\u00a0cycles", "Design values", "(predictive)"}) {
+       {"at 400 MPa amplitude, fully reversed, is at least 304\u202f000\u00a0cycles",
+        "Design values", "(predictive)"}) {
     EXPECT_THAT(run.out, HasSubstr(expected));
   }
 }

@@ -75,7 +75,8 @@ TEST(Report, SaysTheVerdictFirst) {
   const std::string page = html_report(result_of(Verdict::pass));
   std::size_t sentence = 0;
   for (const char* each :
-       {"The worn volume reaches 100\u00a0mm³ after 21\u202f600\u00a0cycles (median); 18\u202f000 to "
+       {"The worn volume reaches 100\u00a0mm³ after 21\u202f600\u00a0cycles (median); 18\u202f000 "
+        "to "
         "26\u202f000\u00a0cycles (90\u00a0%), one in ten before 19\u202f000\u00a0cycles.",
         "Inspect again within 6\u202f000\u00a0cycles, unless the limit is passed: 1\u00a0% risk of "
         "reaching the limit before.",

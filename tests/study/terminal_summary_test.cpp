@@ -24,10 +24,11 @@ TEST(TerminalSummary, ColoursOnlyWhenAsked) {
 
 TEST(TerminalSummary, SaysWhatWasFound) {
   const std::string text = terminal_summary(sample_result(), {});
-  for (const char* part : {"Pin joint\n", "joint.csv: 2 rows", "k [mm^3/(N m)]", "7.500\u00a0×\u00a010^-4",
-                           "7.510\u00a0×\u00a010^-4", "91.5", "88.50 to 94.50", "80.50 to 101.5", "-> reparametrize",
-                           "Mode of the posterior", "on its upper bound", "AIC 45.00", "elpd -7.50",
-                           "B10 22\u202f000", "21\u202f500 to never", "1 % risk", "NOT TRUSTED"}) {
+  for (const char* part :
+       {"Pin joint\n", "joint.csv: 2 rows", "k [mm^3/(N m)]", "7.500\u00a0×\u00a010^-4",
+        "7.510\u00a0×\u00a010^-4", "91.5", "88.50 to 94.50", "80.50 to 101.5", "-> reparametrize",
+        "Mode of the posterior", "on its upper bound", "AIC 45.00", "elpd -7.50", "B10 22\u202f000",
+        "21\u202f500 to never", "1 % risk", "NOT TRUSTED"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(text, EndsWith("\n"));
@@ -72,8 +73,7 @@ TEST(TerminalSummary, SaysFirstThatTheLimitIsPassed) {
   PosteriorSummary result = sample_result();
   result.life->drawn.passed = 0.9;
   const std::string text = terminal_summary(result, {});
-  EXPECT_THAT(text,
-              HasSubstr("already passed with a probability of 90 %: more than the 1 % that"));
+  EXPECT_THAT(text, HasSubstr("already passed with a probability of 90 %: more than the 1 % that"));
   EXPECT_LT(text.find("already passed"), text.find("inspect again"));
   result.life->drawn.passed = 1e-9;
   EXPECT_THAT(terminal_summary(result, {}), HasSubstr("a probability of less than 0.01 %\n"));
@@ -212,16 +212,22 @@ TEST(TerminalSummary, NamesTheItemThatFailsFirst) {
   PosteriorSummary result = sample_result();
   result.life.reset();
   const auto left = [](const char* of, double q50) {
-    QuantitySummary each{"remaining life", of, "to wear = 100 um, force = 20 N from 30 km on", "km",
-                         true, {0.9 * q50, q50, 1.1 * q50, 0.8 * q50, 0.9 * q50, q50}, {}};
+    QuantitySummary each{"remaining life",
+                         of,
+                         "to wear = 100 um, force = 20 N from 30 km on",
+                         "km",
+                         true,
+                         {0.9 * q50, q50, 1.1 * q50, 0.8 * q50, 0.9 * q50, q50},
+                         {}};
     return each;
   };
   result.quantities = {left("machine 1", 60), left("machine 2", 39), left("machine 3", 0),
                        left("machine 4", 50)};
   const std::string text = terminal_summary(result, {});
-  EXPECT_THAT(text, HasSubstr("Answers\n  Machine 3 has already passed wear = 100 um.\n"
-                              "  Machine 2 reaches wear = 100 um first, in 39.0\u00a0km (median) at "
-                              "force = 20 N; 35.1 to 42.9\u00a0km"));
+  EXPECT_THAT(text,
+              HasSubstr("Answers\n  Machine 3 has already passed wear = 100 um.\n"
+                        "  Machine 2 reaches wear = 100 um first, in 39.0\u00a0km (median) at "
+                        "force = 20 N; 35.1 to 42.9\u00a0km"));
   EXPECT_THAT(text, HasSubstr("counted from 30 km on"));
   EXPECT_THAT(text, HasSubstr("remaining useful life [km]"));
   EXPECT_THAT(text, Not(HasSubstr("a machine")));

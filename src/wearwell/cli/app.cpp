@@ -23,11 +23,11 @@ namespace {
 // Under which heading the help shows a command; commands of other models stand with the applications.
 void group_commands(CLI::App& app) {
   static const std::map<std::string, const char*> groups = {
-      {"new", "A study"},          {"check", "A study"},         {"fit", "A study"},
-      {"report", "A study"},       {"life", "Its result"},       {"decide", "Its result"},
-      {"update", "Its result"},    {"backtest", "Its result"},   {"compare", "Its result"},
-      {"export", "Its result"},    {"monitor", "Many units"},    {"fleet", "Many units"},
-      {"select", "Other"},         {"help", "Other"},            {"version", "Other"}};
+      {"new", "A study"},       {"check", "A study"},       {"fit", "A study"},
+      {"report", "A study"},    {"life", "Its result"},     {"decide", "Its result"},
+      {"update", "Its result"}, {"backtest", "Its result"}, {"compare", "Its result"},
+      {"export", "Its result"}, {"monitor", "Many units"},  {"fleet", "Many units"},
+      {"select", "Other"},      {"help", "Other"},          {"version", "Other"}};
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (command->get_group().empty()) continue;
     const auto group = groups.find(command->get_name());

@@ -45,7 +45,8 @@ std::string told(const Backtest& test, const Tracker& tracker) {
                                               static_cast<double>(each.forecasts)),
                     fmt::format("{:.1f} to {:.1f}", 100 * each.low, 100 * each.high),
                     plain_number(each.width, 2), plain_number(each.error, 2)});
-  return text + "\nForecasts of remaining useful life against the observed end\n" + text_table(rows) +
+  return text + "\nForecasts of remaining useful life against the observed end\n" +
+         text_table(rows) +
          wrapped(
              "Forecasts of one unit hold or fail together: chance leaves is of so many units. "
              "Width "

@@ -172,7 +172,8 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
   if (!trusted)
     fmt::print(
         "Not trusted: a check of the fit failed; wearwell report or its summary say which.\n");
-  fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining useful life", life.of, life.at);
+  fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining useful life", life.of,
+             life.at);
   if (life.from) fmt::print("  counted from {} {} on\n", plain_given(*life.from), life.unit);
   if (!moved.how.empty())
     fmt::print("  with {} new reading{} ({} there already); {}\n", moved.counted,

@@ -107,8 +107,7 @@ int run_update(const UpdateOptions& options, Models models) {
 
 void add_update_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<UpdateOptions>();
-  CLI::App* update =
-      app.add_subcommand("update", "Refit a result together with new data");
+  CLI::App* update = app.add_subcommand("update", "Refit a result together with new data");
   update->add_option("RESULT", options->result, "Folder that fit or update wrote, or its state.bin")
       ->required();
   update

@@ -114,8 +114,8 @@ std::string in_text(const std::string& text, Script script, bool thousands) {
     }
     const Token token = token_at(text, i);
     const std::string digits = text.substr(i, token.end - i);
-    const bool cut_off = token.end < text.size() &&
-                         (belongs_to_word(text[token.end]) || text[token.end] == '^');
+    const bool cut_off =
+        token.end < text.size() && (belongs_to_word(text[token.end]) || text[token.end] == '^');
     const bool long_one = thousands && token.is_whole && digits.size() > most_together &&
                           digits.size() <= given_digits && digits.front() != '0';
     const bool changes = !cut_off && (token.has_power || long_one);

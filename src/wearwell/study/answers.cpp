@@ -44,7 +44,8 @@ struct Course {
 // Conditions behind a name: "at 400 MPa" as it is, "temperature = 10 degC" behind a word.
 std::string behind(const std::string& at) {
   if (at.empty()) return "";
-  for (const char* word : {"at ", "to ", "for ", "after ", "in ", "over ", "under ", "from ", "until "})
+  for (const char* word :
+       {"at ", "to ", "for ", "after ", "in ", "over ", "under ", "from ", "until "})
     if (at.starts_with(word)) return " " + at;
   return " at " + at;
 }
@@ -60,20 +61,19 @@ class Clauses {
     const Life& life = summary.best();
     const std::string limit = given(summary.limit, summary.limit_unit);
     if (summary.passed_beyond_risk()) {
-      all.push_back(
-          fmt::format("the limit of {} is already passed with a probability of {}; {} are tolerated",
-                      limit, probability_in_words(life.passed), given(100 * summary.risk, "%")));
+      all.push_back(fmt::format(
+          "the limit of {} is already passed with a probability of {}; {} are tolerated", limit,
+          probability_in_words(life.passed), given(100 * summary.risk, "%")));
     }
-    all.push_back(fmt::format("the {}{} reaches {} after {} (median); {}, one in ten before {}",
-                              result.quantity, of_whom(summary), limit,
-                              lifetime(life.b50, summary.unit),
-                              interval(life.q05, life.q95, summary.unit, true),
-                              lifetime(life.b10, summary.unit)));
-    all.push_back(fmt::format("inspect {} within {}{}: {} risk of reaching the limit before",
-                              summary.now > 0 ? "again" : "a new one",
-                              lifetime(life.inspect_within, summary.unit),
-                              life.passed > 0 && summary.now > 0 ? ", unless the limit is passed" : "",
-                              given(100 * summary.risk, "%")));
+    all.push_back(fmt::format(
+        "the {}{} reaches {} after {} (median); {}, one in ten before {}", result.quantity,
+        of_whom(summary), limit, lifetime(life.b50, summary.unit),
+        interval(life.q05, life.q95, summary.unit, true), lifetime(life.b10, summary.unit)));
+    all.push_back(fmt::format(
+        "inspect {} within {}{}: {} risk of reaching the limit before",
+        summary.now > 0 ? "again" : "a new one", lifetime(life.inspect_within, summary.unit),
+        life.passed > 0 && summary.now > 0 ? ", unless the limit is passed" : "",
+        given(100 * summary.risk, "%")));
   }
 
   void passed(const std::vector<const QuantitySummary*>& items) {
@@ -92,12 +92,12 @@ class Clauses {
   void remaining(const QuantitySummary& each, bool is_first) {
     const QuantityQuantiles& q = each.best();
     const Course course(each.at);
-    all.push_back(fmt::format(
-        "{} reaches {}{} in {} (median){}; {}, one in ten within {}{}", each.of,
-        numbers(course.end), is_first ? " first," : "", lifetime(q.q50, each.unit),
-        course.conditions.empty() ? "" : " at " + numbers(course.conditions),
-        interval(q.q05, q.q95, each.unit, true), lifetime(q.b10, each.unit),
-        course.from.empty() ? "" : "; counted from " + numbers(course.from) + " on"));
+    all.push_back(
+        fmt::format("{} reaches {}{} in {} (median){}; {}, one in ten within {}{}", each.of,
+                    numbers(course.end), is_first ? " first," : "", lifetime(q.q50, each.unit),
+                    course.conditions.empty() ? "" : " at " + numbers(course.conditions),
+                    interval(q.q05, q.q95, each.unit, true), lifetime(q.b10, each.unit),
+                    course.from.empty() ? "" : "; counted from " + numbers(course.from) + " on"));
   }
 
   void headline(const QuantitySummary& each) {
@@ -117,18 +117,18 @@ class Clauses {
     } else {
       const bool low = each.safe_end.value_or(0.05) < 0.5;
       all.push_back(fmt::format("design with a {} of {}{}{}, the {} 5 % (median {})", name,
-                                value(each, low ? q.q05 : q.q95), of.empty() ? "" : " for " + item_in_words(each.of),
-                                at, low ? "lower" : "upper", value(each, q.q50)));
+                                value(each, low ? q.q05 : q.q95),
+                                of.empty() ? "" : " for " + item_in_words(each.of), at,
+                                low ? "lower" : "upper", value(each, q.q50)));
     }
   }
 
   void prediction(const PosteriorSummary& result) {
     const PredictionSummary& p = result.predictions.back();
-    all.push_back(fmt::format("at {}{}{} the {}{} is {}; {}", given_in_words(p.at, script_),
-                              hard_space, p.at_word(), result.quantity,
-                              p.mean_of.empty() ? "" : " of the " + p.mean_of,
-                              number(p.best().mean, p.unit),
-                              interval(p.best().ci05, p.best().ci95, p.unit)));
+    all.push_back(
+        fmt::format("at {}{}{} the {}{} is {}; {}", given_in_words(p.at, script_), hard_space,
+                    p.at_word(), result.quantity, p.mean_of.empty() ? "" : " of the " + p.mean_of,
+                    number(p.best().mean, p.unit), interval(p.best().ci05, p.best().ci95, p.unit)));
   }
 
   // Of a logarithm, the number itself: its median and quantiles are those of the logarithm.
@@ -232,9 +232,8 @@ std::string item_in_words(const std::string& of, bool is_kind) {
 
 std::string shown_name(const std::string& name) {
   constexpr std::string_view term = "remaining life";
-  return name.ends_with(term)
-             ? name.substr(0, name.size() - term.size()) + "remaining useful life"
-             : name;
+  return name.ends_with(term) ? name.substr(0, name.size() - term.size()) + "remaining useful life"
+                              : name;
 }
 
 std::vector<const QuantitySummary*> headlines(const PosteriorSummary& result) {

@@ -47,8 +47,9 @@ std::string columns_in_words(const std::vector<DataColumn>& columns) {
     if (column.values.empty()) continue;
     const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
     const auto shown = [&](double si) { return plain_given(from_si(column.unit, si)); };
-    rows.push_back({column.name, plain_given(static_cast<double>(column.values.size())), shown(*low),
-                    shown(median(column.values)), shown(*high), unit_name(column) == "1" ? "-" : unit_name(column), one_unit(column)});
+    rows.push_back({column.name, plain_given(static_cast<double>(column.values.size())),
+                    shown(*low), shown(median(column.values)), shown(*high),
+                    unit_name(column) == "1" ? "-" : unit_name(column), one_unit(column)});
   }
   if (rows.size() == 1) return "";
   return text_table(rows, true);

@@ -59,13 +59,13 @@ void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) 
                      fmt::format("probability after {}; tolerated: {} %", given(summary.now),
                                  given(100 * summary.risk))});
   }
-  tiles.push_back(
-      {summary.now > 0 ? "Inspect again within" : "Inspect within", life_in_words(life.inspect_within, summary.unit), summary.unit,
-       fmt::format("{}; {} % risk of reaching the limit before",
-                   summary.now > 0
-                       ? fmt::format("after {}, unless the limit is passed", given(summary.now))
-                       : "of a new one",
-                   given(100 * summary.risk))});
+  tiles.push_back({summary.now > 0 ? "Inspect again within" : "Inspect within",
+                   life_in_words(life.inspect_within, summary.unit), summary.unit,
+                   fmt::format("{}; {} % risk of reaching the limit before",
+                               summary.now > 0 ? fmt::format("after {}, unless the limit is passed",
+                                                             given(summary.now))
+                                               : "of a new one",
+                               given(100 * summary.risk))});
 }
 
 html::Tile headline_tile(const QuantitySummary& each) {
@@ -105,8 +105,7 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
     const ExactSummary each = p.best();
     if (const auto natural = of_logarithm(p)) {
       tiles.push_back({html::capital(natural->meaning), number(natural->q50, 3),
-                       unit(natural->unit),
-                       range(natural->q05, natural->q95, 3) + " (90 %)"});
+                       unit(natural->unit), range(natural->q05, natural->q95, 3) + " (90 %)"});
       continue;
     }
     tiles.push_back({fmt::format("{}, {}", p.name, p.meaning), number(each.mean, 3), unit(p.unit),
@@ -133,7 +132,8 @@ Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
     section.add(Prose{
         "At least: the lower bound, and the number to design with. With the stated confidence "
         "(Bayesian: it is credible) the true value, of all such items, lies above it; 5, 50 and "
-        "95 % are of the same. Next one: the same of the next item, averaged over all that is unknown "
+        "95 % are of the same. Next one: the same of the next item, averaged over all that is "
+        "unknown "
         "(predictive). It has no margin for few tests."});
     section.add(std::move(table));
   }
@@ -183,9 +183,8 @@ void add_coverage(const CoverageTable& coverage, Section& section) {
     failures += row.failed();
     inside += row.failed() && row.inside();
   }
-  section.add(
-      Prose{fmt::format("{} of {} failures{} lie within their 90 % intervals.",
-                        inside, failures, chosen_tests(coverage))});
+  section.add(Prose{fmt::format("{} of {} failures{} lie within their 90 % intervals.", inside,
+                                failures, chosen_tests(coverage))});
   section.add(coverage_table(coverage));
 }
 
@@ -199,8 +198,7 @@ Section fit_section(const PosteriorSummary& result, const Plots& plots) {
   if (!r.at.empty()) {
     const bool all = r.at.size() >= result.data_rows;
     section.add(Prose{
-        fmt::format("{} of {} measurements{} lie within their 90 % intervals.",
-                    inside, r.at.size(),
+        fmt::format("{} of {} measurements{} lie within their 90 % intervals.", inside, r.at.size(),
                     all ? ""
                         : fmt::format(", evenly among the {}, ",
                                       given(static_cast<double>(result.data_rows))))});

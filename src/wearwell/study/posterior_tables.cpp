@@ -201,11 +201,7 @@ Table parameter_table(const std::vector<ParameterSummary>& parameters) {
 }
 
 Table prior_table(const std::vector<ParameterSummary>& parameters) {
-  Table table{"priors",
-              "Priors",
-              {{"Parameter"}, {"Meaning"}, {"Prior"}, {"Stated by"}},
-              {},
-              true};
+  Table table{"priors", "Priors", {{"Parameter"}, {"Meaning"}, {"Prior"}, {"Stated by"}}, {}, true};
   for (const ParameterSummary& p : parameters) {
     table.rows.push_back(
         {p.name, p.meaning, p.prior, p.prior_is_default ? "default" : "the study"});

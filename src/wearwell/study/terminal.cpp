@@ -237,7 +237,8 @@ std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
              "next one: the same of the next item, averaged over all that is unknown (predictive). "
              "It has no margin for few tests: do not design with it.",
              2, 4) +
-         (seen ? wrapped("For an item with readings both are of its own remaining useful life.", 2, 4)
+         (seen ? wrapped("For an item with readings both are of its own remaining useful life.", 2,
+                         4)
                : "");
 }
 
@@ -273,8 +274,8 @@ std::string life_lines(const LifeSummary& summary) {
       plain_given(summary.limit), printable(summary.limit_unit), count(life.b1), count(life.b10),
       count(life.b50), count(life.q05), count(life.q95));
   const std::string passed = fmt::format(
-      "after {} {} the limit is already passed with a probability of {}{}", plain_given(summary.now),
-      unit, probability_in_words(life.passed),
+      "after {} {} the limit is already passed with a probability of {}{}",
+      plain_given(summary.now), unit, probability_in_words(life.passed),
       summary.passed_beyond_risk()
           ? fmt::format(": more than the {} % that are tolerated", plain_given(100 * summary.risk))
           : "");
@@ -298,7 +299,8 @@ std::string check_lines(const std::vector<Check>& checks, bool colour) {
   constexpr std::size_t name_width = 20, indent = 2 + 4 + 2 + name_width + 1;
   std::string out;
   for (const Check& check : checks) {
-    const std::string detail = wrapped(printable(powers_in_words(check.detail, Script::terminal)), indent);
+    const std::string detail =
+        wrapped(printable(powers_in_words(check.detail, Script::terminal)), indent);
     out += fmt::format("  {}  {:<{}} {}", painted(check.verdict, colour), printable(check.name),
                        name_width, detail.substr(std::min(indent, detail.size() - 1)));
     if (!check.advice.empty()) out += wrapped("-> " + printable(check.advice), indent, indent + 3);
@@ -316,11 +318,11 @@ std::string answer_lines(const PosteriorSummary& result) {
 }  // namespace
 
 std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle& style) {
-  std::string out =
-      wrapped(printable(result.title), 0, 2) + wrapped(printable(powers_in_words(result.equation, Script::terminal)), 2, 4) +
-      wrapped(fmt::format("{}: {} rows", printable(result.data_file),
-                          plain_given(static_cast<double>(result.data_rows))),
-              2, 4);
+  std::string out = wrapped(printable(result.title), 0, 2) +
+                    wrapped(printable(powers_in_words(result.equation, Script::terminal)), 2, 4) +
+                    wrapped(fmt::format("{}: {} rows", printable(result.data_file),
+                                        plain_given(static_cast<double>(result.data_rows))),
+                            2, 4);
   if (!result.method_note.empty()) out += wrapped(result.method_note, 2, 4);
   const std::string trust = printable(trust_line(result.checks));
   out += "\n" + wrapped(trust, 0, 2);
@@ -338,10 +340,9 @@ std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle
     out += fmt::format("\n{}\n", mode_title(*result.mode)) + mode_lines(*result.mode);
   if (result.loo) out += "\nLeave-one-out prediction\n" + loo_lines(*result.loo);
   if (result.coverage) out += "\nTests against the fit\n" + coverage_lines(*result.coverage);
-  out +=
-      fmt::format("\nDraws ({}, {} chains of {})\n", result.method, result.chains,
-                  plain_given(result.draws)) +
-      draws_lines(result.parameters);
+  out += fmt::format("\nDraws ({}, {} chains of {})\n", result.method, result.chains,
+                     plain_given(result.draws)) +
+         draws_lines(result.parameters);
   out += row_tables(result, style.rows);
   // Of all above, the line feeds are ours; below, the colours too.
   out = printable_lines(out);

@@ -56,11 +56,8 @@ std::string coverage_table(const CoverageTable& table) {
   for (const CoverageRow& row : table.rows) {
     if (rows.size() > most_rows) break;
     rows.push_back({fmt::format("{}", row.row), row.label, row.outcome,
-                    row.until
-                        ? plain_range(row.life, *row.until)
-                        : plain_number(row.life),
-                    fmt::format("{:.1f} %", 100 * row.probability),
-                    plain_range(row.q05, row.q95),
+                    row.until ? plain_range(row.life, *row.until) : plain_number(row.life),
+                    fmt::format("{:.1f} %", 100 * row.probability), plain_range(row.q05, row.q95),
                     plain_number(row.b10), place_of(row)});
   }
   return text_table(rows, true) + rest_line(table.rows.size(), coverage_table_file);
@@ -86,8 +83,7 @@ std::string printable_heading(const std::string& name, const std::string& unit) 
   constexpr std::string_view power = "1e";
   const bool multiple = unit.starts_with(power) && unit.size() > power.size() &&
                         unit[power.size()] >= '0' && unit[power.size()] <= '9';
-  return printable(
-      present::heading(name, multiple ? "10^" + unit.substr(power.size()) : unit));
+  return printable(present::heading(name, multiple ? "10^" + unit.substr(power.size()) : unit));
 }
 
 std::string row_tables(const PosteriorSummary& result, bool shown) {

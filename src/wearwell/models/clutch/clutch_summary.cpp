@@ -225,8 +225,8 @@ std::string lives_text(const ClutchResult& r) {
   for (const NamedLife& each : r.lives) {
     for (const LifeAtLevel& at : each.life.levels)
       rows.push_back({each.name, fmt::format("{:.0f} %", 100 * at.level),
-                      plain_given(std::round(at.repetitions)), in_words(at.scatter), in_words(at.full),
-                      plain_given(std::round(at.without_run_in))});
+                      plain_given(std::round(at.repetitions)), in_words(at.scatter),
+                      in_words(at.full), plain_given(std::round(at.without_run_in))});
   }
   return section("Life (cycles)", rows);
 }
@@ -320,8 +320,8 @@ std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
                                 plain_given(static_cast<double>(study.campaign.weighings.size())),
                                 r.points.size(), r.held_out.size());
   if (study.simulated) out += "Simulated from a known truth: no measurement stands behind it.\n";
-  out += "\n" + trust + answers_text(r) + lives_text(r) + run_in_text(r) + maps_text(r) + scatter_text(r) +
-         validation_text(r) + sequences_text(r) + checks_text(r) + "\n" + trust;
+  out += "\n" + trust + answers_text(r) + lives_text(r) + run_in_text(r) + maps_text(r) +
+         scatter_text(r) + validation_text(r) + sequences_text(r) + checks_text(r) + "\n" + trust;
   return printable_lines(out);
 }
 

@@ -67,10 +67,9 @@ Table level_table(const FleetCounts& counts) {
 
 Table worst_table(const FleetFindings& found) {
   Table table{"worst",
-              found.units.size() == 1
-                  ? std::string("The unit")
-                  : fmt::format("The {} units that may be worn out first",
-                                std::min(worst_shown, found.units.size())),
+              found.units.size() == 1 ? std::string("The unit")
+                                      : fmt::format("The {} units that may be worn out first",
+                                                    std::min(worst_shown, found.units.size())),
               {{"Unit"},
                {"Cycles", "1", fixed(0)},
                {"Volume", "mm^3", digits(5)},

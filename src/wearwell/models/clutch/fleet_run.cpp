@@ -55,10 +55,10 @@ std::string ranges_in_words(const fleet::Row& row, const SqlSource& source) {
     const SqlColumn& column = source.inputs[i];
     const std::string_view name = inputs[i].name;
     const bool is_temperature = name == "temperature";
-    words += fmt::format("{} {} to {} {}, ", name,
-                         value(row.numbers[3 + 2 * i], column, is_temperature),
-                         value(row.numbers[4 + 2 * i], column, is_temperature),
-                         is_temperature ? "degC" : column.unit);
+    words +=
+        fmt::format("{} {} to {} {}, ", name, value(row.numbers[3 + 2 * i], column, is_temperature),
+                    value(row.numbers[4 + 2 * i], column, is_temperature),
+                    is_temperature ? "degC" : column.unit);
   }
   return words + fmt::format("energy up to {} {}", value(row.numbers[11], source.energy, false),
                              source.energy.unit);

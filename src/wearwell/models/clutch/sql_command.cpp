@@ -82,7 +82,8 @@ CLI::App* add_sql_command(CLI::App& parent) {
   command->add_flag("--scatter-only", options->scatter_only,
                     "only the paper's interval, by the scatter of cycles; much faster");
   command->footer(
-      "Example:\n  wearwell clutch sql study-results --dialect postgresql --table fleet.cycles --columns "
+      "Example:\n  wearwell clutch sql study-results --dialect postgresql --table fleet.cycles "
+      "--columns "
       "unit=vin cycle=cycle \\\n    'slip_speed=n:rpm' 'torque=m:N m' 'temperature=temp:degC' "
       "'closing_time=t:ms' 'energy=e:kJ' > wear.sql");
   command->callback([options] { run_sql(*options); });

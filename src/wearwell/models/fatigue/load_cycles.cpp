@@ -123,11 +123,11 @@ Block counted_signal(const BlockChoice& choice) {
     block.cycles.push_back({{0.5 * std::abs(pascal) * each.range, pascal * each.mean}, each.count});
     block.count += each.count;
   }
-  block.description = fmt::format("{} samples of {}, column '{}'{}; {} rainflow counting, {}",
-                           counted.samples, file.source(), file.column(), options_in_words(choice),
-                           counting_name(choice.rule.counting),
-                           choice.rule.residual == Residual::half ? "the residual in half cycles"
-                                                                  : "the history repeated");
+  block.description = fmt::format(
+      "{} samples of {}, column '{}'{}; {} rainflow counting, {}", counted.samples, file.source(),
+      file.column(), options_in_words(choice), counting_name(choice.rule.counting),
+      choice.rule.residual == Residual::half ? "the residual in half cycles"
+                                             : "the history repeated");
   if (!choice.with_mean) {
     for (const LoadCycle& each : block.cycles)
       block.largest_mean_left_out =

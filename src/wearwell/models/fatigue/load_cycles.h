@@ -23,7 +23,7 @@ struct BlockChoice {
 
 struct Block {
   LoadCycles cycles;
-  double count = 0;  ///< of all cycles
+  double count = 0;         ///< of all cycles
   std::string description;  ///< what was read, a sentence
   std::optional<double> seconds =
       {};  ///< that it lasts, where asked for and a column of times says it

@@ -309,10 +309,11 @@ Check few_tests(const SnData& data, const SnPredictions& predictions) {
   }
   Findings findings("percentile-support");
   if (!below.empty()) {
-    findings.add(Verdict::warn,
-                 fmt::format("{}; asked for is {}", supported, fmt::join(below, ", ")),
-                 "Below the lowest test the answer rests on the distribution of scatter, not on data. Design "
-                 "with the lower bound, not with the posterior predictive, and try another family.");
+    findings.add(
+        Verdict::warn, fmt::format("{}; asked for is {}", supported, fmt::join(below, ", ")),
+        "Below the lowest test the answer rests on the distribution of scatter, not on data. "
+        "Design "
+        "with the lower bound, not with the posterior predictive, and try another family.");
   }
   return findings.result(fmt::format("{}, and nothing below it is asked for", supported));
 }

@@ -194,14 +194,13 @@ TradeAddition addition(const StairData& data, const WeightedDraws& draws) {
   for (const NextTest& test : tests) {
     const double less = 100 * (1 - test.sd / before);
     table.rows.push_back({in_unit(test.stress), 100 * test.failure, less});
-    rows.push_back({"  " + plain_given(in_unit(test.stress)),
-                    plain_number(100 * test.failure, 2), plain_number(less, 2)});
+    rows.push_back({"  " + plain_given(in_unit(test.stress)), plain_number(100 * test.failure, 2),
+                    plain_number(less, 2)});
   }
   added.blocks["predictions"] = {{present::Prose{comparison}}, {table}};
-  added.text =
-      "For comparison\n" + wrapped(comparison, 2, 4) + "\n" +
-      fmt::format("What one more test would add to the limit for {:.6g} %\n", 100 * most) +
-      text_table(rows);
+  added.text = "For comparison\n" + wrapped(comparison, 2, 4) + "\n" +
+               fmt::format("What one more test would add to the limit for {:.6g} %\n", 100 * most) +
+               text_table(rows);
   nlohmann::ordered_json json;
   if (classical.problem.empty()) {
     json["dixon_mood"] = {{"mean", in_unit(classical.mean)},
