@@ -306,7 +306,7 @@ int run_from(NewOptions options, Models models) {
   try {
     read_study(source_of(study), models)->in_words();
   } catch (const InputError& error) {
-    fmt::print("It does not run yet:\n{}Mend {}, then run: wearwell check {}\n",
+    fmt::print("It does not run yet:\n{}Correct {}, then run: wearwell check {}\n",
                wrapped(printable(error.what()), 2, 4), study.string(), file);
     return 1;
   }
@@ -318,8 +318,8 @@ int run_from(NewOptions options, Models models) {
 
 void add_new_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<NewOptions>();
-  CLI::App* command = app.add_subcommand(
-      "new", "Write a commented study that runs as it is: an example, or one for a table of yours");
+  CLI::App* command =
+      app.add_subcommand("new", "Write a commented study: an example, or one for your own table");
   std::vector<std::string> trades;
   for (const Model& model : models) trades.emplace_back(model.trade);
   command
