@@ -332,10 +332,10 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
       if (!sheet) sheet = &each;
     }
     if (full.size() > 1)
-      throw InputError(
-          fmt::format("{} has several sheets; say which in [data], as in sheet = "
-                      "\"{}\" (there are {})",
-                      file.source(), full.front(), fmt::join(full, ", ")));
+      throw SeveralSheets(fmt::format("{} has several sheets; say which in [data], as in sheet = "
+                                      "\"{}\" (there are {})",
+                                      file.source(), full.front(), fmt::join(full, ", ")),
+                          full);
   }
   if (!sheet || used.last == 0)
     throw InputError(fmt::format("{} holds nothing{}", file.source(),
