@@ -9,6 +9,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/math/constants.h"
@@ -67,7 +68,8 @@ NumberColumn read_numbers(const Table& table, const std::string& name, const Col
 bool is_text(const Column& column) {
   if (column.is_number) return false;
   return std::any_of(column.text.begin(), column.text.end(), [](const std::string& text) {
-    return !text.empty() && text.find_first_of("0123456789") == std::string::npos;
+    return text.find_first_of("0123456789") == std::string::npos && !text.empty() &&
+           !is_missing_mark(text) && !cell_text(text);
   });
 }
 
