@@ -446,7 +446,7 @@ TEST_F(FatigueStudy, RefusesBadRowsByName) {
   expect("350,1600,95000,F\n",
          "row 2, column 'm': the mean stress 1600 MPa is not below S_ut, which is at most 1584.89 "
          "MPa");
-  expect("350,100,95000,broken\n", "row 2, column 'end': 'broken' is no status");
+  expect("350,100,95000,quux\n", "row 2, column 'end': 'quux' is no status");
   expect("350,100,95000,true\n", "row 2, column 'end': true can be read two ways");
   write("data.csv", "s,m,n,end\n400,100,31000,S\n350,100,95000,runout\n");
   EXPECT_THAT(refusal(goodman), HasSubstr("rows 1 to 2: every test is a runout"));

@@ -98,9 +98,10 @@ Parameter read_driver_prior(const TomlReader& root, const std::optional<TomlRead
     // Whatever drives lives sets the dimension: where a prior contradicts it, either may be the slip.
     const std::string what = error.what();
     if (stress_si == "Pa" || what.find("wrong dimension") == std::string::npos) throw;
+    const std::string message = without_excerpt(what);
     throw InputError(
-        fmt::format("{}, since data.columns says that lives are driven by what is in '{}'", what,
-                    stress_unit.text));
+        fmt::format("{}, since data.columns says that lives are driven by what is in '{}'{}",
+                    message, stress_unit.text, what.substr(message.size())));
   }
 }
 
