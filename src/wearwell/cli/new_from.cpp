@@ -232,6 +232,7 @@ std::string in_words(const NewOptions& options, const std::vector<Candidate>& fo
   for (std::size_t i = 1; i < found.size(); ++i) {
     NewOptions other = options;
     other.trade = found[i].trade;
+    other.folder = options.from.stem().string() + "-" + other.trade;
     others.push_back(fmt::format("{}: {}", found[i].study.reading, command(other)));
   }
   return fmt::format("Read as {}.\n", first.reading) + listed("From the headings", first.taken) +
