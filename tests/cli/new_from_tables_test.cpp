@@ -94,9 +94,9 @@ TEST_F(NewFromTables, LivesAtSeveralTemperatures) {
       fitted("ofen.csv",
              "Lebensdauer [h];Temperatur [°C];Ende\n120;80;F\n90;80;F\n140;80;F\n400;60;F\n"
              "520;60;F\n610;60;S\n1900;40;F\n2000;40;S\n2000;40;S\n");
-  EXPECT_THAT(said,
-              AllOf(HasSubstr("Arrhenius' law"), HasSubstr("wearwell new life ofen-life --from ofen.csv"),
-                    HasSubstr("state those of use in [predict] given")));
+  EXPECT_THAT(said, AllOf(HasSubstr("Arrhenius' law"),
+                          HasSubstr("wearwell new life ofen-life --from ofen.csv"),
+                          HasSubstr("state those of use in [predict] given")));
   EXPECT_GT(middle("energy"), 0.3);
   EXPECT_LT(middle("energy"), 1.2);
 }
@@ -135,8 +135,9 @@ TEST_F(NewFromTables, WearUnderForceIsArchards) {
       fitted("stift.csv",
              "Zyklen;Verschleiß [µm];Kraft "
              "[kN]\n1000;5,2;1,5\n2000;9,8;1,5\n4000;19,5;1,5\n8000;41,0;1,5\n");
-  EXPECT_THAT(said, AllOf(HasSubstr("wear in proportion to force and cycles"),
-                          HasSubstr("wearwell new degradation stift-degradation --from stift.csv")));
+  EXPECT_THAT(said,
+              AllOf(HasSubstr("wear in proportion to force and cycles"),
+                    HasSubstr("wearwell new degradation stift-degradation --from stift.csv")));
   EXPECT_NEAR(middle("k"), 40.0 / 8000 / 1.5, 4e-4);
 }
 
@@ -162,6 +163,15 @@ TEST_F(NewFromTables, StressAndLifeInGerman) {
       "Durchläufer\n");
   EXPECT_THAT(said, HasSubstr("status: column 'Ergebnis' (Bruch, ausgefallen, Durchläufer)"));
   EXPECT_EQ(result_["model"], "sn");
+  EXPECT_EQ(result_["coverage"]["rows"][5]["outcome"], "runout");
+}
+
+TEST_F(NewFromTables, LivesThatWentOnAreWrittenAsLimits) {
+  const std::string said =
+      fitted("limits.csv",
+             "Spannung (MPa);Lastspiele\n400;41.000\n400;52.000\n350;120.000\n350;160.000\n"
+             "300;500.000\n300;>5.000.000\n");
+  EXPECT_THAT(said, HasSubstr("'>' in column 'Lastspiele' is a run-out"));
   EXPECT_EQ(result_["coverage"]["rows"][5]["outcome"], "runout");
 }
 
