@@ -33,6 +33,14 @@ TEST(Shown, NothingReachesTheTerminalButText) {
 TEST(Shown, AnExcerptWithACaretKeepsItsLines) {
   EXPECT_EQ(shown("law: two\nlines\n    a  +\x1b b\n       ^"),
             "law: two lines\n    a  +\\x1b b\n       ^");
+  EXPECT_EQ(shown("study.toml:1:1: no\n    a\n    ^\n    right: b\n    c\n    ^"),
+            "study.toml:1:1: no\n    a\n    ^\n    right: b\n    c\n    ^");
+  const std::string excerpt = "\n    a\n    ^";
+  std::string many;
+  for (int i = 0; i < 479; ++i) many += "word ";
+  EXPECT_EQ(shown(many + excerpt), many);
+  EXPECT_EQ(shown(many.substr(100) + excerpt), many.substr(100) + excerpt);
+  EXPECT_EQ(shown("a\n    ^\n    b"), "a     ^     b");
   EXPECT_EQ(shown("a\nwearwell: b\n    ^"), "a wearwell: b     ^");
   EXPECT_EQ(shown("a\n    b\n c  ^"), "a     b  c  ^");
   EXPECT_EQ(shown("a\n    ^"), "a     ^");

@@ -59,6 +59,16 @@ TEST_F(StagedFileTest, GoesWithoutCommit) {
 }
 
 // No two stagings share a name, and what lies under a name that could be foreseen is not touched.
+TEST_F(StagedFileTest, MakesItsFolders) {
+  { const StagedFile file(folder() / "a/b/c.csv"); }
+  EXPECT_THAT(entries(folder()), IsEmpty());
+  write_file(folder() / "a/b/c.csv", "one");
+  EXPECT_EQ(content(folder() / "a/b/c.csv"), "one");
+  write("file", "");
+  EXPECT_THROW(write_file(folder() / "file/x/c.csv", "one"), InputError);
+  EXPECT_THROW(write_file(folder() / "x/c.csv", "one", Links::replace), InputError);
+}
+
 TEST_F(StagedFileTest, NameCannotBeForeseen) {
   write("victim", "precious");
   for (const char* name : {"state.json.new", "state.json.tmp", ".state.json.new"})
@@ -145,7 +155,7 @@ TEST_F(StagedFileTest, WritesDevicesAndPipesAsTheyStand) {
 
 TEST_F(StagedFileTest, SaysWhoIsAtFault) {
   EXPECT_THAT(message_of<InputError>([&] { write_file(folder(), ""); }), HasSubstr("directory"));
-  EXPECT_THAT(message_of<InputError>([&] { write_file(folder() / "no" / "file", ""); }),
+  EXPECT_THAT(message_of<InputError>([&] { write_file("/proc/no/file", ""); }),
               HasSubstr("No such file"));
   EXPECT_THROW(fail_to_write("x", EACCES), InputError);
   EXPECT_THROW(fail_to_write("x", ENOSPC), MachineError);

@@ -342,7 +342,7 @@ TEST_F(BearingStudy, RefusesBadRowsByName) {
   expect("b,c,p,n,d\nA,30,1,1e5,15\nB,30,1,1e5,21000\n",
          "row 2, column 'd': 21000 must be less than the journal's diameter", study);
   expect("b,c,p,n,d\nA,30,1,1e5,0\nB,30,1,1e5,-1\n", "no measured depth is positive", study);
-  expect("b,c,p,n,d\nA,30,1,1e5,15\n,30,1,1e5,18\n", "row 2, column 'b': no bearing is named",
+  expect("b,c,p,n,d\nA,30,1,1e5,15\n,30,1,1e5,18\n", "row 2, column 'b': a label must not be empty",
          study);
   expect("b,c,p,n,d\nA,30,1,1e5,15\nA,30,1,1e5,18\n", "are of one bearing",
          study + "k_scatter = { law = \"half-normal\", scale = 1 }\n");

@@ -298,7 +298,7 @@ TEST(BearingCommand, ImpossibleRequestsExitWithTwoAndOneSentence) {
       {"rate", "--contact is missing"},
       {"chart --sigma 0,1e-3", "clearance/radius is 0; a bearing needs a clearance above 0"},
       {"chart -o chart.pdf", "--output: chart.pdf must end in .html or .csv"},
-      {"chart -o /nowhere/chart.html", "cannot write to /nowhere"},
+      {"chart -o /proc/nowhere/chart.html", "cannot write to /proc/nowhere"},
       {"chart --delta 1e-3:1e-4:5", "--delta: '1e-3:1e-4:5' is not FROM:TO:COUNT"},
       {"chart --radius '20 mm' --clearance '20 um'", "depth is missing"},
   };

@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "support/disk_content.h"
+#include "support/messages.h"
 #include "support/run_command.h"
 #include "support/scratch.h"
 
@@ -35,7 +36,7 @@ class Door : public ScratchTest {
     EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.out << run.err;
     EXPECT_EQ(run.out, "") << arguments;
     EXPECT_THAT(run.err, StartsWith("wearwell: ")) << arguments;
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(messages_in(run.err), 1u) << run.err;
     EXPECT_THAT(run.err, AllOf(Not(HasSubstr("internal error")), Not(HasSubstr("exception")),
                                Not(HasSubstr("Error while"))));
     return run.err.substr(0, run.err.size() - 1);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "support/messages.h"
 #include "support/run_command.h"
 #include "support/scratch.h"
 
@@ -512,7 +513,7 @@ class BadInput : public FitCommand {
     EXPECT_EQ(run.exit_code, 2) << run.out;
     EXPECT_EQ(run.out, "");
     EXPECT_THAT(run.err, HasSubstr(message));
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(messages_in(run.err), 1u) << run.err;
     EXPECT_FALSE(fs::exists(results()));
     for (const auto& entry : fs::directory_iterator(folder())) {
       EXPECT_THAT(entry.path().filename().string(), testing::Not(testing::StartsWith(".")))

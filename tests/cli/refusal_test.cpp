@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "support/messages.h"
 #include "support/run_command.h"
 #include "support/scratch.h"
 
@@ -28,7 +29,7 @@ class Refusal : public ScratchTest {
     EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.out << run.err;
     EXPECT_EQ(run.out, "") << arguments;
     EXPECT_THAT(run.err, StartsWith("wearwell: "));
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(messages_in(run.err), 1u) << run.err;
     EXPECT_THAT(run.err, AllOf(Not(HasSubstr("internal error")), Not(HasSubstr("json.exception")),
                                Not(HasSubstr("Error:"))));
     EXPECT_EQ(files(), before) << arguments;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "support/messages.h"
 #include "support/run_command.h"
 #include "support/scratch.h"
 #include "wearwell/base/rng.h"
@@ -228,7 +229,7 @@ class Contract : public ScratchTest {
     if (run.exit_code >= 2) {
       EXPECT_EQ(run.out, "") << what;
       EXPECT_TRUE(run.err.starts_with("wearwell: ")) << what << run.err;
-      EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << what << run.err;
+      EXPECT_EQ(messages_in(run.err), 1u) << what << run.err;
       EXPECT_LT(run.err.size(), 2500u) << what;
       for (const char* foreign : {"internal error", "exception", "Binder", "terminate"}) {
         EXPECT_EQ(run.err.find(foreign), std::string::npos) << what << run.err;

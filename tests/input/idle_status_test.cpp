@@ -61,6 +61,12 @@ TEST_F(IdleStatusTest, BesideLivesTruthValuesOfAnyHeadingAreRefused) {
   }
 }
 
+TEST_F(IdleStatusTest, WordsOfOtherLanguages) {
+  EXPECT_NE(refusal("Ende", {"Bruch", "Durchl\u00E4ufer"}), "");
+  EXPECT_NE(refusal("zensiert", {"0", "1"}, RowKind::measurement), "");
+  EXPECT_NE(refusal("x", {"oui", "non"}), "");
+}
+
 TEST_F(IdleStatusTest, OtherColumnsAreLetPass) {
   EXPECT_NO_THROW(refuse(table("temperature", {"20", "80"})));
   EXPECT_NO_THROW(refuse(table("failure mode", {"seal", "bearing"})));

@@ -43,6 +43,48 @@ TEST_F(LifeStatusTest, WordsSayItThemselves) {
                   Seen::below, Seen::between));
 }
 
+TEST_F(LifeStatusTest, WordsOfFourLanguages) {
+  for (const char* word : {"failed", "FAILURE", "f", "Bruch", "ausgefallen", "n.i.O.",
+                           "d\u00E9faillance", "rupture", "rotura", "fallo", "observed", "broken"})
+    EXPECT_THAT(seen("z", {word}), ElementsAre(Seen::exactly)) << word;
+  for (const char* word : {"RO", "running", "C", "s", "Suspended", "censored", "Run Out",
+                           "Durchl\u00E4ufer", "Durchlaeufer", "DURCHL\u00C4UFER", "kein Bruch",
+                           "censur\u00E9", "non rompu", "sin rotura", "OK"})
+    EXPECT_THAT(seen("z", {word}), ElementsAre(Seen::above)) << word;
+  EXPECT_THAT(seen("z", {"left-censored", "linkszensiert", "Intervall"}),
+              ElementsAre(Seen::below, Seen::below, Seen::between));
+  EXPECT_THAT(seen("ausgefallen", {"WAHR", "FALSCH"}), ElementsAre(Seen::exactly, Seen::above));
+  EXPECT_THAT(seen("zensiert", {"ja", "nein"}), ElementsAre(Seen::above, Seen::exactly));
+}
+
+TEST_F(LifeStatusTest, WordsOfTheStudyComeFirst) {
+  EXPECT_THAT(
+      seen("z", {"kaputt", "l\u00E4uft weiter", "aus", "OK"},
+           "{ column = \"z\", failure = \"kaputt\", runout = [\"L\u00E4uft weiter\", \"aus\"] }"),
+      ElementsAre(Seen::exactly, Seen::above, Seen::above, Seen::above));
+  EXPECT_THAT(seen("z", {"OK"}, "{ column = \"z\", failure = \"OK\" }"),
+              ElementsAre(Seen::exactly));
+  EXPECT_THAT(seen("z", {"1", "0"}, "{ column = \"z\", failure = \"1\", runout = \"0\" }"),
+              ElementsAre(Seen::exactly, Seen::above));
+  EXPECT_THAT(
+      seen("z", {"x", "1", "y"}, "{ column = \"z\", failure = 0, left = \"x\", interval = \"y\" }"),
+      ElementsAre(Seen::below, Seen::above, Seen::between));
+  EXPECT_THAT(message_of<InputError>(
+                  [&] { seen("z", {"x"}, "{ column = \"z\", failure = \"x\", runout = \"X\" }"); }),
+              HasSubstr("data.columns.status.runout: 'X' stands for two ends"));
+}
+
+TEST_F(LifeStatusTest, AWordThatIsNoneIsRefusedWithTheKey) {
+  EXPECT_THAT(message_of<InputError>([&] {
+                seen("Zustand", {"Bruch", "Brruch"});
+              }),
+              AllOf(HasSubstr("row 2, column 'Zustand': 'Brruch' is no status"),
+                    HasSubstr("(nearest: 'bruch')"),
+                    HasSubstr("status = { column = \"Zustand\", failure = \"Brruch\" }")));
+  EXPECT_THAT(message_of<InputError>([&] { seen("z", {"quux"}); }),
+              testing::Not(HasSubstr("nearest")));
+}
+
 TEST_F(LifeStatusTest, CodesNeedAHeadingOrTheStudyToTell) {
   for (const char* heading : {"status", "c", "delta", "failed_or_censored"}) {
     EXPECT_THAT(message_of<InputError>([&] {

@@ -124,11 +124,17 @@ TEST_F(ThousandsTest, MarksThatAreSure) {
 }
 
 TEST_F(ThousandsTest, WhatIsNoNumber) {
-  for (const char* cell : {"1,23,456", "12.05.2023", "1.2.3", "12 34", "1 2345", "5 mm", "#NV",
-                           "1.234.5", "0.123.456", "35 200 cycles", "<5", "1e", "1,5e1,5", "--5"})
+  for (const char* cell : {"1,23,456", "12.05.2023", "1.2.3", "12 34", "1 2345", "5 pieces",
+                           "1.234.5", "0.123.456", "#DIV/0!", "<a", "1e", "1,5e1,5", "--5"})
     EXPECT_THAT(refused(std::string("n;life\n1;5\n2;\"") + cell + "\"\n"),
                 HasSubstr(std::string("row 2, column 'life': '") + cell + "' is not a number"))
         << cell;
+  // What says more than a number has its own words.
+  for (const auto& [cell, why] :
+       {std::pair{"5 mm", "'5 mm' has the unit mm and '5' in row 1 has none"},
+        std::pair{"35 200 cycles", "'35 200 cycles' has the unit cycles"},
+        std::pair{"#NV", "no value"}, std::pair{"<5", "'<5' is a limit"}})
+    EXPECT_THAT(refused(std::string("n;life\n1;5\n2;\"") + cell + "\"\n"), HasSubstr(why));
   EXPECT_THAT(refused("n;life\n1;5\n2;\"1,234\"\n"),
               HasSubstr("'1,234' can mean 1.234 or, with a mark for thousands, 1234"));
   EXPECT_EQ(not_a_number("abc"), "'abc' is not a number");

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
 #include "wearwell/input/column_stream.h"
@@ -153,6 +155,88 @@ TEST_F(TextLayoutTest, ARowOfUnits) {
   EXPECT_EQ(read("life,status\n100,F\n200,S\n").rows, 2u);
   EXPECT_EQ(read("status,label\nF,A\n1,2\n", {.units_row = false}).rows, 2u);
   EXPECT_EQ(read("x,y\nfurlong per lunar month,?\n1,2\n", {.units_row = true}).rows, 1u);
+}
+
+TEST_F(TextLayoutTest, ARowOfUnitsInGermanAndFrench) {
+  const Table table =
+      read("Nr.;Zyklen;Dauer;V\nEinheit;Lastwechsel;Std;mm\u00B3\n1;1000;2,5;0,1\n");
+  EXPECT_EQ(table.rows, 1u);
+  EXPECT_EQ(table.column("Nr.").unit, "");
+  EXPECT_EQ(table.column("Zyklen").unit, "Lastwechsel");
+  EXPECT_EQ(table.column("Dauer").unit, "Std");
+  EXPECT_EQ(read("n;t;d\ntours;heures;mm\n1;2;3\n").column("t").unit, "heures");
+}
+
+TEST_F(TextLayoutTest, CellsWithoutAValue) {
+  const Table table = read("x,y\n1,NA\nn/a,2.5\n3,#NV\n");
+  EXPECT_TRUE(table.column("y").is_number);
+  EXPECT_TRUE(std::isnan(table.column("y").numbers[0]));
+  EXPECT_EQ(table.column("y").numbers[1], 2.5);
+  EXPECT_EQ(
+      table.layout,
+      "commas, decimal point, 1 cell of 'x' without a value ('n/a'), 2 cells of 'y' without a "
+      "value ('NA')");
+  EXPECT_THAT(refused("x,y\n1,2\nNA,3\n", "x"),
+              AllOf(HasSubstr("row 2, column 'x': no value"),
+                    HasSubstr("sql = 'select * from data where \"x\" is not null'")));
+  EXPECT_THAT(numbers("x,y\n1,2\nNA,3\n", "y"), ElementsAre(2, 3));
+  // As a word it stays what it is.
+  EXPECT_THAT(read("region,y\nNA,2\nEU,3\n").column("region").text, ElementsAre("NA", "EU"));
+}
+
+TEST_F(TextLayoutTest, CellsWithTheirUnit) {
+  const Table table = read("d;y\n12 mm;1\n12,5 mm;2\n");
+  EXPECT_EQ(table.column("d").unit, "mm");
+  EXPECT_THAT(si_numbers(table, "d", Unit{}), ElementsAre(12, 12.5));
+  EXPECT_EQ(table.layout, "semicolons, decimal comma, the unit mm in the cells of 'd'");
+  EXPECT_THAT(table.column("d").text, ElementsAre("12 mm", "12,5 mm"));
+  EXPECT_THAT(refused("d,y\n12 mm,1\n1.2 cm,2\n", "d"),
+              AllOf(HasSubstr("row 1, column 'd': '12 mm'"), HasSubstr("'1.2 cm' in row 2")));
+  EXPECT_THAT(refused("d,y\n12 mm,1\n13,2\n", "d"), HasSubstr("'13' in row 2 has none"));
+  EXPECT_THAT(refused("d [cm],y\n12 mm,1\n", "d"), HasSubstr("in cm by its heading"));
+  // Names of steels, and other words.
+  EXPECT_THAT(refused("d,y\n304L,1\n", "d"), HasSubstr("'304L' is not a number"));
+}
+
+TEST_F(TextLayoutTest, CellsThatAreLimits) {
+  const Table table = read("V;y\n<0,5;1\n1,25;2\n>5.000.000;3\n<LOD;4\n");
+  const auto cell = [&](std::size_t row) { return cell_value(table, table.column("V"), row); };
+  EXPECT_EQ(cell(0).sign, '<');
+  EXPECT_EQ(cell(0).number, 0.5);
+  EXPECT_EQ(cell(1).sign, 0);
+  EXPECT_EQ(cell(2).sign, '>');
+  EXPECT_EQ(cell(2).number, 5e6);
+  EXPECT_TRUE(cell(3).unstated);
+  EXPECT_THAT(table.layout, HasSubstr("3 cells of 'V' that are limits ('<0,5')"));
+  EXPECT_THAT(message_of<InputError>([&] { si_numbers(table, "V", Unit{}); }),
+              AllOf(HasSubstr("row 1, column 'V': '<0,5' is a limit"), HasSubstr("left-censored")));
+}
+
+TEST_F(TextLayoutTest, RowsOfMeansBelow) {
+  const std::string rows = "Nr.;x\n1;2,5\n2;3,5\n";
+  const Table table = read(rows + "Mittelwert;3\nStabw.;0,7\n");
+  EXPECT_THAT(si_numbers(table, "x", Unit{}), ElementsAre(2.5, 3.5));
+  EXPECT_EQ(table.layout,
+            "semicolons, decimal comma, the last 2 rows left out (Mittelwert, Stabw.)");
+  EXPECT_THAT(numbers(rows + ";\n;\nmean;3\n", "x"), ElementsAre(2.5, 3.5));
+  EXPECT_THAT(numbers(rows + "Summe;6\n", "x", {.summary_rows = false}), ElementsAre(2.5, 3.5, 6));
+  // Below names it can be one.
+  const std::string named = "part,x\nA,2\nB,4\nmean,3\n";
+  EXPECT_THAT(refused(named, "x"),
+              AllOf(HasSubstr("line 4: 'mean' can mean"), HasSubstr("summary_rows = \"last\""),
+                    HasSubstr("\"none\"")));
+  EXPECT_THAT(numbers(named, "x", {.summary_rows = true}), ElementsAre(2, 4));
+  EXPECT_THAT(numbers(named, "x", {.summary_rows = false}), ElementsAre(2, 4, 3));
+  // Above data it is a name.
+  EXPECT_THAT(numbers("part,x\nmean,1\nmax,2\nA,3\nmax,4\n", "x"), ElementsAre(1, 2, 3, 4));
+}
+
+TEST_F(TextLayoutTest, MergedHeadings) {
+  const Table table = read("Messung;;;\nPart;Load;;Wear\n1;2;3;4\n5;6;7;8\n");
+  EXPECT_EQ(table.columns[2].name, "column3");
+  EXPECT_THAT(si_numbers(table, "Wear", Unit{}), ElementsAre(4, 8));
+  EXPECT_THAT(table.layout, AllOf(HasSubstr("headings in line 2"),
+                                  HasSubstr("a column without a heading, read as 'column3'")));
 }
 
 TEST_F(TextLayoutTest, SqlSeesTheNumbers) {

@@ -18,13 +18,13 @@ class TomlReaderTest : public ScratchTest {
     return TomlReader::parse_file(write("a.toml", content));
   }
 
-  // The message without the folder: "a.toml:2:1: ...".
+  // The message without the folder and without the excerpt behind it: "a.toml:2:1: ...".
   template <class F>
   std::string refusal(const std::string& content, const F& f) {
     const std::string message = message_of<InputError>([&] { f(parse(content)); });
     const std::string prefix = folder().string() + "/";
     EXPECT_THAT(message, StartsWith(prefix));
-    return message.substr(prefix.size());
+    return without_excerpt(message.substr(prefix.size()));
   }
 };
 

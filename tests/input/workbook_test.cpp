@@ -113,8 +113,8 @@ TEST_F(WorkbookTest, DatesDurationsAndOtherCells) {
   EXPECT_THAT(table.column("age").numbers, ElementsAre(2.5));
   EXPECT_THAT(message_of<InputError>([&] { si_numbers(table, "q", Unit{}); }),
               HasSubstr("row 1, column 'q': '#DIV/0!' is not a number"));
-  EXPECT_THAT(message_of<InputError>([&] { si_numbers(table, "slip", Unit{}); }),
-              HasSubstr("'5 %' is not a number"));
+  EXPECT_EQ(table.column("slip").unit, "%");
+  EXPECT_THAT(si_numbers(table, "slip", Unit{}), ElementsAre(5));
 }
 
 TEST_F(WorkbookTest, FormatsAsExcelHasThem) {
@@ -160,8 +160,78 @@ TEST_F(WorkbookTest, SheetRangeAndHeadingRow) {
   for (const char* bad : {"B3:", "3:4", "C6:B2", "B3:F20x", "", "ZZZZ1:B2"})
     EXPECT_THAT(refused(file, {.sheet = "B", .range = bad}), HasSubstr("is no range of a sheet"))
         << bad;
-  EXPECT_THAT(refused(file, {.decimal = ','}), HasSubstr("are keys for tables of text"));
+  EXPECT_THAT(refused(file, {.delimiter = ';', .sheet = "B"}),
+              HasSubstr("are keys for tables of text"));
   EXPECT_THAT(refused(write("a.csv", "x,y\n1,2\n"), {.sheet = "B"}), HasSubstr("keys for .xlsx"));
+  EXPECT_THAT(refused(write("a.csv", "x,y\n1,2\n"), {.hidden_rows = false}),
+              HasSubstr("keys for .xlsx"));
+}
+
+/// A row of cells from column A on: numbers as they are, texts behind a quote, nothing where empty.
+std::string row_of(int number, const std::vector<std::string>& cells, const char* more = "") {
+  std::string row = fmt::format(R"(<row r="{}" {}>)", number, more);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].empty()) continue;
+    const std::string name = fmt::format("{}{}", column_letters(i + 1), number);
+    row += cells[i].front() == '\''
+               ? fmt::format(R"(<c r="{}" t="inlineStr"><is><t>{}</t></is></c>)", name,
+                             cells[i].substr(1))
+               : fmt::format(R"(<c r="{}"><v>{}</v></c>)", name, cells[i]);
+  }
+  return row + "</row>";
+}
+
+TEST_F(WorkbookTest, NumbersInCellsOfText) {
+  const auto with = [&](const std::vector<std::string>& cells) {
+    std::string rows = row_of(1, {"'x", "'y"});
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      rows += row_of(static_cast<int>(i) + 2, {cells[i], "1"});
+    return book(rows);
+  };
+  const auto numbers = [&](const std::vector<std::string>& cells,
+                           const TableSettings& settings = {}) {
+    return si_numbers(read(with(cells), settings), "x", Unit{});
+  };
+  EXPECT_THAT(numbers({"'3,2", "3.4", "'1.234,5"}), ElementsAre(3.2, 3.4, 1234.5));
+  EXPECT_EQ(read(with({"'3,2", "3.4"})).layout, "sheet 'Tabelle1', decimal comma in cells of text");
+  EXPECT_THAT(numbers({"'3.2", "'1,234.5"}), ElementsAre(3.2, 1234.5));
+  // Beside a decimal comma a point is a mark for thousands; a cell that is a number has none.
+  EXPECT_THAT(numbers({"'35.000", "'3,2", "35.000"}), ElementsAre(35000, 3.2, 35));
+  EXPECT_THAT(numbers({"'35.000"}, {.decimal = '.'}), ElementsAre(35));
+  EXPECT_THAT(numbers({"'35.000"}, {.thousands = '.'}), ElementsAre(35000));
+  EXPECT_THAT(message_of<InputError>([&] {
+                numbers({"1", "'35.000"});
+              }),
+              AllOf(HasSubstr("column 'x': row 3 of the sheet"), HasSubstr("35 or"),
+                    HasSubstr("35000"), HasSubstr("decimal = \",\"")));
+  EXPECT_THAT(message_of<InputError>([&] {
+                numbers({"'3.2", "'3,2"});
+              }),
+              AllOf(HasSubstr("'3,2' in row 3"), HasSubstr("'3.2' in row 2")));
+  // A column that nobody asks for may be as it is.
+  EXPECT_THAT(si_numbers(read(with({"1", "'35.000"})), "y", Unit{}), ElementsAre(1, 1));
+}
+
+TEST_F(WorkbookTest, MergedCellsStandInEachRow) {
+  Parts parts = parts_of({{"A", ""}});
+  parts["xl/worksheets/sheet1.xml"] =
+      "<worksheet><sheetData>" + row_of(1, {"'part", "'life"}) + row_of(2, {"'A", "1"}) +
+      row_of(3, {"", "2"}) + row_of(4, {"'B", "3"}) + row_of(5, {"", "4"}) + row_of(6, {"", "5"}) +
+      R"(</sheetData><mergeCells><mergeCell ref="A2:A3"/><mergeCell ref="A4:A5"/></mergeCells></worksheet>)";
+  const Table table = read(zip_of(parts));
+  EXPECT_THAT(table.column("part").text, ElementsAre("A", "A", "B", "B", ""));
+  EXPECT_EQ(table.layout, "sheet 'A', merged cells A2:A3, A4:A5 read in each of their rows");
+}
+
+TEST_F(WorkbookTest, HiddenRowsAreSaid) {
+  const auto file = book(row_of(1, {"'x", "'y"}) + row_of(2, {"1", "2"}) +
+                         row_of(3, {"3", "4"}, R"(hidden="1")") + row_of(4, {"5", "6"}));
+  const Table table = read(file);
+  EXPECT_EQ(table.rows, 3u);
+  EXPECT_EQ(table.layout, "sheet 'Tabelle1', 1 hidden row read like the others (3)");
+  const Table without = read(file, {.hidden_rows = false});
+  EXPECT_THAT(si_numbers(without, "x", Unit{}), ElementsAre(1, 5));
+  EXPECT_EQ(without.layout, "sheet 'Tabelle1', 1 hidden row left out (3)");
 }
 
 TEST_F(WorkbookTest, WhatIsRefused) {

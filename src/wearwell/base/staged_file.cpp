@@ -26,13 +26,18 @@ StagedFile::StagedFile(const fs::path& target, Links links) {
   }
   const bool replaces = exists && S_ISREG(there.st_mode);
   if (replaces && access(target_.c_str(), W_OK) != 0) fail_to_write(target, errno);
+  if (links == Links::follow) make_folders();
   heal_folder(target_.parent_path());
   while (!file_) {
     const fs::path staging = staging_name(target_.parent_path());
     Uninterrupted now;
     Descriptor file = create_file(staging);
-    if (!file && errno == EEXIST) continue;
-    if (!file) fail_to_write(target_, errno);
+    const int error = errno;
+    if (!file && error == EEXIST) continue;
+    if (!file) {
+      remove_folders();
+      fail_to_write(target_, error);
+    }
     if (!lock_staging(file, staging, target_)) continue;
     now.note(staging, false);
     file_ = std::move(file);
@@ -41,11 +46,34 @@ StagedFile::StagedFile(const fs::path& target, Links links) {
   if (replaces) fchmod(file_.get(), there.st_mode & 07777);
 }
 
+void StagedFile::make_folders() {
+  std::vector<fs::path> missing;  // the innermost first
+  struct stat ignored;
+  for (fs::path up = target_.parent_path(); lstat(up.c_str(), &ignored) != 0 && errno == ENOENT;
+       up = up.parent_path())
+    missing.push_back(up);
+  for (auto each = missing.rbegin(); each != missing.rend(); ++each) {
+    if (mkdir(each->c_str(), 0777) == 0) {
+      made_.push_back(*each);
+    } else if (const int error = errno; error != EEXIST) {
+      remove_folders();
+      fail_to_write(target_, error);
+    }
+  }
+}
+
+/// Those that others have filled stay.
+void StagedFile::remove_folders() {
+  for (auto each = made_.rbegin(); each != made_.rend(); ++each) rmdir(each->c_str());
+  made_.clear();
+}
+
 StagedFile::~StagedFile() {
   if (staging_.empty()) return;
   Uninterrupted now;
   unlink(staging_.c_str());
   now.forget(staging_);
+  remove_folders();
 }
 
 void StagedFile::commit() {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "wearwell/base/disk.h"
 
@@ -15,7 +16,8 @@ enum class Links { follow, replace };
 /// A file that appears whole or not at all: written under a name that nobody can foresee in the
 /// same folder, and put in the target's place by `commit`. Without that it goes, also when a signal
 /// ends the program; what a kill leaves is removed by the next StagedFile in that folder. A target
-/// that exists keeps its permissions; a device or a pipe is written as it stands.
+/// that exists keeps its permissions; a device or a pipe is written as it stands. Folders of the target that are
+/// missing are made, and go again without `commit`.
 ///
 /// All throw InputError when the target cannot be written as asked (a folder, no permission) and
 /// MachineError when the machine is at fault (disk full, read-only).
@@ -31,7 +33,11 @@ class StagedFile {
   void commit();
 
  private:
-  std::filesystem::path target_, staging_;  ///< no staging: written as it stands
+  void make_folders();
+  void remove_folders();
+
+  std::filesystem::path target_, staging_;   ///< no staging: written as it stands
+  std::vector<std::filesystem::path> made_;  ///< folders, the outermost first
   Descriptor file_;
 };
 

@@ -44,7 +44,7 @@ void add_own_words(const TomlReader& choice, LifeStatus& status) {
                                                {"left", Seen::below},
                                                {"interval", Seen::between}};
   for (const auto& [key, seen] : ends) {
-    if (!choice.has(key) || choice.is_integer(key)) continue;
+    if (choice.is_integer(key)) continue;
     for (const std::string& word : choice.texts(key)) {
       if (const auto before = find_own(status, word); before && before != seen)
         choice.fail(key, fmt::format("'{}' stands for two ends", word));

@@ -265,6 +265,9 @@ StudyKeys layout_keys(const std::string& table) {
           {table + ".encoding", "\"cp1252\"", "of the text: utf-8, utf-16 or cp1252"},
           {table + ".header_row", "5", "line of the headings, from 1"},
           {table + ".units_row", "\"below\"", "units stand in the row below the headings, or none"},
+          {table + ".summary_rows", "\"last\"",
+           "the last rows are means, sums and the like and are left out, or none are"},
+          {table + ".hidden_rows", "\"skip\"", "hidden rows of a sheet: skip, or read (read)"},
           {table + ".comment", "\"#\"", "lines that begin so are left out"},
           {table + ".sheet", "\"Messung\"", "of a workbook: name or number"},
           {table + ".range", "\"B4:G22\"", "of that sheet"}};

@@ -266,7 +266,7 @@ std::vector<Quantity> TomlReader::quantities(std::string_view key, std::string_v
     try {
       values.push_back(read_node(each, si));
     } catch (const InputError& error) {
-      fail(key, where + error.what());
+      fail(key, where + error.what(), unit_of_its_own(each, si));
     }
   };
   if (!node->is_array()) {

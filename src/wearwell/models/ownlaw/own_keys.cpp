@@ -45,6 +45,8 @@ StudyKeys law_keys() {
         "what expressions call `*`; `status`, `lower`, `upper`, `count` and `entry` say how much "
         "is "
         "known of an observation"},
+       {"data.columns.*.detection_limit", "\"0.05 mm^3\"",
+        "what `<LOD` stands for in its cells: the value lies below"},
        unused_columns_key(),
        {"data.rows_of", "\"machine\"",
         "of several labels that parameters vary with: whose levels are the units"},
