@@ -8,6 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
+#include "wearwell/input/prior.h"
 #include "wearwell/models/ownlaw/first_parts.h"
 #include "wearwell/models/ownlaw/straight_line.h"
 #include "wearwell/study/column_values.h"
