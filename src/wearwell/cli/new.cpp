@@ -15,8 +15,8 @@ namespace wearwell {
 
 void add_new_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<NewOptions>();
-  CLI::App* command = app.add_subcommand(
-      "new", "Write a commented study that runs as it is: an example, or one for a table of yours");
+  CLI::App* command =
+      app.add_subcommand("new", "Write a commented study: an example, or one for your own table");
   std::vector<std::string> trades;
   for (const Model& model : models) trades.emplace_back(model.trade);
   command

@@ -276,7 +276,7 @@ int run(NewOptions options, Models models) {
   try {
     read_study(source_of(study), models)->in_words();
   } catch (const InputError& error) {
-    fmt::print("It does not run yet:\n{}Mend {}, then run: wearwell check {}\n",
+    fmt::print("It does not run yet:\n{}Correct {}, then run: wearwell check {}\n",
                wrapped(printable(error.what()), 2, 4), study.string(), file);
     return 1;
   }

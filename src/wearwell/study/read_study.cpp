@@ -46,7 +46,7 @@ void require_stated(const TomlReader& root, const StudyKeys& keys) {
                                        : fmt::format(" (like {})", key->example)));
   }
   if (missing.empty()) return;
-  throw InputError(fmt::format("{}: nobody has stated {}; write {} in place of \"{}\"", root.file(),
+  throw InputError(fmt::format("{}: {} not stated; write {} in place of \"{}\"", root.file(),
                                fmt::join(missing, ", "), missing.size() > 1 ? "each" : "it",
                                not_stated));
 }

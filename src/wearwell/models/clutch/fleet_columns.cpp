@@ -70,7 +70,7 @@ SqlColumn with_unit(const std::string& name, const std::string& text, const char
                       "behind the colon",
                       printable(column), heading.unit, printable(unit)));
   }
-  return {column, read.scale, read.offset};
+  return {column, read.scale, read.offset, false, read.text};
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ void read_fleet_columns(const std::vector<std::string>& options,
           "--columns must say which column is '{0}', and its unit: '{0}=COLUMN:{1}'", name, si));
     } else {
       const ColumnChoice found = find_labelled(headings, name, si, table);
-      column = {found.column, found.unit.scale, found.unit.offset};
+      column = {found.column, found.unit.scale, found.unit.offset, false, found.unit.text};
     }
     require_known(known, column.name, table, true);
     return column;

@@ -44,8 +44,17 @@ std::string offender(fleet::Engine& engine, const ClutchSql& sql) {
   return found;
 }
 
+/// "torque 20 .. 31 N m" in the table's own unit; databases take NaN for the largest number.
+std::string range_in_words(const char* name, const SqlColumn& column, double low, double high) {
+  const auto end = [&](double x) {
+    return std::isfinite(x) ? fmt::format("{:.6g}", (x - column.offset) / column.scale)
+                            : "not a number";
+  };
+  return fmt::format("{} {} to {} {}", name, end(low), end(high), column.unit);
+}
+
 /// Throws InputError for rows that no sum can take.
-FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
+FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSource& source) {
   FleetCheck check;
   double refused = 0;
   engine.rows(sql.check, 0, [&](const fleet::Row& row) {
@@ -53,11 +62,17 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql) {
     refused = row.numbers[1];
     const double nameless = row.numbers[2];
     if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
-    check.ranges = fmt::format(
-        "slip_speed {:.6g} .. {:.6g} rad/s, torque {:.6g} .. {:.6g} N m, temperature {:.6g} .. "
-        "{:.6g} degC, closing_time {:.6g} .. {:.6g} s, energy up to {:.6g} J",
-        row.numbers[3], row.numbers[4], row.numbers[5], row.numbers[6], row.numbers[7],
-        row.numbers[8], row.numbers[9], row.numbers[10], row.numbers[11]);
+    check.ranges.clear();
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      check.ranges += range_in_words(inputs[i].name, source.inputs[i], row.numbers[3 + 2 * i],
+                                     row.numbers[4 + 2 * i]) +
+                      ", ";
+    const double energy = row.numbers[3 + 2 * inputs.size()];
+    check.ranges += std::isfinite(energy)
+                        ? fmt::format("energy up to {:.6g} {}",
+                                      (energy - source.energy.offset) / source.energy.scale,
+                                      source.energy.unit)
+                        : "energy not a number";
     if (nameless > 0)
       throw InputError(fmt::format("{}: {:.0f} rows name no unit", engine.source(), nameless));
   });
@@ -101,7 +116,7 @@ struct Shard {
 [[noreturn]] void explain(Shard& shard, const InputError& error) {
   const std::string_view said = error.what();
   if (said.find("out of range") == std::string_view::npos) throw;  // as it is: a Lost is one
-  if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql).ranges;
+  if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql, shard.source).ranges;
   throw InputError(fmt::format(
       "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
       "They are: {} ({})",
@@ -120,7 +135,7 @@ void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const Identif
                                          request.first, request.units_in_memory, monitor);
   shard.rows = found.rows;
   if (found.rows == 0 || found.refused + found.nameless > 0) {
-    check_rows(shard.engine, shard.sql);
+    check_rows(shard.engine, shard.sql, shard.source);
     throw InputError(fmt::format("{} changed while it was read", shard.engine.source()));
   }
 }
@@ -155,7 +170,7 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   shard.source = source;
   fleet::ColumnEngine* const columns = columns_of(engine, request);
   if (!columns) {
-    const FleetCheck check = check_rows(engine, shard.sql);
+    const FleetCheck check = check_rows(engine, shard.sql, source);
     shard.rows = check.rows;
     shard.ranges = check.ranges;
   }

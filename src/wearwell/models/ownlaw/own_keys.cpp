@@ -75,7 +75,7 @@ StudyKeys law_keys() {
        {"predict.along", "\"distance\"", "column that is the axis of wear and life"},
        {"predict.at", "[\"10 km\", \"50 km\"]", "measurements to come there"},
        {"predict.units", "[\"3\", \"7\"]",
-        "of these units alone, with measurements to come: what is told at predict.at"},
+        "of these units alone, with measurements to come: reported at predict.at"},
        {"predict.given.*", "\"20 N\"",
         "a condition; what is not named must be the same in all rows"},
        {"predict.limit.*", "\"100 um\"", "when this expression reaches it: lives"},
