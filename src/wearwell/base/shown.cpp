@@ -85,9 +85,9 @@ std::string shown(std::string_view message) {
   }
   const std::size_t excerpt = excerpt_in(text);
   if (excerpt == text.npos) return on_one_line(std::move(text));
-  const std::string message = on_one_line(text.substr(0, excerpt));
+  const std::string first = on_one_line(text.substr(0, excerpt));
   const std::string lines = printable_lines(text.substr(excerpt));
-  return message.size() + lines.size() > longest_message ? message : message + lines;
+  return first.size() + lines.size() > longest_message ? first : first + lines;
 }
 
 }  // namespace wearwell
