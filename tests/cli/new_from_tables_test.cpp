@@ -248,7 +248,8 @@ TEST_F(NewFromTables, WhichSheet) {
   const CommandResult run = here("new --from w.xlsx");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, AllOf(HasSubstr("--sheet Info"), HasSubstr("--sheet Versuche")));
-  const CommandResult one = here("new --from w.xlsx --sheet Versuche");
+  const CommandResult one = here("new --from w.xlsx --sheet Versuche --range B4:G22");
+  EXPECT_EQ(one.exit_code, 0) << one.err << one.out;
   EXPECT_THAT(one.out, HasSubstr("life: column 'Schwingspiele'"));
   EXPECT_THAT(content("w-study/study.toml"), HasSubstr("sheet = \"Versuche\""));
 }

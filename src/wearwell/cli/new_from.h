@@ -34,6 +34,7 @@ inline constexpr std::pair<const char*, const char*> table_keys[] = {
     {"thousands", "Mark for thousands, or none"},
     {"delimiter", "What separates the columns"},
     {"encoding", "utf-8, utf-16 or cp1252"},
+    {"summary_rows", "Rows below the data that are computed: last or none"},
     {"comment", "With what lines begin that are left out"}};
 
 /// "--header-row" of "header_row".
