@@ -35,6 +35,7 @@ inline constexpr std::pair<const char*, const char*> table_keys[] = {
     {"delimiter", "What separates the columns"},
     {"encoding", "utf-8, utf-16 or cp1252"},
     {"summary_rows", "Rows below the data that are computed: last or none"},
+    {"hidden_rows", "Hidden rows of a sheet: read or skip"},
     {"comment", "With what lines begin that are left out"}};
 
 /// "--header-row" of "header_row".
