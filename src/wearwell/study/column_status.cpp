@@ -71,22 +71,32 @@ std::optional<std::string> ColumnRoles::take_status(bool of_lives) {
   }
   const std::optional<int> of_heading = failure_code_of(column->name);
   const std::optional<int> failure = choices_.failure ? choices_.failure : of_heading;
-  const bool numbers = std::any_of(kinds.begin(), kinds.end(), [](const std::string& each) {
-    return each == "0" || each == "1";
-  });
   const auto coded = [&](int code) {
-    const char* yes = numbers ? "1" : "true";
-    const char* no = numbers ? "0" : "false";
-    return fmt::format("{} is a failure, {} was stopped unbroken (censored)", code == 1 ? yes : no,
-                       code == 1 ? no : yes);
+    std::string failed, went_on;
+    for (std::size_t i = 0; i < table_.rows; ++i) {
+      const std::string word = cell_word(*column, i);
+      if (word.empty()) continue;
+      const Seen seen = seen_in(table_, LifeStatus{column->name, code}, i);
+      if (seen == Seen::exactly) failed = word;
+      if (seen == Seen::above) went_on = word;
+    }
+    const std::string ends =
+        failed.empty() ? "none is a failure" : fmt::format("{} is a failure", failed);
+    return went_on.empty() ? ends
+                           : fmt::format("{}, {} was stopped unbroken (censored)", ends, went_on);
   };
   if (!failure) {
     TableQuestion question{fmt::format("What is a failure in column '{}' ({}) of {}?", column->name,
                                        fmt::join(kinds, ", "), file_),
-                           {{coded(1), {"--column", "status=" + column->name, "--failure", "1"}},
-                            {coded(0), {"--column", "status=" + column->name, "--failure", "0"}},
-                            {fmt::format("'{}' does not say how a life ended", column->name),
-                             {"--column", "unused=" + column->name}}}};
+                           {}};
+    for (const int code : {1, 0}) {
+      if (!says_status(table_, *column, code)) continue;
+      question.readings.push_back(
+          {coded(code),
+           {"--column", "status=" + column->name, "--failure", fmt::format("{}", code)}});
+    }
+    question.readings.push_back({fmt::format("'{}' does not say how a life ended", column->name),
+                                 {"--column", "unused=" + column->name}});
     questions.push_back(std::move(question));
     return plain;
   }

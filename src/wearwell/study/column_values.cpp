@@ -38,6 +38,12 @@ std::vector<std::string> kinds_of(const Table& table, const Column& column) {
   return kinds;
 }
 
+bool has_open_ends(const Column& column) {
+  return std::any_of(column.text.begin(), column.text.end(), [](const std::string& cell) {
+    return cell.starts_with('>') || cell.starts_with("\u2265");
+  });
+}
+
 bool differs(const Table& table, const Column& column) {
   const std::vector<double> values = values_of(table, column);
   if (values.empty()) return kinds_of(table, column).size() > 1;

@@ -15,6 +15,9 @@ std::vector<double> values_of(const Table& table, const Column& column);
 /// What its cells hold, each once, without empty ones, in order of appearance.
 std::vector<std::string> kinds_of(const Table& table, const Column& column);
 
+/// Whether some cells are limits above which a value lies, ">5000": a life that went on.
+bool has_open_ends(const Column& column);
+
 /// Whether not all of its cells are alike; numbers by more than rounding.
 bool differs(const Table& table, const Column& column);
 

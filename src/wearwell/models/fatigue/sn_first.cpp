@@ -20,9 +20,13 @@ bool take_lives(ColumnRoles& roles, std::string& columns) {
     columns += ColumnRoles::line("count", *count);
   if (const Found label = roles.take("label", {"label"}))
     columns += ColumnRoles::line("label", *label);
-  if (!status)
+  if (has_open_ends(*life->column)) {
+    roles.taken.push_back(
+        fmt::format("status: '>' in column '{}' is a run-out", life->column->name));
+  } else if (!status) {
     roles.guesses.emplace_back(
         "no column says which tests were stopped unbroken: all count as failures");
+  }
   return true;
 }
 

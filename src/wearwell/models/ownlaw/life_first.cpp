@@ -18,11 +18,12 @@ using Found = ColumnRoles::Found;
 constexpr std::string_view stresses[] = {"force", "pressure", "voltage", "alternating_stress"};
 
 struct Lives {
-  std::string columns;  ///< lines of [data.columns]
-  std::string unit;     ///< of a life
-  double largest = 1;   ///< in it
-  double middle = 1;    ///< the median of what is written
-  bool stated = false;  ///< words or a status say that these are lives
+  bool open_ends = false;  ///< some are written ">5000"
+  std::string columns;     ///< lines of [data.columns]
+  std::string unit;        ///< of a life
+  double largest = 1;      ///< in it
+  double middle = 1;       ///< the median of what is written
+  bool stated = false;     ///< words or a status say that these are lives
 };
 
 bool is_interval(const ColumnRoles& roles) {
@@ -83,7 +84,11 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
     lives.unit = counting_unit(*life);
     lives.largest = largest_of(roles.table(), *life->column);
     lives.middle = middle_of(roles.table(), *life->column);
-    lives.stated = named;
+    lives.open_ends = has_open_ends(*life->column);
+    lives.stated = named || lives.open_ends;
+    if (lives.open_ends)
+      roles.taken.push_back(
+          fmt::format("status: '>' in column '{}' is a run-out", life->column->name));
     if (lives.unit == "1")
       roles.guesses.push_back(fmt::format(
           "column '{}' has no unit: a life is a plain number, such as cycles", life->column->name));
@@ -91,7 +96,7 @@ std::optional<Lives> take_lives(ColumnRoles& roles) {
   if (const auto status = roles.take_status(true)) {
     lives.columns += *status;
     lives.stated = true;
-  } else if (!is_interval(roles) && lives.columns.starts_with("life")) {
+  } else if (!lives.open_ends && lives.columns.starts_with("life")) {
     roles.guesses.emplace_back(
         "no column says which parts were stopped unbroken: all count as failures");
   }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/base/error.h"
+#include "wearwell/base/unit.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/models/ownlaw/first_parts.h"
 #include "wearwell/models/ownlaw/straight_line.h"
@@ -31,6 +33,17 @@ struct Path {
 // What is measured, where no heading says it: the one column of numbers that is left.
 bool has_lone_measure(ColumnRoles& roles) {
   return has_units(roles) && !has_named_measure(roles);
+}
+
+// A limit of another dimension than what is measured is none.
+void require_limit(const ColumnRoles& roles, const Found& measured) {
+  if (roles.choices().limit.empty()) return;
+  try {
+    read_quantity(roles.choices().limit, measured.unit);
+  } catch (const InputError& error) {
+    throw InputError(
+        fmt::format("--limit, of column '{}': {}", measured.column->name, error.what()));
+  }
 }
 
 std::optional<Path> take_path(ColumnRoles& roles, bool with_force) {
@@ -71,6 +84,7 @@ std::optional<Path> take_path(ColumnRoles& roles, bool with_force) {
     }
   }
   path.measured = *measured;
+  require_limit(roles, *measured);
   path.measured_unit = measured->unit;
   path.measured_name = measured->role->name == "measured" ? name_of(*measured->column, "measured")
                                                           : std::string(measured->role->name);
