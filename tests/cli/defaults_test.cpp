@@ -84,7 +84,7 @@ TEST_F(Defaults, AFirstFitFindsTheTruthAndNamesThem) {
     }
   }
   const std::string report = content_of((folder() / "out" / "report.html").string());
-  EXPECT_THAT(report, HasSubstr("Nobody stated a prior of log10_a, b, log10_Sut, sigma"));
+  EXPECT_THAT(report, HasSubstr("Default priors, which are weak: log10_a, b, log10_Sut, sigma"));
 
   const json joint = fit(without_priors("joint", "joint_wear.csv"));
   EXPECT_NEAR(joint["parameters"]["k"]["mean"], 7.76e-4, 0.4e-4);

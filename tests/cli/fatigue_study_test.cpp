@@ -525,18 +525,21 @@ TEST_F(FatigueStudy, NewStudyRunsAndIsSaidInWords) {
   for (const char* expected :
        {"25 tests: 22 failures, 3 runouts",
         "alternating stress 260 to 600 MPa, mean stress 0 to 427.78 MPa",
-        "life 16970 to 2e+06 cycles", "S_f = S_a/(1 - S_m/S_ut)",
-        "B10 life [cycles] of a hanger at 280 about 342.22 MPa; at least, with 90 % confidence "
+        "life 16970 to 2\u202f000\u202f000 cycles", "S_f = S_a/(1 - S_m/S_ut)",
+        "B10 life [cycles] of the hanger at 280 MPa amplitude, R = 0.1 (mean 342.22 MPa); at "
+        "least, "
+        "with 90 % confidence "
         "(credible), and of the next one",
-        "allowed alternating stress [MPa] of a specimen for 90 % to outlast 1e+06 cycles, stress "
-        "ratio 0.1"}) {
+        "allowed alternating stress [MPa] of the specimen for 90 % to outlast "
+        "1\u202f000\u202f000 cycles, R = 0.1"}) {
     EXPECT_THAT(words.out, HasSubstr(expected));
   }
   const CommandResult run = run_wearwell(
       "fit '" + mine + "/study.toml' --no-report --method exact --draws 100 -o '" + mine + "/out'");
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   for (const char* expected :
-       {"at 400 MPa fully reversed is at least 304000 cycles", "Design values", "(predictive)"}) {
+       {"at 400 MPa amplitude, fully reversed, is at least 304\u202f000\u00a0cycles",
+        "Design values", "(predictive)"}) {
     EXPECT_THAT(run.out, HasSubstr(expected));
   }
 }

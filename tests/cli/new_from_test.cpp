@@ -100,7 +100,7 @@ TEST_F(NewFrom, WhatNobodyStatedIsNoGroundForAResult) {
                              HasSubstr("contact: "), HasSubstr("It does not run yet")));
   const CommandResult fit = here("fit out/study.toml");
   EXPECT_EQ(fit.exit_code, 2);
-  EXPECT_THAT(fit.err, AllOf(HasSubstr("nobody has stated conditions.pressure (like \"1.5 MPa\"), "
+  EXPECT_THAT(fit.err, AllOf(HasSubstr("conditions.pressure (like \"1.5 MPa\"), "
                                        "conditions.radius (like \"10 mm\"), conditions.clearance "),
                              HasSubstr("conditions.contact")));
   EXPECT_FALSE(std::filesystem::exists(folder() / "study-results"));
@@ -121,7 +121,7 @@ TEST_F(NewFrom, WhatNobodyStatedIsNoGroundForAResult) {
   write("volumes.csv", "cycles,worn volume [mm^3]\n1000,3\n2000,5\n3000,8\n");
   EXPECT_EQ(here("new --from volumes.csv").exit_code, 1);
   EXPECT_THAT(here("fit volumes-study/study.toml").err,
-              HasSubstr("nobody has stated conditions.work_per_cycle"));
+              HasSubstr("conditions.work_per_cycle not stated"));
 }
 
 // What stands in brackets is a unit, or is said to be none.

@@ -20,7 +20,7 @@ TEST(Html, WritesNumbersAsPeopleDo) {
   EXPECT_EQ(number(21602.3), "21\u202f600");
   EXPECT_EQ(number(-6.7314), "−6.731");
   EXPECT_EQ(number(7.7589e-4), "7.759\u00a0×\u00a010⁻⁴");
-  EXPECT_EQ(number(0), "0.000");
+  EXPECT_EQ(number(0), "0");
   EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "–");
   EXPECT_EQ(number(std::numeric_limits<double>::quiet_NaN()), "–");
 }

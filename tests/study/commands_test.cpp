@@ -93,8 +93,8 @@ TEST_F(ReportCommands, CheckSaysWhatWillBeFitted) {
   for (const char* words :
        {"V = k W, W = cycles x 5.966 N m", "5 rows of worn volume",
         "k      wear coefficient [mm^3/(N m)]", "prior: flat: nothing is known, above 0 mm^3/(N m)",
-        "prior: uniform, between 0 and 15 mm^3", "by nuts, 4 chains of 1000 draws",
-        "worn volume [mm^3] at 20585 cycles", "until the worn volume reaches 100 mm^3"}) {
+        "prior: uniform, between 0 and 15 mm^3", "by nuts, 4 chains of 1\u202f000 draws",
+        "worn volume [mm^3] at 20\u202f585 cycles", "until the worn volume reaches 100 mm^3"}) {
     EXPECT_THAT(run.out, HasSubstr(words));
   }
 }

@@ -1,5 +1,8 @@
 #include "wearwell/cli/app.h"
 
+#include <map>
+#include <string>
+
 #include "wearwell/cli/backtest.h"
 #include "wearwell/cli/check.h"
 #include "wearwell/cli/compare.h"
@@ -15,6 +18,24 @@
 #include "wearwell/cli/update.h"
 
 namespace wearwell {
+namespace {
+
+// Under which heading the help shows a command; commands of other models stand with the applications.
+void group_commands(CLI::App& app) {
+  static const std::map<std::string, const char*> groups = {
+      {"new", "A study"},       {"check", "A study"},       {"fit", "A study"},
+      {"report", "A study"},    {"life", "Its result"},     {"decide", "Its result"},
+      {"update", "Its result"}, {"backtest", "Its result"}, {"compare", "Its result"},
+      {"export", "Its result"}, {"monitor", "Many units"},  {"fleet", "Many units"},
+      {"select", "Other"},      {"help", "Other"},          {"version", "Other"}};
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_group().empty()) continue;
+    const auto group = groups.find(command->get_name());
+    command->group(group == groups.end() ? "Applications" : group->second);
+  }
+}
+
+}  // namespace
 
 std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   auto app = std::make_unique<CLI::App>(
@@ -22,27 +43,27 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
       "wearwell");
   app->require_subcommand(1);
   app->set_version_flag("--version", WEARWELL_VERSION, "Print the version and exit");
+  add_new_command(*app, models, exit_code);
+  add_check_command(*app, models, exit_code);
   add_fit_command(*app, models, exit_code);
+  add_report_command(*app, exit_code);
+  add_life_command(*app, models, exit_code);
+  add_decide_command(*app, models, exit_code);
+  add_update_command(*app, models, exit_code);
+  add_backtest_command(*app, models, exit_code);
+  add_compare_command(*app, exit_code);
+  add_monitor_command(*app, models, exit_code);
   for (const Model& model : models) {
     if (model.add_commands) model.add_commands(*app, exit_code);
   }
   add_select_command(*app, exit_code);
-  add_check_command(*app, models, exit_code);
-  add_compare_command(*app, exit_code);
-  add_update_command(*app, models, exit_code);
-  add_life_command(*app, models, exit_code);
-  add_decide_command(*app, models, exit_code);
-  add_backtest_command(*app, models, exit_code);
-  add_monitor_command(*app, models, exit_code);
-  add_new_command(*app, models, exit_code);
-  add_report_command(*app, exit_code);
   add_help_command(*app, exit_code);
   add_version_command(*app, exit_code);
   add_generate_command(*app, exit_code);
+  group_commands(*app);
   // Now: commands would inherit it.
   app->footer(
-      "wearwell help COMMAND says more of each; wearwell new JOB DIR writes a study to start "
-      "from.");
+      "wearwell help COMMAND describes a command; wearwell new JOB DIR writes a first study.");
   return app;
 }
 

@@ -45,7 +45,8 @@ std::string told(const Backtest& test, const Tracker& tracker) {
                                               static_cast<double>(each.forecasts)),
                     fmt::format("{:.1f} to {:.1f}", 100 * each.low, 100 * each.high),
                     plain_number(each.width, 2), plain_number(each.error, 2)});
-  return text + "\nForecasts of remaining life, held against where it ended\n" + text_table(rows) +
+  return text + "\nForecasts of remaining useful life against the observed end\n" +
+         text_table(rows) +
          wrapped(
              "Forecasts of one unit hold or fail together: chance leaves is of so many units. "
              "Width "
@@ -115,7 +116,7 @@ int run_backtest(const BacktestOptions& options, Models models) {
 void add_backtest_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<prognosis::BacktestOptions>();
   CLI::App* command = app.add_subcommand(
-      "backtest", "How often forecasts of remaining life have held, of units whose end is known");
+      "backtest", "Check forecasts of remaining useful life against units whose end is known");
   command
       ->add_option("RESULT", options->result,
                    "Folder that wearwell fit wrote of a law, of bearings or of a joint, with a "

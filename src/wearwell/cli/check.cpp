@@ -10,7 +10,7 @@ namespace wearwell {
 void add_check_command(CLI::App& app, Models models, int& exit_code) {
   auto study = std::make_shared<std::filesystem::path>();
   CLI::App* check = app.add_subcommand(
-      "check", "Say in words and units what a study will fit; reads the data, runs nothing");
+      "check", "Describe the model, units and priors of a study without fitting it");
   check->add_option("STUDY", *study, "Study file (TOML)")->required();
   check->footer("Example:\n  wearwell check examples/joint/study.toml");
   check->callback([study, models, &exit_code] {

@@ -50,7 +50,7 @@ int run_compare(const CompareOptions& options) {
 void add_compare_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* compare = app.add_subcommand(
-      "compare", "Which of several fitted studies of the same data predicts best");
+      "compare", "Rank fitted studies of the same data by how well they predict");
   compare->add_option("DIR", options->folders, "Folders that `wearwell fit` wrote")
       ->required()
       ->expected(2, 100);

@@ -289,7 +289,7 @@ int run_decide(const DecideOptions& options, Models models) {
 void add_decide_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<prognosis::DecideOptions>();
   CLI::App* command = app.add_subcommand(
-      "decide", "When to replace and to inspect, and how many spare parts, at least cost");
+      "decide", "Find the cheapest replacement age, inspection interval and stock of spare parts");
   command
       ->add_option(
           "LIVES", options->lives,

@@ -88,7 +88,7 @@ int run_fit(const FitOptions& options, Models models) {
 void add_fit_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<FitOptions>();
   CLI::App* fit = app.add_subcommand(
-      "fit", "Estimate a study's parameters, predict, and say whether to trust it");
+      "fit", "Estimate a study's parameters, predict, and check whether to trust the result");
   fit->add_option("STUDY", options->study, "Study file (TOML)")->required();
   fit->add_option("-o,--output", options->output,
                   "Folder for the results (default: STUDY-results here)");

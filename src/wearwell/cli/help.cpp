@@ -10,7 +10,7 @@ namespace wearwell {
 
 void add_help_command(CLI::App& app, int& exit_code) {
   auto words = std::make_shared<std::vector<std::string>>();
-  CLI::App* help = app.add_subcommand("help", "Say what a command does and what it takes");
+  CLI::App* help = app.add_subcommand("help", "Show the help of a command");
   help->add_option("COMMAND", *words, "As in `wearwell help fit`, `wearwell help clutch life`");
   help->callback([words, &app, &exit_code] {
     const CLI::App* command = &app;

@@ -67,20 +67,20 @@ Moved take_readings(const LifeOptions& options, Models models, prognosis::Carrie
       prognosis::reweighted(state.posterior, posterior_of(*before), of_all);
   const PosteriorStudy& study = require_posterior_study(*after);
   prognosis::judge_new_data(study, state.posterior, joined);
-  Moved told{"", joined.counted, joined.repeated, joined.contradictions};
+  Moved done{"", joined.counted, joined.repeated, joined.contradictions};
   state.source = std::move(joined.source);
   if (prognosis::resolves(moved)) {
-    told.how = fmt::format("nodes reweighted, {:.0f} effective", moved.effective);
+    done.how = fmt::format("nodes reweighted, {:.0f} effective", moved.effective);
     state.posterior = moved.draws;
-    return told;
+    return done;
   }
   const SamplerChoice choice = sampler_of(options.result);
   const Fit fitted = fit(of_all, fit_settings(study, choice));
   if (!proper(fitted))
     throw InputError("with these readings the posterior has no lives: wearwell update says why");
   state.posterior = fitted.exact ? fitted.exact->nodes : fitted.pooled;
-  told.how = "nodes laid anew";
-  return told;
+  done.how = "nodes rebuilt";
+  return done;
 }
 
 ordered_json number(double value) {
@@ -172,8 +172,9 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
   if (!trusted)
     fmt::print(
         "Not trusted: a check of the fit failed; wearwell report or its summary say which.\n");
-  fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining life", life.of, life.at);
-  if (life.from) fmt::print("  counted from {} {} on\n", plain_number(*life.from, 6), life.unit);
+  fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining useful life", life.of,
+             life.at);
+  if (life.from) fmt::print("  counted from {} {} on\n", plain_given(*life.from), life.unit);
   if (!moved.how.empty())
     fmt::print("  with {} new reading{} ({} there already); {}\n", moved.counted,
                moved.counted == 1 ? "" : "s", moved.repeated, moved.how);
@@ -184,13 +185,13 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
     fmt::print("  with a probability of {} it never ends\n", probability_in_words(*life.never));
   for (const prognosis::Contradiction& each : moved.contradictions)
     fmt::print("  look at {}: {}\n", each.place, each.why);
-  fmt::print("  median {} {}, 90 % interval {} .. {}\n", shown(life.quantile(0.5)), life.unit,
-             shown(life.quantile(0.05)), shown(life.quantile(0.95)));
+  fmt::print("  median {} {}, {} to {} {} (90 %)\n", shown(life.quantile(0.5)), life.unit,
+             shown(life.quantile(0.05)), shown(life.quantile(0.95)), life.unit);
   fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
              shown(life.quantile(0.5)));
   if (life.horizon)
     fmt::print("  within {} {} the end is reached with a probability of {}\n",
-               plain_number(*life.horizon, 6), life.unit, probability_in_words(*life.reached));
+               plain_given(*life.horizon), life.unit, probability_in_words(*life.reached));
   fmt::print("  inspect again within {} {}: {} risk of reaching the end before\n",
              shown(life.inspect_within), life.unit, probability_in_words(life.risk));
 }
@@ -256,7 +257,7 @@ int run_life(const LifeOptions& options, Models models) {
 void add_life_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<LifeOptions>();
   CLI::App* life =
-      app.add_subcommand("life", "How long one unit of a result may go on, or a new one");
+      app.add_subcommand("life", "Remaining useful life of one unit, or the life of a new one");
   life->add_option("RESULT", options->result, "Folder that fit or update wrote, or its state.bin")
       ->required();
   life->add_option("--unit", options->unit,

@@ -92,8 +92,7 @@ void run(const MonitorCommand& command, Models models) {
 void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
   const auto command = std::make_shared<MonitorCommand>();
   CLI::App* monitor = app.add_subcommand(
-      "monitor",
-      "Follow machines on line: wear, remaining life and risk of each, from their messages");
+      "monitor", "Follow machines on line: wear, remaining useful life and risk of each");
   monitor->add_option("CONFIG", command->config, "Configuration (TOML, docs/monitor.md)")
       ->required();
   CLI::Option* once = monitor->add_flag(

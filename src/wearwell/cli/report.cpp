@@ -22,8 +22,7 @@ void rebuild(const std::filesystem::path& folder) {
 
 void add_report_command(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::filesystem::path>();
-  CLI::App* report = app.add_subcommand(
-      "report", "Write report.html of a result folder anew, from its summary and report.json");
+  CLI::App* report = app.add_subcommand("report", "Rebuild report.html of a result folder");
   report->add_option("DIR", *folder, "Folder that `wearwell fit` wrote")->required();
   report->footer("Example:\n  wearwell report study-results");
   report->callback([folder, &exit_code] {

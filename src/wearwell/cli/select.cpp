@@ -195,8 +195,8 @@ void add_search_options(CLI::App* select, SelectOptions& options) {
 
 void add_select_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SelectOptions>();
-  CLI::App* select = app.add_subcommand(
-      "select", "Find the best terms of a regression among all submodels, with a proof");
+  CLI::App* select =
+      app.add_subcommand("select", "Find the best subset of regression terms, proven optimal");
   add_data_options(select, options->data);
   add_search_options(select, *options);
   CLI::Option* json = select->add_flag("--json", options->json, "Print summary.json, nothing else");

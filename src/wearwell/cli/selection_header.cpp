@@ -34,8 +34,7 @@ Check nested_check(const Nested& nested) {
   constexpr const char* name = "nested search";
   if (nested.folds == 0) return {name, Verdict::pass, "not asked for", ""};
   if (!nested.problem.empty())
-    return {name, Verdict::warn, nested.problem,
-            "Nobody knows how well unseen rows are predicted."};
+    return {name, Verdict::warn, nested.problem, "How well unseen rows are predicted is unknown."};
   const std::string detail = fmt::format(
       "R2 of rows left out of the whole search: {:.3f} +- {:.3f}", nested.r2, nested.r2_error);
   if (nested.r2 > 0) return {name, Verdict::pass, detail, ""};

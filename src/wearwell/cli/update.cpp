@@ -107,8 +107,7 @@ int run_update(const UpdateOptions& options, Models models) {
 
 void add_update_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<UpdateOptions>();
-  CLI::App* update =
-      app.add_subcommand("update", "Add new data to a result: the fit of all data at once");
+  CLI::App* update = app.add_subcommand("update", "Refit a result together with new data");
   update->add_option("RESULT", options->result, "Folder that fit or update wrote, or its state.bin")
       ->required();
   update
@@ -135,7 +134,7 @@ void add_update_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell update june july.csv august.csv -o august --json | jq .update\n\n"
       "A reading that is there already counts once; order does not matter; one that contradicts "
       "what was known is\n"
-      "counted, and told by the check new-data. Method and seed are those of RESULT.\n\n"
+      "counted, and reported by the check new-data. Method and seed are those of RESULT.\n\n"
       "Exit codes: as fit has them.");
   update->callback([options, models, &exit_code] { exit_code = run_update(*options, models); });
 }

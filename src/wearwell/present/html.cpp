@@ -4,59 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/present/number.h"
 
 namespace wearwell::html {
 namespace {
-
-constexpr const char* narrow_space = "\u202f";
-
-std::string superscript(const std::string& digits) {
-  static constexpr const char* raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string out;
-  for (const char c : digits) {
-    if (c == '-') out += "⁻";
-    if (c >= '0' && c <= '9') out += raised[c - '0'];
-  }
-  return out;
-}
-
-std::string power_of_ten(int exponent) {
-  return "\u00a0×\u00a010" + superscript(std::to_string(exponent));
-}
-
-// Where the number is written with a power of ten, that power.
-int exponent_of(double x) {
-  if (x == 0 || !std::isfinite(x)) return 0;
-  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(x))));
-  return exponent < -2 || exponent > 6 ? exponent : 0;
-}
-
-// In two steps: the power itself is zero or infinite at the ends of what a double holds.
-double mantissa(double x, int exponent) {
-  return x / std::pow(10.0, exponent / 2) / std::pow(10.0, exponent - exponent / 2);
-}
-
-// Thousands apart, and a true minus.
-std::string spaced(std::string text) {
-  std::string sign;
-  if (text.front() == '-') {
-    text.erase(0, 1);
-    sign = "−";
-  }
-  const std::size_t point = std::min(text.find('.'), text.size());
-  for (std::size_t at = point; at > 3;) text.insert(at -= 3, narrow_space);
-  return sign + text;
-}
-
-std::string plain(double x, int digits) {
-  const int whole = x == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(x)))) + 1;
-  if (whole < digits) return spaced(fmt::format("{:.{}f}", x, digits - whole));
-  const double step = std::pow(10.0, whole - digits);
-  return spaced(fmt::format("{:.0f}", std::round(x / step) * step));
-}
 
 // JSON inside a script element: no character can end the element, and no old reader takes a line
 // for ended inside of a text.
@@ -128,47 +81,19 @@ std::string capital(std::string text) {
 }
 
 std::string number(double x, int digits) {
-  if (!std::isfinite(x)) return "–";
-  const int exponent = exponent_of(x);
-  if (exponent == 0) return plain(x, digits);
-  return plain(mantissa(x, exponent), digits) + power_of_ten(exponent);
+  return number_in_words(x, digits, Script::page);
 }
 
 std::string given(double x) {
-  const int exponent = exponent_of(x);
-  if (!std::isfinite(x)) return number(x);
-  if (exponent == 0) return spaced(fmt::format("{:.9g}", x));
-  return fmt::format("{:.9g}", mantissa(x, exponent)) + power_of_ten(exponent);
+  return given_in_words(x, Script::page);
 }
 
 std::string raised(const std::string& text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '^') {
-      out += text[i];
-      continue;
-    }
-    const std::size_t end = std::min(text.find_first_not_of("-0123456789", i + 1), text.size());
-    if (end == i + 1) {  // N^b stays as it is
-      out += '^';
-      continue;
-    }
-    out += superscript(text.substr(i + 1, end - i - 1));
-    i = end - 1;
-  }
-  return out;
+  return powers_raised(text);
 }
 
 std::string unit(const std::string& text) {
-  if (text == "1") return {};
-  // Multiples, "1e5 cycles".
-  const std::size_t digits = text.find_first_not_of("0123456789", 2);
-  if (text.starts_with("1e") && digits != text.npos && digits > 2) {
-    return unit(fmt::format("\u00d7 10^{}{}", text.substr(2, digits - 2), text.substr(digits)));
-  }
-  std::string out;
-  for (const char c : raised(text)) out += c == ' ' ? std::string("\u00a0") : std::string(1, c);
-  return out;
+  return unit_in_words(text, Script::page);
 }
 
 std::string quantity(double x, const std::string& unit_text, int digits) {
@@ -177,14 +102,7 @@ std::string quantity(double x, const std::string& unit_text, int digits) {
 }
 
 std::string range(double low, double high, int digits) {
-  const int exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
-  if (exponent == 0 || !std::isfinite(low) || !std::isfinite(high)) {
-    return number(low, digits) + " to " + number(high, digits);
-  }
-  const int lost =
-      low == 0 ? 0 : exponent - static_cast<int>(std::floor(std::log10(std::abs(low))));
-  return plain(mantissa(low, exponent), std::max(1, digits - std::max(0, lost))) + " to " +
-         plain(mantissa(high, exponent), digits) + power_of_ten(exponent);
+  return range_in_words(low, high, digits, Script::page);
 }
 
 std::string tiles(const std::vector<Tile>& tiles) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "wearwell/present/number.h"
+
 namespace wearwell::present {
 namespace {
 
@@ -12,11 +14,11 @@ std::string html_of(const std::vector<Block>& blocks, bool folded);
 
 std::string html_of(const Prose& prose) {
   return fmt::format("<p{}>{}</p>\n", prose.lead ? " class=\"verdict\"" : "",
-                     html::escape(prose.text));
+                     html::escape(powers_in_words(prose.text, Script::page)));
 }
 
 std::string html_of(const Callout& callout) {
-  return html::callout(callout.kind, callout.word, callout.text);
+  return html::callout(callout.kind, callout.word, powers_in_words(callout.text, Script::page));
 }
 
 std::string html_of(const Tiles& tiles) {

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "wearwell/base/printable.h"
-#include "wearwell/present/html.h"
+#include "wearwell/present/number.h"
 #include "wearwell/present/text_table.h"
 
 namespace wearwell::present {
@@ -57,32 +57,36 @@ std::string file_cell(const Cell& cell, bool is_range) {
       cell);
 }
 
-// A terminal takes no raised digits for granted.
-std::string plain(double x, const Format& format) {
+std::string shown(double x, const Format& format, Script script) {
   switch (format.kind) {
     case Format::Kind::given:
-      return fmt::format("{:.9g}", x);
+      return given_in_words(x, script);
     case Format::Kind::fixed:
-      return fmt::format("{:.{}f}", x, format.digits);
+      return fixed_in_words(x, format.digits, script);
     case Format::Kind::life:
       return std::isinf(x) && x > 0 ? "never"
-                                    : fmt::format("{:.{}g}", x, digits_of_life(x, format.digits));
+                                    : number_in_words(x, digits_of_life(x, format.digits), script);
     case Format::Kind::significant:
       break;
   }
-  return fmt::format("{:.{}g}", x, format.digits);
+  return number_in_words(x, format.digits, script);
+}
+
+std::string shown(const Range& range, const Format& format, Script script) {
+  const bool finite = std::isfinite(range.low) && std::isfinite(range.high);
+  return format.kind == Format::Kind::significant && finite
+             ? range_in_words(range.low, range.high, format.digits, script)
+             : shown(range.low, format, script) + " to " + shown(range.high, format, script);
 }
 
 std::string plain(const Cell& cell, const Format& format) {
-  return std::visit(Overloaded{[](std::monostate) { return std::string("-"); },
-                               [](const std::string& text) { return text; },
-                               [&](double x) { return std::isnan(x) ? "-" : plain(x, format); },
-                               [&](const Range& range) {
-                                 return plain(range.low, format) + " .. " +
-                                        plain(range.high, format);
-                               },
-                               [](const Badge& badge) { return badge.kind; }},
-                    cell);
+  return std::visit(
+      Overloaded{[](std::monostate) { return std::string("-"); },
+                 [](const std::string& text) { return powers_in_words(text, Script::terminal); },
+                 [&](double x) { return shown(x, format, Script::terminal); },
+                 [&](const Range& range) { return shown(range, format, Script::terminal); },
+                 [](const Badge& badge) { return badge.kind; }},
+      cell);
 }
 
 }  // namespace
@@ -95,32 +99,17 @@ std::string heading(const Column& column) {
   return heading(column.name, column.unit);
 }
 
-std::string in_words(double x, const Format& format) {
-  switch (format.kind) {
-    case Format::Kind::given:
-      return html::given(x);
-    case Format::Kind::fixed:
-      return std::isfinite(x) ? fmt::format("{:.{}f}", x, format.digits) : "–";
-    case Format::Kind::life:
-      return std::isinf(x) && x > 0 ? "never" : html::number(x, digits_of_life(x, format.digits));
-    case Format::Kind::significant:
-      break;
-  }
-  return html::number(x, format.digits);
+std::string in_words(double x, const Format& format, Script script) {
+  return shown(x, format, script);
 }
 
 std::string in_words(const Cell& cell, const Column& column) {
   const Format& format = column.format;
   return std::visit(
       Overloaded{[](std::monostate) { return std::string("–"); },
-                 [](const std::string& text) { return text; },
-                 [&](double x) { return in_words(x, format); },
-                 [&](const Range& range) {
-                   const bool finite = std::isfinite(range.low) && std::isfinite(range.high);
-                   return format.kind == Format::Kind::significant && finite
-                              ? html::range(range.low, range.high, format.digits)
-                              : in_words(range.low, format) + " to " + in_words(range.high, format);
-                 },
+                 [](const std::string& text) { return powers_in_words(text, Script::page); },
+                 [&](double x) { return shown(x, format, Script::page); },
+                 [&](const Range& range) { return shown(range, format, Script::page); },
                  [](const Badge& badge) { return badge.word; }},
       cell);
 }
@@ -162,8 +151,10 @@ std::string text(const Table& table) {
   }
   std::string out = fmt::format("{}\n{}", printable(table.caption), text_table(rows, table.words));
   if (table.rows.size() > most_rows_shown)
-    out += fmt::format("  the first {} of {}; all are in tables/{}.csv\n", most_rows_shown,
-                       table.rows.size(), table.id);
+    out += fmt::format("  the first {} of {}; all are in tables/{}.csv\n",
+                       given_in_words(most_rows_shown, Script::terminal),
+                       given_in_words(static_cast<double>(table.rows.size()), Script::terminal),
+                       table.id);
   return out;
 }
 

@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "wearwell/present/number.h"
+
 namespace wearwell::present {
 
 /// How the numbers of a column are shown to people; files hold all their digits.
@@ -71,7 +73,7 @@ struct Table {
 inline constexpr std::size_t most_rows_shown = 1000;
 
 /// A number as a column shows it: "21 600"; "–" for what is not finite.
-std::string in_words(double x, const Format& format);
+std::string in_words(double x, const Format& format, Script script = Script::page);
 std::string in_words(const Cell& cell, const Column& column);
 
 /// RFC 4180, with the units in the heading: `life [h]`. Numbers in the shortest form that reads back

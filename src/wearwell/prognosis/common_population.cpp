@@ -51,7 +51,7 @@ CommonPopulation in_common(const KnownLives& lives, std::span<const KnownUnit* c
   if (populations < 2)
     return independent(
         units, after,
-        fmt::format("what {}s have in common is not told apart in these lives", lives.noun));
+        fmt::format("what {}s have in common cannot be separated in these lives", lives.noun));
   CommonPopulation common;
   common.failed.assign(populations, std::vector<std::vector<double>>(
                                         after.size(), std::vector<double>(units.size())));

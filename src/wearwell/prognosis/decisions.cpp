@@ -92,7 +92,7 @@ Decisions decide(const KnownLives& lives, const Question& question) {
     for (const WeightedLives& each : lives.fresh.lives) {
       if (!std::isfinite(each.points().back()))
         throw InputError(
-            fmt::format("{}: some {}s never fail, so that a failure that nobody sees has no cost "
+            fmt::format("{}: some {}s never fail, so that an unseen failure has no cost "
                         "in the long run; leave out the cost of downtime",
                         lives.title, lives.noun));
     }

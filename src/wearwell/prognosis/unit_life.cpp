@@ -87,7 +87,7 @@ Source of_one_bearing(const Source& source, const LifeQuestion& question) {
     throw InputError(
         "--unit: the rows of this study do not say which bearing they are of "
         "(data.columns.bearing); "
-        "without --unit the life of a new one is told");
+        "without --unit the life of a new one is given");
   const Column& column = table.column(*roles.unit);
   std::vector<std::string> known;
   for (std::size_t row = 0; row < table.rows; ++row) known.push_back(cell_word(column, row));

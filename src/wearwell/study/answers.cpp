@@ -1,11 +1,12 @@
 #include "wearwell/study/answers.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "wearwell/present/html.h"
-#include "wearwell/present/plain.h"
 #include "wearwell/present/table.h"
 #include "wearwell/study/posterior_tables.h"
 
@@ -14,9 +15,44 @@ namespace {
 
 constexpr std::size_t most_headlines = 6;
 
+// The life that is left to an item that was seen: "remaining life", not "B10 remaining life".
+bool is_remaining(const QuantitySummary& each) {
+  return each.is_life && each.name == "remaining life" && !each.of.starts_with("new ");
+}
+
+bool has_passed(const QuantitySummary& each) {
+  return is_remaining(each) && each.best().q95 == 0;
+}
+
+// "to wear = 100 um, force = 20 N from 30 km on" in its parts.
+struct Course {
+  std::string end, conditions, from;
+
+  explicit Course(const std::string& at) {
+    const std::size_t start = at.rfind(" from ");
+    const bool counted = start != at.npos && at.ends_with(" on");
+    if (counted) from = at.substr(start + 6, at.size() - start - 9);
+    end = at.substr(0, counted ? start : at.size());
+    if (end.starts_with("to ")) end = end.substr(3);
+    const std::size_t comma = end.find(", ");
+    if (comma == end.npos) return;
+    conditions = end.substr(comma + 2);
+    end.resize(comma);
+  }
+};
+
+// Conditions behind a name: "at 400 MPa" as it is, "temperature = 10 degC" behind a word.
+std::string behind(const std::string& at) {
+  if (at.empty()) return "";
+  for (const char* word :
+       {"at ", "to ", "for ", "after ", "in ", "over ", "under ", "from ", "until "})
+    if (at.starts_with(word)) return " " + at;
+  return " at " + at;
+}
+
 class Clauses {
  public:
-  explicit Clauses(Wording wording) : page_(wording == Wording::page) {}
+  explicit Clauses(Script script) : script_(script) {}
 
   std::vector<std::string> all;
 
@@ -26,133 +62,214 @@ class Clauses {
     const std::string limit = given(summary.limit, summary.limit_unit);
     if (summary.passed_beyond_risk()) {
       all.push_back(fmt::format(
-          "the limit of {} is passed already with a probability of {}, more than the {} % that "
-          "is tolerated",
-          limit, probability_in_words(life.passed), given(100 * summary.risk, "1")));
+          "the limit of {} is already passed with a probability of {}; {} are tolerated", limit,
+          probability_in_words(life.passed), given(100 * summary.risk, "%")));
     }
     all.push_back(fmt::format(
-        "the {}{} reaches the limit of {} after about {} {} (90 % interval {}; one in ten before "
-        "{})",
-        result.quantity, of_whom(summary), limit, lifetime(life.b50, summary.unit),
-        unit(summary.unit), lifetimes(life.q05, life.q95, summary.unit),
-        lifetime(life.b10, summary.unit)));
-    all.push_back(fmt::format("{}inspect {} within {} {}, at a risk of {} % of reaching it before",
-                              life.passed > 0 ? "if it is not passed already, " : "",
-                              summary.now > 0 ? "again" : "a new one",
-                              lifetime(life.inspect_within, summary.unit), unit(summary.unit),
-                              given(100 * summary.risk, "1")));
+        "the {}{} reaches {} after {} (median); {}, one in ten before {}", result.quantity,
+        of_whom(summary), limit, lifetime(life.b50, summary.unit),
+        interval(life.q05, life.q95, summary.unit, true), lifetime(life.b10, summary.unit)));
+    all.push_back(fmt::format(
+        "inspect {} within {}{}: {} risk of reaching the limit before",
+        summary.now > 0 ? "again" : "a new one", lifetime(life.inspect_within, summary.unit),
+        life.passed > 0 && summary.now > 0 ? ", unless the limit is passed" : "",
+        given(100 * summary.risk, "%")));
+  }
+
+  void passed(const std::vector<const QuantitySummary*>& items) {
+    constexpr std::size_t most_named = 6;
+    std::vector<std::string> names;
+    for (const QuantitySummary* each : items) {
+      if (names.size() < most_named) names.push_back(each->of);
+    }
+    std::string who = fmt::format("{}", fmt::join(names, ", "));
+    if (items.size() > most_named) who += fmt::format(" and {} more", items.size() - most_named);
+    const Course course(items.front()->at);
+    all.push_back(fmt::format("{} {} already passed {}", who, items.size() == 1 ? "has" : "have",
+                              numbers(course.end)));
+  }
+
+  void remaining(const QuantitySummary& each, bool is_first) {
+    const QuantityQuantiles& q = each.best();
+    const Course course(each.at);
+    all.push_back(
+        fmt::format("{} reaches {}{} in {} (median){}; {}, one in ten within {}{}", each.of,
+                    numbers(course.end), is_first ? " first," : "", lifetime(q.q50, each.unit),
+                    course.conditions.empty() ? "" : " at " + numbers(course.conditions),
+                    interval(q.q05, q.q95, each.unit, true), lifetime(q.b10, each.unit),
+                    course.from.empty() ? "" : "; counted from " + numbers(course.from) + " on"));
   }
 
   void headline(const QuantitySummary& each) {
     const QuantityQuantiles& q = each.best();
-    const std::string of = each.of == "specimen" ? "" : (q.bound ? " of the " : " of a ") + each.of;
-    const std::string what =
-        fmt::format("the {}{}{}{}", each.name, of, each.at.empty() ? "" : " ", each.at);
+    const std::string of =
+        each.of == "specimen" ? "" : " of " + item_in_words(each.of, q.bound.has_value());
+    const std::string name = numbers(shown_name(each.name)), at = numbers(behind(each.at));
+    const std::string what = fmt::format("the {}{}{}", name, of, at);
     if (q.bound) {
-      all.push_back(fmt::format("{} is at least {}, with {} % confidence", what,
-                                value(each, *q.bound), given(100 * *each.credible_level, "1")));
+      all.push_back(fmt::format("{}{} is at least {} ({} confidence)", what,
+                                at.find(", ") != at.npos ? "," : "", value(each, *q.bound),
+                                given(100 * *each.credible_level, "%")));
     } else if (each.is_life) {
-      all.push_back(fmt::format(
-          "{} is {} in the median (90 % interval {} to {}), and one in ten has less than {}", what,
-          value(each, q.q50), lifetime(q.q05, each.unit), lifetime(q.q95, each.unit),
-          value(each, q.b10)));
+      all.push_back(fmt::format("{} is {} (median); {}, one in ten has less than {}", what,
+                                value(each, q.q50), interval(q.q05, q.q95, each.unit, true),
+                                value(each, q.b10)));
     } else {
       const bool low = each.safe_end.value_or(0.05) < 0.5;
-      all.push_back(fmt::format("{} is {} in the median; design with {}, the {} 5 %", what,
-                                value(each, q.q50), value(each, low ? q.q05 : q.q95),
-                                low ? "lower" : "upper"));
+      all.push_back(fmt::format("design with a {} of {}{}{}, the {} 5 % (median {})", name,
+                                value(each, low ? q.q05 : q.q95),
+                                of.empty() ? "" : " for " + item_in_words(each.of), at,
+                                low ? "lower" : "upper", value(each, q.q50)));
     }
   }
 
   void prediction(const PosteriorSummary& result) {
     const PredictionSummary& p = result.predictions.back();
     all.push_back(
-        fmt::format("at {} {} the {}{} is {} (90 % interval {})", given(p.at, "1"), p.at_word(),
-                    result.quantity, p.mean_of.empty() ? "" : " of the " + p.mean_of,
-                    number(p.best().mean, p.unit), range(p.best().ci05, p.best().ci95, p.unit)));
+        fmt::format("at {}{}{} the {}{} is {}; {}", given_in_words(p.at, script_), hard_space,
+                    p.at_word(), result.quantity, p.mean_of.empty() ? "" : " of the " + p.mean_of,
+                    number(p.best().mean, p.unit), interval(p.best().ci05, p.best().ci95, p.unit)));
   }
 
+  // Of a logarithm, the number itself: its median and quantiles are those of the logarithm.
   void parameter(const ParameterSummary& first) {
     const ExactSummary k = first.best();
-    all.push_back(fmt::format("the {} {} is {} (90 % interval {})", first.meaning, first.name,
-                              number(k.mean, first.unit), range(k.q05, k.q95, first.unit)));
+    if (const auto natural = of_logarithm(first)) {
+      all.push_back(fmt::format("the {} is {} (median); {}", natural->meaning,
+                                number(natural->q50, natural->unit),
+                                interval(natural->q05, natural->q95, natural->unit)));
+      return;
+    }
+    all.push_back(fmt::format("the {} {} is {}; {}", first.meaning, first.name,
+                              number(k.mean, first.unit), interval(k.q05, k.q95, first.unit)));
   }
 
  private:
-  std::string unit(const std::string& text) const {
-    if (page_) return html::unit(text);
-    return text == "1" ? "" : text.starts_with("1e") ? "x " + text : text;
-  }
+  static constexpr const char* hard_space = "\u00a0";
 
   std::string joined(const std::string& text, const std::string& unit_text) const {
-    const std::string u = unit(unit_text);
-    return u.empty() ? text : text + (page_ ? "\u00a0" : " ") + u;
+    const std::string u = unit_in_words(unit_text, script_);
+    return u.empty() ? text : text + hard_space + u;
   }
 
+  std::string numbers(const std::string& text) const { return numbers_in_words(text, script_); }
+
   std::string number(double x, const std::string& unit_text) const {
-    return page_ ? html::quantity(x, unit_text, 3) : joined(plain_number(x, 3), unit_text);
+    return joined(number_in_words(x, 3, script_), unit_text);
   }
 
   std::string given(double x, const std::string& unit_text) const {
-    return joined(page_ ? html::given(x) : fmt::format("{:.9g}", x), unit_text);
+    return joined(given_in_words(x, script_), unit_text);
   }
 
-  std::string range(double low, double high, const std::string& unit_text) const {
-    return joined(page_ ? html::range(low, high, 3)
-                        : fmt::format("{} to {}", plain_number(low, 3), plain_number(high, 3)),
-                  unit_text);
+  // "18 200 to 26 600 cycles (90 %)"
+  std::string interval(double low, double high, const std::string& unit_text,
+                       bool is_life = false) const {
+    const bool finite = std::isfinite(low) && std::isfinite(high);
+    if (is_life && !finite)
+      return fmt::format("{} to {} (90{}%)", lifetime(low, unit_text), lifetime(high, unit_text),
+                         hard_space);
+    return fmt::format("{} (90{}%)", joined(range_in_words(low, high, 3, script_), unit_text),
+                       hard_space);
   }
 
   std::string lifetime(double x, const std::string& unit_text) const {
     if (std::isinf(x) && x > 0) return "never";
-    return page_ ? present::in_words(x, life_format(unit_text, 3)) : plain_number(x, 3);
-  }
-
-  std::string lifetimes(double low, double high, const std::string& unit_text) const {
-    return page_ && std::isfinite(low) && std::isfinite(high)
-               ? html::range(low, high, 3)
-               : lifetime(low, unit_text) + " to " + lifetime(high, unit_text);
+    return joined(in_words(x, life_format(unit_text, 3), script_), unit_text);
   }
 
   std::string value(const QuantitySummary& each, double x) const {
     const bool life = each.is_life || each.name.ends_with("life");
-    return joined(life ? lifetime(x, each.unit) : (page_ ? html::number(x, 3) : plain_number(x, 3)),
-                  each.unit);
+    return life ? lifetime(x, each.unit) : number(x, each.unit);
   }
 
-  bool page_;
+  Script script_;
 };
+
+std::vector<const QuantitySummary*> chosen(const std::vector<QuantitySummary>& quantities,
+                                           bool (*choose)(const QuantitySummary&)) {
+  std::vector<const QuantitySummary*> found;
+  for (const QuantitySummary& each : quantities) {
+    if (choose(each)) found.push_back(&each);
+  }
+  return found;
+}
+
+// Of the items that were seen, the one that is expected to fail first.
+const QuantitySummary* first_to_fail(const std::vector<QuantitySummary>& quantities) {
+  const QuantitySummary* first = nullptr;
+  for (const QuantitySummary& each : quantities) {
+    if (!is_remaining(each) || has_passed(each) || !(each.best().q50 >= 0)) continue;
+    if (!first || each.best().q50 < first->best().q50) first = &each;
+  }
+  return first;
+}
 
 }  // namespace
 
+std::optional<NaturalParameter> of_logarithm(const ParameterSummary& parameter) {
+  constexpr std::string_view words = "logarithm of ", prefix = "log10(";
+  const std::string& unit = parameter.unit;
+  const bool has_unit = unit.starts_with(prefix) && unit.ends_with(')');
+  if (!parameter.name.starts_with("log10_") || !parameter.meaning.starts_with(words) ||
+      !(has_unit || unit == "1"))
+    return {};
+  std::string meaning = parameter.meaning.substr(words.size());
+  if (meaning.starts_with("the ")) meaning = meaning.substr(4);
+  const ExactSummary x = parameter.best();
+  return NaturalParameter{
+      meaning, has_unit ? unit.substr(prefix.size(), unit.size() - prefix.size() - 1) : "1",
+      std::pow(10, x.q05), std::pow(10, x.q50), std::pow(10, x.q95)};
+}
+
+std::string item_in_words(const std::string& of, bool is_kind) {
+  const auto begins = [&](const char* word) { return of.starts_with(word); };
+  if (begins("new ")) return "a " + of;
+  if (begins("median ")) return "the " + of;
+  const bool has_label = of.find(' ') != of.npos && (!is_kind || begins("type "));
+  return has_label ? of : "the " + of;
+}
+
+std::string shown_name(const std::string& name) {
+  constexpr std::string_view term = "remaining life";
+  return name.ends_with(term) ? name.substr(0, name.size() - term.size()) + "remaining useful life"
+                              : name;
+}
+
 std::vector<const QuantitySummary*> headlines(const PosteriorSummary& result) {
-  std::vector<const QuantitySummary*> found;
-  for (const QuantitySummary& each : result.quantities) {
-    if (each.headline) found.push_back(&each);
-  }
-  if (!found.empty() || result.life) return found;
+  const auto marked = chosen(result.quantities, [](const auto& each) { return each.headline; });
+  if (!marked.empty() || result.life) return marked;
+  if (const QuantitySummary* first = first_to_fail(result.quantities)) return {first};
   for (auto each = result.quantities.rbegin(); each != result.quantities.rend(); ++each) {
-    if (each->is_life) return {&*each};
+    if (each->is_life && !has_passed(*each)) return {&*each};
   }
-  return found;
+  return {};
 }
 
 std::string of_whom(const LifeSummary& summary) {
   return summary.of.empty() ? "" : (summary.now > 0 ? " of " : " of a ") + summary.of;
 }
 
-std::vector<std::string> answers(const PosteriorSummary& result, Wording wording) {
-  Clauses clauses(wording);
+std::vector<std::string> answers(const PosteriorSummary& result, Script script) {
+  Clauses clauses(script);
   if (!result.nothing_seen.check.empty()) clauses.all.push_back(result.nothing_seen.clause);
   if (result.life) clauses.life(result);
+  if (const auto passed = chosen(result.quantities, has_passed); !passed.empty())
+    clauses.passed(passed);
   const auto first = headlines(result);
-  for (std::size_t i = 0; i < std::min(first.size(), most_headlines); ++i)
-    clauses.headline(*first[i]);
+  const bool several = chosen(result.quantities, is_remaining).size() > 1;
+  for (std::size_t i = 0; i < std::min(first.size(), most_headlines); ++i) {
+    if (is_remaining(*first[i])) {
+      clauses.remaining(*first[i], several);
+    } else {
+      clauses.headline(*first[i]);
+    }
+  }
   if (first.size() > most_headlines)
     clauses.all.push_back(fmt::format("{} more: see the table", first.size() - most_headlines));
   if (!result.predictions.empty()) clauses.prediction(result);
   if (!result.curve.empty()) {
-    clauses.all.push_back(wording == Wording::page ? html::raised(result.curve) : result.curve);
+    clauses.all.push_back(script == Script::page ? html::raised(result.curve) : result.curve);
   } else if (!result.parameters.empty()) {
     clauses.parameter(result.parameters.front());
   }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "wearwell/present/number.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 
 namespace wearwell {
@@ -13,15 +15,18 @@ std::string unit_name(const DataColumn& column) {
   return column.unit.text == "1" ? column.si : column.unit.text;
 }
 
-/// "1 mm^3 = 1e-09 m^3"; of a temperature its zero, "0 degC = 273.15 K".
+/// "1 mm^3 = 10^-9 m^3"; of a temperature its zero, "0 degC = 273.15 K"; of SI's own units, and
+/// where there is none, nothing.
 std::string one_unit(const DataColumn& column) {
   const std::string unit = unit_name(column);
   if (column.unit.offset != 0)
-    return fmt::format("0 {} = {:.6g} {}", unit, column.unit.offset, column.si);
+    return fmt::format("0 {} = {} {}", unit, plain_given(column.unit.offset), column.si);
+  if (unit == column.si || (column.unit.scale == 1 && unit == column.si + "s")) return "-";
   // "1000 = 1000 rev", where the unit is a number itself.
-  const char* const one = unit.front() >= '0' && unit.front() <= '9' ? "" : "1 ";
-  if (column.si == "1") return fmt::format("{}{} = {:.6g}", one, unit, column.unit.scale);
-  return fmt::format("{}{} = {:.6g} {}", one, unit, column.unit.scale, column.si);
+  const bool is_number = unit.front() >= '0' && unit.front() <= '9';
+  const std::string one = is_number ? numbers_in_words(unit, Script::terminal) : "1 " + unit;
+  return fmt::format("{} = {}{}", one, plain_given(column.unit.scale),
+                     column.si == "1" ? "" : " " + column.si);
 }
 
 /// The middle value, or the mean of the two in the middle.
@@ -41,10 +46,10 @@ std::string columns_in_words(const std::vector<DataColumn>& columns) {
   for (const DataColumn& column : columns) {
     if (column.values.empty()) continue;
     const auto [low, high] = std::minmax_element(column.values.begin(), column.values.end());
-    const auto shown = [&](double si) { return fmt::format("{:.6g}", from_si(column.unit, si)); };
-    rows.push_back({column.name, fmt::format("{}", column.values.size()), shown(*low),
-                    shown(median(column.values)), shown(*high), unit_name(column),
-                    one_unit(column)});
+    const auto shown = [&](double si) { return plain_given(from_si(column.unit, si)); };
+    rows.push_back({column.name, plain_given(static_cast<double>(column.values.size())),
+                    shown(*low), shown(median(column.values)), shown(*high),
+                    unit_name(column) == "1" ? "-" : unit_name(column), one_unit(column)});
   }
   if (rows.size() == 1) return "";
   return text_table(rows, true);

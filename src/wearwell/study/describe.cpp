@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/present/number.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/answers.h"
 #include "wearwell/study/data_in_words.h"
 #include "wearwell/study/run_study.h"
 
@@ -48,6 +51,10 @@ struct FamilyInWords {
   }
 };
 
+std::string rows_in_words(const PosteriorStudy& study) {
+  return plain_given(static_cast<double>(study.data_rows));
+}
+
 }  // namespace
 
 std::string prior_in_words(const Parameter& parameter) {
@@ -66,10 +73,12 @@ std::string prior_in_words(const Parameter& parameter) {
 
 std::string study_in_words(const PosteriorStudy& study) {
   std::string out = fmt::format("{}\n  {}\n\nData\n  {}: {} rows of {}\n", printable(study.title),
-                                study.equation, study.data_file, study.data_rows, study.quantity);
+                                powers_in_words(study.equation, Script::terminal), study.data_file,
+                                rows_in_words(study), study.quantity);
   if (!study.data_layout.empty()) out += fmt::format("  {}\n", study.data_layout);
   out += columns_in_words(study.data_columns);
-  for (const std::string& note : study.data_notes) out += fmt::format("  {}\n", note);
+  for (const std::string& note : study.data_notes)
+    out += fmt::format("  {}\n", powers_in_words(note, Script::terminal));
   out += "\nUnknowns\n";
   std::size_t width = 0;
   for (const Parameter& p : study.parameters) width = std::max(width, p.name.size());
@@ -77,12 +86,13 @@ std::string study_in_words(const PosteriorStudy& study) {
     const Parameter& p = study.parameters[i];
     out += fmt::format("  {:<{}}  {}{}\n  {:<{}}  prior: {}\n", p.name, width, study.meanings[i],
                        p.unit.text == "1" ? "" : fmt::format(" [{}]", p.unit.text), "", width,
-                       prior_in_words(p) + (p.is_default ? " (default: state what you know)" : ""));
+                       powers_in_words(prior_in_words(p), Script::terminal) +
+                           (p.is_default ? " (default: state what you know)" : ""));
   }
   out += "\nWill be fitted\n";
   out += study.stages && study.data_rows <= most_stages
-             ? fmt::format("  after each of 1, 2, ... {} rows\n", study.data_rows)
-             : fmt::format("  from all {} rows\n", study.data_rows);
+             ? fmt::format("  after each of 1, 2, ... {} rows\n", rows_in_words(study))
+             : fmt::format("  from all {} rows\n", rows_in_words(study));
   FitSettings settings = fit_settings(study, {});
   const std::string note = method_note(study, {});
   if (!note.empty()) settings.method = Method::nuts;
@@ -91,7 +101,8 @@ std::string study_in_words(const PosteriorStudy& study) {
     out += "  by quadrature";
   } else {
     out += fmt::format("  by {}, {} chains of {} draws after {} of warm-up{}",
-                       method_name(settings.method), run.chains, run.draws, run.warmup,
+                       method_name(settings.method), run.chains, plain_given(run.draws),
+                       plain_given(run.warmup),
                        study.parameters.size() <= max_exact_dimension ? ", beside quadrature" : "");
   }
   out += fmt::format("; seed {}\n", run.seed);
@@ -102,7 +113,7 @@ std::string study_in_words(const PosteriorStudy& study) {
   }
   for (const PredictionRequest& p : study.predictions) {
     out += fmt::format("  {} [{}]{} at {} {}\n", study.quantity, p.unit.text,
-                       p.with_item ? " of " + p.measured_of : "", p.at,
+                       p.with_item ? " of " + p.measured_of : "", plain_given(p.at),
                        p.at_unit.empty() ? p.at_name : p.at_unit);
   }
   std::vector<QuantityRequest> quantities = study.quantities;
@@ -110,7 +121,11 @@ std::string study_in_words(const PosteriorStudy& study) {
     quantities.insert(quantities.end(), group.requests.begin(), group.requests.end());
   }
   for (const QuantityRequest& q : quantities) {
-    out += fmt::format("  {} [{}] of a {} {}{}\n", q.name, q.unit.text, q.of, q.at,
+    const std::string what =
+        shown_name(q.name) + (q.unit.text == "1" ? "" : " [" + q.unit.text + "]");
+    out += fmt::format("  {} of {}{}{}\n", numbers_in_words(what, Script::terminal),
+                       item_in_words(q.of, q.credible_level.has_value()),
+                       q.at.empty() ? "" : " " + numbers_in_words(q.at, Script::terminal),
                        q.credible_level && !q.name.ends_with("remaining life")
                            ? fmt::format("; at least, with {:.4g} % confidence (credible), "
                                          "and of the next one",
@@ -120,9 +135,11 @@ std::string study_in_words(const PosteriorStudy& study) {
   if (study.life) {
     const LifeRequest& life = *study.life;
     out += fmt::format(
-        "  {} until the {} reaches {} {}, and when to inspect after {} {} at a risk of {:.4g} %\n",
-        life.unit_name, study.quantity, life.limit.value, life.limit.unit.text, life.now,
-        life.unit_name, 100 * life.risk);
+        "  {} until the {} reaches {} {}, and when to inspect {} at a risk of {:.4g} %\n",
+        life.unit_name, study.quantity, plain_given(life.limit.value), life.limit.unit.text,
+        life.now > 0 ? fmt::format("after {} {}", plain_given(life.now), life.unit_name)
+                     : "a new one",
+        100 * life.risk);
   }
   return printable_lines(out);
 }

@@ -42,11 +42,11 @@ Figure belief_figure(const ParameterSummary& p, const ParameterPlots& plots) {
     marks.push_back(plot::line({{"x", scale(plots.exact->x)}, {"y", plots.exact->y}},
                                {colour::posterior, "after the data (exact)"}));
   }
-  return {
-      "belief-" + p.name, fmt::format("{} ({})", capital(p.meaning), p.name),
-      fmt::format("Prior: {}.", html::raised(p.prior) + (p.prior_is_default ? " (default)" : "")),
-      plot::plot(fmt::format("Density of {} before and after the data", p.name),
-                 {scale.title(p.name)}, {"Density", false, 0.0, {}, {}, false}, marks)};
+  return {"belief-" + p.name, fmt::format("{} ({})", capital(p.meaning), p.name),
+          fmt::format("Prior: {}.", html::raised(powers_in_words(p.prior, Script::page)) +
+                                        (p.prior_is_default ? " (default)" : "")),
+          plot::plot(fmt::format("Density of {} before and after the data", p.name),
+                     {scale.title(p.name)}, {"Density", false, 0.0, {}, {}, false}, marks)};
 }
 
 // The densities of two parameters together, drawn and exact (Fig. 7).
@@ -104,17 +104,17 @@ std::vector<Figure> joint_figures(const PosteriorSummary& result, const Plots& p
             density.push_back(each);
           }
         }
-        figures.push_back(
-            {"exact-joint", names + ", by quadrature",
-             "The density by quadrature, on the same axes: where it is dark, draws are to be.",
-             plot::plot("Joint density by quadrature of " + names, x, y,
-                        {plot::cells({{"x", xs(x1)},
-                                      {"x2", xs(x2)},
-                                      {"y", ys(y1)},
-                                      {"y2", ys(y2)},
-                                      {"density", density}},
-                                     {colour::posterior})},
-                        300)});
+        figures.push_back({"exact-joint", names + ", by quadrature",
+                           "The density by quadrature, on the same axes: the darker, the more "
+                           "draws are expected there.",
+                           plot::plot("Joint density by quadrature of " + names, x, y,
+                                      {plot::cells({{"x", xs(x1)},
+                                                    {"x2", xs(x2)},
+                                                    {"y", ys(y1)},
+                                                    {"y2", ys(y2)},
+                                                    {"density", density}},
+                                                   {colour::posterior})},
+                                      300)});
       }
     }
   }

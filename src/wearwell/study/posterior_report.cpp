@@ -37,12 +37,10 @@ std::string life_in_words(double x, const std::string& unit_text, int digits = 3
   return in_words(x, life_format(unit_text, digits));
 }
 
-// What an engineer would say.
-std::string verdict_sentence(const PosteriorSummary& result) {
-  std::string sentence;
-  for (const std::string& clause : answers(result, Wording::page))
-    sentence += (sentence.empty() ? "" : "; ") + clause;
-  return html::capital(sentence) + ".";
+// The answers, one line each.
+void add_answers(Section& section, const PosteriorSummary& result) {
+  for (const std::string& each : answers(result, Script::page))
+    section.add(Prose{html::capital(each) + ".", true});
 }
 
 // What the trade shows in a section.
@@ -62,22 +60,23 @@ void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) 
                    fmt::format("one in ten reaches {} earlier",
                                given_with_unit(summary.limit, summary.limit_unit))});
   if (summary.passed_beyond_risk()) {
-    tiles.push_back({"Limit passed already", fmt::format("{:.2g}", 100 * life.passed), "%",
+    tiles.push_back({"Limit already passed", fmt::format("{:.2g}", 100 * life.passed), "%",
                      fmt::format("probability after {}; tolerated: {} %", given(summary.now),
                                  given(100 * summary.risk))});
   }
-  tiles.push_back(
-      {"Inspect again within", life_in_words(life.inspect_within, summary.unit), summary.unit,
-       summary.now > 0 ? fmt::format("after {}, unless the limit is passed already; risk of "
-                                     "reaching it before: {} %",
-                                     given(summary.now), given(100 * summary.risk))
-                       : fmt::format("of a new one; risk of reaching the limit before: {} %",
-                                     given(100 * summary.risk))});
+  tiles.push_back({summary.now > 0 ? "Inspect again within" : "Inspect within",
+                   life_in_words(life.inspect_within, summary.unit), summary.unit,
+                   fmt::format("{}; {} % risk of reaching the limit before",
+                               summary.now > 0 ? fmt::format("after {}, unless the limit is passed",
+                                                             given(summary.now))
+                                               : "of a new one",
+                               given(100 * summary.risk))});
 }
 
 html::Tile headline_tile(const QuantitySummary& each) {
   const QuantityQuantiles& q = each.best();
-  const std::string where = each.of + (each.at.empty() ? "" : " ") + each.at;
+  const std::string where =
+      numbers_in_words(each.of + (each.at.empty() ? "" : " ") + each.at, Script::page);
   if (q.bound) {
     return {html::capital(each.name) + ", at least", number(*q.bound, 3), unit(each.unit),
             fmt::format("{}, with {} % confidence", where, given(100 * *each.credible_level))};
@@ -91,7 +90,7 @@ constexpr std::size_t most_headline_tiles = 4;
 
 Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"verdict", "Verdict"};
-  section.add(Prose{verdict_sentence(result), true});
+  add_answers(section, result);
   section.add(trust_callout(result.checks));
   std::vector<html::Tile> tiles;
   if (result.life) add_life_tiles(*result.life, tiles);
@@ -108,8 +107,13 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   for (std::size_t i = 0; i < std::min<std::size_t>(2, result.parameters.size()); ++i) {
     const ParameterSummary& p = result.parameters[i];
     const ExactSummary each = p.best();
+    if (const auto natural = of_logarithm(p)) {
+      tiles.push_back({html::capital(natural->meaning), number(natural->q50, 3),
+                       unit(natural->unit), range(natural->q05, natural->q95, 3) + " (90 %)"});
+      continue;
+    }
     tiles.push_back({fmt::format("{}, {}", p.name, p.meaning), number(each.mean, 3), unit(p.unit),
-                     fmt::format("90 % interval {}", range(each.q05, each.q95, 3))});
+                     range(each.q05, each.q95, 3) + " (90 %)"});
   }
   section.add(present::Tiles{std::move(tiles)});
   std::vector<html::Figure> figures = answer_figures(result, plots);
@@ -118,8 +122,8 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   if (!result.method_note.empty()) section.add(Prose{result.method_note + "."});
   if (const std::string defaults = default_priors(result.parameters); !defaults.empty()) {
     section.add(
-        Prose{fmt::format("Nobody stated a prior of {}: the defaults hold, which are weak. "
-                          "They stand among the parameters.",
+        Prose{fmt::format("Default priors, which are weak: {} (see Parameters). State what you "
+                          "know in [prior].",
                           defaults)});
   }
   return section;
@@ -136,8 +140,9 @@ Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
     section.add(Prose{
         "At least: the lower bound, and the number to design with. With the stated confidence "
         "(Bayesian: it is credible) the true value, of all such items, lies above it; 5, 50 and "
-        "95 % are of the same. Next one: what the next item has with just that chance, all that is "
-        "unknown averaged in (predictive). It has no margin for few tests."});
+        "95 % are of the same. Next one: the same of the next item, averaged over all that is "
+        "unknown "
+        "(predictive). It has no margin for few tests."});
     section.add(std::move(table));
   }
   if (auto table = quantity_table(result.quantities); !table.rows.empty()) section.add(table);
@@ -185,9 +190,8 @@ void add_coverage(const CoverageTable& coverage, Section& section) {
     failures += row.failed();
     inside += row.failed() && row.inside();
   }
-  section.add(
-      Prose{fmt::format("{} of {} failures{} lie within the interval that should hold nine in ten.",
-                        inside, failures, chosen_tests(coverage))});
+  section.add(Prose{fmt::format("{} of {} failures{} lie within their 90 % intervals.", inside,
+                                failures, chosen_tests(coverage))});
   section.add(coverage_table(coverage));
 }
 
@@ -201,8 +205,7 @@ Section fit_section(const PosteriorSummary& result, const Plots& plots) {
   if (!r.at.empty()) {
     const bool all = r.at.size() >= result.data_rows;
     section.add(Prose{
-        fmt::format("{} of {} measurements{} lie within the interval that should hold nine in ten.",
-                    inside, r.at.size(),
+        fmt::format("{} of {} measurements{} lie within their 90 % intervals.", inside, r.at.size(),
                     all ? ""
                         : fmt::format(", evenly among the {}, ",
                                       given(static_cast<double>(result.data_rows))))});
@@ -241,7 +244,7 @@ Section method_section(const PosteriorSummary& result, const Plots& plots) {
       {{"Program", "wearwell " + result.version},
        {"Model", result.model},
        {"Method", fmt::format("{}, {} chains of {} draws after {} of warm-up", result.method,
-                              result.chains, result.draws, result.warmup)},
+                              result.chains, given(result.draws), given(result.warmup))},
        {"Seed", fmt::format("{}", result.seed)}}};
   if (result.log_evidence)
     facts.facts.emplace_back(

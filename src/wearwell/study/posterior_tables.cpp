@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "wearwell/present/html.h"
 #include "wearwell/study/long_tables.h"
@@ -118,9 +119,17 @@ Table life_table(const LifeSummary& summary) {
         life.inspect_within, 100 * summary.risk}}};
 }
 
+std::string results_title(const std::vector<QuantitySummary>& quantities) {
+  constexpr std::string_view next = "new ";
+  for (const QuantitySummary& each : quantities) {
+    if (each.of.starts_with(next)) return "Results by " + each.of.substr(next.size());
+  }
+  return "Results";
+}
+
 Table quantity_table(const std::vector<QuantitySummary>& quantities) {
   Table table{"quantities",
-              "What follows for one item",
+              results_title(quantities),
               {{"Quantity"},
                {"Unit"},
                {"Of"},
@@ -131,7 +140,7 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
                {"Design with"},
                {"B1"},
                {"B10"}}};
-  // Where lower bounds are told, they are what to design with.
+  // Where there are lower bounds, they are what to design with.
   const bool bounds = std::any_of(quantities.begin(), quantities.end(),
                                   [](const auto& each) { return each.best().bound.has_value(); });
   for (const QuantitySummary& each : quantities) {
@@ -192,14 +201,10 @@ Table parameter_table(const std::vector<ParameterSummary>& parameters) {
 }
 
 Table prior_table(const std::vector<ParameterSummary>& parameters) {
-  Table table{"priors",
-              "What was believed before",
-              {{"Parameter"}, {"Meaning"}, {"Prior"}, {"Stated by"}},
-              {},
-              true};
+  Table table{"priors", "Priors", {{"Parameter"}, {"Meaning"}, {"Prior"}, {"Stated by"}}, {}, true};
   for (const ParameterSummary& p : parameters) {
     table.rows.push_back(
-        {p.name, p.meaning, p.prior, p.prior_is_default ? "nobody: the default" : "the study"});
+        {p.name, p.meaning, p.prior, p.prior_is_default ? "default" : "the study"});
   }
   return table;
 }

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "wearwell/present/plain.h"
+#include "wearwell/study/answers.h"
+
 namespace wearwell {
 namespace {
 
@@ -19,10 +22,11 @@ class Sense {
     bool defined = !std::isnan(q05) && !std::isnan(q95);
     for (const double each : others) defined = defined && !std::isnan(each);
     if (!defined) {
-      findings_.add(Verdict::fail, fmt::format("{} could not be computed", what),
-                    "Some parameters that the posterior holds possible give no number: bound the "
-                    "prior that lets them be. Of lives from somewhere on: where it hardly ever "
-                    "comes so far, nothing remains to be told; ask for others, or for less.");
+      findings_.add(
+          Verdict::fail, fmt::format("{} could not be computed", what),
+          "Some parameters that the posterior holds possible give no number: bound the "
+          "prior that allows them. A remaining useful life has no value where the unit hardly ever "
+          "reaches the point it is counted from; ask for other units, or from an earlier point.");
       return;
     }
     if (std::isinf(q95) && may_never_end) {
@@ -49,7 +53,7 @@ class Sense {
 
  private:
   static constexpr const char* advice =
-      "The data hardly say anything of it. Test more, or nearer to what is asked.";
+      "The data say little about it. Test more, or nearer to what is asked.";
   Findings findings_{"sense"};
 };
 
@@ -62,11 +66,11 @@ Check extrapolation_check(const std::vector<Reach>& reaches) {
     const double times = each.asked / each.seen;
     farthest = std::max(farthest, times);
     if (times <= farthest_reach) continue;
-    findings.add(times > absurd_reach ? Verdict::fail : Verdict::warn,
-                 fmt::format("{} is {:.3g} times as far as the data reach: {}", each.what, times,
-                             each.seen_as),
-                 "Nothing was seen there: the answer is the law's, drawn beyond the data. Inspect "
-                 "before, and fit again.");
+    findings.add(
+        times > absurd_reach ? Verdict::fail : Verdict::warn,
+        fmt::format("{} is {:.3g} times as far as the data reach: {}", each.what, times,
+                    each.seen_as),
+        "No data lie there: the answer rests on the model. Inspect before, and fit again.");
   }
   return findings.result(fmt::format(
       "what is asked for lies within {:.3g} times what the data hold (up to {:.3g} passes)",
@@ -76,9 +80,8 @@ Check extrapolation_check(const std::vector<Reach>& reaches) {
 Check limit_check(const LifeSummary& life) {
   Findings findings("limit");
   const std::string passed = fmt::format(
-      "after {} {} the limit is passed already with a probability of {}; {} % is "
-      "tolerated",
-      life.now, life.unit, probability_in_words(life.best().passed), 100 * life.risk);
+      "after {} {} the limit is already passed with a probability of {}; {} % is tolerated",
+      plain_given(life.now), life.unit, probability_in_words(life.best().passed), 100 * life.risk);
   if (life.passed_beyond_risk()) {
     findings.add(Verdict::fail, passed,
                  "Do not wait for the next inspection: replace or measure now. The interval to the "
@@ -98,15 +101,17 @@ Check sense_check(const PosteriorSummary& result) {
   }
   for (const PredictionSummary& each : result.predictions) {
     const Prediction& p = each.best();
-    sense.interval(fmt::format("the {} at {} {}", each.quantity, each.at, each.at_word()),
-                   each.unit, p.ci05, p.ci95, {p.mean, p.pi05, p.pi95}, false);
+    sense.interval(
+        fmt::format("the {} at {} {}", each.quantity, plain_given(each.at), each.at_word()),
+        each.unit, p.ci05, p.ci95, {p.mean, p.pi05, p.pi95}, false);
   }
   for (const QuantitySummary& each : result.quantities) {
     const QuantityQuantiles& q = each.best();
-    sense.interval(
-        fmt::format("{} of the {}{}{}", each.name, each.of, each.at.empty() ? "" : " ", each.at),
-        each.unit, q.q05, q.q95,
-        {q.q50, q.b1, q.b10, q.b50, q.predictive.value_or(0), q.bound.value_or(0)}, false);
+    sense.interval(fmt::format("{} of {}{}{}", shown_name(each.name), item_in_words(each.of),
+                               each.at.empty() ? "" : " ", each.at),
+                   each.unit, q.q05, q.q95,
+                   {q.q50, q.b1, q.b10, q.b50, q.predictive.value_or(0), q.bound.value_or(0)},
+                   false);
   }
   if (result.life) {
     const Life& life = result.life->best();

@@ -9,16 +9,23 @@
 
 #include "wearwell/base/printable.h"
 #include "wearwell/present/html.h"
+#include "wearwell/present/number.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/answers.h"
 #include "wearwell/study/density_unit.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/posterior_tables.h"
 #include "wearwell/study/terminal_rows.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
 namespace {
+
+// Words of the program as people read them.
+std::string shown(const std::string& words) {
+  return numbers_in_words(shown_name(words), Script::terminal);
+}
 
 // The better of the two: quadrature where there is one.
 std::string parameter_table(const PosteriorSummary& result) {
@@ -31,19 +38,19 @@ std::string parameter_table(const PosteriorSummary& result) {
   std::string out = text_table(rows);
   const std::string defaults = default_priors(result.parameters);
   if (!defaults.empty()) {
-    out += wrapped("default priors, that nobody stated: " + printable(defaults) +
-                       "; [prior] takes what you know (docs/priors.md)",
+    out += wrapped("default priors: " + printable(defaults) +
+                       "; state what you know in [prior] (docs/priors.md)",
                    2, 4);
   }
   return out;
 }
 
-std::string draws_table(const std::vector<ParameterSummary>& parameters) {
+std::string draws_lines(const std::vector<ParameterSummary>& parameters) {
   std::vector<std::vector<std::string>> rows = {{"", "mean", "MCSE", "sd", "ESS", "R-hat"}};
   for (const ParameterSummary& p : parameters) {
     rows.push_back({printable_heading(p.name, p.unit), plain_number(p.mean),
-                    fmt::format("{:.2g}", p.mcse), plain_number(p.sd),
-                    fmt::format("{:.0f}", std::min(p.ess_bulk, p.ess_tail)),
+                    plain_number(p.mcse, 2), plain_number(p.sd),
+                    plain_given(std::round(std::min(p.ess_bulk, p.ess_tail))),
                     fmt::format("{:.3f}", p.rhat)});
   }
   return text_table(rows);
@@ -53,11 +60,13 @@ std::string profile_ends(const ProfileSummary& profile) {
   const auto end = [](double value, const std::string& open) {
     return open.empty() ? plain_number(value) : "open";
   };
-  return end(profile.lower, profile.lower_open) + " .. " + end(profile.upper, profile.upper_open);
+  if (profile.lower_open.empty() && profile.upper_open.empty())
+    return plain_range(profile.lower, profile.upper);
+  return end(profile.lower, profile.lower_open) + " to " + end(profile.upper, profile.upper_open);
 }
 
 std::string mode_lines(const ModeSummary& mode) {
-  if (!mode.problem.empty()) return wrapped("there is none: " + printable(mode.problem), 2, 4);
+  if (!mode.problem.empty()) return wrapped("no mode: " + printable(mode.problem), 2, 4);
   std::vector<std::vector<std::string>> rows = {{"", "at", "standard error"}};
   const auto profile = mode.profile();
   if (profile) rows[0].push_back(fmt::format("{:.4g} % profile interval", 100 * profile->level));
@@ -67,8 +76,8 @@ std::string mode_lines(const ModeSummary& mode) {
     if (profile) rows.back().push_back(p.profile ? profile_ends(*p.profile) : "-");
   }
   for (const ModeQuantity& q : mode.quantities) {
-    rows.push_back({fmt::format("{} of {}{}{}", printable_heading(q.name, q.unit), q.of,
-                                q.at.empty() ? "" : " ", q.at),
+    rows.push_back({fmt::format("{} of {}{}{}", printable_heading(shown(q.name), q.unit), q.of,
+                                q.at.empty() ? "" : " ", shown(q.at)),
                     plain_number(q.value), "-", profile_ends(q.profile)});
   }
   const std::string unit = DensityUnit::in_words(mode.density_unit);
@@ -115,7 +124,7 @@ std::string histogram(const Draws& draws, Eigen::Index parameter) {
   const int highest = *std::max_element(counts.begin(), counts.end());
   std::string bars;
   for (const int count : counts) bars += blocks[count * 7 / highest];
-  return fmt::format("{:>10.4g} {} {:.4g}", low, bars, high);
+  return fmt::format("{:>10} {} {}", plain_number(low), bars, plain_number(high));
 }
 
 std::string histogram_lines(const PosteriorSummary& result) {
@@ -137,14 +146,13 @@ std::string prediction_rows(std::span<const PredictionSummary> predictions) {
   std::vector<std::vector<std::string>> rows = {
       {printable_heading(first.at_name, first.at_unit.empty() ? "1" : first.at_unit),
        printable_heading(first.quantity, first.unit),
-       first.mean_of.empty() ? "mean wear 5 %..95 %" : first.mean_of + " 5 %..95 %",
-       first.mean_of.empty() ? "measurement 5 %..95 %" : first.measured_of + " reads 5 %..95 %",
+       first.mean_of.empty() ? "mean wear, 90 %" : first.mean_of + ", 90 %",
+       first.mean_of.empty() ? "measurement, 90 %" : "reading of " + first.measured_of + ", 90 %",
        "measured"}};
   for (const PredictionSummary& each : predictions) {
     const Prediction& p = each.best();
-    rows.push_back({fmt::format("{}", each.at), plain_number(p.mean),
-                    fmt::format("{} .. {}", plain_number(p.ci05), plain_number(p.ci95)),
-                    fmt::format("{} .. {}", plain_number(p.pi05), plain_number(p.pi95)),
+    rows.push_back({plain_given(each.at), plain_number(p.mean), plain_range(p.ci05, p.ci95),
+                    plain_range(p.pi05, p.pi95),
                     each.measured ? plain_number(*each.measured) : "-"});
   }
   return text_table(rows);
@@ -167,7 +175,7 @@ std::string b_value(const QuantitySummary& each, double x) {
 
 // Of one item each, a new one where items differ; those of one name and place stand together. Where
 // lower bounds are told, they are what to design with.
-std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
+std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
   const bool bounds = std::any_of(quantities.begin(), quantities.end(),
                                   [](const auto& each) { return each.best().bound.has_value(); });
   std::vector<std::vector<std::string>> rows = {{"", "5 %", "50 %", "95 %"}};
@@ -177,7 +185,8 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
   for (const QuantitySummary& each : quantities) {
     const QuantityQuantiles& q = each.best();
     if (q.predictive) continue;
-    const std::string heading = printable_heading(each.name, each.unit) + " " + printable(each.at);
+    const std::string heading =
+        printable_heading(shown(each.name), each.unit) + " " + printable(shown(each.at));
     if (heading != above) rows.push_back({heading});
     above = heading;
     rows.push_back(
@@ -189,12 +198,12 @@ std::string quantity_table(const std::vector<QuantitySummary>& quantities) {
     for (const double b : {q.b1, q.b10}) rows.back().push_back(b_value(each, b));
   }
   if (rows.size() == 1) return "";
-  return (bounds ? "\nThe next one, one item (predictive)\n" : "\nWhat follows for one item\n") +
+  return fmt::format("\n{}\n", bounds ? "Next item (predictive)" : results_title(quantities)) +
          text_table(rows);
 }
 
 // Properties of all items: of the next one, and how far they can be relied on.
-std::string bound_table(const std::vector<QuantitySummary>& quantities) {
+std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
   std::vector<std::vector<std::string>> rows;
   std::string above, level;
   bool seen = false;
@@ -207,11 +216,13 @@ std::string bound_table(const std::vector<QuantitySummary>& quantities) {
       rows.push_back({"", "at least, " + level, "5 %", "50 %", "95 %", "next one"});
     }
     const bool alone = each.at.starts_with("for ");  // a question of its own
-    const std::string heading = alone ? printable_heading(each.name, each.unit)
-                                      : printable(each.of + (each.at.empty() ? "" : " ") + each.at);
+    const std::string heading =
+        alone ? printable_heading(shown(each.name), each.unit)
+              : printable(each.of + (each.at.empty() ? "" : " ") + shown(each.at));
     if (heading != above) rows.push_back({heading});
     above = heading;
-    rows.push_back({"  " + (alone ? printable(each.at) : printable_heading(each.name, each.unit)),
+    rows.push_back({"  " + (alone ? printable(shown(each.at))
+                                  : printable_heading(shown(each.name), each.unit)),
                     plain_number(*q.bound), plain_number(q.q05), plain_number(q.q50),
                     plain_number(q.q95), plain_number(*q.predictive)});
   }
@@ -223,11 +234,11 @@ std::string bound_table(const std::vector<QuantitySummary>& quantities) {
                          level),
              2, 4) +
          wrapped(
-             "next one: what the next item has with just that chance, all that is unknown "
-             "averaged in (predictive). It has no margin for few tests: it is not the number to "
-             "design with.",
+             "next one: the same of the next item, averaged over all that is unknown (predictive). "
+             "It has no margin for few tests: do not design with it.",
              2, 4) +
-         (seen ? wrapped("Of an item that was seen both are of its own remaining life.", 2, 4)
+         (seen ? wrapped("For an item with readings both are of its own remaining useful life.", 2,
+                         4)
                : "");
 }
 
@@ -251,37 +262,29 @@ std::string coverage_lines(const CoverageTable& table) {
       2, 4);
 }
 
-// The digits that quadrature gives: four of a life, three of the difference of two.
-std::string counted(double x, int digits) {
-  if (std::isnan(x)) return "unknown";
-  if (!std::isfinite(x)) return "never";
-  const double last = std::pow(10, std::max(0.0, std::floor(std::log10(std::abs(x))) + 1 - digits));
-  return fmt::format("{:.0f}", x == 0 ? x : std::round(x / last) * last);
-}
-
 std::string life_lines(const LifeSummary& summary) {
   const Life& life = summary.best();
   const std::string unit = printable(summary.unit);
-  const bool whole = is_count(summary.unit);
   const auto count = [&](double x, int digits = 4) {
-    return whole || !std::isfinite(x) ? counted(x, digits) : plain_number(x, digits);
+    if (std::isnan(x)) return std::string("unknown");
+    return in_words(x, life_format(summary.unit, digits), Script::terminal);
   };
   const std::string lives = fmt::format(
-      "{}{} to {} {}:  B1 {}   B10 {}   B50 {}   (5 %..95 %: {} .. {})", unit,
-      printable(of_whom(summary)), plain_number(summary.limit), printable(summary.limit_unit),
-      count(life.b1), count(life.b10), count(life.b50), count(life.q05), count(life.q95));
+      "{}{} to {} {}: B1 {}, B10 {}, B50 {}; {} to {} (90 %)", unit, printable(of_whom(summary)),
+      plain_given(summary.limit), printable(summary.limit_unit), count(life.b1), count(life.b10),
+      count(life.b50), count(life.q05), count(life.q95));
   const std::string passed = fmt::format(
-      "after {} {} the limit is passed already with a probability of {}{}",
-      whole ? fmt::format("{}", summary.now) : plain_number(summary.now, 6), unit,
-      probability_in_words(life.passed),
-      summary.passed_beyond_risk() ? fmt::format(": more than the risk of {} % that is tolerated",
-                                                 plain_number(100 * summary.risk))
-                                   : "");
+      "after {} {} the limit is already passed with a probability of {}{}",
+      plain_given(summary.now), unit, probability_in_words(life.passed),
+      summary.passed_beyond_risk()
+          ? fmt::format(": more than the {} % that are tolerated", plain_given(100 * summary.risk))
+          : "");
   const bool used = summary.now > 0;
   return wrapped(lives, 2, 4) + (used ? wrapped(passed, 2, 4) : "") +
-         wrapped(fmt::format("{} within {} {}: {} % risk of reaching it before",
-                             used ? "if it is not passed, inspect again" : "inspect a new one",
-                             count(life.inspect_within, 3), unit, plain_number(100 * summary.risk)),
+         wrapped(fmt::format("inspect {} within {} {}{}: {} % risk of reaching the limit before",
+                             used ? "again" : "a new one", count(life.inspect_within, 3), unit,
+                             used ? ", unless the limit is passed" : "",
+                             plain_given(100 * summary.risk)),
                  2, 4);
 }
 
@@ -296,7 +299,8 @@ std::string check_lines(const std::vector<Check>& checks, bool colour) {
   constexpr std::size_t name_width = 20, indent = 2 + 4 + 2 + name_width + 1;
   std::string out;
   for (const Check& check : checks) {
-    const std::string detail = wrapped(printable(check.detail), indent);
+    const std::string detail =
+        wrapped(printable(powers_in_words(check.detail, Script::terminal)), indent);
     out += fmt::format("  {}  {:<{}} {}", painted(check.verdict, colour), printable(check.name),
                        name_width, detail.substr(std::min(indent, detail.size() - 1)));
     if (!check.advice.empty()) out += wrapped("-> " + printable(check.advice), indent, indent + 3);
@@ -306,7 +310,7 @@ std::string check_lines(const std::vector<Check>& checks, bool colour) {
 
 std::string answer_lines(const PosteriorSummary& result) {
   std::string out;
-  for (const std::string& each : answers(result, Wording::plain))
+  for (const std::string& each : answers(result, Script::terminal))
     out += wrapped(html::capital(printable(each)) + ".", 2, 4);
   return out;
 }
@@ -314,16 +318,18 @@ std::string answer_lines(const PosteriorSummary& result) {
 }  // namespace
 
 std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle& style) {
-  std::string out =
-      wrapped(printable(result.title), 0, 2) + wrapped(printable(result.equation), 2, 4) +
-      wrapped(fmt::format("{}: {} rows", printable(result.data_file), result.data_rows), 2, 4);
+  std::string out = wrapped(printable(result.title), 0, 2) +
+                    wrapped(printable(powers_in_words(result.equation, Script::terminal)), 2, 4) +
+                    wrapped(fmt::format("{}: {} rows", printable(result.data_file),
+                                        plain_given(static_cast<double>(result.data_rows))),
+                            2, 4);
   if (!result.method_note.empty()) out += wrapped(result.method_note, 2, 4);
   const std::string trust = printable(trust_line(result.checks));
   out += "\n" + wrapped(trust, 0, 2);
   out += "\nAnswers\n" + answer_lines(result);
   if (result.life) out += "\nLife\n" + life_lines(*result.life);
   if (!result.predictions.empty()) out += "\nPredictions\n" + prediction_table(result.predictions);
-  out += bound_table(result.quantities) + quantity_table(result.quantities);
+  out += bound_lines(result.quantities) + quantity_lines(result.quantities);
   if (!result.added.text.empty()) out += "\n" + result.added.text;
   out += "\nParameters\n" + parameter_table(result);
   if (style.histograms) {
@@ -333,10 +339,10 @@ std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle
   if (result.mode)
     out += fmt::format("\n{}\n", mode_title(*result.mode)) + mode_lines(*result.mode);
   if (result.loo) out += "\nLeave-one-out prediction\n" + loo_lines(*result.loo);
-  if (result.coverage) out += "\nTests about the fit\n" + coverage_lines(*result.coverage);
-  out +=
-      fmt::format("\nDraws ({}, {} chains of {})\n", result.method, result.chains, result.draws) +
-      draws_table(result.parameters);
+  if (result.coverage) out += "\nTests against the fit\n" + coverage_lines(*result.coverage);
+  out += fmt::format("\nDraws ({}, {} chains of {})\n", result.method, result.chains,
+                     plain_given(result.draws)) +
+         draws_lines(result.parameters);
   out += row_tables(result, style.rows);
   // Of all above, the line feeds are ours; below, the colours too.
   out = printable_lines(out);

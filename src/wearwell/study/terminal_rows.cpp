@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <string_view>
+
 #include "wearwell/base/printable.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/table.h"
@@ -54,11 +56,8 @@ std::string coverage_table(const CoverageTable& table) {
   for (const CoverageRow& row : table.rows) {
     if (rows.size() > most_rows) break;
     rows.push_back({fmt::format("{}", row.row), row.label, row.outcome,
-                    row.until
-                        ? fmt::format("{} .. {}", plain_number(row.life), plain_number(*row.until))
-                        : plain_number(row.life),
-                    fmt::format("{:.1f} %", 100 * row.probability),
-                    fmt::format("{} .. {}", plain_number(row.q05), plain_number(row.q95)),
+                    row.until ? plain_range(row.life, *row.until) : plain_number(row.life),
+                    fmt::format("{:.1f} %", 100 * row.probability), plain_range(row.q05, row.q95),
                     plain_number(row.b10), place_of(row)});
   }
   return text_table(rows, true) + rest_line(table.rows.size(), coverage_table_file);
@@ -70,7 +69,7 @@ std::string pointwise_table(const PointwiseTable& p) {
        printable_heading("V", p.volume_unit), printable_heading("k = V/(F s)", p.k_unit)}};
   for (const PointwiseRow& row : p.rows) {
     if (rows.size() > most_rows) break;
-    rows.push_back({fmt::format("{}", row.cycles), plain_number(row.force), plain_number(row.slip),
+    rows.push_back({plain_given(row.cycles), plain_number(row.force), plain_number(row.slip),
                     plain_number(row.volume), plain_number(row.k)});
   }
   return text_table(rows) + rest_line(p.rows.size(), pointwise_table_file);
@@ -80,7 +79,11 @@ std::string pointwise_table(const PointwiseTable& p) {
 
 // Tables with a line for each row of the data, or where they are.
 std::string printable_heading(const std::string& name, const std::string& unit) {
-  return printable(present::heading(name, unit));
+  // "1e6 cycles" as "10^6 cycles".
+  constexpr std::string_view power = "1e";
+  const bool multiple = unit.starts_with(power) && unit.size() > power.size() &&
+                        unit[power.size()] >= '0' && unit[power.size()] <= '9';
+  return printable(present::heading(name, multiple ? "10^" + unit.substr(power.size()) : unit));
 }
 
 std::string row_tables(const PosteriorSummary& result, bool shown) {

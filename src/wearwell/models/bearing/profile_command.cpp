@@ -91,7 +91,7 @@ Result evaluate(const ProfileOptions& options) {
   if (b.speed.has_value() != b.time.has_value()) throw InputError("--speed and --time go together");
   if (load != turns) {
     throw InputError(
-        fmt::format("{} for a wear rate; without load and revolutions only the area is told",
+        fmt::format("{} for a wear rate; without load and revolutions only the area is given",
                     load ? "--revolutions (or --speed and --time) is missing"
                          : "--pressure (or --force and --length) is missing"));
   }

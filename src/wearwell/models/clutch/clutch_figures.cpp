@@ -30,10 +30,6 @@ Numbers as_numbers(const std::vector<int>& values) {
   return {values.begin(), values.end()};
 }
 
-std::string percent(double share, int digits = 1) {
-  return fmt::format("{:.{}f}\u00a0%", 100 * share, digits);
-}
-
 }  // namespace
 
 /// Fig. 6: wear rates during run-in, each relative to its plate, and the fitted curve.
@@ -238,10 +234,10 @@ Figure sequence_figure(const SequenceResult& s) {
     measured.push_back(w.measured / mm3);
   }
   return {"sequence-" + s.name, fmt::format("Worn volume, {} sequence", s.name),
-          fmt::format("Predicted cycle by cycle from the new plate. At the end the prediction is "
-                      "off by {}. The inner band is the scatter of cycles, the outer one all that "
+          fmt::format("Predicted cycle by cycle from the new plate. At the end predicted wear is "
+                      "{}. The inner band is the scatter of cycles, the outer one all that "
                       "is uncertain (95 %).",
-                      percent(s.final_error())),
+                      error_in_words(s.final_error())),
           plot::plot("Worn volume against cycles", {"cycles", false, 0.0},
                      {"worn volume [mm³]", false, 0.0},
                      {plot::area({{"x", x}, {"y", full_high}, {"y2", full_low}},

@@ -212,8 +212,8 @@ Check sequence_check(const std::vector<SequenceResult>& sequences) {
   for (const SequenceResult& s : sequences) {
     const auto& last = s.weighings.back();
     const double z = (last.measured - last.predicted) / last.full_sd;
-    const std::string text = fmt::format("{}: predicted {:+.1f} % of what was measured at the end",
-                                         s.name, 100 * s.final_error());
+    const std::string text =
+        fmt::format("{}: predicted wear is {} at the end", s.name, error_in_words(s.final_error()));
     good.push_back(text);
     if (std::abs(z) > 2)
       findings.add(std::abs(z) > 4 ? Verdict::fail : Verdict::warn,

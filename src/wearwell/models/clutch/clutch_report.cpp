@@ -25,6 +25,14 @@ using present::Table;
 
 constexpr const char* rate_unit = "mm^3/MJ";
 
+std::string percent_in_words(double share) {
+  return html::given(100 * share) + "\u00a0%";
+}
+
+std::string cycles_in_words(double cycles) {
+  return html::given(std::round(cycles));
+}
+
 Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
   Section section{"verdict", "Verdict"};
   if (study.simulated) {
@@ -33,20 +41,28 @@ Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
                                  "stands behind it."});
   }
   const WearMap& map = r.maps.front();
-  std::string sentence =
-      fmt::format("The wear rate follows {} terms of slip, temperature and torque with R2p {:.3f}",
-                  map.terms.size(), map.fit.r2p);
+  for (const NamedLife& each : r.lives) {
+    const LifeAtLevel& at = each.life.levels.back();
+    section.add(Prose{fmt::format("{} is {} worn after {} cycles; {} cycles (95\u00a0%).",
+                                  html::capital(each.name), percent_in_words(at.level),
+                                  cycles_in_words(at.repetitions), in_words(at.full)),
+                      true});
+  }
+  section.add(Prose{fmt::format("The wear rate follows {} terms of slip, temperature and torque; "
+                                "the predicted R2 (R2p) is {:.3f}.",
+                                map.terms.size(), map.fit.r2p),
+                    true});
   for (const SequenceResult& s : r.sequences)
-    sentence += fmt::format("; the {} sequence ends {:+.1f} % from what was weighed", s.name,
-                            100 * s.final_error());
-  section.add(Prose{sentence + ".", true});
+    section.add(Prose{fmt::format("The {} sequence: predicted wear is {} at its end.", s.name,
+                                  error_in_words(s.final_error())),
+                      true});
   section.add(trust_callout(r.checks));
   std::vector<html::Tile> tiles;
   for (const NamedLife& each : r.lives) {
     const LifeAtLevel& at = each.life.levels.back();
     tiles.push_back(
-        {fmt::format("Life, {}", each.name), fmt::format("{:.0f}", at.repetitions), "cycles",
-         fmt::format("to {:g} % worn; 95 % interval {}", 100 * at.level, in_words(at.full))});
+        {fmt::format("Life, {}", each.name), cycles_in_words(at.repetitions), "cycles",
+         fmt::format("to {} worn; {} (95\u00a0%)", percent_in_words(at.level), in_words(at.full))});
   }
   tiles.push_back(
       {"R2p", fmt::format("{:.3f}", map.fit.r2p), "",

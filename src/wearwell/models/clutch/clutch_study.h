@@ -70,6 +70,9 @@ struct SequenceResult {
   double final_error() const { return weighings.back().predicted / weighings.back().measured - 1; }
 };
 
+/// Of a prediction that is off by this share: "1.4 % below the measured wear".
+std::string error_in_words(double share);
+
 /// Best R2p with a surrogate: of all points, and the mean over the temperature levels (Table A1).
 struct SurrogateResult {
   Surrogate surrogate = Surrogate::distance;

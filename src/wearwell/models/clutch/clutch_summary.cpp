@@ -9,6 +9,8 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/input/csv_reader.h"
 #include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/present/html.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/trust_blocks.h"
 
@@ -202,6 +204,20 @@ std::string section(const char* title, const Rows& rows) {
   return fmt::format("\n{}\n{}", title, text_table(rows));
 }
 
+// What the campaign was made for, one line each.
+std::string answers_text(const ClutchResult& r) {
+  if (r.lives.empty()) return "";
+  std::string out = "\nAnswers\n";
+  for (const NamedLife& each : r.lives) {
+    const LifeAtLevel& at = each.life.levels.back();
+    out += wrapped(fmt::format("{} is {} % worn after {} cycles; {} cycles (95 %).",
+                               html::capital(printable(each.name)), plain_given(100 * at.level),
+                               plain_given(std::round(at.repetitions)), in_words(at.full)),
+                   2, 4);
+  }
+  return out;
+}
+
 std::string lives_text(const ClutchResult& r) {
   if (r.lives.empty()) return "";
   Rows rows = {
@@ -209,8 +225,8 @@ std::string lives_text(const ClutchResult& r) {
   for (const NamedLife& each : r.lives) {
     for (const LifeAtLevel& at : each.life.levels)
       rows.push_back({each.name, fmt::format("{:.0f} %", 100 * at.level),
-                      fmt::format("{:.0f}", at.repetitions), in_words(at.scatter),
-                      in_words(at.full), fmt::format("{:.0f}", at.without_run_in)});
+                      plain_given(std::round(at.repetitions)), in_words(at.scatter),
+                      in_words(at.full), plain_given(std::round(at.without_run_in))});
   }
   return section("Life (cycles)", rows);
 }
@@ -245,9 +261,9 @@ std::string maps_text(const ClutchResult& r) {
   out += fmt::format("\nR2 of points left out of the whole search: {:.3f} +- {:.3f} ({} parts)",
                      r.nested.r2, r.nested.r2_error, r.nested.folds);
   return out + fmt::format(
-                   "\nthe best by leave-one-out of {:.0f} submodels at each of {} pairs of "
+                   "\nthe best by leave-one-out of {} submodels at each of {} pairs of "
                    "exponents\n",
-                   r.search.submodels, r.search.pairs.size());
+                   plain_given(r.search.submodels), r.search.pairs.size());
 }
 
 std::string scatter_text(const ClutchResult& r) {
@@ -278,9 +294,9 @@ std::string sequences_text(const ClutchResult& r) {
       {"sequence", "cycles", "measured [mm^3]", "predicted", "error", "95 % scatter", "95 % full"}};
   for (const SequenceResult& s : r.sequences) {
     const auto& last = s.weighings.back();
-    rows.push_back({s.name, fmt::format("{}", last.cycle),
-                    fmt::format("{:.0f}", last.measured / mm3),
-                    fmt::format("{:.0f}", last.predicted / mm3), percent(s.final_error()),
+    rows.push_back({s.name, plain_given(static_cast<double>(last.cycle)),
+                    plain_given(std::round(last.measured / mm3)),
+                    plain_given(std::round(last.predicted / mm3)), percent(s.final_error()),
                     "+- " + percent(2 * last.sd / last.predicted),
                     "+- " + percent(2 * last.full_sd / last.predicted)});
   }
@@ -300,11 +316,12 @@ std::string summary_text(const ClutchStudy& study, const ClutchResult& r) {
   const std::string trust = wrapped(printable(trust_line(r.checks)), 0, 2);
   std::string out = wrapped(printable(study.title), 0, 2) +
                     fmt::format("{} cycles, {} weighings; {} points to model with, {} held out\n",
-                                study.campaign.cycles.size(), study.campaign.weighings.size(),
+                                plain_given(static_cast<double>(study.campaign.cycles.size())),
+                                plain_given(static_cast<double>(study.campaign.weighings.size())),
                                 r.points.size(), r.held_out.size());
-  if (study.simulated) out += "Simulated: the truth is known, no measurement stands behind it.\n";
-  out += "\n" + trust + lives_text(r) + run_in_text(r) + maps_text(r) + scatter_text(r) +
-         validation_text(r) + sequences_text(r) + checks_text(r) + "\n" + trust;
+  if (study.simulated) out += "Simulated from a known truth: no measurement stands behind it.\n";
+  out += "\n" + trust + answers_text(r) + lives_text(r) + run_in_text(r) + maps_text(r) +
+         scatter_text(r) + validation_text(r) + sequences_text(r) + checks_text(r) + "\n" + trust;
   return printable_lines(out);
 }
 

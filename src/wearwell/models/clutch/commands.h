@@ -6,8 +6,7 @@ class App;
 
 namespace wearwell {
 
-/// `wearwell clutch design|simulate|features|predict|life|compare`, `wearwell sql` and `wearwell
-/// fleet`.
+/// `wearwell clutch design|simulate|features|predict|life|compare|sql` and `wearwell fleet`.
 void add_clutch_command(CLI::App& app, int& exit_code);
 
 }  // namespace wearwell

@@ -67,10 +67,8 @@ std::vector<std::string> energy_problems(const CycleSum& sum) {
   std::vector<std::string> problems;
   for (const PlateWear& p : sum.plates()) {
     if (p.balance().is_plausible()) continue;
-    problems.push_back(fmt::format(
-        "the energy of plate {} is {}. Check the unit of the column energy, and look for single "
-        "cycles with an energy that no closing has.",
-        printable(p.in_words()), p.balance().description()));
+    problems.push_back(fmt::format("the energy of plate {} is {}. {}", printable(p.in_words()),
+                                   p.balance().description(), energy_advice));
   }
   return problems;
 }

@@ -26,4 +26,10 @@ struct EnergyBalance {
   }
 };
 
+/// What to do where it does not fit.
+inline constexpr const char* energy_advice =
+    "Check the unit of the column energy, and look for single cycles with an energy that no "
+    "closing "
+    "has.";
+
 }  // namespace wearwell::clutch

@@ -107,7 +107,7 @@ void run_fleet(const FleetOptions& options, int& exit_code) {
 
 void add_fleet_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "fleet", "Wear of every unit of a fleet, computed where its cycles lie (clutches)");
+      "fleet", "Clutch fleets: wear of every unit, computed in the database that holds its cycles");
   const auto options = std::make_shared<FleetOptions>();
   command
       ->add_option("RESULT", options->result, "folder that wearwell fit wrote, or its model.json")
@@ -158,7 +158,7 @@ void add_fleet_command(CLI::App& app, int& exit_code) {
   command->add_flag("--scatter-only", options->scatter_only,
                     "without what is not known of map and run-in; much faster");
   command->add_flag("--statements", options->statements,
-                    "have DuckDB run the statements of wearwell sql, as other engines do, "
+                    "have DuckDB run the statements of wearwell clutch sql, as other engines do, "
                     "instead of a loop of our own: the same numbers, much slower");
   command->add_option("--memory", options->memory, "MB that DuckDB may take (default: half)")
       ->check(CLI::Range(100L, 100'000'000L));

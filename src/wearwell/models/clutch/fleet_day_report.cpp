@@ -21,7 +21,7 @@ std::string day_after(const FleetDays& days, double count) {
 }
 
 Table when(const std::string& text) {
-  Table table{"when", "How \"by when\" is told", {{"In"}}};
+  Table table{"when", "By when", {{"In"}}};
   table.words = true;
   table.rows.push_back({text});
   return table;

@@ -46,7 +46,7 @@ void FleetDays::finish() {
   if (per_day.empty())
     throw InputError(
         "no unit has two cycles with a moment, or a number of cycles a day: leave 'time' and "
-        "'cycles_per_day' out of --columns, and all is told in cycles");
+        "'cycles_per_day' out of --columns, and all is given in cycles");
   double sum = 0;
   std::vector<double> all;  // in an order of their own, whatever that of the table
   for (const auto& [unit, rate] : per_day) all.push_back(rate);

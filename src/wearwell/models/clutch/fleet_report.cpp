@@ -10,6 +10,7 @@
 #include "wearwell/input/parquet_writer.h"
 #include "wearwell/math/quantile.h"
 #include "wearwell/models/clutch/clutch_tables.h"
+#include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/fleet_day_report.h"
 #include "wearwell/present/plot.h"
 
@@ -66,8 +67,9 @@ Table level_table(const FleetCounts& counts) {
 
 Table worst_table(const FleetFindings& found) {
   Table table{"worst",
-              fmt::format("The {} units that may be worn out first",
-                          std::min(worst_shown, found.units.size())),
+              found.units.size() == 1 ? std::string("The unit")
+                                      : fmt::format("The {} units that may be worn out first",
+                                                    std::min(worst_shown, found.units.size())),
               {{"Unit"},
                {"Cycles", "1", fixed(0)},
                {"Volume", "mm^3", digits(5)},
@@ -265,9 +267,7 @@ std::vector<Check> checks_of(const FleetCounts& counts, const FleetFindings& fou
                          "x closing time. These units have {:.3g} % of the fleet's wear",
                          energy.units, counts.units(), printable(energy.worst), energy.ratio,
                          100 * energy.volume / counts.volume()),
-       energy.units == 0 ? ""
-                         : "Check the unit of the column energy, and look for single cycles with "
-                           "an energy that no closing has."});
+       energy.units == 0 ? "" : energy_advice});
   checks.push_back({"interval", found.replicates ? Verdict::pass : Verdict::warn,
                     found.replicates
                         ? "the full interval knows of the map, run-in, plates and scatter"

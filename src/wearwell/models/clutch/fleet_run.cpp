@@ -50,7 +50,7 @@ std::string range_in_words(const char* name, const SqlColumn& column, double low
     return std::isfinite(x) ? fmt::format("{:.6g}", (x - column.offset) / column.scale)
                             : "not a number";
   };
-  return fmt::format("{} {} .. {} {}", name, end(low), end(high), column.unit);
+  return fmt::format("{} {} to {} {}", name, end(low), end(high), column.unit);
 }
 
 /// Throws InputError for rows that no sum can take.
@@ -116,8 +116,7 @@ struct Shard {
 [[noreturn]] void explain(Shard& shard, const InputError& error) {
   const std::string_view said = error.what();
   if (said.find("out of range") == std::string_view::npos) throw;  // as it is: a Lost is one
-  if (shard.ranges.empty())
-    shard.ranges = check_rows(shard.engine, shard.sql, shard.source).ranges;
+  if (shard.ranges.empty()) shard.ranges = check_rows(shard.engine, shard.sql, shard.source).ranges;
   throw InputError(fmt::format(
       "{}: the wear of a cycle is beyond what the sums hold, or no number; is a reading wrong? "
       "They are: {} ({})",

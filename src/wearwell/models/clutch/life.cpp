@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/present/number.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -98,8 +99,10 @@ struct Knowledge {
 }  // namespace
 
 std::string in_words(const LifeInterval& interval) {
-  return fmt::format("{:.0f} .. {}", interval.low,
-                     std::isfinite(interval.high) ? fmt::format("{:.0f}", interval.high) : "never");
+  const auto cycles = [](double x) {
+    return std::isfinite(x) ? given_in_words(std::round(x), Script::terminal) : "never";
+  };
+  return cycles(interval.low) + " to " + cycles(interval.high);
 }
 
 Life predict_life(const WearModel& model, const std::vector<Cycle>& duty,

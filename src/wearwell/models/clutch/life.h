@@ -14,7 +14,7 @@ struct LifeInterval {
   double low = 0, high = std::numeric_limits<double>::infinity();
 };
 
-/// "28520 .. 36700"; "never" for an end that is infinite.
+/// "28 520 to 36 700"; "never" for an end that is infinite.
 std::string in_words(const LifeInterval& interval);
 
 /// When a wear level is reached under a duty that repeats.

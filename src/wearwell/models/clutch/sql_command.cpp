@@ -53,9 +53,9 @@ void run_sql(const SqlOptions& options) {
 
 }  // namespace
 
-void add_sql_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
-      "sql", "A fitted model as SQL, for the database that holds the cycles of a fleet (clutches)");
+CLI::App* add_sql_command(CLI::App& parent) {
+  CLI::App* command = parent.add_subcommand(
+      "sql", "Print a fitted clutch as SQL for the database that holds a fleet's cycles");
   const auto options = std::make_shared<SqlOptions>();
   command
       ->add_option("RESULT", options->result, "folder that wearwell fit wrote, or its model.json")
@@ -82,10 +82,12 @@ void add_sql_command(CLI::App& app) {
   command->add_flag("--scatter-only", options->scatter_only,
                     "only the paper's interval, by the scatter of cycles; much faster");
   command->footer(
-      "Example:\n  wearwell sql study-results --dialect postgresql --table fleet.cycles --columns "
+      "Example:\n  wearwell clutch sql study-results --dialect postgresql --table fleet.cycles "
+      "--columns "
       "unit=vin cycle=cycle \\\n    'slip_speed=n:rpm' 'torque=m:N m' 'temperature=temp:degC' "
       "'closing_time=t:ms' 'energy=e:kJ' > wear.sql");
   command->callback([options] { run_sql(*options); });
+  return command;
 }
 
 }  // namespace wearwell::clutch

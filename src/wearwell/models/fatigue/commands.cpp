@@ -7,10 +7,8 @@
 namespace wearwell::fatigue {
 
 void add_commands(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("fatigue",
-                         "Load histories: count their cycles, sum their damage, with its "
-                         "distribution; design curves averaged over models");
+  CLI::App* command = app.add_subcommand(
+      "fatigue", "Fatigue under load histories: rainflow counts, damage and life; design curves");
   command->require_subcommand(1);
   add_rainflow_command(*command);
   add_life_command(*command, exit_code);

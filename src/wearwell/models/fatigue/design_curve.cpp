@@ -97,7 +97,7 @@ std::vector<At> curve_points(const SnLaw& law, const SnData& data, const Weighte
 std::string line_in_words(const SnLaw& law, const SnData& data) {
   if (law.correction == MeanStress::none) return "";
   const StressLine line = line_of_tests(law, data);
-  if (line.ratio) return fmt::format(" at the tests' stress ratio {:.4g}", *line.ratio);
+  if (line.ratio) return fmt::format(" at the tests' stress ratio R = {:.4g}", *line.ratio);
   if (line.mean == 0) return ", fully reversed";
   return fmt::format(" at a mean stress of {}, the tests' average", with_unit(data, line.mean));
 }

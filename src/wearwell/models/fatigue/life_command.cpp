@@ -191,7 +191,7 @@ void add_life_command(CLI::App& fatigue, int& exit_code) {
                    "at failure: a number, or a median and the factor that holds two in three")
       ->capture_default_str();
   command->add_option("--block", options->block,
-                      "what one block stands for: '350 km', '8 h'; lives are told in it");
+                      "what one block stands for: '350 km', '8 h'; lives are given in it");
   command->add_option("--b-lives", options->b_lives, "percentages failed")
       ->check(number_between(1e-4, 99.9999))
       ->capture_default_str();

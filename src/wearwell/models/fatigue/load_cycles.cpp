@@ -38,7 +38,7 @@ double to_si_of_curve(const std::string& unit, const std::string& scale, const s
     if (load->dimension == wanted) return load->scale;
     if (si != "Pa")
       throw InputError(fmt::format(
-          "{} is in {}, and the study's tests are told {}; say how one makes the other by --scale",
+          "{} is in {}, and the study's tests are in {}; say how one makes the other by --scale",
           where, unit,
           si == "1" ? "as a strain or a plain number" : fmt::format("in the dimension of {}", si)));
     const bool strain = load->dimension.empty();
@@ -123,11 +123,11 @@ Block counted_signal(const BlockChoice& choice) {
     block.cycles.push_back({{0.5 * std::abs(pascal) * each.range, pascal * each.mean}, each.count});
     block.count += each.count;
   }
-  block.told = fmt::format("{} samples of {}, column '{}'{}; {} rainflow counting, {}",
-                           counted.samples, file.source(), file.column(), options_in_words(choice),
-                           counting_name(choice.rule.counting),
-                           choice.rule.residual == Residual::half ? "the residual in half cycles"
-                                                                  : "the history repeated");
+  block.description = fmt::format(
+      "{} samples of {}, column '{}'{}; {} rainflow counting, {}", counted.samples, file.source(),
+      file.column(), options_in_words(choice), counting_name(choice.rule.counting),
+      choice.rule.residual == Residual::half ? "the residual in half cycles"
+                                             : "the history repeated");
   if (!choice.with_mean) {
     for (const LoadCycle& each : block.cycles)
       block.largest_mean_left_out =
@@ -193,11 +193,11 @@ class CountedTable {
       block.count += count;
     }
     if (!(block.count > 0)) throw InputError(fmt::format("{} counts no cycle", table_.source));
-    block.told =
+    block.description =
         fmt::format("{} classes of counted cycles of {}, by {} '{}'{}", table_.rows, table_.source,
                     size_ ? "the range" : "the amplitude", size.name, options_in_words(choice_));
     if (const Column* mean = mean_ ? mean_ : ratio_; mean && !choice_.with_mean)
-      block.told +=
+      block.description +=
           fmt::format("; '{}' is left out, since the study's law has no mean stress", mean->name);
     return block;
   }

@@ -23,8 +23,8 @@ struct BlockChoice {
 
 struct Block {
   LoadCycles cycles;
-  double count = 0;  ///< of all cycles
-  std::string told;  ///< what was read, a sentence
+  double count = 0;         ///< of all cycles
+  std::string description;  ///< what was read, a sentence
   std::optional<double> seconds =
       {};  ///< that it lasts, where asked for and a column of times says it
   /// Of a signal where the mean stress does not matter: the largest that there is, as it would be in `cycles`.

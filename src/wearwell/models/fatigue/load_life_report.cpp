@@ -51,8 +51,8 @@ double largest(const LoadLifeReport& report) {
 
 std::string block_in_words(const LoadLifeReport& report) {
   std::string text =
-      fmt::format("{}: {:.10g} cycles a block, amplitudes up to {:.6g} {}", report.block.told,
-                  report.block.count, largest(report), report.result.stress_unit.text);
+      fmt::format("{}: {} cycles a block, amplitudes up to {:.6g} {}", report.block.description,
+                  plain_given(report.block.count), largest(report), report.result.stress_unit.text);
   if (const double mean = report.block.largest_mean_left_out; mean > 0)
     text += fmt::format(
         "; means up to {:.6g} {} are left out, since the study's law has no mean stress",
@@ -289,7 +289,7 @@ nlohmann::ordered_json load_life_json(const LoadLifeReport& report) {
   Json json = {{"title", report.result.title},
                {"equation", report.result.equation},
                {"trusted", report.result.trusted},
-               {"history", report.block.told},
+               {"history", report.block.description},
                {"unit", report.unit},
                {"per_block", n},
                {"cycles", report.block.count},

@@ -106,7 +106,7 @@ std::span<const double> SignalFile::next() {
     throw InputError(fmt::format(
         "{}, row {}, column '{}': {}", source(), batch_.first_row + i + 1, column_,
         std::isnan(samples[i])
-            ? "no value: a signal has no gaps, since nobody knows what happened in them; cut the "
+            ? "no value: a signal has no gaps, since what happened in them is unknown; cut the "
               "file there and count the parts"
             : fmt::format("{} is no load that can be counted", samples[i])));
   }

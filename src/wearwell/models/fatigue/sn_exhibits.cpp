@@ -289,7 +289,7 @@ class Drawing {
                    {colour::posterior, "", 1, 2}),
         plot::line({{"x", x}, {"y", b10}, {"mean stress", x}, {"alternating stress", b10}},
                    {colour::limit, "nine in ten outlast it (predictive)", 1, 1.5, true})};
-    const std::string told =
+    const std::string life_in_words =
         html::given(from_si(data_.life_unit, life)) + "\u00a0" + html::unit(data_.life_unit.text);
     // Far from the tests the band may be as wide as the prior: it is cut off.
     double highest = to_si(data_.stress_unit, *std::max_element(ci50.begin(), ci50.end()));
@@ -302,11 +302,11 @@ class Drawing {
       marks.push_back(plot::points({{"x", after_x}, {"y", after_y}, {"alternating", after_y}},
                                    {colour::chains[2], "went on", 1, 0, false, 60}));
     }
-    return {"haigh", fmt::format("Haigh diagram of {}", told),
+    return {"haigh", fmt::format("Haigh diagram of {}", life_in_words),
             fmt::format("Alternating against mean stress that {} are borne at: by half of all "
                         "specimens, and by the next one with 90 % probability. Tests by whether "
                         "they failed before.{}",
-                        told, thinned_),
+                        life_in_words, thinned_),
             plot::plot("Haigh diagram: alternating against mean stress at one life, with the tests",
                        {fmt::format("Mean {} [{}]", driver_word(law_, data_),
                                     html::unit(data_.stress_unit.text)),

@@ -192,10 +192,10 @@ QuantityQuantiles allowed_quantiles(const SnLaw& law, const WeightedDraws& draws
 }
 
 std::string in_words(const SnLaw& law, const SnData& data, const StressLine& line) {
-  if (line.ratio) return fmt::format(", stress ratio {:.6g}", *line.ratio);
+  if (line.ratio) return fmt::format(", R = {:.6g}", *line.ratio);
   if (law.correction == MeanStress::none) return "";
-  if (line.mean == 0) return " fully reversed";
-  return fmt::format(" about {:.6g}{}", from_si(data.stress_unit, line.mean),
+  if (line.mean == 0) return ", fully reversed";
+  return fmt::format(", mean {:.6g}{}", from_si(data.stress_unit, line.mean),
                      after_number(data.stress_unit));
 }
 
@@ -236,8 +236,7 @@ Check extrapolation(const SnLaw& law, const SnData& data, const SnPredictions& p
   const Tested tested(data);
   Findings findings("extrapolation");
   const std::string advice =
-      "Nothing was seen there: the answer is the law's, drawn beyond the tests. Test there, or "
-      "stay inside.";
+      "No test lies there: the answer rests on the model. Test there, or stay inside.";
   for (const StressPoint& point : predictions.points) {
     if (!tested.alternating.holds(point.stress.alternating)) {
       findings.add(Verdict::warn,
@@ -310,10 +309,11 @@ Check few_tests(const SnData& data, const SnPredictions& predictions) {
   }
   Findings findings("percentile-support");
   if (!below.empty()) {
-    findings.add(Verdict::warn,
-                 fmt::format("{}; asked for is {}", supported, fmt::join(below, ", ")),
-                 "What lies below the lowest test is the law of scatter, not data. Design with the "
-                 "lower bound, not with the posterior predictive, and try another family.");
+    findings.add(
+        Verdict::warn, fmt::format("{}; asked for is {}", supported, fmt::join(below, ", ")),
+        "Below the lowest test the answer rests on the distribution of scatter, not on data. "
+        "Design "
+        "with the lower bound, not with the posterior predictive, and try another family.");
   }
   return findings.result(fmt::format("{}, and nothing below it is asked for", supported));
 }
@@ -325,9 +325,15 @@ std::string in_words(const SnLaw& law, const SnData& data, const Stress& stress)
   const std::string alternating =
       fmt::format("{:.5g}{}", value(stress.alternating), after_number(data.stress_unit));
   if (law.correction == MeanStress::none) return alternating;
-  if (stress.mean == 0) return alternating + " fully reversed";
-  return fmt::format("{:.5g} about {:.5g}{}", value(stress.alternating), value(stress.mean),
-                     after_number(data.stress_unit));
+  if (stress.mean == 0) return alternating + " amplitude, fully reversed";
+  const double highest = stress.mean + stress.alternating;
+  const std::string mean =
+      fmt::format("{:.5g}{}", value(stress.mean), after_number(data.stress_unit));
+  // A ratio of pulsating compression has no end.
+  if (!(std::abs(highest) > 1e-9 * stress.alternating))
+    return fmt::format("{} amplitude, mean {}", alternating, mean);
+  return fmt::format("{} amplitude, R = {:.3g} (mean {})", alternating,
+                     (stress.mean - stress.alternating) / highest, mean);
 }
 
 std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {

@@ -299,10 +299,9 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
     study.curve = [=](const WeightedDraws& draws) {
       const double log10_a = draws.weights.dot(draws.values.col(0)),
                    b = draws.weights.dot(draws.values.col(1));
-      return fmt::format("the curve is {} = {:.4g}{} x N^({:.4g}) in the mean",
-                         law.bends() ? "S_f - limit" : "S_f",
-                         from_si(data.stress_unit, std::pow(10, log10_a)),
-                         after_number(data.stress_unit), b);
+      return fmt::format(
+          "the mean curve is {} = {:.4g}{} × N^({:.4g})", law.bends() ? "S_f - limit" : "S_f",
+          from_si(data.stress_unit, std::pow(10, log10_a)), after_number(data.stress_unit), b);
     };
   study.coverage = [=](const WeightedDraws& draws) { return sn_coverage(law, data, draws); };
   study.addition = [=](const Fit& fit) { return sn_addition(law, data, fit); };

@@ -228,7 +228,7 @@ TradeAddition addition(const StairData& data, const WeightedDraws& draws) {
   TradeAddition added;
   const auto in_unit = [&](double si) { return from_si(data.unit, si); };
   const fatigue::DixonMood classical = fatigue::dixon_mood(data.tests);
-  const std::string told =
+  const std::string comparison =
       classical.problem.empty()
           ? fmt::format(
                 "Dixon and Mood (1948), by the {} alone: mean {:.5g} {}, standard deviation "
@@ -236,14 +236,14 @@ TradeAddition addition(const StairData& data, const WeightedDraws& draws) {
                 "it has no interval.",
                 classical.of_failures ? "failures" : "run-outs", in_unit(classical.mean),
                 data.unit.text, in_unit(classical.sd), data.unit.text,
-                classical.crude_sd ? " (only 0.53 of a step: all that it says here)" : "")
+                classical.crude_sd ? " (the method gives 0.53 of a step here)" : "")
           : fmt::format("Dixon and Mood's estimate does not apply: {}.", classical.problem);
   const double most = *std::max_element(data.reliabilities.begin(), data.reliabilities.end());
   double before = 0;
   const std::vector<NextTest> tests = next_tests(data, draws, most, before);
   present::Table table{
       "next-test",
-      fmt::format("What one more test would tell of the limit for {:.6g} %", 100 * most),
+      fmt::format("What one more test would add to the limit for {:.6g} %", 100 * most),
       {{"at", data.unit.text},
        {"fails", "%", present::digits(3)},
        {"less spread of log10 limit", "%", present::digits(3)}}};
@@ -252,14 +252,13 @@ TradeAddition addition(const StairData& data, const WeightedDraws& draws) {
   for (const NextTest& test : tests) {
     const double less = 100 * (1 - test.sd / before);
     table.rows.push_back({in_unit(test.stress), 100 * test.failure, less});
-    rows.push_back({"  " + plain_number(in_unit(test.stress), 5),
-                    plain_number(100 * test.failure, 2), plain_number(less, 2)});
+    rows.push_back({"  " + plain_given(in_unit(test.stress)), plain_number(100 * test.failure, 2),
+                    plain_number(less, 2)});
   }
-  added.blocks["predictions"] = {{present::Prose{told}}, {table}};
-  added.text =
-      "Beside it\n" + wrapped(told, 2, 4) + "\n" +
-      fmt::format("One more test, what it would tell of the limit for {:.6g} %\n", 100 * most) +
-      text_table(rows);
+  added.blocks["predictions"] = {{present::Prose{comparison}}, {table}};
+  added.text = "For comparison\n" + wrapped(comparison, 2, 4) + "\n" +
+               fmt::format("What one more test would add to the limit for {:.6g} %\n", 100 * most) +
+               text_table(rows);
   nlohmann::ordered_json json;
   if (classical.problem.empty()) {
     json["dixon_mood"] = {{"mean", in_unit(classical.mean)},

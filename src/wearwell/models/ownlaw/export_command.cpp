@@ -113,11 +113,11 @@ void add_sql(CLI::App& command, int& exit_code) {
 }  // namespace
 
 void add_export_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "export", "Write a fitted law, or a unit on line, as source of another language");
+  CLI::App* command = app.add_subcommand("export", "Write a fitted law as C or SQL");
   command->require_subcommand(1);
   CLI::App* c = command->add_subcommand(
-      "c", "As C99 without allocation: readings in, wear and remaining life with quantiles out");
+      "c",
+      "As C99 without allocation: readings in, wear and remaining useful life with quantiles out");
   const auto options = std::make_shared<ExportOptions>();
   c->add_option("RESULT", options->result,
                 "folder that wearwell fit wrote of a model \"law\" with a limit")

@@ -38,13 +38,15 @@ StudyKeys slot_keys() {
 
 StudyKeys law_keys() {
   StudyKeys keys = posterior_keys();
+  add_keys(keys, status_keys());
   add_keys(
       keys,
       {{"data.columns.*", "{ column = \"h_um\", unit = \"um\" }",
         "what expressions call `*`; `status`, `lower`, `upper`, `count` and `entry` say how much "
         "is "
         "known of an observation"},
-       status_code_key(),
+       {"data.columns.*.detection_limit", "\"0.05 mm^3\"",
+        "what `<LOD` stands for in its cells: the value lies below"},
        unused_columns_key(),
        {"data.rows_of", "\"machine\"",
         "of several labels that parameters vary with: whose levels are the units"},
@@ -73,7 +75,7 @@ StudyKeys law_keys() {
        {"predict.along", "\"distance\"", "column that is the axis of wear and life"},
        {"predict.at", "[\"10 km\", \"50 km\"]", "measurements to come there"},
        {"predict.units", "[\"3\", \"7\"]",
-        "of these units alone, with measurements to come: what is told at predict.at"},
+        "of these units alone, with measurements to come: reported at predict.at"},
        {"predict.given.*", "\"20 N\"",
         "a condition; what is not named must be the same in all rows"},
        {"predict.limit.*", "\"100 um\"", "when this expression reaches it: lives"},

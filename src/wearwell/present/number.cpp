@@ -1,0 +1,201 @@
+#include "wearwell/present/number.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+
+namespace wearwell {
+namespace {
+
+constexpr const char *narrow_space = "\u202f", *hard_space = "\u00a0";
+constexpr int least_exponent = -3, most_exponent = 6;  // without a power of ten
+constexpr int given_digits = 9;
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+std::string raised(const std::string& digits) {
+  static constexpr const char* shapes[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string out;
+  for (const char c : digits) {
+    if (c == '-') out += "⁻";
+    if (is_digit(c)) out += shapes[c - '0'];
+  }
+  return out;
+}
+
+std::string power_of_ten(int exponent, Script script) {
+  const std::string digits = std::to_string(exponent);
+  return "10" + (script == Script::page ? raised(digits) : "^" + digits);
+}
+
+std::string times_power(int exponent, Script script) {
+  return exponent == 0 ? "" : fmt::format("{0}×{0}{1}", hard_space, power_of_ten(exponent, script));
+}
+
+// Where the number is written with a power of ten, that power.
+int exponent_of(double x) {
+  if (x == 0 || !std::isfinite(x)) return 0;
+  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(x))));
+  return exponent < least_exponent || exponent > most_exponent ? exponent : 0;
+}
+
+// In two steps: the power itself is zero or infinite at the ends of what a double holds.
+double mantissa(double x, int exponent) {
+  return x / std::pow(10.0, exponent / 2) / std::pow(10.0, exponent - exponent / 2);
+}
+
+// Thousands apart; on a page a true minus.
+std::string spaced(std::string text, Script script) {
+  std::string sign;
+  if (text.front() == '-') {
+    text.erase(0, 1);
+    sign = script == Script::page ? "−" : "-";
+  }
+  const std::size_t point = std::min(text.find('.'), text.size());
+  for (std::size_t at = point; at > 3;) text.insert(at -= 3, narrow_space);
+  return sign + text;
+}
+
+std::string plain(double x, int digits, Script script) {
+  if (x == 0) return "0";
+  const int whole = static_cast<int>(std::floor(std::log10(std::abs(x)))) + 1;
+  if (whole < digits) return spaced(fmt::format("{:.{}f}", x, digits - whole), script);
+  const double step = std::pow(10.0, whole - digits);
+  return spaced(fmt::format("{:.0f}", std::round(x / step) * step), script);
+}
+
+std::string not_finite(double x, Script script) {
+  if (script == Script::page) return "–";
+  return std::isnan(x) ? "-" : x > 0 ? "inf" : "-inf";
+}
+
+// Where a number in a text ends, as fmt writes it: "12.5", "1e+06".
+struct Token {
+  std::size_t end = 0;
+  bool has_power = false, is_whole = true;
+};
+Token token_at(const std::string& text, std::size_t begin) {
+  Token token{begin};
+  const auto skip_digits = [&] {
+    while (token.end < text.size() && is_digit(text[token.end])) ++token.end;
+  };
+  skip_digits();
+  if (token.end + 1 < text.size() && text[token.end] == '.' && is_digit(text[token.end + 1])) {
+    ++token.end;
+    token.is_whole = false;
+    skip_digits();
+  }
+  if (token.end + 2 < text.size() && text[token.end] == 'e' &&
+      (text[token.end + 1] == '+' || text[token.end + 1] == '-') && is_digit(text[token.end + 2])) {
+    token.end += 2;
+    token.has_power = true;
+    skip_digits();
+  }
+  return token;
+}
+
+bool belongs_to_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || (c & 0x80) != 0;
+}
+
+std::string in_text(const std::string& text, Script script, bool thousands) {
+  constexpr std::size_t most_together = 4;
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const bool inside = i > 0 && (belongs_to_word(text[i - 1]) || text[i - 1] == '.');
+    if (!is_digit(text[i]) || inside) {
+      out += text[i++];
+      continue;
+    }
+    const Token token = token_at(text, i);
+    const std::string digits = text.substr(i, token.end - i);
+    const bool cut_off =
+        token.end < text.size() && (belongs_to_word(text[token.end]) || text[token.end] == '^');
+    const bool long_one = thousands && token.is_whole && digits.size() > most_together &&
+                          digits.size() <= given_digits && digits.front() != '0';
+    const bool changes = !cut_off && (token.has_power || long_one);
+    out += changes ? given_in_words(std::strtod(digits.c_str(), nullptr), script) : digits;
+    i = token.end;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string number_in_words(double x, int digits, Script script) {
+  if (!std::isfinite(x)) return not_finite(x, script);
+  const int exponent = exponent_of(x);
+  return plain(mantissa(x, exponent), digits, script) + times_power(exponent, script);
+}
+
+std::string given_in_words(double x, Script script) {
+  if (!std::isfinite(x)) return not_finite(x, script);
+  const int exponent = exponent_of(x);
+  const std::string digits = fmt::format("{:.{}g}", mantissa(x, exponent), given_digits);
+  if (exponent != 0 && digits == "1") return power_of_ten(exponent, script);
+  return spaced(digits, script) + times_power(exponent, script);
+}
+
+std::string fixed_in_words(double x, int decimals, Script script) {
+  return std::isfinite(x) ? spaced(fmt::format("{:.{}f}", x, decimals), script)
+                          : not_finite(x, script);
+}
+
+std::string range_in_words(double low, double high, int digits, Script script) {
+  const int exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
+  if (exponent == 0 || !std::isfinite(low) || !std::isfinite(high)) {
+    return number_in_words(low, digits, script) + " to " + number_in_words(high, digits, script);
+  }
+  const int lost =
+      low == 0 ? 0 : exponent - static_cast<int>(std::floor(std::log10(std::abs(low))));
+  return plain(mantissa(low, exponent), std::max(1, digits - std::max(0, lost)), script) + " to " +
+         plain(mantissa(high, exponent), digits, script) + times_power(exponent, script);
+}
+
+std::string unit_in_words(const std::string& unit, Script script) {
+  if (unit == "1") return {};
+  // Multiples, "1e5 cycles".
+  const std::size_t digits = unit.find_first_not_of("0123456789", 2);
+  if (unit.starts_with("1e") && digits != unit.npos && digits > 2) {
+    return fmt::format("×{}{}{}", hard_space,
+                       power_of_ten(std::atoi(unit.substr(2, digits - 2).c_str()), script),
+                       unit_in_words(unit.substr(digits), script));
+  }
+  std::string out;
+  for (const char c : script == Script::page ? powers_raised(unit) : unit)
+    out += c == ' ' ? std::string(hard_space) : std::string(1, c);
+  return out;
+}
+
+std::string powers_raised(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '^') {
+      out += text[i];
+      continue;
+    }
+    const std::size_t end = std::min(text.find_first_not_of("-0123456789", i + 1), text.size());
+    if (end == i + 1) {  // N^b stays as it is
+      out += '^';
+      continue;
+    }
+    out += raised(text.substr(i + 1, end - i - 1));
+    i = end - 1;
+  }
+  return out;
+}
+
+std::string powers_in_words(const std::string& text, Script script) {
+  return in_text(text, script, false);
+}
+
+std::string numbers_in_words(const std::string& text, Script script) {
+  return in_text(text, script, true);
+}
+
+}  // namespace wearwell
