@@ -23,8 +23,10 @@ file = "lives.csv"
 [data.columns]
 life = "life"
 stress = "stress"
+[constants]
+reference = "100 MPa"
 [law]
-median = "scale * (stress/\"100 MPa\")^(-power)"
+median = "scale * (stress/reference)^(-power)"
 [likelihood.life]
 family = "lognormal"
 median = "median"

@@ -223,7 +223,7 @@ class Drawing {
       marks.push_back(plot::arrows({{"x", on_x}, {"y", on_y}, {"life", on_life}}, "triangle-right",
                                    {colour::chains[2], "run-outs", 1, 0, false, 90}));
     }
-    return {
+    html::Figure figure{
         "lives", fmt::format("Life of the next one, by {}", driver_word(law_, data_)),
         std::string(
             "The density of log10 life that the fit predicts under each stress, all drawn to one "
@@ -234,6 +234,8 @@ class Drawing {
                    {life_title(), true, shown(std::pow(10, low)), shown(std::pow(10, high))},
                    {"", false, {}, {}, names}, marks,
                    static_cast<int>(std::max<std::size_t>(220, 48 * n)))};
+    figure.wide = true;  // names of stresses are long
+    return figure;
   }
 
   // Mean against alternating stress of one life; nothing to draw where the mean does not matter.
