@@ -86,10 +86,11 @@
       if (values) opacity.legend.columns = columns(values.map((value) => String(Number(value.toPrecision(3)))));
     }
     const labels = new Set(encodings.map((encoding) => encoding.color?.datum).filter(Boolean));
+    const axis = {...config.axis, labelLimit: width > 700 ? 320 : width > 400 ? 180 : 110};
     const legend = {...config.legend, columns: columns([...labels]),
                     layout: {top: {direction: width > 400 ? 'horizontal' : 'vertical', margin: 4}}};
     await vegaEmbed(plot, specification, {
-      config: {...config, legend},
+      config: {...config, axis, legend},
       renderer: 'svg',
       ast: true,  // expressions are interpreted: the page's policy forbids to make functions of text
       mode: 'vega-lite',

@@ -11,6 +11,7 @@
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/models/fatigue/lives_under.h"
 #include "wearwell/models/fatigue/scatter_range.h"
+#include "wearwell/models/fatigue/sn_exhibits.h"
 #include "wearwell/models/fatigue/sn_result.h"
 #include "wearwell/models/fatigue/standard_fit.h"
 #include "wearwell/present/plain.h"
@@ -142,7 +143,7 @@ Table curves_table(const SnData& data, const std::vector<At>& points, const std:
   return table;
 }
 
-html::Figure curves_figure(const SnData& data, const std::vector<At>& points) {
+html::Figure curves_figure(const SnLaw& law, const SnData& data, const std::vector<At>& points) {
   namespace colour = plot::colour;
   std::vector<double> stress, median;
   for (const At& at : points) {
@@ -181,8 +182,9 @@ html::Figure curves_figure(const SnData& data, const std::vector<At>& points) {
       "The "
       "table has the numbers.",
       plot::plot("Design curves: alternating stress against life", lives,
-                 {fmt::format("Alternating stress [{}]", html::unit(data.stress_unit.text)), true,
-                  *std::min_element(stress.begin(), stress.end()),
+                 {fmt::format("Alternating {} [{}]", driver_word(law, data),
+                              html::unit(data.stress_unit.text)),
+                  true, *std::min_element(stress.begin(), stress.end()),
                   *std::max_element(stress.begin(), stress.end())},
                  marks, 320, true)};
   figure.wide = true;
@@ -358,7 +360,7 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
                       ": 90/90, B-basis (90 % with 95 % confidence), A-basis (99 % with 95 %) and "
                       "97.7 % with 90 % (FKM's probability of survival). " +
                       why + " " + e739}});
-  blocks.push_back({present::Figures{{curves_figure(data, points)}}});
+  blocks.push_back({present::Figures{{curves_figure(law, data, points)}}});
   blocks.push_back({curves_table(data, points, where)});
   added.text += text_of(data, points, where, why, e739);
   added.body["design_curves"] = json_of(law, data, points, standard, why);

@@ -137,7 +137,10 @@ class Drawing {
     add_standards(stresses, marks);
     add_tests(moved, low, high, marks);
     return {
-        "sn-curve", "S-N curve: life against stress",
+        "sn-curve",
+        law_.curve == fatigue::SnCurve::strain_life
+            ? "Strain-life curve"
+            : fmt::format("S-N curve: life against {}", driver_word(law_, data_)),
         fmt::format("{}. The dashed line is the one to design with: nine in ten outlast it, with "
                     "{} confidence. The inner band holds the life that half of all specimens "
                     "outlast, the outer band the life of the next one, with 90 % probability.{} "
@@ -146,8 +149,9 @@ class Drawing {
         plot::plot("Alternating stress against life, with bands and tests",
                    {life_title(), true, from_si(data_.life_unit, shortest_ / 20),
                     from_si(data_.life_unit, longest_ * 20)},
-                   {fmt::format("Alternating stress [{}]", data_.stress_unit.text), true,
-                    in_unit(low), in_unit(high)},
+                   {fmt::format("Alternating {} [{}]", driver_word(law_, data_),
+                                html::unit(data_.stress_unit.text)),
+                    true, in_unit(low), in_unit(high)},
                    marks, 380, true)};
   }
 
@@ -219,8 +223,8 @@ class Drawing {
       marks.push_back(plot::arrows({{"x", on_x}, {"y", on_y}, {"life", on_life}}, "triangle-right",
                                    {colour::chains[2], "run-outs", 1, 0, false, 90}));
     }
-    return {
-        "lives", "Life of the next one, by stress",
+    html::Figure figure{
+        "lives", fmt::format("Life of the next one, by {}", driver_word(law_, data_)),
         std::string(
             "The density of log10 life that the fit predicts under each stress, all drawn to one "
             "scale, with the tests that it rests on. A test left of the short stroke lies below "
@@ -230,6 +234,8 @@ class Drawing {
                    {life_title(), true, shown(std::pow(10, low)), shown(std::pow(10, high))},
                    {"", false, {}, {}, names}, marks,
                    static_cast<int>(std::max<std::size_t>(220, 48 * n)))};
+    figure.wide = true;  // names of stresses are long
+    return figure;
   }
 
   // Mean against alternating stress of one life; nothing to draw where the mean does not matter.
@@ -304,10 +310,12 @@ class Drawing {
                         "they failed before.{}",
                         life_in_words, thinned_),
             plot::plot("Haigh diagram: alternating against mean stress at one life, with the tests",
-                       {fmt::format("Mean stress [{}]", data_.stress_unit.text), false, x.front(),
-                        x.back()},
-                       {fmt::format("Alternating stress [{}]", data_.stress_unit.text), false, 0.0,
-                        in_unit(1.25 * highest)},
+                       {fmt::format("Mean {} [{}]", driver_word(law_, data_),
+                                    html::unit(data_.stress_unit.text)),
+                        false, x.front(), x.back()},
+                       {fmt::format("Alternating {} [{}]", driver_word(law_, data_),
+                                    html::unit(data_.stress_unit.text)),
+                        false, 0.0, in_unit(1.25 * highest)},
                        marks, 340, true)};
   }
 
@@ -415,6 +423,12 @@ class Drawing {
 };
 
 }  // namespace
+
+const char* driver_word(const SnLaw& law, const SnData& data) {
+  if (law.curve == fatigue::SnCurve::strain_life) return "strain";
+  if (data.stress_si == "Pa") return "stress";
+  return data.stress_si == "N" ? "force" : "load";
+}
 
 std::map<std::string, std::vector<html::Figure>> sn_exhibits(const SnLaw& law, const SnData& data,
                                                              const SnPredictions& predictions,

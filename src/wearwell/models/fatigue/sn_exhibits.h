@@ -11,6 +11,9 @@
 
 namespace wearwell {
 
+/// What drives the lives, for axes: "stress", "strain", "force" or "load".
+const char* driver_word(const fatigue::SnLaw& law, const SnData& data);
+
 /// The S-N curve with its bands, the lives of each stress with its tests (Fig. 8 of Heo et al.
 /// 2011), and the Haigh diagram of one life.
 std::map<std::string, std::vector<html::Figure>> sn_exhibits(const fatigue::SnLaw& law,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "wearwell/base/error.h"
@@ -15,7 +16,9 @@
 #include "wearwell/models/fatigue/sn_parameters.h"
 #include "wearwell/models/fatigue/staircase.h"
 #include "wearwell/present/plain.h"
+#include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/plot_study.h"
 
 namespace wearwell {
 namespace {
@@ -166,6 +169,61 @@ std::vector<NextTest> next_tests(const StairData& data, const WeightedDraws& dra
   return tests;
 }
 
+// The probability to fail against stress, with the share of the tests that failed at each.
+html::Figure failure_figure(const StairData& data, const WeightedDraws& all) {
+  namespace colour = plot::colour;
+  constexpr Eigen::Index most_draws = 4000;
+  constexpr int points = 60;
+  const WeightedDraws draws = thinned(all, most_draws);
+  std::map<double, std::pair<double, double>> levels;  // stress: tests, failures
+  for (const StairTest& test : data.tests) {
+    levels[test.stress].first += test.count;
+    levels[test.stress].second += test.failed ? test.count : 0;
+  }
+  const double most = *std::max_element(data.reliabilities.begin(), data.reliabilities.end());
+  const Distribution limit(draws, [&](const double* x) { return log10_limit(data, x, most); });
+  const double bound = std::pow(10, limit.quantile(1 - data.credible_level));
+  const double low =
+      std::min(0.95 * levels.begin()->first, std::max(bound, 0.5 * levels.begin()->first) / 1.03);
+  const double high = 1.05 * levels.rbegin()->first;
+  std::vector<double> x, low_share, middle, high_share, at, share, tests;
+  for (int i = 0; i <= points; ++i) {
+    const double stress = std::lerp(low, high, static_cast<double>(i) / points);
+    const Distribution fails(draws, [&](const double* p) {
+      return cdf(data.limit, (std::log10(stress) - p[0]) / p[1]);
+    });
+    x.push_back(from_si(data.unit, stress));
+    low_share.push_back(100 * fails.quantile(0.05));
+    middle.push_back(100 * fails.quantile(0.5));
+    high_share.push_back(100 * fails.quantile(0.95));
+  }
+  for (const auto& [stress, counts] : levels) {
+    at.push_back(from_si(data.unit, stress));
+    share.push_back(100 * counts.second / counts.first);
+    tests.push_back(counts.first);
+  }
+  const std::string unit = html::unit(data.unit.text);
+  const std::string bound_name = fmt::format("{:.6g} % survive, at least with {:.6g} %", 100 * most,
+                                             100 * data.credible_level);
+  return {
+      "failure-probability", "Probability to fail against stress",
+      "The line is the posterior median, the band holds 90 %. Points are the shares of the tests "
+      "that failed under each stress.",
+      plot::plot("Probability to fail against alternating stress, with the shares of the tests",
+                 {"Alternating stress" + (unit.empty() ? "" : " [" + unit + "]"), false, x.front(),
+                  x.back()},
+                 {"Fails [%]", false, 0.0, 100.0},
+                 {plot::area({{"x", x}, {"y", high_share}, {"y2", low_share}},
+                             {colour::posterior, "90 % of the probability", 0.28}),
+                  plot::line({{"x", x}, {"y", middle}, {"stress", x}, {"fails [%]", middle}},
+                             {colour::posterior, "median", 1, 2}),
+                  plot::vertical_line(from_si(data.unit, bound),
+                                      {colour::limit, bound_name, 1, 1.5, true}),
+                  plot::points({{"x", at}, {"y", share}, {"failed [%]", share}, {"tests", tests}},
+                               {colour::measured, "share that failed", 1, 0, false, 70})},
+                 320, true)};
+}
+
 TradeAddition addition(const StairData& data, const WeightedDraws& draws) {
   TradeAddition added;
   const auto in_unit = [&](double si) { return from_si(data.unit, si); };
@@ -271,6 +329,10 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
         data.limit, {data.tests.begin(), data.tests.begin() + static_cast<std::ptrdiff_t>(rows)});
   };
   add_limits(data, study);
+  study.exhibits = [=](const Fit& fit) {
+    return std::map<std::string, std::vector<html::Figure>>{
+        {"verdict", {failure_figure(data, fit.exact ? fit.exact->nodes : fit.pooled)}}};
+  };
   study.addition = [=](const Fit& fit) {
     return addition(data, fit.exact ? fit.exact->nodes : fit.pooled);
   };
