@@ -51,7 +51,7 @@ void add_exhibits(Section& section, const Plots& plots) {
 
 void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) {
   const Life& life = summary.best();
-  tiles.push_back({"Life B10", life_in_words(life.b10, summary.unit), summary.unit,
+  tiles.push_back({"Life B10", life_in_words(life.b10, summary.unit), unit(summary.unit),
                    fmt::format("one in ten reaches {} earlier",
                                given_with_unit(summary.limit, summary.limit_unit))});
   if (summary.passed_beyond_risk()) {
@@ -60,7 +60,7 @@ void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) 
                                  given(100 * summary.risk))});
   }
   tiles.push_back({summary.now > 0 ? "Inspect again within" : "Inspect within",
-                   life_in_words(life.inspect_within, summary.unit), summary.unit,
+                   life_in_words(life.inspect_within, summary.unit), unit(summary.unit),
                    fmt::format("{}; {} % risk of reaching the limit before",
                                summary.now > 0 ? fmt::format("after {}, unless the limit is passed",
                                                              given(summary.now))

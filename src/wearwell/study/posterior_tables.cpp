@@ -333,7 +333,7 @@ Table loo_table(const LooSummary& summary) {
     const LooTerm& term = loo.terms[i];
     table.rows.push_back({count(i + 1), static_cast<double>(term.count), term.elpd, term.lpd,
                           std::isinf(term.khat) && term.khat < 0 ? Cell() : Cell(term.khat),
-                          term.refitted        ? "fitted anew"
+                          term.refitted        ? "refitted"
                           : loo.doubtful(term) ? "Pareto k too large"
                                                : ""});
   }

@@ -152,7 +152,7 @@ html::Figure damage_figure(const LoadLifeReport& report) {
   const auto in_unit = [&](double si) { return from_si(report.result.stress_unit, si); };
   return {"damage", "Where the damage comes from",
           "Share of the damage by amplitude; the two lines are the smallest and the largest "
-          "amplitude that was tested: outside, the curve is drawn beyond its tests.",
+          "amplitude that was tested: outside, the curve rests on the model.",
           plot::plot("Share of the damage by amplitude",
                      {fmt::format("Amplitude [{}]", html::unit(report.result.stress_unit.text))},
                      {"Damage [%]", false, 0.0},
@@ -192,7 +192,7 @@ std::vector<Check> load_life_checks(const LoadLifeReport& report) {
         fmt::format("{} of the damage is {}", percent(share), what),
         share < worth_a_warning
             ? ""
-            : "There the curve is drawn beyond its tests. Test there, or see how much "
+            : "There the answer rests on the model, not on tests. Test there, or see how much "
               "another rule (--rule) changes.");
   };
   const std::string amplitudes = span(tested.alternating_low, tested.alternating_high);
