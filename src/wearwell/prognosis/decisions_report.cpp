@@ -29,8 +29,8 @@ std::string costs_in_words(const DecisionsReport& report) {
   if (question.inspected || question.hidden)
     text += fmt::format(", an inspection {}", shown.money(question.costs.inspection));
   if (question.hidden)
-    text += fmt::format(", and a failure not yet seen {:.6g} {}", shown.rate(*question.hidden),
-                        shown.rate_unit());
+    text += fmt::format(", and a failure not yet seen {} {}",
+                        plain_given(shown.rate(*question.hidden)), shown.rate_unit());
   return text;
 }
 

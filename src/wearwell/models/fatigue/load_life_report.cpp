@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/present/number.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
@@ -33,7 +34,7 @@ std::string rule_in_words(const LoadLifeReport& report) {
                   report.result.law.limit     ? "no damage below each item's own fatigue limit"
                   : report.result.law.bends() ? "by the study's own curve"
                                               : words[static_cast<int>(rule.miner)]);
-  if (rule.knee.life) text += fmt::format("; knee at {:.6g} cycles", *rule.knee.life);
+  if (rule.knee.life) text += fmt::format("; knee at {} cycles", plain_given(*rule.knee.life));
   if (rule.knee.stress)
     text +=
         fmt::format("; knee at {:.6g} {}", from_si(report.result.stress_unit, *rule.knee.stress),
@@ -219,10 +220,11 @@ std::vector<Check> load_life_checks(const LoadLifeReport& report) {
 
 std::string load_life_text(const LoadLifeReport& report) {
   const LoadLife& life = report.life;
-  std::string text = wrapped(printable(report.result.title), 0, 2) +
-                     wrapped(printable(report.result.equation), 2, 4) +
-                     wrapped(printable(block_in_words(report)), 2, 4) +
-                     wrapped(printable(rule_in_words(report)), 2, 4);
+  std::string text =
+      wrapped(printable(report.result.title), 0, 2) +
+      wrapped(printable(powers_in_words(report.result.equation, Script::terminal)), 2, 4) +
+      wrapped(printable(block_in_words(report)), 2, 4) +
+      wrapped(printable(rule_in_words(report)), 2, 4);
   std::vector<std::vector<std::string>> rows = {
       {"", fmt::format("at least, {:.4g} %", 100 * report.question.confidence), "5 %", "50 %",
        "95 %", "next one"}};
