@@ -69,6 +69,11 @@ std::string plain(double x, int digits, Script script) {
   return spaced(fmt::format("{:.0f}", std::round(x / step) * step), script);
 }
 
+// 9.9996 to four digits is 10.00, not 10.000.
+double rounded(double x, int digits) {
+  return std::isfinite(x) ? std::strtod(fmt::format("{:.{}e}", x, digits - 1).c_str(), nullptr) : x;
+}
+
 std::string not_finite(double x, Script script) {
   if (script == Script::page) return "–";
   return std::isnan(x) ? "-" : x > 0 ? "inf" : "-inf";
@@ -129,6 +134,7 @@ std::string in_text(const std::string& text, Script script, bool thousands) {
 
 std::string number_in_words(double x, int digits, Script script) {
   if (!std::isfinite(x)) return not_finite(x, script);
+  x = rounded(x, digits);
   const int exponent = exponent_of(x);
   return plain(mantissa(x, exponent), digits, script) + times_power(exponent, script);
 }
@@ -147,6 +153,7 @@ std::string fixed_in_words(double x, int decimals, Script script) {
 }
 
 std::string range_in_words(double low, double high, int digits, Script script) {
+  low = rounded(low, digits), high = rounded(high, digits);
   const int exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
   if (exponent == 0 || !std::isfinite(low) || !std::isfinite(high)) {
     return number_in_words(low, digits, script) + " to " + number_in_words(high, digits, script);
