@@ -61,17 +61,18 @@ std::string spaced(std::string text, Script script) {
   return sign + text;
 }
 
+// 9.9996 to four digits is 10.00, not 10.000.
+double rounded(double x, int digits) {
+  return std::isfinite(x) ? std::strtod(fmt::format("{:.{}e}", x, digits - 1).c_str(), nullptr) : x;
+}
+
 std::string plain(double x, int digits, Script script) {
   if (x == 0) return "0";
+  x = rounded(x, digits);
   const int whole = static_cast<int>(std::floor(std::log10(std::abs(x)))) + 1;
   if (whole < digits) return spaced(fmt::format("{:.{}f}", x, digits - whole), script);
   const double step = std::pow(10.0, whole - digits);
   return spaced(fmt::format("{:.0f}", std::round(x / step) * step), script);
-}
-
-// 9.9996 to four digits is 10.00, not 10.000.
-double rounded(double x, int digits) {
-  return std::isfinite(x) ? std::strtod(fmt::format("{:.{}e}", x, digits - 1).c_str(), nullptr) : x;
 }
 
 std::string not_finite(double x, Script script) {
