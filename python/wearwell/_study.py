@@ -71,12 +71,12 @@ def _status(status, columns, headings):
         raise InputError(f"status: data has no column '{heading}' (columns: {', '.join(map(str, headings))}); it is like 'event' or "
                          "{'column': 'event', 'failure': 1}")
     entry["column"] = heading
-    return heading, entry if "failure" in entry else heading
+    return heading, entry if len(entry) > 1 else heading
 
 
 def _in_python(message):
     """What a message says of keys of a study file, as arguments of Study."""
-    message = re.sub(r'status = \{ column = ("[^"]*"), failure = (\d) \}', r'status={"column": \1, "failure": \2}', message)
+    message = re.sub(r'status = \{ column = ("[^"]*"), failure = (\d|"[^"]*") \}', r'status={"column": \1, "failure": \2}', message)
     message = re.sub(r'status = ("[^"]*")', r"status=\1", message)
     return re.sub(r"unused = (\[[^\]]*\]) under \[data\]", r"unused=\1", message)
 
@@ -128,7 +128,8 @@ class Study:
     family, scatter: how what is measured scatters about the law: "normal" with the parameter sigma, ...; or
     ``likelihood``: tables as [likelihood.NAME] of docs/law-study.md. constants, predict, sampler: as there.
     status: the column that says how each life ended, "event" or {"column": "event", "failure": 1} where it holds codes and its
-    heading does not tell what a failure is written as; by default the column "status", if there is one. unused: columns that look
+    heading does not tell what a failure is written as, or {"column": "end", "failure": "broke", "runout": ["ran", "stopped"]} with
+    words of the table; by default the column "status", if there is one. unused: columns that look
     like that and say something else.
 
     Raises InputError (a ValueError) in the words of the command line. Nothing is fitted yet.

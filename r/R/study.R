@@ -114,7 +114,8 @@ status_entry <- function(status, columns, headings) {
     stop_input("status: data has no column '", words(entry$column), "' (columns: ", words(headings), "); it is like \"event\" or ",
                "list(column = \"event\", failure = 1)")
   }
-  if (is.null(entry$failure)) entry$column else list(column = entry$column, failure = as.integer(entry$failure))
+  if (is.numeric(entry$failure)) entry$failure <- as.integer(entry$failure)
+  if (length(entry) > 1) entry else entry$column
 }
 
 # A column of a few numbers or words again and again.
@@ -125,7 +126,7 @@ has_few_kinds <- function(column) {
 
 # What a message says of keys of a study file, as arguments of ww_study().
 in_r <- function(message) {
-  message <- gsub("status = \\{ column = (\"[^\"]*\"), failure = ([0-9]) \\}", "status = list(column = \\1, failure = \\2)", message)
+  message <- gsub("status = \\{ column = (\"[^\"]*\"), failure = ([0-9]|\"[^\"]*\") \\}", "status = list(column = \\1, failure = \\2)", message)
   gsub("unused = \\[([^]]*)\\] under \\[data\\]", "unused = \\1", message)
 }
 

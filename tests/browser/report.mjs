@@ -1,6 +1,6 @@
 // Opens reports in headless Chromium and refuses what a reader would stumble over: an error on the console, a request to
-// the network, a plot without marks, a text of a plot that is cut off or covered, a violation of WCAG AA, a page wider
-// than the screen.
+// the network, a plot without marks, a text of a plot that is cut off or covered, a table that is cut off or has a column
+// without content, a violation of WCAG AA, a page wider than the screen, something folded on paper.
 //
 //   node report.mjs NODE_MODULES SCREENSHOTS LEAST_PLOTS REPORT.html...
 import {createRequire} from 'node:module';
@@ -43,6 +43,51 @@ function plotFaults(page) {
     if (document.documentElement.scrollWidth > innerWidth) wrong.push('the page is wider than the screen');
     return wrong;
   }, Number(least));
+}
+
+// Tables that a reader of a wide screen has to scroll, folded ones too; columns without content; numbers on axes as programs
+// write them.
+function tableFaults(page, wide) {
+  return page.evaluate((isWide) => {
+    const wrong = [];
+    const folded = [...document.querySelectorAll('main details:not([open])')].filter((each) => !each.closest('.plot'));
+    folded.forEach((each) => each.open = true);
+    for (const box of document.querySelectorAll('.scroll')) {
+      const name = box.getAttribute('aria-label');
+      if (isWide && box.scrollWidth > box.clientWidth) wrong.push(`table "${name}" is cut: ${box.scrollWidth} of ${box.clientWidth} pixels`);
+      const rows = [...box.querySelectorAll('tbody tr')];
+      box.querySelectorAll('thead th').forEach((heading, column) => {
+        if (column > 0 && rows.length > 0 && rows.every((row) => ['', '–'].includes(row.children[column].textContent.trim())))
+          wrong.push(`table "${name}": column "${heading.textContent}" is empty`);
+      });
+      if (rows.length > 12 && !box.querySelector('table.words') && !box.closest('details')) wrong.push(`table "${name}": ${rows.length} rows are not folded`);
+    }
+    folded.forEach((each) => each.open = false);
+    for (const label of document.querySelectorAll('figure .role-axis-label text')) {
+      if (/\de[+−-]?\d|\d[kMGµ]$|NaN|undefined|Infinity/.test(label.textContent)) wrong.push(`plot ${label.closest('figure').id}: "${label.textContent}" on an axis`);
+    }
+    return wrong;
+  }, wide);
+}
+
+// On paper: what is folded is open, and nothing is wider than the page.
+async function printFaults(page) {
+  const size = page.viewportSize();
+  await page.emulateMedia({media: 'print'});
+  await page.setViewportSize({width: 690, height: 1000});  // A4 less its margins
+  const wrong = await page.evaluate(() => {
+    const wrong = [];
+    dispatchEvent(new Event('beforeprint'));
+    if ([...document.querySelectorAll('main details')].some((each) => !each.closest('.plot') && !each.open))
+      wrong.push('on paper something stays folded');
+    for (const ground of [document.body, document.querySelector('section')]) {
+      if (!['rgb(255, 255, 255)', 'rgba(0, 0, 0, 0)'].includes(getComputedStyle(ground).backgroundColor)) wrong.push('on paper the ground is not white');
+    }
+    return wrong;
+  });
+  await page.emulateMedia({media: null});
+  await page.setViewportSize(size);
+  return wrong;
 }
 
 async function accessibilityFaults(page) {
@@ -91,6 +136,7 @@ try {
       const page = await open(context, report, complaints);
       complaints.push(...await plotFaults(page));
       complaints.push(...await boxFaults(page));
+      complaints.push(...await tableFaults(page, options.viewport.width >= 1280));
       await page.screenshot({path: join(screenshots, `${name}.png`), fullPage: true});
       // What is seen first; docs/images/joint-report.png is the one of joint/study.
       if (view === 'wide')
@@ -98,6 +144,7 @@ try {
                                fullPage: true});
       if (view === 'wide') await page.pdf({path: join(screenshots, `${name}.pdf`), format: 'A4'});
       complaints.push(...await accessibilityFaults(page));
+      complaints.push(...await printFaults(page));
       await page.close();
       for (const complaint of complaints) console.log(`${name}: ${complaint}`);
       console.log(`${name}: ${complaints.length ? 'FAILED' : 'passed'}`);

@@ -31,6 +31,16 @@ TEST(Plot, AnyNameIsOneColumn) {
   EXPECT_EQ(layer["encoding"]["tooltip"][0]["field"], "N m    2  u2028");
 }
 
+TEST(Plot, TicksMayHaveNamesOfTheirOwn) {
+  Axis y{"Share [%]", false, -3.0, 1.0};
+  y.ticks = {{-2.25, "10"}, {-0.37, "50"}};
+  const Json spec = plot("", {"x"}, y, {line({{"x", {1}}, {"y", {-1}}}, {"#123456"})});
+  const Json& axis = spec["layer"][0]["encoding"]["y"]["axis"];
+  EXPECT_THAT(axis["values"], ElementsAre(-2.25, -0.37));
+  EXPECT_EQ(axis["labelExpr"],
+            R"(abs(datum.value-(-2.25))<1e-9?"10":abs(datum.value-(-0.37))<1e-9?"50":'')");
+}
+
 // A plot without marks is no Vega-Lite; an end that is not finite is none of JSON's numbers.
 TEST(Plot, NothingToDrawIsSaid) {
   const Json spec = plot("Hazard", {"x", false, NAN, INFINITY}, {"y"}, {}, 280, true);

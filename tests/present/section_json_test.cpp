@@ -20,7 +20,8 @@ std::vector<Section> sample() {
   section.add(Callout{"warn", "Careful.", "why"});
   section.add(Tiles{{{"Life", "3", "h", "note"}}});
   section.add(Facts{{{"Seed", "1"}}});
-  section.add(Figures{{{"f", "Figure", "caption", {{"layer", Json::array()}}}}});
+  section.add(Figures{{{"f", "Figure", "caption", {{"layer", Json::array()}}},
+                       {"p", "Panel", "caption", {{"layer", Json::array()}}, "Panels", true}}});
   Table table{"t", "Table", {{"x", "mm"}, {"y", "1", fixed(2), true}, {"z"}}};
   table.rows = {{1.5, Range{0, INFINITY}, "word"}, {std::nan(""), Cell(), Badge{"fail", "Failed"}}};
   section.add(Details{"more", {{table}, {Verbatim{"lines"}}}});

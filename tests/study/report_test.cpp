@@ -110,6 +110,15 @@ TEST(Report, TrustIsAWord) {
                         "convergence failed. Draw more."));
 }
 
+// What is asked stands in a picture before any table.
+TEST(Report, ThePictureThatAnswersComesFirst) {
+  const std::string page = html_report(result_of(Verdict::pass));
+  const std::size_t picture = page.find("<figure id=\"history\"");
+  ASSERT_NE(picture, std::string::npos);
+  EXPECT_LT(picture, page.find("<table"));
+  EXPECT_LT(picture, page.find("<section id=\"predictions\""));
+}
+
 TEST(Report, NamesAreTextAndNotMarkup) {
   const std::string page = html_report(result_of(Verdict::pass));
   EXPECT_EQ(page.find("<img src=x"), std::string::npos);

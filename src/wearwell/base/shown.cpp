@@ -11,7 +11,7 @@ namespace wearwell {
 namespace {
 
 constexpr std::size_t longest_value = 120, longest_word = 400, longest_message = 2400,
-                      longest_excerpt = 400;
+                      longest_excerpt = 1500;
 constexpr std::size_t kept = 60;  // of what is cut, at its start
 
 /// The start of `text`, whole characters.
@@ -56,19 +56,22 @@ std::string on_one_line(std::string text) {
   return fmt::format("{}... ({} characters)", start_of(clean, longest_message), clean.size());
 }
 
-/// Where a message ends with a line of what it speaks of and a caret below the place, both indented
-/// by four spaces, so that neither can pass for a message; npos where it does not.
+/// Where a message ends with lines of what it speaks of, the second of them a caret below the place; all
+/// are indented by four spaces, so that none can pass for a message. npos where it does not.
 std::size_t excerpt_in(std::string_view text) {
   constexpr std::string_view indent = "\n    ";
-  const std::size_t caret = text.rfind('\n');
-  if (caret == text.npos || caret == 0 || !text.ends_with('^')) return text.npos;
-  const std::size_t line = text.rfind('\n', caret - 1);
-  if (line == text.npos || text.size() - line > longest_excerpt) return text.npos;
-  const std::string_view below = text.substr(caret + 1, text.size() - caret - 2);
-  const bool indented = text.substr(line).starts_with(indent) &&
-                        text.substr(caret).starts_with(indent) &&
-                        below.find_first_not_of(' ') == below.npos;
-  return indented ? line : text.npos;
+  std::size_t begin = text.npos, caret = text.npos;
+  for (std::size_t end = text.size(); end > 0;) {
+    const std::size_t line = text.rfind('\n', end - 1);
+    if (line == text.npos || !text.substr(line).starts_with(indent)) break;
+    caret = begin;
+    begin = end = line;
+  }
+  if (begin == text.npos || caret == text.npos || text.size() - begin > longest_excerpt)
+    return text.npos;
+  const std::string_view below = text.substr(caret + 1, text.find('\n', caret + 1) - caret - 1);
+  const bool points = below.ends_with('^') && below.find_first_not_of(' ') == below.size() - 1;
+  return points ? begin : text.npos;
 }
 
 }  // namespace

@@ -25,15 +25,16 @@ using UtUnit = std::unique_ptr<ut_unit, Free>;
 // UDUNITS-2 takes a cycle for 2 pi radians, and its hertz for 1/s.
 constexpr std::array counts = {"cycle",  "revolution", "rotation", "turn",
                                "stroke", "closing",    "rev",      "count"};
-// r/min (IEC 60050), U/min and Lastwechsel (German), tr/min (French)
-constexpr std::array count_symbols = {"r",  "U",           "Umdr", "Umdrehung", "Umdrehungen",
-                                      "LW", "Lastwechsel", "tr",   "cyc"};
+// r/min (IEC 60050), U/min and Lastwechsel (German), tr/min (French), ciclos (Spanish)
+constexpr std::array count_symbols = {
+    "r",   "U",      "Umdr",   "Umdrehung", "Umdrehungen", "LW",    "Lastwechsel", "tr",
+    "cyc", "Zyklus", "Zyklen", "Hub",       "Huebe",       "tours", "ciclo",       "ciclos"};
 
 struct Name {
   const char* symbol;
   const char* meaning;
 };
-constexpr std::array<Name, 29> ours = {{{"reversal", "0.5 cycle"},
+constexpr std::array<Name, 42> ours = {{{"reversal", "0.5 cycle"},
                                         {"reversals", "0.5 cycle"},
                                         {"hertz", "cycle/s"},
                                         {"Hz", "cycle/s"},
@@ -51,6 +52,19 @@ constexpr std::array<Name, 29> ours = {{{"reversal", "0.5 cycle"},
                                         {"kp", "kgf"},
                                         {"deg", "arc_degree"},
                                         {"hrs", "h"},
+                                        {"Std", "h"},
+                                        {"Stunde", "h"},
+                                        {"Stunden", "h"},
+                                        {"heures", "h"},
+                                        {"horas", "h"},
+                                        {"Minuten", "min"},
+                                        {"minutos", "min"},
+                                        {"Sekunden", "s"},
+                                        {"Sek", "s"},
+                                        {"Tage", "d"},
+                                        {"Tag", "d"},
+                                        {"jours", "d"},
+                                        {"dias", "d"},
                                         {"mins", "min"},
                                         {"thou", "0.001 inch"},
                                         {"mil", "0.001 inch"},

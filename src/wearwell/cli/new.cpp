@@ -5,13 +5,23 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/cli/first_selection.h"
+#include "wearwell/cli/table_question.h"
+#include "wearwell/input/option_value.h"
+#include "wearwell/input/workbook.h"
 #include "wearwell/present/text_table.h"
+#include "wearwell/study/column_roles.h"
 #include "wearwell/study/example.h"
 
 namespace wearwell {
@@ -22,7 +32,31 @@ namespace fs = std::filesystem;
 struct NewOptions {
   std::string trade;
   fs::path folder, from;
+  std::vector<std::string> columns;
+  std::optional<int> failure;
+  std::string limit;
+  std::map<std::string, std::string> table;  ///< of [data]: how the file holds the table
 };
+
+// Keys of [data] that are options while there is no study.
+constexpr std::pair<const char*, const char*> table_keys[] = {
+    {"sheet", "Sheet of a workbook: its name or number"},
+    {"range", "Part of a sheet: B4:G22"},
+    {"header_row", "Line of the headings, from 1"},
+    {"units_row", "Whether units stand below the headings: below or none"},
+    {"decimal", "Decimal mark: . or ,"},
+    {"thousands", "Mark for thousands, or none"},
+    {"delimiter", "What separates the columns"},
+    {"encoding", "utf-8, utf-16 or cp1252"},
+    {"comment", "With what lines begin that are left out"}};
+
+std::string option_of(const std::string& key) {
+  std::string option = "--" + key;
+  std::replace(option.begin(), option.end(), '_', '-');
+  return option;
+}
+
+constexpr const char* selection = "select";  // what is no study, but a command of its own
 
 const Model& model_of(Models models, const std::string& trade) {
   const auto found = std::find_if(models.begin(), models.end(),
@@ -34,68 +68,249 @@ const Model& model_of(Models models, const std::string& trade) {
                                fmt::join(trades, ", "), did_you_mean(trade, trades)));
 }
 
-// The trade that the headings are of: the one that was named, or the only one.
-FirstStudy guessed(const NewOptions& options, Models models, const Table& table) {
-  const std::string file = options.from.filename().string();
+// One way to read the table.
+struct Candidate {
+  std::string trade;
+  FirstStudy study;
+};
+
+std::string settings_text(const NewOptions& options) {
+  std::string text;
+  for (const auto& [key, value] : options.table)
+    text += fmt::format("{} = {}\n", key, key == "header_row" ? value : toml_text(value));
+  return text;
+}
+
+// The command that was given, with these options more.
+std::string command(const NewOptions& options, const std::vector<std::string>& more = {}) {
+  std::string text = "wearwell new";
+  const auto add = [&](const std::string& word) { text += " " + shell_word(word); };
+  if (!options.trade.empty()) add(options.trade);
+  if (!options.folder.empty()) add(options.folder.string());
+  text += " --from";
+  add(options.from.string());
+  for (const auto& [key, value] : options.table) {
+    add(option_of(key));
+    add(value);
+  }
+  for (const std::string& each : options.columns) {
+    add("--column");
+    add(each);
+  }
+  if (options.failure) text += fmt::format(" --failure {}", *options.failure);
+  if (!options.limit.empty()) {
+    add("--limit");
+    add(options.limit);
+  }
+  for (const std::string& each : more) add(each);
+  return text;
+}
+
+// Takes the options of a reading as if they had been given.
+void choose(NewOptions& options, const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
+    if (words[i] == "--column") options.columns.push_back(words[i + 1]);
+    if (words[i] == "--failure") options.failure = std::stoi(words[i + 1]);
+    if (words[i] == "--sheet") options.table["sheet"] = words[i + 1];
+    if (words[i] == "TRADE") options.trade = words[i + 1];
+  }
+}
+
+// A question that nobody is there to answer.
+struct Unanswered {
+  std::string text;
+};
+
+void ask(NewOptions& options, const TableQuestion& question) {
+  if (is_somebody_there()) {
+    choose(options, question.readings[read_choice(question)].options);
+    return;
+  }
+  std::vector<std::string> commands;
+  for (const TableReading& each : question.readings) {
+    NewOptions chosen = options;
+    choose(chosen, each.options);
+    commands.push_back(command(chosen));
+  }
+  throw Unanswered{as_refusal(question, commands)};
+}
+
+// The table; nothing where it was asked which sheet, and the answer is in `options`.
+std::optional<Table> read_from(NewOptions& options) {
+  const std::string settings = settings_text(options);
+  try {
+    if (settings.empty()) return read_table(options.from);
+    return read_table(options.from, {}, {},
+                      read_table_settings(TomlReader::parse({"options of the table", settings})));
+  } catch (const SeveralSheets& several) {
+    TableQuestion question{fmt::format("{} has several sheets.", options.from.filename().string()),
+                           {}};
+    for (const std::string& each : several.names)
+      question.readings.push_back({fmt::format("sheet '{}'", each), {"--sheet", each}});
+    ask(options, question);
+    return {};
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.find("[data]") == message.npos) throw;
+    std::vector<std::string> names;
+    for (const auto& [key, help] : table_keys) names.push_back(option_of(key));
+    throw InputError(
+        fmt::format("{}. Before there is a study, keys of [data] are options of wearwell new: {}",
+                    message, fmt::join(names, ", ")));
+  }
+}
+
+TableChoices choices_of(const NewOptions& options, const Table& table) {
+  TableChoices choices;
+  choices.failure = options.failure;
+  choices.limit = options.limit;
+  choices.settings = settings_text(options);
+  if (!options.limit.empty() && !std::isdigit(static_cast<unsigned char>(options.limit.front())))
+    throw InputError(fmt::format("--limit: '{}' is no quantity, as in '100 um'", options.limit));
+  for (const std::string& each : options.columns) {
+    const std::size_t at = each.find('=');
+    if (at == each.npos)
+      throw InputError(
+          fmt::format("--column: '{}' is not ROLE=HEADING, as in depth='wear [um]'", each));
+    const std::string role = each.substr(0, at), heading = each.substr(at + 1);
+    try {
+      if (!heading.empty()) static_cast<void>(table.column(heading));
+      if (role == "unused") {
+        choices.unused.push_back(heading);
+        continue;
+      }
+      static_cast<void>(role_form(role));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("--column {}: {}", each, error.what()));
+    }
+    choices.columns[role] = heading;
+  }
+  return choices;
+}
+
+std::vector<Candidate> candidates(const NewOptions& options, Models models, const Table& table,
+                                  const TableChoices& choices) {
+  std::vector<Candidate> found;
+  const auto add = [&](std::string_view trade, std::optional<FirstStudy> (*first)(ColumnRoles&)) {
+    if (!first || (!options.trade.empty() && trade != options.trade)) return;
+    ColumnRoles roles(table, options.from.filename().string(), choices, !options.trade.empty());
+    auto study = first(roles);
+    if (study && study->fit != ReadingFit::none)
+      found.push_back({std::string(trade), std::move(*study)});
+  };
+  for (const Model& model : models) add(model.trade, model.first_study);
+  add(selection, first_selection);
+  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.study.fit > b.study.fit;
+  });
+  return found;
+}
+
+[[noreturn]] void refuse_all(const NewOptions& options, const Table& table) {
   std::vector<std::string> headings;
   for (const Column& column : table.columns) headings.push_back(column.name);
-  std::optional<FirstStudy> study;
-  std::string first;
-  for (const Model& model : models) {
-    if (!model.first_study || (!options.trade.empty() && model.trade != options.trade)) continue;
-    auto found = model.first_study(table, file);
-    if (!found) continue;
-    if (study) {
-      throw InputError(
-          fmt::format("{} may be a table for {} or {}; say which: wearwell new {} {} "
-                      "--from {}",
-                      file, first, model.trade, first, options.folder.string(), file));
+  const std::string file = options.from.filename().string();
+  throw InputError(fmt::format(
+      "{}: no study{} follows from its headings ({}){}. Wanted are lives (life, cycles to failure, "
+      "or hours with a status), "
+      "something measured (wear, volume, mass, crack) along cycles, time or distance, stresses and "
+      "lives, or a "
+      "response with inputs. Say what a column is, as in wearwell new --from {} --column life={}, "
+      "or "
+      "start from an example: wearwell new TRADE DIR",
+      file, options.trade.empty() ? "" : " of a " + options.trade, fmt::join(headings, ", "),
+      options.columns.empty() ? ""
+                              : fmt::format(" with --column {}", fmt::join(options.columns, ", ")),
+      shell_word(file), shell_word(headings.front())));
+}
+
+// The one reading that fits best; nothing where a question was asked, and the answer is in `options`.
+std::optional<std::vector<Candidate>> chosen(NewOptions& options, Models models,
+                                             const Table& table) {
+  const TableChoices choices = choices_of(options, table);
+  std::vector<Candidate> found = candidates(options, models, table, choices);
+  if (found.empty()) refuse_all(options, table);
+  const auto best = std::count_if(found.begin(), found.end(), [&](const Candidate& each) {
+    return each.study.fit == found.front().study.fit;
+  });
+  if (best > 1) {
+    TableQuestion question{
+        fmt::format("{} can be read in several ways.", options.from.filename().string()), {}};
+    for (const Candidate& each : found) {
+      question.readings.push_back(
+          {fmt::format("{}: {}", each.trade, each.study.reading), {"TRADE", each.trade}});
     }
-    study = std::move(found);
-    first = model.trade;
+    ask(options, question);
+    return {};
   }
-  if (!study) {
-    throw InputError(fmt::format(
-        "{}: no study follows from its headings ({}). Wanted are worn volumes and cycles (joint), "
-        "wear depths and revolutions (bearing), or stresses and lives (fatigue); rename them, or "
-        "start "
-        "from an example: wearwell new TRADE DIR",
-        file, fmt::join(headings, ", ")));
+  if (!found.front().study.questions.empty()) {
+    ask(options, found.front().study.questions.front());
+    return {};
   }
-  return *study;
+  return found;
+}
+
+std::string listed(const char* title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string text = fmt::format("{}:\n", title);
+  for (const std::string& each : lines) text += wrapped(each, 2, 4);
+  return text;
+}
+
+std::string in_words(const NewOptions& options, const std::vector<Candidate>& found) {
+  const FirstStudy& first = found.front().study;
+  std::vector<std::string> others;
+  for (std::size_t i = 1; i < found.size(); ++i) {
+    NewOptions other = options;
+    other.trade = found[i].trade;
+    others.push_back(fmt::format("{}: {}", found[i].study.reading, command(other)));
+  }
+  return fmt::format("Read as {}.\n", first.reading) + listed("From the headings", first.taken) +
+         listed("Look at what is a guess", first.guesses) +
+         listed("State what no heading says", first.unstated) +
+         listed("Other readings of this table", others);
 }
 
 int run_from(NewOptions options, Models models) {
-  if (!options.trade.empty() && options.folder.empty()) {
-    // One word is the folder, where it is no trade.
-    const bool known = std::any_of(models.begin(), models.end(),
-                                   [&](const Model& each) { return each.trade == options.trade; });
-    if (!known) options.folder = std::exchange(options.trade, "");
-  }
-  if (!options.trade.empty() && !model_of(models, options.trade).first_study)
+  const auto is_trade = [&](const std::string& word) {
+    return word == selection || std::any_of(models.begin(), models.end(),
+                                            [&](const Model& each) { return each.trade == word; });
+  };
+  // One word is the folder, where it is no trade.
+  if (!options.trade.empty() && options.folder.empty() && !is_trade(options.trade))
+    options.folder = std::exchange(options.trade, "");
+  if (!options.trade.empty() && options.trade != selection &&
+      !model_of(models, options.trade).first_study)
     throw InputError(
         fmt::format("--from: no study of a {} is guessed from one table; start from the "
                     "example: wearwell new {} DIR",
                     options.trade, options.trade));
+  std::optional<std::vector<Candidate>> found;
+  while (!found) {
+    const auto table = read_from(options);
+    if (table) found = chosen(options, models, *table);
+  }
+  const FirstStudy& first = found->front().study;
+  fmt::print("{}", printable_lines(in_words(options, *found)));
+  if (found->front().trade == selection) {
+    if (!options.table.empty())
+      throw InputError(
+          "wearwell select reads a table as it is: save the sheet or range as a CSV of its own");
+    fmt::print("Now run: wearwell select {} {}\n", shell_word(options.from.string()),
+               printable(first.text));
+    return 0;
+  }
   if (options.folder.empty()) options.folder = options.from.stem().string() + "-study";
-  const Table table = read_table(options.from);
-  const FirstStudy first = guessed(options, models, table);
   const fs::path study = write_first_study(first, options.from, options.folder);
-  std::string text = "From the headings:\n";
-  for (const std::string& each : first.taken) text += wrapped(each, 2, 4);
-  if (!first.guesses.empty()) text += "Look at what is a guess:\n";
-  for (const std::string& each : first.guesses) text += wrapped(each, 2, 4);
-  if (!first.unstated.empty()) text += "State what no heading says:\n";
-  for (const std::string& each : first.unstated) text += wrapped(each, 2, 4);
-  fmt::print("{}", printable_lines(text));
+  const std::string file = shell_word(study.string());
   try {
     read_study(source_of(study), models)->in_words();
   } catch (const InputError& error) {
     fmt::print("It does not run yet:\n{}Correct {}, then run: wearwell check {}\n",
-               wrapped(printable(error.what()), 2, 4), study.string(), study.string());
+               wrapped(printable(error.what()), 2, 4), study.string(), file);
     return 1;
   }
-  fmt::print("Now run: wearwell check {0} && wearwell fit {0}\n", study.string());
+  fmt::print("Now run: wearwell fit {0}    (wearwell check {0} shows what will be fitted)\n", file);
   return 0;
 }
 
@@ -114,20 +329,45 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
   command->add_option("DIR", options->folder,
                       "Folder for it: new or empty (with --from: FILE-study if not said)");
   command->add_option("--from", options->from,
-                      "Guess columns and units from the headings of FILE, and copy it there");
+                      "Guess columns and units of the table FILE, and copy it there");
+  command
+      ->add_option("--column", options->columns,
+                   "What a column is, ROLE=HEADING: depth='wear [um]'; ROLE= for none")
+      ->type_name("ROLE=HEADING");
+  command->add_option("--failure", options->failure, "As what a column of 0 and 1 writes a failure")
+      ->check(number_between(0, 1));
+  command->add_option("--limit", options->limit, "Wear at which a part has failed: '100 um'");
+  for (const auto& [key, help] : table_keys) {
+    command->add_option_function<std::string>(
+        option_of(key),
+        [options, name = std::string(key)](const std::string& value) {
+          options->table[name] = value;
+        },
+        help);
+  }
   command->footer(
       "Examples:\n  wearwell new joint my-joint && wearwell fit my-joint/study.toml\n"
-      "  wearwell new --from lives.csv\n  wearwell new fatigue my-lives --from lives.csv\n\n"
+      "  wearwell new --from lives.csv\n  wearwell new fatigue my-lives --from lives.csv\n"
+      "  wearwell new --from rig.xlsx --sheet Run3 --column unit=Lager --limit '80 um'\n\n"
       "Exit codes: 0 done; 1 the study that was guessed needs a hand before it runs; 2 the request "
       "is "
       "wrong, nothing written.");
   command->callback([options, models, &exit_code] {
     if (!options->from.empty()) {
-      exit_code = run_from(*options, models);
+      try {
+        exit_code = run_from(*options, models);
+      } catch (const Unanswered& question) {
+        fmt::print(stderr, "wearwell: {}\n", printable_lines(question.text));
+        exit_code = 2;
+      }
       return;
     }
     if (options->trade.empty()) throw CLI::RequiredError("TRADE");
     const Model& model = model_of(models, options->trade);
+    const bool of_table = !options->columns.empty() || options->failure ||
+                          !options->limit.empty() || !options->table.empty();
+    if (of_table)
+      throw InputError("--column, --failure, --limit and how a table is read are for --from FILE");
     if (options->folder.empty()) throw CLI::RequiredError("DIR");
     const std::filesystem::path study = write_example(model, options->folder);
     fmt::print("Now run: wearwell fit {}\n", study.string());

@@ -26,6 +26,8 @@ std::string settings_in_words(const TomlReader& section) {
     words += fmt::format("\nencoding = {}", static_cast<int>(*settings.encoding));
   add("header_row", settings.header_row);
   add("units_row", settings.units_row);
+  add("summary_rows", settings.summary_rows);
+  add("hidden_rows", settings.hidden_rows);
   add("comment", settings.comment);
   add("sheet", settings.sheet);
   add("range", settings.range);

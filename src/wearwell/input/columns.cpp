@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/base/printable.h"
 #include "wearwell/base/unit_hint.h"
 #include "wearwell/base/unit_system.h"
 #include "wearwell/input/heading.h"
@@ -33,6 +35,12 @@ bool same(const Unit& a, const Unit& b) {
     return std::abs(x - y) <= 1e-12 * std::max(std::abs(x), std::abs(y));
   };
   return near(a.scale, b.scale) && near(a.offset, b.offset);
+}
+
+/// Where a column has its unit.
+const char* unit_place(const Column& column) {
+  if (column.unit.empty()) return "heading";
+  return column.unit_in_cells ? "cells" : "row of units";
 }
 
 bool is_any_unit(const std::string& text) {
@@ -72,6 +80,18 @@ std::optional<NamedColumn> read_name(const TomlReader& columns, const std::strin
 
 }  // namespace
 
+const Column& study_column(const TomlReader& columns, const std::string& name,
+                           const std::string& heading, const Table& table) {
+  try {
+    return table.column(heading);
+  } catch (const InputError& error) {
+    std::vector<std::string> headings;
+    for (const Column& each : table.columns) headings.push_back(each.name);
+    const auto near = near_name(heading, headings);
+    columns.fail(name, error.what(), near ? Repair{heading, *near} : Repair{});
+  }
+}
+
 std::string no_unit_of(const Table& table, const Column& column, const std::string& name,
                        const std::string& unit, const std::string& why) {
   return fmt::format(
@@ -98,8 +118,8 @@ Unit column_unit(const Table& table, const Column& column, const std::string& si
         "{0}, column '{1}' is in {2} by its {3}, and {4} is given as its unit (1 {2} is {5:.6g} "
         "{4}); "
         "which is right? Keep one, or write both alike",
-        table.source, column.name, written.text, column.unit.empty() ? "heading" : "row of units",
-        given->text, read.scale / given->scale));
+        table.source, column.name, written.text, unit_place(column), given->text,
+        read.scale / given->scale));
   return *given;
 }
 
@@ -107,12 +127,17 @@ std::optional<ColumnChoice> read_column(const TomlReader& columns, const std::st
                                         const std::string& si, const Table& table) {
   const auto named = read_name(columns, name, si);
   if (!named) return {};
-  const Column& column = table.column(named->column);
+  const Column& column = study_column(columns, name, named->column, table);
   const WrittenUnit written = written_unit(column, si);
   if (!named->unit && written.text.empty() && !may_be_plain(si)) {
-    columns.fail(name, fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}, or "
-                                   "'{} [{}]' as the heading in {}",
-                                   name, column.name, si, column.name, si, table.source));
+    const std::string quoted = fmt::format("\"{}\"", named->column);
+    const std::string with_unit = fmt::format("{}, unit = \"{}\"", quoted, si);
+    columns.fail(
+        name,
+        fmt::format("needs a unit: {} = {{ column = \"{}\", unit = \"{}\" }}, or "
+                    "'{} [{}]' as the heading in {}",
+                    name, column.name, si, column.name, si, table.source),
+        {quoted, columns.is_text(name) ? fmt::format("{{ column = {} }}", with_unit) : with_unit});
   }
   if (!named->unit && !written.text.empty() && !is_any_unit(written.text)) {
     try {
@@ -140,12 +165,57 @@ std::optional<ColumnChoice> read_word_column(const TomlReader& columns, const st
                                              const Table& table) {
   const auto named = read_name(columns, name, "1");
   if (!named) return {};
-  return ColumnChoice{table.column(named->column).name, Unit{"1", 1, 0}};
+  return ColumnChoice{study_column(columns, name, named->column, table).name, Unit{"1", 1, 0}};
 }
 
 std::string cell_word(const Column& column, std::size_t row) {
   if (!column.is_number) return column.text[row];
   return std::isnan(column.numbers[row]) ? "" : fmt::format("{}", column.numbers[row]);
+}
+
+std::string label_word(const Table& table, const Column& column, std::size_t row) {
+  std::string word = cell_word(column, row);
+  if (!word.empty()) return word;
+  std::string above;
+  for (std::size_t i = row; above.empty() && i-- > 0;) above = cell_word(column, i);
+  throw InputError(fmt::format(
+      "{}: no value; a label must not be empty{}", place(table, column.name, row),
+      above.empty() ? std::string()
+                    : fmt::format(": it can be that of the rows above, '{}', or none; write "
+                                  "it in each row, or a word of its own for none",
+                                  printable(above))));
+}
+
+SeenNumbers seen_numbers(const Table& table, const ColumnChoice& choice) {
+  const Column& column = table.column(choice.column);
+  SeenNumbers all;
+  Table values;  // of which limits are values
+  values.source = table.source;
+  values.rows = table.rows;
+  values.layout = table.layout;
+  values.lines = table.lines;
+  values.origins = table.origins;
+  values.columns.push_back({column.name, true, {}, {}});
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const CellValue cell = cell_value(table, column, i);
+    if (cell.unstated) refuse_unstated_limit(table, column, i);
+    values.columns[0].numbers.push_back(cell.number);
+    all.seen.push_back(cell.sign == 0     ? Seen::exactly
+                       : cell.sign == '>' ? Seen::above
+                                          : Seen::below);
+  }
+  const bool any_limit = std::any_of(all.seen.begin(), all.seen.end(),
+                                     [](Seen each) { return each != Seen::exactly; });
+  all.values = any_limit ? si_numbers(values, column.name, choice.unit) : si_numbers(table, choice);
+  return all;
+}
+
+void refuse_unstated_limit(const Table& table, const Column& column, std::size_t row,
+                           const std::string& key) {
+  throw InputError(
+      fmt::format("{}: '{}' does not state its limit: write it in the cell, as in <0.05{}",
+                  place(table, column.name, row), column.text[row],
+                  key.empty() ? "" : ", or in the study: " + key));
 }
 
 std::vector<double> kelvins(const Table& table, const ColumnChoice& choice) {

@@ -32,6 +32,7 @@ void describe(const DuckdbSession& session, Column& column) {
   column.unit = known->unit;
   column.marks = known->marks;
   column.doubt = known->doubt;
+  column.unit_in_cells = known->unit_in_cells;
 }
 
 /// Appends texts as they are shown everywhere (base/printable.h), so that a label is the same in the
@@ -206,8 +207,6 @@ void ColumnStream::select(const std::vector<std::string>& columns, const std::st
                           std::vector<std::string> known) {
   std::vector<std::string> selected;
   for (const std::string& column : columns) {
-    if (const TextColumn* const text = state_->session.column(column))
-      refuse_doubt(source(), text->doubt);
     const auto at = std::find(state_->headings.begin(), state_->headings.end(), column);
     const bool is_text =
         at != state_->headings.end() &&
@@ -218,6 +217,8 @@ void ColumnStream::select(const std::vector<std::string>& columns, const std::st
       selected.push_back(fmt::format("cast({} as varchar)", quoted(column, '"')));
       continue;
     }
+    if (const TextColumn* const text = state_->session.column(column))
+      refuse_doubt(source(), text->doubt);
     if (at == state_->headings.end() ||
         !state_->is_numeric[static_cast<std::size_t>(at - state_->headings.begin())]) {
       // Without rows there is nothing to tell numbers by.

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <thread>
 
@@ -62,19 +63,24 @@ class Deadline {
 /// What a study may say of this kind of table, and what a sheet says itself. Throws InputError.
 TableSettings settings_for(const TableFile& file, TableSettings settings) {
   const bool workbook = file.format() == TableFormat::workbook;
-  if (!workbook && (settings.sheet || settings.range))
-    throw InputError(
-        fmt::format("{} is no workbook: sheet and range are keys for .xlsx", file.source()));
-  if (file.format() != TableFormat::text &&
+  if (!workbook && (settings.sheet || settings.range || settings.hidden_rows))
+    throw InputError(fmt::format(
+        "{} is no workbook: sheet, range and hidden_rows are keys for .xlsx", file.source()));
+  if (workbook && (settings.delimiter || settings.encoding))
+    throw InputError(fmt::format(
+        "{}: delimiter and encoding are keys for tables of text (.csv, .txt)", file.source()));
+  if (file.format() != TableFormat::text && !workbook &&
       (settings.decimal || settings.thousands || settings.delimiter || settings.encoding))
     throw InputError(fmt::format(
         "{}: its numbers need no marks: decimal, thousands, delimiter and encoding are keys for "
         "tables of text (.csv, .txt)",
         file.source()));
   if (file.format() != TableFormat::text && !workbook &&
-      (settings.header_row || settings.units_row || settings.comment))
+      (settings.header_row || settings.units_row || settings.summary_rows || settings.comment))
     throw InputError(fmt::format(
-        "{}: header_row, units_row and comment are keys for .csv, .txt and .xlsx", file.source()));
+        "{}: header_row, units_row, summary_rows and comment are keys for .csv, .txt and "
+        ".xlsx",
+        file.source()));
   if (workbook) {
     settings.decimal = '.';
     settings.thousands = 0;
@@ -145,13 +151,24 @@ DuckdbResult::DuckdbResult(const DuckdbSession& session, const std::string& quer
 
 DuckdbSession::DuckdbSession(const TableFile& file, const TableSettings& settings)
     : file_(file), settings_(settings_for(file, settings)) {
+  std::map<std::size_t, std::string> doubts;
+  std::vector<std::string> notes;
   if (file.format() == TableFormat::workbook) {
     SheetText sheet = sheet_text(file, settings);
     sheet_ = std::move(sheet.text);
     sheet_name_ = std::move(sheet.name);
+    doubts = std::move(sheet.doubts);
+    notes = std::move(sheet.notes);
   }
   if (file.format() == TableFormat::text || sheet_) {
     layout_ = find_layout(read(), settings_);
+    for (auto& [column, doubt] : doubts) {
+      if (column >= layout_->columns.size() || !layout_->columns[column].doubt.empty()) continue;
+      TextColumn& doubtful = layout_->columns[column];
+      doubtful.doubt = fmt::format("column '{}': {}", doubtful.name, doubt);
+      layout_->plain = false;
+    }
+    layout_->notes.insert(layout_->notes.begin(), notes.begin(), notes.end());
     if (!layout_->plain) rewritten_ = rewritten(read(), *layout_, lines_);
   }
   if (duckdb_open(nullptr, &database_) != DuckDBSuccess ||

@@ -15,44 +15,24 @@
 #include "wearwell/base/error.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/life_status.h"
+#include "wearwell/input/status_words.h"
 
 namespace wearwell {
 namespace {
 
 using Words = std::set<std::string>;
 
-const Words& failure_words() {
-  static const Words words = {"failure", "failed", "fail", "f",        "broke",
-                              "broken",  "dead",   "died", "observed", "event"};
-  return words;
-}
-
-const Words& other_words() {
-  static const Words words = {
-      "runout",   "run-out", "run out",    "right",     "s",        "left",        "interval",
-      "censored", "c",       "suspended",  "susp",      "survived", "survivor",    "alive",
-      "running",  "ok",      "in service", "unbroken",  "intact",   "not failed",  "no failure",
-      "passed",   "pass",    "suspension", "surviving", "censor",   "uncensored?", "active"};
-  return words;
-}
-
-const Words& truths() {
-  static const Words words = {"1", "true", "yes", "y"};
-  return words;
-}
-
-const Words& falsehoods() {
-  static const Words words = {"0", "false", "no", "n"};
-  return words;
-}
-
 bool is_code(const std::string& word) {
   static const Words others = {"-1", "2", "3"};
-  return truths().contains(word) || falsehoods().contains(word) || others.contains(word);
+  return truth_in(word) || others.contains(word);
 }
 
 bool is_word(const std::string& word) {
-  return failure_words().contains(word) || other_words().contains(word);
+  return seen_by_word(word).has_value();
+}
+
+bool is_failure(const std::string& word) {
+  return seen_by_word(word) == Seen::exactly;
 }
 
 template <class Property>
@@ -80,7 +60,8 @@ std::optional<Words> kinds_in(const Column& column, std::size_t rows) {
 bool is_named_status(const std::string& heading) {
   if (failure_code_of(heading)) return true;
   const std::string letters = letters_of(heading);
-  static const Words whole = {"status", "state", "outcome", "result", "ended", "end"};
+  static const Words whole = {"status",   "state", "outcome",  "result", "ended",    "end",
+                              "ergebnis", "etat",  "resultat", "estado", "resultado"};
   return whole.contains(letters) || letters.find("status") != letters.npos ||
          letters.find("cens") != letters.npos || letters.find("suspen") != letters.npos;
 }
@@ -89,25 +70,23 @@ bool is_named_status(const std::string& heading) {
 bool says_failure_throughout(const Column& column, const Words& kinds) {
   if (kinds.size() != 1) return false;
   const std::string& word = *kinds.begin();
-  if (failure_words().contains(word)) return true;
+  if (is_failure(word)) return true;
   if (!is_code(word)) return false;
   // Of a heading that does not tell, that all lives were cut off is no reading.
   const std::optional<int> code = failure_code_of(column.name);
-  return !code || (*code == 1 ? truths() : falsehoods()).contains(word);
+  return !code || truth_in(word) == (*code == 1);
 }
 
 bool looks_like_status(const Column& column, const Words& kinds, RowKind kind) {
   const bool codes = all(kinds, is_code), words = all(kinds, is_word);
-  const bool truth_values = kinds.size() == 2 && truths().contains(*kinds.rbegin()) &&
-                            falsehoods().contains(*kinds.begin());
+  const bool truth_values = kinds.size() == 2 && truth_in(*kinds.begin()).has_value() &&
+                            truth_in(*kinds.rbegin()) == !*truth_in(*kinds.begin());
   if (is_named_status(column.name)) {
     return (codes || words) && !says_failure_throughout(column, kinds);
   }
   if (kind != RowKind::life) return false;
-  const bool both_ends = words && kinds.size() > 1 &&
-                         std::any_of(kinds.begin(), kinds.end(), [](const std::string& each) {
-                           return failure_words().contains(each);
-                         });
+  const bool both_ends =
+      words && kinds.size() > 1 && std::any_of(kinds.begin(), kinds.end(), is_failure);
   return truth_values || both_ends;
 }
 
@@ -141,11 +120,12 @@ std::string reading_as_status(const Column& column, const Words& kinds) {
                        column.name);
   }
   if (failure_code_of(column.name)) return fmt::format("status = \"{}\"", column.name);
-  const bool numbers = kinds.contains("0") || kinds.contains("1");
+  const auto truth = std::find_if(kinds.begin(), kinds.end(),
+                                  [](const std::string& each) { return truth_in(each) == true; });
   return fmt::format(
       "status = {{ column = \"{}\", failure = 1 }} where {} is a failure, or failure = 0 where it "
       "is a runout",
-      column.name, numbers ? "1" : *kinds.rbegin());
+      column.name, truth == kinds.end() ? "1" : *truth);
 }
 
 }  // namespace

@@ -3,64 +3,62 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/algorithm/string/case_conv.hpp>
 #include <cctype>
 #include <utility>
 #include <vector>
 
 #include "wearwell/base/error.h"
-#include "wearwell/base/nearest.h"
 #include "wearwell/input/columns.h"
+#include "wearwell/input/status_words.h"
 
 namespace wearwell {
 
 namespace {
 
-using Words = std::vector<std::pair<std::string, Seen>>;
-
-const Words& plain_words() {
-  static const Words words = {{"failure", Seen::exactly}, {"F", Seen::exactly},
-                              {"runout", Seen::above},    {"run-out", Seen::above},
-                              {"right", Seen::above},     {"S", Seen::above},
-                              {"left", Seen::below},      {"interval", Seen::between}};
-  return words;
-}
-
 // Where a failure is 0, the code tells how a life is censored; where it is 1, whether it ended.
-const Words& codes(int failure) {
-  static const Words censored = {{"0", Seen::exactly},     {"1", Seen::above},
-                                 {"false", Seen::exactly}, {"true", Seen::above},
-                                 {"-1", Seen::below},      {"2", Seen::between}};
-  static const Words ended = {{"1", Seen::exactly},   {"0", Seen::above}, {"true", Seen::exactly},
-                              {"false", Seen::above}, {"2", Seen::below}, {"3", Seen::between}};
-  return failure == 0 ? censored : ended;
-}
-
-std::optional<Seen> find(const Words& words, const std::string& word) {
-  for (const auto& [name, seen] : words) {
-    if (word == name) return seen;
-  }
-  return {};
-}
-
-// Truth values in any letters: "True", as Python writes them.
 std::optional<Seen> find_code(int failure, const std::string& word) {
-  return find(codes(failure), boost::algorithm::to_lower_copy(word));
+  if (const auto truth = truth_in(word))
+    return *truth == (failure == 1) ? Seen::exactly : Seen::above;
+  const char *left = failure == 0 ? "-1" : "2", *interval = failure == 0 ? "2" : "3";
+  if (word == left) return Seen::below;
+  if (word == interval) return Seen::between;
+  return {};
 }
 
 bool is_code(const std::string& word) {
   return find_code(0, word) || find_code(1, word);
 }
 
+std::optional<Seen> find_own(const LifeStatus& status, const std::string& word) {
+  const std::string folded = folded_word(word);
+  for (const auto& [name, seen] : status.words) {
+    if (folded == name) return seen;
+  }
+  return {};
+}
+
+// The words that the study has for each of the ends.
+void add_own_words(const TomlReader& choice, LifeStatus& status) {
+  const std::pair<const char*, Seen> ends[] = {{"failure", Seen::exactly},
+                                               {"runout", Seen::above},
+                                               {"left", Seen::below},
+                                               {"interval", Seen::between}};
+  for (const auto& [key, seen] : ends) {
+    if (!choice.has(key) || choice.is_integer(key)) continue;
+    for (const std::string& word : choice.texts(key)) {
+      if (const auto before = find_own(status, word); before && before != seen)
+        choice.fail(key, fmt::format("'{}' stands for two ends", word));
+      status.words.emplace_back(folded_word(word), seen);
+    }
+  }
+}
+
 }  // namespace
 
 std::string letters_of(const std::string& heading) {
-  std::string lower;
-  for (const char each : heading) {
-    if (std::isalpha(static_cast<unsigned char>(each)))
-      lower += static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
-  }
-  return lower;
+  std::string letters = folded_word(heading);
+  std::erase_if(letters, [](unsigned char c) { return c >= 0x80 || !std::isalpha(c); });
+  return letters;
 }
 
 std::optional<int> failure_code_of(const std::string& heading) {
@@ -69,8 +67,11 @@ std::optional<int> failure_code_of(const std::string& heading) {
     return std::any_of(words.begin(), words.end(),
                        [&](const char* each) { return lower.find(each) != lower.npos; });
   };
-  const bool of_censoring = says({"cens", "runout", "suspen", "surviv"});
-  const bool of_event = says({"event", "fail", "broke", "dead", "death", "died"});
+  const bool of_censoring =
+      says({"cens", "zensier", "runout", "suspen", "surviv", "durchlauf", "uberleb", "ueberleb"});
+  const bool of_event =
+      says({"event", "evenement", "ereignis", "fail", "broke", "dead", "death", "died", "ausfall",
+            "ausgefallen", "bruch", "defekt", "defaill", "rupture", "rotura", "fallo"});
   if (of_censoring == of_event) return {};
   return of_censoring ? 0 : 1;
 }
@@ -80,14 +81,15 @@ std::optional<LifeStatus> read_life_status(const TomlReader& columns, const Tabl
   if (!chosen) return {};
   LifeStatus status{chosen->column};
   const Column& column = table.column(status.column);
-  const bool in_table = !columns.is_text("status");
-  if (const auto said =
-          in_table ? columns.required_table("status").integer("failure", 0, 1) : std::nullopt) {
-    status.failure_code = static_cast<int>(*said);
-    return status;
+  if (!columns.is_text("status")) {
+    const TomlReader choice = columns.required_table("status");
+    if (choice.is_integer("failure"))
+      status.failure_code = static_cast<int>(*choice.integer("failure", 0, 1));
+    add_own_words(choice, status);
+    if (status.failure_code) return status;
   }
   for (std::size_t i = 0; i < table.rows; ++i) {
-    if (const std::string word = cell_word(column, i); is_code(word)) {
+    if (const std::string word = cell_word(column, i); is_code(word) && !find_own(status, word)) {
       status.failure_code = failure_code_of(status.column);
       if (status.failure_code) return status;
       columns.fail(
@@ -103,19 +105,24 @@ std::optional<LifeStatus> read_life_status(const TomlReader& columns, const Tabl
 
 Seen seen_in(const Table& table, const LifeStatus& status, std::size_t row) {
   const std::string word = cell_word(table.column(status.column), row);
-  if (const auto seen = find(plain_words(), word)) return *seen;
+  if (const auto seen = find_own(status, word)) return *seen;
+  if (const auto seen = seen_by_word(word)) return *seen;
   if (status.failure_code) {
     if (const auto seen = find_code(*status.failure_code, word)) return *seen;
   }
-  const std::vector<std::string> names = {"failure", "runout", "left", "interval"};
+  if (word.empty())
+    throw InputError(
+        fmt::format("{}: no value; how did this test end?", place(table, status.column, row)));
+  const auto near = near_status_word(word);
   throw InputError(fmt::format(
-      "{}: '{}' is no status; it is failure, runout (or right), left or interval (or F, S{}) "
-      "(nearest: '{}')",
+      "{}: '{}' is no status; it is failure, runout (or right), left or interval (or F, S{}){}; a "
+      "word of yours is named in the study: status = {{ column = \"{}\", failure = \"{}\" }}, or "
+      "runout, left or interval = \"{}\"",
       place(table, status.column, row), word,
       !status.failure_code        ? "; or codes"
       : *status.failure_code == 0 ? "; or the codes 0 failure, 1 runout, -1 left, 2 interval"
                                   : "; or the codes 1 failure, 0 runout, 2 left, 3 interval",
-      nearest_name(word, names)));
+      near ? fmt::format(" (nearest: '{}')", *near) : "", status.column, word, word));
 }
 
 }  // namespace wearwell

@@ -49,9 +49,12 @@ std::filesystem::path required_file(const TomlReader& section, const std::string
   std::filesystem::path file = folder / name;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) {
+    const std::vector<std::string> files = files_in(file.parent_path());
+    const auto near = near_name(file.filename().string(), files);
     section.fail(key,
                  fmt::format("no such file: {}{}", valid_utf8(file.string()),
-                             did_you_mean(file.filename().string(), files_in(file.parent_path()))));
+                             did_you_mean(file.filename().string(), files)),
+                 near ? Repair{file.filename().string(), *near} : Repair{});
   }
   if (std::filesystem::is_directory(file, ignored))
     section.fail(key, fmt::format("{} is a folder, not a file", valid_utf8(file.string())));
@@ -89,6 +92,10 @@ TableSettings read_table_settings(const TomlReader& section) {
     settings.header_row = static_cast<std::size_t>(*row);
   if (const auto units = section.choice("units_row", {"below", "none"}))
     settings.units_row = *units == "below";
+  if (const auto rows = section.choice("summary_rows", {"last", "none"}))
+    settings.summary_rows = *rows == "last";
+  if (const auto rows = section.choice("hidden_rows", {"read", "skip"}))
+    settings.hidden_rows = *rows == "read";
   settings.comment = section.text("comment");
   if (settings.comment && settings.comment->empty())
     section.fail("comment", "is empty: with what do comment lines begin?");
@@ -108,8 +115,9 @@ Table read_table(const TomlReader& section, const Source& source) {
   const TableSettings settings = read_table_settings(section);
   if (in_memory != source.tables.end()) {
     if (sql) section.fail("sql", "cannot be asked of a table in memory: hand over its result");
-    for (const char* key : {"decimal", "thousands", "delimiter", "encoding", "header_row",
-                            "units_row", "comment", "sheet", "range"}) {
+    for (const char* key :
+         {"decimal", "thousands", "delimiter", "encoding", "header_row", "units_row",
+          "summary_rows", "hidden_rows", "comment", "sheet", "range"}) {
       if (section.has(key)) section.fail(key, "is for tables in files");
     }
     return in_memory->second;

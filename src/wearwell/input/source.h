@@ -27,7 +27,7 @@ Source source_of(const std::filesystem::path& file);
 Table read_table(const TomlReader& section, const Source& source);
 
 /// How a table is written, as far as `section` says: its keys decimal, thousands, delimiter, encoding,
-/// header_row, units_row, comment, sheet and range. Throws InputError at these keys.
+/// header_row, units_row, summary_rows, hidden_rows, comment, sheet and range. Throws InputError at these keys.
 TableSettings read_table_settings(const TomlReader& section);
 
 /// A file beside the study that must be there. Throws InputError at the key that names it.

@@ -35,7 +35,7 @@ std::string table_named(std::string_view path) {
 class Keys {
  public:
   Keys(const TomlReader& root, const StudyKeys& keys)
-      : file_(root.file()), keys_(keys), present_(root.present()) {
+      : root_(root), file_(root.file()), keys_(keys), present_(root.present()) {
     for (const auto& [path, kinds] : root.asked()) asked_.insert(path);
   }
 
@@ -47,13 +47,16 @@ class Keys {
       if (!last.empty() && is_below(each.path, last)) continue;
       if (is_known(each.path)) continue;
       last = each.path;
-      faults.push_back(fmt::format("{}: {}: {}", each.place, each.path, said_of(each.path)));
+      Repair repair;
+      faults.push_back(
+          fmt::format("{}: {}: {}", each.place, each.path, said_of(each.path, repair)));
+      add_excerpt(each, repair);
     }
     return faults;
   }
 
   // Known, but not asked for.
-  std::vector<std::string> idle() const {
+  std::vector<std::string> idle() {
     std::vector<std::string> faults;
     for (const Present& each : present_) {
       const std::string table(parent_of(each.path));
@@ -63,9 +66,13 @@ class Keys {
           "{}: {}: has no effect beside the rest of this study; take it out, or give what it "
           "needs (docs/study-keys.md)",
           each.place, each.path));
+      add_excerpt(each, {});
     }
     return faults;
   }
+
+  // The lines of the study that the faults are in.
+  const std::string& excerpts() const { return excerpts_; }
 
   // After `unknown`: what it named is not missing too.
   StudyKeys missing() const {
@@ -146,7 +153,12 @@ class Keys {
     return tables;
   }
 
-  std::string said_of(const std::string& path) {
+  void add_excerpt(const Present& at, const Repair& repair) {
+    constexpr std::size_t enough = 600;
+    if (excerpts_.size() < enough) excerpts_ += root_.excerpt(at.line, at.column, repair);
+  }
+
+  std::string said_of(const std::string& path, Repair& repair) {
     const std::string parent(parent_of(path)), leaf(leaf_of(path));
     const std::vector<std::string> names = possible(parent);
     const std::vector<std::string> elsewhere = homes(leaf);
@@ -154,7 +166,10 @@ class Keys {
       moved_.insert(leaf);
       return fmt::format("unknown key here; {} stands {}", leaf, fmt::join(elsewhere, " or "));
     }
-    if (const auto near = near_name(leaf, names)) meant_.insert(under(parent, *near));
+    if (const auto near = near_name(leaf, names)) {
+      meant_.insert(under(parent, *near));
+      repair = {leaf, *near, true};
+    }
     if (names.empty()) return "unknown key; nothing may stand here";
     return fmt::format("unknown key{} (possible: {})", did_you_mean(leaf, names),
                        fmt::join(names, ", "));
@@ -186,7 +201,8 @@ class Keys {
                         [&](const std::string& each) { return meant_.contains(each); });
   }
 
-  std::string file_;
+  TomlReader root_;
+  std::string file_, excerpts_;
   const StudyKeys& keys_;
   std::vector<Present> present_;
   std::set<std::string> asked_, meant_, moved_;
@@ -223,11 +239,17 @@ StudyKeys column_keys(const std::string& table) {
            "unit of its numbers, where the heading has none; a count needs none"}};
 }
 
-StudyKey status_code_key() {
+StudyKeys status_keys() {
   return {
-      "data.columns.status.failure", "1",
-      "what a failure is written as where the column holds codes and its heading does not tell: 0 "
-      "(1 is a runout, -1 left, 2 interval) or 1 (0 is a runout, 2 left, 3 interval)"};
+      {"data.columns.status.failure", "1",
+       "what a failure is written as: where the column holds codes and its heading does not tell, "
+       "0 (1 is a runout, -1 left, 2 interval) or 1 (0 is a runout, 2 left, 3 interval); or a "
+       "word of the table, or a list of them"},
+      {"data.columns.status.runout", "\"unbroken\"", "a word of the table for a runout, or a list"},
+      {"data.columns.status.left", "\"before\"",
+       "a word of the table for a life that ended before, or a list"},
+      {"data.columns.status.interval", "\"between\"",
+       "a word of the table for a life that ended within an interval, or a list"}};
 }
 
 StudyKey unused_columns_key() {
@@ -243,6 +265,9 @@ StudyKeys layout_keys(const std::string& table) {
           {table + ".encoding", "\"cp1252\"", "of the text: utf-8, utf-16 or cp1252"},
           {table + ".header_row", "5", "line of the headings, from 1"},
           {table + ".units_row", "\"below\"", "units stand in the row below the headings, or none"},
+          {table + ".summary_rows", "\"last\"",
+           "the last rows are means, sums and the like and are left out, or none are"},
+          {table + ".hidden_rows", "\"skip\"", "hidden rows of a sheet: skip, or read (read)"},
           {table + ".comment", "\"#\"", "lines that begin so are left out"},
           {table + ".sheet", "\"Messung\"", "of a workbook: name or number"},
           {table + ".range", "\"B4:G22\"", "of that sheet"}};
@@ -305,7 +330,8 @@ std::string key_faults(const TomlReader& root, const StudyKeys& keys, std::strin
     message += fmt::format("{}", fmt::join(unknown, "; and "));
   } else if (missing.size() == 1) {
     const StudyKey& key = missing.front();
-    const bool is_said = refusal.find(leaf_of(key.path)) != refusal.npos;
+    const bool is_said =
+        without_excerpt(std::string(refusal)).find(leaf_of(key.path)) != std::string::npos;
     if (is_said && !all.is_of_a_value(refusal)) return {};
     message += fmt::format(" {} is missing, {}: {}", key.path, key.meaning, like(key));
   }
@@ -319,14 +345,15 @@ std::string key_faults(const TomlReader& root, const StudyKeys& keys, std::strin
   }
   // A value that is wrong does not follow from what is missing.
   if (unknown.empty() && all.is_of_a_value(refusal)) message += fmt::format("; and {}", refusal);
-  return message;
+  return message + all.excerpts();
 }
 
 std::string unused_keys(const TomlReader& root, const StudyKeys& keys) {
   Keys all(root, keys);
   std::vector<std::string> faults = all.unknown();
   if (faults.empty()) faults = all.idle();
-  return faults.empty() ? "" : fmt::format("{}:{}", all.file(), fmt::join(faults, "; and "));
+  if (faults.empty()) return {};
+  return fmt::format("{}:{}{}", all.file(), fmt::join(faults, "; and "), all.excerpts());
 }
 
 }  // namespace wearwell

@@ -33,8 +33,8 @@ void add_keys(StudyKeys& keys, const StudyKeys& more);
 
 /// Column and unit of each of `data.columns`, if these are tables.
 StudyKeys column_keys(const std::string& table = "data");
-/// Of a column of status (input/life_status.h).
-StudyKey status_code_key();
+/// What a column of status has for each end (input/life_status.h).
+StudyKeys status_keys();
 /// Of columns that look like a status (input/idle_status.h).
 StudyKey unused_columns_key();
 

@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/heading.h"
 #include "wearwell/input/number_text.h"
 
@@ -68,21 +69,42 @@ double c_number(std::string_view text) {
 
 }  // namespace
 
-double cell_number(const Table& table, const Column& column, std::size_t index) {
+CellValue cell_value(const Table& table, const Column& column, std::size_t index) {
   if (!column.doubt.empty()) throw InputError(fmt::format("{}, {}", table.source, column.doubt));
-  if (column.is_number) return column.numbers[index];
+  if (column.is_number) return {column.numbers[index]};
   const std::string& text = column.text[index];
-  if (text.empty()) return NAN;
-  if (column.marks) {
-    const auto plain = plain_number(text, *column.marks);
-    if (!plain) refuse_cell(table, column, index);
-    return c_number(*plain);
+  if (text.empty() || is_missing_mark(text)) return {};
+  const auto found = cell_text(text);
+  CellValue value;
+  if (found) value.sign = found->sign;
+  if (found && found->number.empty()) {
+    value.unstated = true;
+    return value;
   }
-  double value = NAN;
-  const auto [rest, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (failure != std::errc{} || rest != text.data() + text.size())
+  const std::string_view number = found ? found->number : std::string_view(text);
+  if (column.marks) {
+    const auto plain = wearwell::plain_number(number, *column.marks);
+    if (!plain) refuse_cell(table, column, index);
+    value.number = c_number(*plain);
+    return value;
+  }
+  const bool foreign_unit = found && !found->unit.empty();  // of which the table says nothing
+  const auto [rest, failure] =
+      std::from_chars(number.data(), number.data() + number.size(), value.number);
+  if (failure != std::errc{} || rest != number.data() + number.size() || foreign_unit)
     refuse_cell(table, column, index);
   return value;
+}
+
+double cell_number(const Table& table, const Column& column, std::size_t index) {
+  const CellValue value = cell_value(table, column, index);
+  if (value.sign == 0) return value.number;
+  throw InputError(fmt::format(
+      "{}: '{}' is a limit: the value lies {} it, and a value is needed here. Such rows are "
+      "{}-censored; they are read in the life of a test and in what a formula (model = \"law\") "
+      "measures (docs/tables.md)",
+      place(table, column.name, index), column.text[index], value.sign == '<' ? "below" : "above",
+      value.sign == '<' ? "left" : "right"));
 }
 
 namespace {
@@ -109,6 +131,16 @@ namespace {
 // Cubes of what is measured, and their reciprocals, are doubles. Plain numbers may be of any size.
 constexpr double smallest_si = 1e-100, largest_si = 1e100;
 
+// A file can be read without such rows.
+std::string no_value(const Table& table, const Column& column) {
+  std::string words = "no value (empty or NaN)";
+  if (!table.layout.empty() && column.name.find_first_of("\"\\\n") == std::string::npos)
+    words += fmt::format(
+        "; to leave such rows out, sql = 'select * from data where \"{}\" is not null' in [data]",
+        column.name);
+  return words;
+}
+
 }  // namespace
 
 std::vector<double> si_numbers(const Table& table, std::string_view name, const Unit& unit) {
@@ -122,7 +154,7 @@ std::vector<double> si_numbers(const Table& table, std::string_view name, const 
     if (!std::isfinite(values[i])) {
       throw InputError(
           fmt::format("{}: {}", place(table, name, i),
-                      std::isnan(values[i]) ? "no value (empty or NaN)" : "the value is infinite"));
+                      std::isnan(values[i]) ? no_value(table, column) : "the value is infinite"));
     }
     const double si = to_si(unit, values[i]);
     if (!std::isfinite(si) || (measured && !(std::abs(si) < largest_si)))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,9 +21,10 @@ struct Column {
   bool is_number = false;
   std::vector<double> numbers;
   std::vector<std::string> text;
-  std::string unit = {};                  ///< from a row of units; the heading may have one too
+  std::string unit = {};  ///< from a row of units or from the cells; the heading may have one too
   std::optional<NumberMarks> marks = {};  ///< of the numbers in a text
   std::string doubt = {};                 ///< "row 1, ...": why these cannot be read
+  bool unit_in_cells = false;             ///< "12 mm"
 };
 
 /// Named columns of equal length, in the units of the file. Row 1 is the first row of data.
@@ -60,8 +62,17 @@ Table read_table(const std::filesystem::path& file, const std::optional<std::str
 /// missing, not a number, has two readings, or is not finite.
 std::vector<double> si_numbers(const Table& table, std::string_view column, const Unit& unit);
 
+/// What a cell says of a number: its value, or a limit that it lies below or above ("<0.5").
+struct CellValue {
+  double number = std::numeric_limits<double>::quiet_NaN();  ///< NaN where there is none
+  char sign = 0;                                             ///< '<' or '>' of a limit
+  bool unstated = false;  ///< a limit whose number the cell does not state, as in "<LOD"
+};
+/// Throws InputError that names file, row, column and value where it says nothing of a number.
+CellValue cell_value(const Table& table, const Column& column, std::size_t index);
+
 /// The number in a cell, NaN where it is empty. Throws InputError that names file, row, column and
-/// value where it is no number.
+/// value where it is no number, or a limit.
 double cell_number(const Table& table, const Column& column, std::size_t index);
 
 /// "row 3", or "row 3 (line 9)" where lines were left out; both from 1, a line of 0 is not known.

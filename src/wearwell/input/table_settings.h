@@ -17,9 +17,11 @@ struct TableSettings {
   std::optional<Encoding> encoding = {};
   std::optional<std::size_t> header_row = {};  ///< line of a text, row of a sheet, from 1
   std::optional<bool> units_row = {};          ///< units stand in the row below the headings
-  std::optional<std::string> comment = {};     ///< lines that begin so are left out
-  std::optional<std::string> sheet = {};       ///< of a workbook: its name, or its number from 1
-  std::optional<std::string> range = {};       ///< of a sheet: "B3:F20"
+  std::optional<bool> summary_rows = {};    ///< the last rows are means and sums: left out, or data
+  std::optional<bool> hidden_rows = {};     ///< of a sheet: read, or left out
+  std::optional<std::string> comment = {};  ///< lines that begin so are left out
+  std::optional<std::string> sheet = {};    ///< of a workbook: its name, or its number from 1
+  std::optional<std::string> range = {};    ///< of a sheet: "B3:F20"
 
   bool operator==(const TableSettings&) const = default;
 };

@@ -50,6 +50,13 @@ bool looks_like_heading(const Record& record) {
                                              [](const std::string& cell) { return cell.empty(); });
 }
 
+/// Words in most places: of merged headings only the first has one.
+bool looks_like_merged_heading(const Record& record) {
+  const auto words = std::count_if(record.cells.begin(), record.cells.end(),
+                                   [](const std::string& cell) { return !cell.empty(); });
+  return !has_number(record) && 2 * static_cast<std::size_t>(words) > record.cells.size();
+}
+
 /// One way to cut the text.
 struct Cut {
   char delimiter = ',';
@@ -99,6 +106,9 @@ std::size_t find_heading(const std::vector<Record>& records, std::size_t count) 
                                              records.end(), has_number);
       return numbers_below ? i : 0;
     }
+    if (i > 0 && record.cells.size() == count && looks_like_merged_heading(record) &&
+        i + 1 < records.size() && has_number(records[i + 1]))
+      return i;
     if (filled(record) == count) return 0;  // a row of data above any heading
   }
   return 0;

@@ -11,7 +11,10 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/heading.h"
+#include "wearwell/input/summary_words.h"
 #include "wearwell/input/table.h"
 #include "wearwell/input/text_heading.h"
 #include "wearwell/input/text_records.h"
@@ -34,12 +37,16 @@ struct Evidence {
   std::set<char> thousands;
   bool any_number = false, any_text = false;
   bool other_signs = false;  ///< such as no C number has
+  // Cells that are more than a number, or none.
+  std::optional<Witness> missing, limit, bare, with_unit, other_unit;
+  std::size_t missing_cells = 0, limits = 0;
+  std::string unit;  ///< of `with_unit`
 
   bool shows(std::size_t mark) const { return decimal[mark].has_value(); }
   bool agrees_with(const NumberMarks& marks) const;
   /// Whether its numbers are as C has them.
   bool is_plain(char decimal_mark) const {
-    if (!thousands.empty() || other_signs || shows(1) || doubtful[1]) return false;
+    if (!thousands.empty() || other_signs || missing || shows(1) || doubtful[1]) return false;
     return decimal_mark == '.' || (!shows(0) && !doubtful[0]);
   }
 };
@@ -67,16 +74,42 @@ bool Evidence::agrees_with(const NumberMarks& with) const {
 }
 
 void look_at(std::string_view cell, std::size_t row, std::size_t line, Evidence& seen) {
-  const NumberForm form = number_form(cell);
+  NumberForm form = number_form(cell);
   if (form.kind == NumberForm::Kind::empty) return;
-  if (form.kind == NumberForm::Kind::text) {
-    seen.any_text = true;
-    return;
-  }
-  seen.any_number = true;
   const auto note = [&](std::optional<Witness>& witness) {
     if (!witness) witness = {row, line, std::string(cell)};
   };
+  if (form.kind == NumberForm::Kind::text) {
+    if (is_missing_mark(cell)) {
+      note(seen.missing);
+      ++seen.missing_cells;
+      return;
+    }
+    const auto found = cell_text(cell);
+    if (!found) {
+      seen.any_text = true;
+      return;
+    }
+    if (found->sign) {
+      note(seen.limit);
+      ++seen.limits;
+    }
+    if (found->number.empty()) return;
+    form = number_form(found->number);
+    const std::string unit(found->unit);
+    if (unit.empty()) {
+      note(seen.bare);
+    } else if (!seen.with_unit) {
+      note(seen.with_unit);
+      seen.unit = unit;
+    } else if (unit != seen.unit) {
+      note(seen.other_unit);
+    }
+    cell = found->number;
+  } else if (!seen.bare) {
+    note(seen.bare);
+  }
+  seen.any_number = true;
   if (form.doubtful) note(seen.doubtful[place_of(form.doubtful)]);
   if (form.decimal) note(seen.decimal[place_of(form.decimal)]);
   if (form.thousands) seen.thousands.insert(form.thousands);
@@ -112,7 +145,7 @@ const Witness& witness_of(const std::vector<Evidence>& all, std::size_t mark) {
 /// Which marks the numbers of a column have, or why nobody can tell.
 void decide(const Evidence& seen, char of_all, const std::vector<Evidence>& all, char delimiter,
             const TableSettings& settings, TextColumn& column) {
-  column.is_number = seen.any_number && !seen.any_text;
+  column.is_number = seen.any_number && !seen.any_text && !seen.limit && !seen.with_unit;
   column.marks.thousands = settings.thousands.value_or('*');
   const auto is_set = [&](char decimal) {
     column.marks.decimal = decimal;
@@ -169,9 +202,37 @@ bool is_settled(const std::vector<Evidence>& all, char delimiter) {
   const char of_all = shown_by_all(all);
   if (of_all != '.' && !(of_all == 0 && delimiter == ',')) return false;
   return std::none_of(all.begin(), all.end(), [](const Evidence& each) {
-    return each.shows(1) || each.doubtful[1] || each.other_signs ||
-           (each.doubtful[0] && !each.shows(0));
+    return each.shows(1) || each.doubtful[1] || each.other_signs || each.missing || each.limit ||
+           each.with_unit || (each.doubtful[0] && !each.shows(0));
   });
+}
+
+/// The unit in the cells of a column of numbers, or why nobody can tell.
+void decide_unit(const Evidence& seen, TextColumn& column) {
+  if (!seen.with_unit || seen.any_text || !column.doubt.empty()) return;
+  const Witness& first = *seen.with_unit;
+  const auto refuse = [&](const Witness& other, const std::string& has) {
+    column.doubt = fmt::format(
+        "{}: '{}' has the unit {} and '{}' in {} has {}; write the numbers of a column in "
+        "one unit, and the unit once, as in '{} [{}]' as the heading",
+        at(first, column.name), first.cell, seen.unit, other.cell, row_name(other.row, other.line),
+        has, column.name, seen.unit);
+  };
+  if (seen.other_unit) return refuse(*seen.other_unit, "another");
+  if (seen.bare) return refuse(*seen.bare, "none");
+  const std::string above =
+      !column.unit.empty() ? bare_unit(column.unit) : read_heading(column.name, "").unit;
+  const auto heading = parse_unit(above), cells = parse_unit(seen.unit);
+  if (!above.empty() && heading && cells &&
+      (heading->dimension != cells->dimension || heading->scale != cells->scale)) {
+    column.doubt =
+        fmt::format("{}: '{}' is in {}, and the column is in {} by its {}; which is right?",
+                    at(first, column.name), first.cell, seen.unit, above,
+                    column.unit.empty() ? "heading" : "row of units");
+    return;
+  }
+  column.unit = seen.unit;
+  column.unit_in_cells = true;
 }
 
 class Survey {
@@ -198,7 +259,7 @@ class Survey {
     records.next();  // the headings
     require_utf8(records);
     records_ = &records;
-    std::size_t bytes = 0, rows = 0;
+    std::size_t bytes = 0;
     std::optional<bool> returns;
     const std::size_t wanted = heading_.names.size();
     for (bool first = true; records.next(); first = false) {
@@ -218,14 +279,22 @@ class Survey {
         ++layout_.empty_rows;
         continue;
       }
-      ++rows;
-      for (std::size_t c = 0; c < wanted; ++c)
-        look_at(cells[c], rows, records.line(), evidence_[c]);
+      if (const auto summary = summary_in(cells, settings_); !summary.empty()) {
+        pending_.push_back({{cells.begin(), cells.end()}, records.line(), summary});
+        continue;
+      }
+      for (const PendingRow& each : pending_) {
+        summaries_that_are_data_.insert(each.word);  // data follow
+        look_at_row(each.cells, each.line);
+      }
+      pending_.clear();
+      look_at_row(cells, records.line());
       bytes += records.text().size();
-      if (!whole && bytes > most_to_see && rows % 1024 == 0 && is_plain() &&
+      if (!whole && bytes > most_to_see && rows_ % 1024 == 0 && is_plain() &&
           is_settled(evidence_, layout_.delimiter))
         break;
     }
+    settle_summary();
     layout_.comments = records.comments();
     layout_.plain = layout_.plain && !records.blank_before_quote();
     finish();
@@ -233,6 +302,51 @@ class Survey {
   }
 
  private:
+  /// A row that may be of means or sums, until it is known whether data follow.
+  struct PendingRow {
+    std::vector<std::string> cells;
+    std::size_t line = 0;
+    std::string word;
+  };
+
+  template <class Cells>
+  void look_at_row(const Cells& cells, std::size_t line) {
+    ++rows_;
+    for (std::size_t c = 0; c < evidence_.size(); ++c) look_at(cells[c], rows_, line, evidence_[c]);
+  }
+
+  /// Leaves the last rows out where they are means, sums and the like. Such a word below labels may be
+  /// one of them.
+  void settle_summary() {
+    const bool left_out =
+        !pending_.empty() && rows_ > 0 &&
+        std::none_of(pending_.begin(), pending_.end(), [&](const PendingRow& each) {
+          return summaries_that_are_data_.contains(each.word);
+        });
+    if (!left_out) {
+      for (const PendingRow& each : pending_) look_at_row(each.cells, each.line);
+      return;
+    }
+    const PendingRow& first = pending_.front();
+    const auto word = std::find_if(first.cells.begin(), first.cells.end(),
+                                   [](const std::string& cell) { return !cell.empty(); });
+    const auto column = static_cast<std::size_t>(word - first.cells.begin());
+    if (!settings_.summary_rows && evidence_[column].any_text)
+      throw InputError(fmt::format(
+          "{}, line {}: '{}' can mean that this row is no data but computed from the rows above, "
+          "or a "
+          "name like the others in column '{}'; say which in [data], as in summary_rows = \"last\" "
+          "(the last rows are left out) or \"none\" (all are data)",
+          file_.source(), first.line, *word, heading_.names[column]));
+    std::vector<std::string> words;
+    for (const PendingRow& each : pending_) words.push_back(each.word);
+    layout_.summary_line = first.line;
+    layout_.plain = false;
+    layout_.notes.push_back(fmt::format(
+        "the last {} left out ({})",
+        words.size() == 1 ? "row" : fmt::format("{} rows", words.size()), fmt::join(words, ", ")));
+  }
+
   void require_utf8(const TextRecords& records) {
     if (layout_.encoding != Encoding::utf8) return;
     const std::string_view text = records.text();
@@ -283,7 +397,7 @@ class Survey {
     bool any = false;
     for (const std::string_view cell : cells) {
       const std::string text = boost::algorithm::trim_copy(std::string(cell));
-      if (text.empty() || text == "-") continue;
+      if (text.empty() || text == "-" || is_units_word(text)) continue;
       if (number_form(text).kind == NumberForm::Kind::number || !is_unit_cell(text)) return false;
       any = true;
     }
@@ -299,7 +413,9 @@ class Survey {
     }
     for (std::size_t c = 0; c < std::min(units.size(), records.cells().size()); ++c) {
       if (boost::algorithm::trim_copy(std::string(units[c])).empty()) continue;
-      if (number_form(records.cells()[c]).kind == NumberForm::Kind::text) return false;
+      const std::string_view cell = records.cells()[c];
+      if (is_units_word(units[c]) || is_missing_mark(cell) || cell_text(cell)) continue;
+      if (number_form(cell).kind == NumberForm::Kind::text) return false;
     }
     return true;
   }
@@ -319,19 +435,43 @@ class Survey {
       const Evidence& seen = evidence_[c];
       TextColumn column;
       column.name = heading_.names[c].empty() ? fmt::format("column{}", c + 1) : heading_.names[c];
-      if (c < units_.size()) column.unit = boost::algorithm::trim_copy(units_[c]);
+      if (c < units_.size() && !is_units_word(units_[c]))
+        column.unit = boost::algorithm::trim_copy(units_[c]);
       decide(seen, of_all, evidence_, layout_.delimiter, settings_, column);
+      decide_unit(seen, column);
       layout_.plain =
-          layout_.plain &&
+          layout_.plain && !seen.limit && !seen.with_unit &&
           (!column.is_number || (column.doubt.empty() && seen.is_plain(column.marks.decimal)));
       tell(seen, column);
+      add_notes(seen, column, heading_.names[c].empty());
       layout_.columns.push_back(std::move(column));
     }
   }
 
+  /// For people: what stands in the cells of a column beside numbers.
+  void add_notes(const Evidence& seen, const TextColumn& column, bool no_heading) {
+    if (no_heading && (seen.any_number || seen.any_text))
+      layout_.notes.push_back(fmt::format("a column without a heading, read as '{}'", column.name));
+    if (seen.any_text || !seen.any_number) return;
+    const auto cells = [](std::size_t count) {
+      return fmt::format("{} cell{}", count, count == 1 ? "" : "s");
+    };
+    if (seen.missing)
+      layout_.notes.push_back(fmt::format("{} of '{}' without a value ('{}')",
+                                          cells(seen.missing_cells), column.name,
+                                          seen.missing->cell));
+    if (seen.limit)
+      layout_.notes.push_back(
+          fmt::format("{} of '{}' that {} ('{}')", cells(seen.limits), column.name,
+                      seen.limits == 1 ? "is a limit" : "are limits", seen.limit->cell));
+    if (column.unit_in_cells)
+      layout_.notes.push_back(
+          fmt::format("the unit {} in the cells of '{}'", column.unit, column.name));
+  }
+
   /// For people: the marks that numbers have.
   void tell(const Evidence& seen, const TextColumn& column) {
-    if (!column.is_number || !column.doubt.empty()) return;
+    if (seen.any_text || !seen.any_number || !column.doubt.empty()) return;
     const auto add = [](std::string& to, char mark) {
       if (to.find(mark) == to.npos) to += mark;
     };
@@ -351,6 +491,9 @@ class Survey {
   TextLayout layout_;
   std::vector<Evidence> evidence_;
   std::vector<std::string> units_;
+  std::vector<PendingRow> pending_;
+  std::set<std::string> summaries_that_are_data_;
+  std::size_t rows_ = 0;
   const TextRecords* records_ = nullptr;
   bool any_utf8_ = false;
 };
@@ -409,6 +552,7 @@ std::string in_words(const TextLayout& layout, const std::string& sheet) {
   };
   left_out(layout.comments, "comment line");
   left_out(layout.empty_rows, "empty row");
+  words.insert(words.end(), layout.notes.begin(), layout.notes.end());
   return fmt::format("{}", fmt::join(words, ", "));
 }
 

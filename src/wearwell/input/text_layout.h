@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace wearwell {
 /// One column of a text, after all of it was seen.
 struct TextColumn {
   std::string name;       ///< its heading; "column3" where there is none
-  std::string unit;       ///< from a row of units
-  bool is_number = true;  ///< every cell that is not empty is one
+  std::string unit;       ///< from a row of units, or from the cells
+  bool is_number = true;  ///< every cell that is not empty is one, or says that there is none
+  bool unit_in_cells = false;
   NumberMarks marks;
   std::string doubt;  ///< "row 1, column 'life': ...": why its numbers cannot be read
 };
@@ -25,12 +27,15 @@ struct TextLayout {
   std::string comment;           ///< with which lines begin that are left out
   std::size_t heading_line = 1;  ///< where the record of the headings begins
   bool units_row = false;
+  std::optional<std::size_t> summary_line = {};  ///< from there on rows are means and sums
   std::vector<TextColumn> columns;
   /// Whether DuckDB can read the file as it stands.
   bool plain = true;
   // What was left out, for people.
   std::size_t comments = 0, empty_rows = 0;
-  std::string decimal_marks;    ///< that numbers have: "", ".", "," or both
+  std::vector<std::string>
+      notes;                  ///< what else was seen: "column 'V': 2 cells without a value ('NA')"
+  std::string decimal_marks;  ///< that numbers have: "", ".", "," or both
   std::string thousands_marks;  ///< likewise
 };
 

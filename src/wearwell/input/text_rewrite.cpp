@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "wearwell/input/cell_text.h"
 #include "wearwell/input/csv_reader.h"
 #include "wearwell/input/memory_text.h"
 #include "wearwell/input/text_records.h"
@@ -21,6 +22,7 @@ std::unique_ptr<TableFile> rewritten(const TableFile& file, const TextLayout& la
   records.next();
   if (layout.units_row) records.next();
   while (records.next()) {
+    if (layout.summary_line && records.line() >= *layout.summary_line) break;
     const auto& cells = records.cells();
     row.clear();
     bool any = false;
@@ -31,6 +33,7 @@ std::unique_ptr<TableFile> rewritten(const TableFile& file, const TextLayout& la
       any = true;
       const TextColumn& column = layout.columns[c];
       if (column.is_number && column.doubt.empty()) {
+        if (is_missing_mark(cell)) continue;
         row += plain_number(cell, column.marks).value_or(csv_cell(std::string(cell)));
       } else {
         row += csv_cell(std::string(cell));

@@ -58,7 +58,8 @@ struct TomlReader::State {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
   const toml::table* table = nullptr;
   std::string file;
-  std::string name;  // "prior.k"; empty for the whole file
+  std::shared_ptr<const std::string> text;  // of the file
+  std::string name;                         // "prior.k"; empty for the whole file
   std::map<std::string, std::set<std::string>, std::less<>> asked;  // and as what
   std::map<std::string, std::shared_ptr<State>, std::less<>> children;
 
@@ -90,13 +91,15 @@ TomlReader TomlReader::parse(const TextFile& file) {
         toml::parse(std::string_view(file.text), std::string_view(name)));
     state->table = state->root.get();
     state->file = name;
+    state->text = std::make_shared<const std::string>(file.text);
     if (state->table->empty()) throw InputError(fmt::format("{} is empty", name));
     return TomlReader(state);
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
     std::string what = common_slip(file.text, at.line);
     if (what.empty()) what = in_our_words(error.description());
-    throw InputError(fmt::format("{}:{}:{}: {}", name, at.line, at.column, what));
+    throw InputError(fmt::format("{}:{}:{}: {}{}", name, at.line, at.column, what,
+                                 study_excerpt(valid_utf8(file.text), at.line, at.column)));
   } catch (const NoToml&) {
     throw InputError(fmt::format(
         "{}:{}: no TOML: a key or a value is missing where one must stand, behind '[' or '='", name,
@@ -104,14 +107,23 @@ TomlReader TomlReader::parse(const TextFile& file) {
   }
 }
 
-void TomlReader::fail(std::string_view key, const std::string& message) const {
+void TomlReader::fail(std::string_view key, const std::string& message,
+                      const Repair& repair) const {
   const toml::node* node = state_->table->get(key);
-  const toml::source_region& source = node ? node->source() : state_->table->source();
+  const toml::source_position at = (node ? node->source() : state_->table->source()).begin;
   const std::string where = state_->name.empty() ? std::string(key)
                             : key.empty()        ? fmt::format("[{}]", state_->name)
                                                  : fmt::format("{}.{}", state_->name, key);
-  throw InputError(fmt::format("{}:{}:{}: {}: {}", state_->file, source.begin.line,
-                               source.begin.column, where, message));
+  // Of the text of a law the message has its own excerpt.
+  const bool has_excerpt = message.find('\n') != message.npos;
+  // A key that is missing stands in no line.
+  const bool shows = !has_excerpt && (node || !state_->name.empty());
+  throw InputError(fmt::format("{}:{}:{}: {}: {}{}", state_->file, at.line, at.column, where,
+                               message, shows ? excerpt(at.line, at.column, repair) : ""));
+}
+
+std::string TomlReader::excerpt(std::size_t line, std::size_t column, const Repair& repair) const {
+  return study_excerpt(*state_->text, line, column, repair);
 }
 
 bool TomlReader::has(std::string_view key) const {
@@ -121,6 +133,11 @@ bool TomlReader::has(std::string_view key) const {
 bool TomlReader::is_text(std::string_view key) const {
   const toml::node* node = state_->find(key);
   return node && node->is_string();
+}
+
+bool TomlReader::is_integer(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  return node && node->is_integer();
 }
 
 std::optional<std::string> TomlReader::text_as(std::string_view key, std::string kind) const {
@@ -158,8 +175,11 @@ std::optional<std::string> TomlReader::choice(std::string_view key,
   if (value && std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
     if (allowed.size() == 1)
       fail(key, fmt::format("'{}' is not possible; only '{}' is", *value, allowed.front()));
-    fail(key, fmt::format("'{}' is not possible; it is one of {} (nearest: '{}')", *value,
-                          fmt::join(allowed, ", "), nearest_name(*value, allowed)));
+    const std::string nearest = nearest_name(*value, allowed);
+    fail(key,
+         fmt::format("'{}' is not possible; it is one of {} (nearest: '{}')", *value,
+                     fmt::join(allowed, ", "), nearest),
+         near_name(*value, allowed) ? Repair{*value, nearest} : Repair{});
   }
   return value;
 }
@@ -211,6 +231,14 @@ Quantity read_node(const toml::node& node, std::string_view si) {
   return {*number, Unit{"1", 1, 0}};
 }
 
+// A number that lacks its unit, with one.
+Repair unit_of_its_own(const toml::node& node, std::string_view si) {
+  const auto number = node.value<double>();
+  if (!number || node.is_boolean() || may_be_plain(si)) return {};
+  const std::string text = fmt::format("{}", *number);
+  return {text, fmt::format("\"{} {}\"", text, si)};
+}
+
 }  // namespace
 
 std::optional<Quantity> TomlReader::quantity(std::string_view key, std::string_view si) const {
@@ -219,7 +247,7 @@ std::optional<Quantity> TomlReader::quantity(std::string_view key, std::string_v
   try {
     return read_node(*node, si);
   } catch (const InputError& error) {
-    fail(key, error.what());
+    fail(key, error.what(), unit_of_its_own(*node, si));
   }
 }
 
@@ -262,6 +290,7 @@ std::optional<TomlReader> TomlReader::table(std::string_view key) const {
     child->root = state_->root;
     child->table = node->as_table();
     child->file = state_->file;
+    child->text = state_->text;
     child->name = state_->path(key);
   }
   return TomlReader(child);
@@ -294,7 +323,7 @@ void add_present(const toml::table& table, const std::string& name,
         name.empty() ? std::string(key.str()) : fmt::format("{}.{}", name, key.str());
     found.push_back({key.source().begin,
                      {path, node.is_table(), node.value_exact<std::string>().value_or(""),
-                      fmt::format("{}:{}", at.line, at.column)}});
+                      fmt::format("{}:{}", at.line, at.column), at.line, at.column}});
     if (node.is_table()) add_present(*node.as_table(), path, found);
   }
 }
@@ -329,8 +358,10 @@ void TomlReader::finish() const {
     std::vector<std::string> allowed;
     for (const auto& [name, kinds] : state_->asked) allowed.push_back(name);
     if (allowed.empty()) fail(key, "unknown key; nothing may stand here");
-    fail(key, fmt::format("unknown key; did you mean '{}'? (possible: {})",
-                          nearest_name(key, allowed), fmt::join(allowed, ", ")));
+    fail(key,
+         fmt::format("unknown key; did you mean '{}'? (possible: {})", nearest_name(key, allowed),
+                     fmt::join(allowed, ", ")),
+         near_name(key, allowed) ? Repair{key, nearest_name(key, allowed), true} : Repair{});
   }
   for (const auto& [key, child] : state_->children) TomlReader(child).finish();
 }

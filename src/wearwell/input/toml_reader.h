@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "wearwell/base/unit.h"
+#include "wearwell/input/study_excerpt.h"
 #include "wearwell/input/text_file.h"
 
 namespace wearwell {
 
 /// One table of a TOML file, read strictly: what is asked for is what may stand there. Every
-/// message begins with file:line:column and names the key; `finish` refuses what was never asked
-/// for. All throw InputError.
+/// message begins with file:line:column, names the key and ends with that line (study_excerpt.h);
+/// `finish` refuses what was never asked for. All throw InputError.
 class TomlReader {
  public:
   /// Throws InputError when it is not TOML.
@@ -30,6 +31,7 @@ class TomlReader {
 
   bool has(std::string_view key) const;
   bool is_text(std::string_view key) const;
+  bool is_integer(std::string_view key) const;
 
   std::optional<std::string> text(std::string_view key) const;
   std::string required_text(std::string_view key) const;
@@ -53,15 +55,18 @@ class TomlReader {
   /// The keys that stand in the table, in the order of the file.
   std::vector<std::string> keys() const;
 
-  /// Refuses the value of `key`, or the table itself when it has no such key.
-  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+  /// Refuses the value of `key`, or the table itself when it has no such key. `repair` is what would
+  /// be right in its line.
+  [[noreturn]] void fail(std::string_view key, const std::string& message,
+                         const Repair& repair = {}) const;
 
   /// A key that stands in the file, with its table: "prior.k.law".
   struct Present {
     std::string path;
     bool is_table = false;
-    std::string text;   ///< its value, where that is a text
-    std::string place;  ///< "12:3", line and column of the value
+    std::string text;                  ///< its value, where that is a text
+    std::string place;                 ///< "12:3", line and column of the value
+    std::size_t line = 0, column = 0;  ///< the same
   };
   /// All that stands here and in the tables below, in the order of the file. Asks for nothing.
   std::vector<Present> present() const;
@@ -71,6 +76,8 @@ class TomlReader {
   std::map<std::string, std::set<std::string>> asked() const;
 
   const std::string& file() const;
+  /// What stands in the file, behind a message (study_excerpt.h).
+  std::string excerpt(std::size_t line, std::size_t column, const Repair& repair = {}) const;
 
   /// Refuses keys that were never asked for, here and in the tables below, naming the nearest that
   /// may stand there.

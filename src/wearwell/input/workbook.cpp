@@ -13,6 +13,7 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/csv_reader.h"
 #include "wearwell/input/memory_text.h"
+#include "wearwell/input/sheet_numbers.h"
 #include "wearwell/input/spreadsheet_cell.h"
 #include "wearwell/input/zip_xml.h"
 
@@ -45,6 +46,23 @@ std::string attribute(const XmlHandler::Attributes& attributes, std::string_view
   return found == attributes.end() ? "" : found->second;
 }
 
+/// "B3:F20", "B:F".
+Range read_range(const std::string& text, const std::string& source) {
+  std::string_view rest;
+  Range range{read_cell_name(text, rest), {}};
+  if (rest.starts_with(':')) range.last = read_cell_name(rest.substr(1), rest);
+  const auto or_all = [](std::size_t& value, std::size_t all) { value = value ? value : all; };
+  const bool has_columns = range.first.column > 0 && range.last.column > 0;
+  or_all(range.first.row, 1);
+  or_all(range.last.row, most_rows);
+  if (!rest.empty() || !has_columns || range.last.column > most_columns ||
+      range.last.row > most_rows || range.first.column > range.last.column ||
+      range.first.row > range.last.row)
+    throw InputError(
+        fmt::format("{}: '{}' is no range of a sheet; write one like B3:F20 or B:F", source, text));
+  return range;
+}
+
 /// What an .xlsx holds beside its sheets.
 class Workbook {
  public:
@@ -57,10 +75,22 @@ class Workbook {
   const std::string& source() const { return source_; }
   const std::vector<SheetName>& sheets() const { return sheets_; }
 
-  /// Calls `row` with the number of each row that holds something, and its cells with their columns.
-  using Cells = std::vector<std::pair<std::size_t, std::string>>;
+  struct Cell {
+    std::size_t column = 0;
+    std::string text;
+    bool is_text = false;  ///< and no number, date or truth value
+  };
+  using Cells = std::vector<Cell>;
+  struct Row {
+    std::size_t number = 0;
+    bool hidden = false;
+    Cells cells;
+  };
+  /// Calls `row` with each row that holds something. Ranges of merged cells, which stand behind the rows, are
+  /// added to `merged`.
   void read_rows(const SheetName& sheet, const Range& range,
-                 const std::function<void(std::size_t row, const Cells& cells)>& row) const;
+                 const std::function<void(Row& row)>& row,
+                 std::vector<Range>* merged = nullptr) const;
 
  private:
   void read_sheet_names() {
@@ -149,12 +179,14 @@ class Workbook {
 class SheetParser {
  public:
   SheetParser(const Workbook& book, const SheetName& sheet, const Range& range,
-              const std::function<void(std::size_t, const Workbook::Cells&)>& row)
-      : book_(book), sheet_(sheet), range_(range), give_(row) {}
+              const std::function<void(Workbook::Row&)>& row, std::vector<Range>* merged)
+      : book_(book), sheet_(sheet), range_(range), give_(row), merged_(merged) {}
 
   void start(std::string_view name, const XmlHandler::Attributes& attributes) {
     if (name == "row") {
-      const std::string number = attribute(attributes, "r");
+      const std::string number = attribute(attributes, "r"),
+                        hidden = attribute(attributes, "hidden");
+      hidden_ = hidden == "1" || hidden == "true";
       row_ = number.empty() ? row_ + 1 : static_cast<std::size_t>(std::max(whole(number), 0));
       column_ = 0;
       cells_.clear();
@@ -179,6 +211,8 @@ class SheetParser {
       has_formula_ = true;
     } else if (name == "rPh") {
       in_reading_ = true;
+    } else if (name == "mergeCell" && merged_) {
+      merged_->push_back(read_range(attribute(attributes, "ref"), sheet_.name));
     }
   }
 
@@ -193,7 +227,10 @@ class SheetParser {
     if (name == "v" || name == "t") in_value_ = false;
     if (name == "rPh") in_reading_ = false;
     if (name == "c") end_cell();
-    if (name == "row" && !cells_.empty()) give_(row_, cells_);
+    if (name != "row" || cells_.empty()) return;
+    Workbook::Row row{row_, hidden_, std::move(cells_)};
+    cells_.clear();
+    give_(row);
   }
 
  private:
@@ -224,24 +261,27 @@ class SheetParser {
     for (char& c : text) {
       if (c == '\n' || c == '\r') c = ' ';
     }
-    if (!text.empty()) cells_.emplace_back(at_.column, std::move(text));
+    const bool is_text = type_ == "s" || type_ == "str" || type_ == "inlineStr";
+    if (!text.empty()) cells_.push_back({at_.column, std::move(text), is_text});
   }
 
   const Workbook& book_;
   const SheetName& sheet_;
   const Range& range_;
-  const std::function<void(std::size_t, const Workbook::Cells&)>& give_;
+  const std::function<void(Workbook::Row&)>& give_;
+  std::vector<Range>* merged_;
   Workbook::Cells cells_;
   std::size_t row_ = 0, column_ = 0, style_ = 0;
   CellName at_;
   std::string type_, value_;
-  bool in_value_ = false, in_reading_ = false, has_value_ = false, has_formula_ = false;
+  bool hidden_ = false, in_value_ = false, in_reading_ = false, has_value_ = false,
+       has_formula_ = false;
 };
 
-void Workbook::read_rows(
-    const SheetName& sheet, const Range& range,
-    const std::function<void(std::size_t row, const Cells& cells)>& row) const {
-  SheetParser parser(*this, sheet, range, row);
+void Workbook::read_rows(const SheetName& sheet, const Range& range,
+                         const std::function<void(Row& row)>& row,
+                         std::vector<Range>* merged) const {
+  SheetParser parser(*this, sheet, range, row, merged);
   zip_.read(sheet.part,
             {[&](std::string_view name, const auto& attributes) { parser.start(name, attributes); },
              [&](std::string_view name) { parser.end(name); },
@@ -249,35 +289,88 @@ void Workbook::read_rows(
             most_sheet);
 }
 
-/// "B3:F20", "B:F".
-Range read_range(const std::string& text, const std::string& source) {
-  std::string_view rest;
-  Range range{read_cell_name(text, rest), {}};
-  if (rest.starts_with(':')) range.last = read_cell_name(rest.substr(1), rest);
-  const auto or_all = [](std::size_t& value, std::size_t all) { value = value ? value : all; };
-  const bool has_columns = range.first.column > 0 && range.last.column > 0;
-  or_all(range.first.row, 1);
-  or_all(range.last.row, most_rows);
-  if (!rest.empty() || !has_columns || range.last.column > most_columns ||
-      range.last.row > most_rows || range.first.column > range.last.column ||
-      range.first.row > range.last.row)
-    throw InputError(
-        fmt::format("{}: '{}' is no range of a sheet; write one like B3:F20 or B:F", source, text));
-  return range;
+/// What is found of a sheet before it is read: its columns, its last row (0 where it is empty), and what its cells of
+/// text and its merged cells say.
+struct Survey {
+  std::size_t first = most_columns + 1, last = 0, last_row = 0;
+  SheetNumbers numbers;
+  std::vector<Range> merged;
+};
+Survey survey_of(const Workbook& book, const SheetName& sheet, const Range& range,
+                 const TableSettings& settings) {
+  Survey found{.numbers = SheetNumbers(settings), .merged = {}};
+  book.read_rows(
+      sheet, range,
+      [&](Workbook::Row& row) {
+        if (row.hidden && settings.hidden_rows == false) return;
+        found.first = std::min(found.first, row.cells.front().column);
+        found.last = std::max(found.last, row.cells.back().column);
+        found.last_row = std::max(found.last_row, row.number);
+        for (const Workbook::Cell& cell : row.cells) {
+          if (cell.is_text) found.numbers.look_at(cell.column, row.number, cell.text);
+        }
+      },
+      &found.merged);
+  std::erase_if(found.merged, [](const Range& each) { return each.first.row >= each.last.row; });
+  return found;
 }
 
-/// The columns that a sheet uses, and its last row; 0 where it is empty.
-struct Used {
-  std::size_t first = most_columns + 1, last = 0, last_row = 0;
+/// Repeats what is merged over several rows in each of them.
+class MergedCells {
+ public:
+  explicit MergedCells(const std::vector<Range>& ranges)
+      : ranges_(ranges), values_(ranges.size()) {}
+
+  void fill(Workbook::Row& row) {
+    for (std::size_t i = 0; i < ranges_.size(); ++i) {
+      const Range& range = ranges_[i];
+      if (row.number < range.first.row || row.number > range.last.row) continue;
+      const auto at = std::lower_bound(
+          row.cells.begin(), row.cells.end(), range.first.column,
+          [](const Workbook::Cell& cell, std::size_t column) { return cell.column < column; });
+      const bool there = at != row.cells.end() && at->column == range.first.column;
+      if (row.number == range.first.row) {
+        if (there) values_[i] = *at;
+      } else if (!there && values_[i].column > 0) {
+        row.cells.insert(at, values_[i]);
+        if (filled_.empty() || filled_.back() != i) filled_.push_back(i);
+      }
+    }
+  }
+
+  /// "merged cells A2:A4, A5:A7 read in each of their rows"; empty where none were.
+  std::string in_words() const {
+    constexpr std::size_t most = 3;
+    std::vector<std::string> names;
+    for (const std::size_t i : filled_) {
+      const Range& range = ranges_[i];
+      if (names.size() == most) {
+        names.push_back(fmt::format("... ({} in all)", filled_.size()));
+        break;
+      }
+      names.push_back(fmt::format("{}{}:{}{}", column_letters(range.first.column), range.first.row,
+                                  column_letters(range.last.column), range.last.row));
+    }
+    if (names.empty()) return {};
+    return fmt::format("merged cells {} read in each of their rows", fmt::join(names, ", "));
+  }
+
+ private:
+  const std::vector<Range>& ranges_;
+  std::vector<Workbook::Cell> values_;
+  std::vector<std::size_t> filled_;
 };
-Used used_by(const Workbook& book, const SheetName& sheet, const Range& range) {
-  Used used;
-  book.read_rows(sheet, range, [&](std::size_t row, const Workbook::Cells& cells) {
-    used.first = std::min(used.first, cells.front().first);
-    used.last = std::max(used.last, cells.back().first);
-    used.last_row = std::max(used.last_row, row);
-  });
-  return used;
+
+/// "2 hidden rows read like the others (rows 5, 9)".
+std::string hidden_in_words(const std::vector<std::size_t>& rows, bool read) {
+  constexpr std::size_t most = 5;
+  std::vector<std::string> numbers;
+  for (const std::size_t row : rows) {
+    numbers.push_back(numbers.size() == most ? "..." : fmt::format("{}", row));
+    if (numbers.size() > most) break;
+  }
+  return fmt::format("{} hidden row{} {} ({})", rows.size(), rows.size() == 1 ? "" : "s",
+                     read ? "read like the others" : "left out", fmt::join(numbers, ", "));
 }
 
 const SheetName& named_sheet(const Workbook& book, const std::string& wanted) {
@@ -299,25 +392,25 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
   const Workbook book(file);
   const Range range = settings.range ? read_range(*settings.range, file.source()) : Range{};
   const SheetName* sheet = nullptr;
-  Used used;
+  Survey used{.numbers = SheetNumbers(settings), .merged = {}};
   if (settings.sheet) {
     sheet = &named_sheet(book, *settings.sheet);
-    used = used_by(book, *sheet, range);
+    used = survey_of(book, *sheet, range, settings);
   } else {
     std::vector<std::string> full;
     for (const SheetName& each : book.sheets()) {
       if (each.hidden) continue;
-      const Used here = used_by(book, each, range);
+      Survey here = survey_of(book, each, range, settings);
       if (here.last == 0) continue;
       full.push_back(each.name);
-      if (!sheet) used = here;
+      if (!sheet) used = std::move(here);
       if (!sheet) sheet = &each;
     }
     if (full.size() > 1)
-      throw InputError(
-          fmt::format("{} has several sheets; say which in [data], as in sheet = "
-                      "\"{}\" (there are {})",
-                      file.source(), full.front(), fmt::join(full, ", ")));
+      throw SeveralSheets(fmt::format("{} has several sheets; say which in [data], as in sheet = "
+                                      "\"{}\" (there are {})",
+                                      file.source(), full.front(), fmt::join(full, ", ")),
+                          full);
   }
   if (!sheet || used.last == 0)
     throw InputError(fmt::format("{} holds nothing{}", file.source(),
@@ -330,21 +423,34 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
   MemoryText out;
   std::size_t next_row = 1;
   std::string line;
-  book.read_rows(*sheet, range, [&](std::size_t row, const Workbook::Cells& cells) {
-    if (row < next_row)
-      throw InputError(fmt::format("row {} of sheet '{}' stands out of order", row, sheet->name));
-    for (; next_row < row; ++next_row) out.add_line("");
+  MergedCells merged(used.merged);
+  std::vector<std::size_t> hidden;
+  book.read_rows(*sheet, range, [&](Workbook::Row& row) {
+    if (row.number < next_row)
+      throw InputError(
+          fmt::format("row {} of sheet '{}' stands out of order", row.number, sheet->name));
+    merged.fill(row);
+    if (row.hidden) hidden.push_back(row.number);
+    if (row.hidden && settings.hidden_rows == false) return;
+    for (; next_row < row.number; ++next_row) out.add_line("");
     line.clear();
     std::size_t column = used.first;
-    for (const auto& [at, text] : cells) {
+    for (const auto& [at, text, is_text] : row.cells) {
       for (; column < at; ++column) line += ',';
-      line += csv_cell(text);
+      line += csv_cell(is_text ? used.numbers.rewritten(at, text) : text);
     }
     for (; column < used.last; ++column) line += ',';
     out.add_line(line);
     ++next_row;
   });
-  return {out.table(file.source()), sheet->name};
+  SheetText found{out.table(file.source()), sheet->name};
+  for (auto& [column, doubt] : used.numbers.doubts())
+    found.doubts[column - used.first] = std::move(doubt);
+  if (used.numbers.any_comma()) found.notes.emplace_back("decimal comma in cells of text");
+  if (const std::string words = merged.in_words(); !words.empty()) found.notes.push_back(words);
+  if (!hidden.empty())
+    found.notes.push_back(hidden_in_words(hidden, settings.hidden_rows != false));
+  return found;
 }
 
 }  // namespace wearwell

@@ -127,8 +127,11 @@ std::string table(const Table& table) {
       "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{0}\">\n"
       "<table{1}><caption>{0}</caption>\n<thead><tr>",
       escape(table.caption), table.words ? " class=\"words\"" : "");
-  for (const std::string& heading : table.heading) {
-    out += fmt::format("<th scope=\"col\">{}</th>", named(heading));
+  const auto kind = [&](std::size_t column) {
+    return column < table.text.size() && table.text[column] ? " class=\"text\"" : "";
+  };
+  for (std::size_t c = 0; c < table.heading.size(); ++c) {
+    out += fmt::format("<th scope=\"col\"{}>{}</th>", kind(c), named(table.heading[c]));
   }
   out += "</tr></thead>\n<tbody>\n";
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
@@ -136,12 +139,12 @@ std::string table(const Table& table) {
     for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
       const std::string text = cell(table.rows[r][c]);
       if (c == 0) {
-        out += fmt::format("<th scope=\"row\">{}</th>", text);
+        out += fmt::format("<th scope=\"row\"{}>{}</th>", kind(c), text);
       } else if (c == 1 && r < table.badges.size()) {
         out += fmt::format("<td><span class=\"badge {}\">{}</span></td>", escape(table.badges[r]),
                            text);
       } else {
-        out += fmt::format("<td>{}</td>", text);
+        out += fmt::format("<td{}>{}</td>", kind(c), text);
       }
     }
     out += "</tr>\n";
@@ -151,24 +154,32 @@ std::string table(const Table& table) {
 
 namespace {
 
-std::string figure(const Figure& figure, bool wide) {
+std::string plot_of(const Figure& figure) {
   return fmt::format(
-      "<figure id=\"{0}\"{4}><figcaption><h3>{1}</h3><p>{2}</p></figcaption>\n"
-      "<div class=\"plot\"></div>\n"
-      "<script type=\"application/json\">{3}</script></figure>\n",
-      escape(figure.id), escape(figure.title), escape(figure.caption),
+      "<div class=\"plot\"></div>\n<script type=\"application/json\">{}</script>\n",
       script_safe(
-          figure.specification.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)),
-      wide ? " class=\"wide\"" : "");
+          figure.specification.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
 }
 
-// What takes a row for itself: a curve over a history, or one that has no neighbour in its row.
+// The title stands above the plot, what to see in it below.
+std::string figure(const Figure& figure, bool wide) {
+  return fmt::format(
+      "<figure id=\"{}\"{}><figcaption><h3>{}</h3></figcaption>\n{}<p>{}</p></figure>\n",
+      escape(figure.id), wide ? " class=\"wide\"" : "", escape(figure.title), plot_of(figure),
+      escape(figure.caption));
+}
+
+std::string panel(const Figure& figure) {
+  return fmt::format("<figure id=\"{}\"><figcaption><h4>{}</h4></figcaption>\n{}</figure>\n",
+                     escape(figure.id), escape(figure.title), plot_of(figure));
+}
+
+// What takes a row for itself: what asks for it, or has no neighbour in its row.
 std::vector<bool> wide_ones(const std::vector<Figure>& figures) {
   std::vector<bool> wide(figures.size(), false);
   std::size_t in_row = 0;
   for (std::size_t i = 0; i < figures.size(); ++i) {
-    const std::string& id = figures[i].id;
-    wide[i] = id == "history" || id == "sn-curve";
+    wide[i] = figures[i].wide || !figures[i].panel_of.empty();
     if (wide[i] && in_row == 1) wide[i - 1] = true;
     in_row = wide[i] ? 0 : (in_row + 1) % 2;
   }
@@ -176,12 +187,27 @@ std::vector<bool> wide_ones(const std::vector<Figure>& figures) {
   return wide;
 }
 
+// From one figure on, all that are panels of one: up to `end`.
+std::string panels(const std::vector<Figure>& figures, std::size_t first, std::size_t end) {
+  std::string out =
+      fmt::format("<div class=\"multiples\"><h3>{}</h3><p>{}</p>\n<div class=\"panels\">\n",
+                  escape(figures[first].panel_of), escape(figures[first].caption));
+  for (std::size_t i = first; i < end; ++i) out += panel(figures[i]);
+  return out + "</div></div>\n";
+}
+
 }  // namespace
 
 std::string figures(const std::vector<Figure>& figures) {
   std::string out = "<div class=\"figures\">\n";
   const std::vector<bool> wide = wide_ones(figures);
-  for (std::size_t i = 0; i < figures.size(); ++i) out += figure(figures[i], wide[i]);
+  for (std::size_t i = 0; i < figures.size();) {
+    const std::string& group = figures[i].panel_of;
+    std::size_t end = i + 1;
+    while (!group.empty() && end < figures.size() && figures[end].panel_of == group) ++end;
+    out += group.empty() ? figure(figures[i], wide[i]) : panels(figures, i, end);
+    i = end;
+  }
   return out + "</div>\n";
 }
 

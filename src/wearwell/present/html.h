@@ -51,6 +51,7 @@ struct Table {
   bool words = false;                    ///< cells are sentences, not numbers
   std::vector<std::string> badges = {};  ///< "pass", "warn" or "fail" of each row, if any: its
                                          ///< second cell is painted so
+  std::vector<bool> text = {};           ///< columns of text, which begin at the left and may wrap
 };
 std::string table(const Table& table);
 
@@ -58,9 +59,13 @@ std::string table(const Table& table);
 struct Figure {
   std::string id, title, caption;
   nlohmann::ordered_json specification;
+  /// The title of small multiples, of which this is one; their caption is that of the first.
+  std::string panel_of = {};
+  bool wide = false;  ///< takes a row for itself
 };
 
 /// Figures side by side, two in a row where there is room; one without a neighbour takes the row.
+/// Neighbours with one `panel_of` are small and stand under one title.
 std::string figures(const std::vector<Figure>& figures);
 
 /// What is shown on request.

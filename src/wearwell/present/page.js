@@ -31,6 +31,37 @@
     });
   }
 
+  // Labels of axes in Vega's expressions, numbers as elsewhere on the page: 10⁶, never 1e+6. Over decades their powers of
+  // ten have labels, over less their 1, 2 and 5, over little all ticks.
+  const exponent = 'floor(log(abs(datum.value))*LOG10E+1e-9)', digits = `datum.value/pow(10,${exponent})`;
+  function tickNumber(least, most) {
+    const digit = (power) => `'⁰¹²³⁴⁵⁶⁷⁸⁹'[floor(abs(${exponent})/${power})%10]`;
+    const raised = `(${exponent}<0?'⁻':'')` +
+        [100, 10].map((power) => `+(abs(${exponent})<${power}?'':${digit(power)})`).join('') + `+${digit(1)}`;
+    return `datum.value===0?'0':${exponent}>${most}||${exponent}<${least}?` +
+        `(abs(${digits}-1)<1e-6?'':format(${digits},'.3~r')+'×')+'10'+${raised}:format(datum.value,',.6~r')`;
+  }
+  function logarithmicTick(channel) {
+    const span = `domain('${channel}')[1]/domain('${channel}')[0]`;
+    return `${span}<8||indexof(${span}<1000?[1,2,5]:[1],round(${digits}))>=0?(${span}<1000?${tickNumber(-2, 3)}:${tickNumber(-1, 2)}):''`;
+  }
+  function labelAxes(layers) {
+    for (const {encoding} of layers) {
+      for (const channel of ['x', 'y']) {
+        const {axis, scale} = encoding?.[channel] ?? {};
+        if (!axis?.format || axis.labelExpr) continue;
+        axis.labelExpr = scale?.type === 'log' ? logarithmicTick(channel) : tickNumber(-4, 6);
+      }
+    }
+  }
+
+  // A value of a tooltip as markup: escaped, and a power of ten as it is written elsewhere on the page.
+  function shown(value) {
+    const power = (exponent) => [...String(Number(exponent))].map((each) => each === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[each]).join('');
+    return String(value).replace(/&/g, '&amp;').replace(/</g, '&lt;')
+        .replace(/^([−-]?[\d.]+)e([+−-]?\d+)$/, (whole, digits, exponent) => `${digits} × 10${power(exponent.replace('−', '-'))}`);
+  }
+
   async function draw(figure) {
     const specification = JSON.parse(figure.querySelector('script').textContent);
     for (const {data} of specification.layer) {
@@ -39,6 +70,7 @@
       delete data.format;
     }
     delete specification.usermeta;  // options are ours
+    labelAxes(specification.layer);
     const name = `${title} ${figure.id}`.replace(/[^\p{L}\p{N}]+/gu, '-');
     const plot = figure.querySelector('.plot');
     const width = plot.clientWidth;
@@ -65,7 +97,7 @@
       actions: {export: {svg: true, png: true}, source: false, compiled: false, editor: false},
       downloadFileName: name,
       scaleFactor: {svg: 1, png: 2},
-      tooltip: {theme: matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'},
+      tooltip: {theme: matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light', sanitize: shown},
     });
     // As text: Vega's own page of the source would take texts in it for markup.
     const source = document.createElement('a');
@@ -74,7 +106,7 @@
     source.href = URL.createObjectURL(new Blob([JSON.stringify(specification, null, 2)], {type: 'text/plain'}));
     figure.querySelector('.vega-actions').append(source);
     const summary = figure.querySelector('summary');
-    if (summary) summary.setAttribute('aria-label', `Menu: ${figure.querySelector('h3').textContent}`);
+    if (summary) summary.setAttribute('aria-label', `Menu: ${figure.querySelector('h3, h4').textContent}`);
     figure.dataset.drawn = 'true';
   }
 

@@ -95,6 +95,18 @@ Json scale(const Axis& axis) {
   return json;
 }
 
+Json named_ticks(const Axis& axis) {
+  std::vector<double> values;
+  std::string label = "''";
+  for (auto each = axis.ticks.rbegin(); each != axis.ticks.rend(); ++each) {
+    values.push_back(each->first);
+    label = fmt::format("abs(datum.value-({}))<1e-9?{}:{}", each->first, Json(each->second).dump(),
+                        label);
+  }
+  std::sort(values.begin(), values.end());
+  return {{"values", values}, {"labelExpr", label}, {"labelOverlap", "greedy"}};
+}
+
 Json ticks(const char* channel, const Axis& axis) {
   if (!axis.names.empty()) {
     std::vector<double> values;
@@ -108,6 +120,8 @@ Json ticks(const char* channel, const Axis& axis) {
             {"labelExpr", Json(axis.names).dump() + "[datum.value - 1]"}};
   }
   if (!axis.numbers) return {{"labels", false}, {"ticks", false}, {"grid", false}};
+  if (!axis.ticks.empty()) return named_ticks(axis);
+  // The page writes powers of ten as html::number does (page.js).
   if (axis.logarithmic) return {{"format", "~g"}, {"tickCount", 5}};
   return {{"format", ",~r"}};
 }
@@ -127,8 +141,11 @@ void set_axis(Json& encoding, const char* channel, const Axis& axis, bool has_po
 
 }  // namespace
 
+// Through its points in their order: Vega-Lite would sort them by x.
 Json line(const Columns& data, const Look& look) {
-  return layer(data, stroke("line", look), look);
+  Json json = layer(data, stroke("line", look), look);
+  json["encoding"]["order"] = nullptr;
+  return json;
 }
 
 Json steps(const Columns& data, const Look& look) {

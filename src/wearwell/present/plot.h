@@ -28,6 +28,8 @@ struct Axis {
   std::optional<double> low = {}, high = {};  ///< what lies outside is cut off; none if not finite
   std::vector<std::string> names = {};        ///< instead of numbers, at 1, 2, ...
   bool numbers = true;                        ///< false: a density, whose numbers say nothing
+  /// Ticks at these places with these names, instead of numbers: shares on probability paper.
+  std::vector<std::pair<double, std::string>> ticks = {};
 };
 
 /// Named columns of equal length.

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <type_traits>
+
 #include "wearwell/present/number.h"
 
 namespace wearwell::present {
 namespace {
 
-std::string html_of(const std::vector<Block>& blocks);
+std::string html_of(const std::vector<Block>& blocks, bool folded);
 
 std::string html_of(const Prose& prose) {
   return fmt::format("<p{}>{}</p>\n", prose.lead ? " class=\"verdict\"" : "",
@@ -39,17 +42,47 @@ std::string html_of(const Figures& figures) {
   return html::figures(figures.figures);
 }
 
-std::string html_of(const Table& table) {
+bool is_text(const Table& table, std::size_t column) {
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    return std::holds_alternative<std::string>(row[column]);
+  });
+}
+
+bool has_content(const Table& table, std::size_t column) {
+  if (column == 0 || table.rows.empty()) return true;
+  return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+    const std::string words = in_words(row[column], table.columns[column]);
+    return !words.empty() && words != "–" && words != "– to –";
+  });
+}
+
+// A column of units stands in brackets behind what is named before it.
+bool is_unit_of_name(const Table& table, std::size_t column) {
+  return column > 0 && table.columns[column].name == "Unit" && is_text(table, column) &&
+         is_text(table, column - 1);
+}
+
+std::string html_of(const Table& table, bool folded) {
   html::Table shown{table.caption, {}, {}, table.words};
-  for (const Column& column : table.columns) {
+  std::vector<std::size_t> columns;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (!has_content(table, c) || is_unit_of_name(table, c)) continue;
+    columns.push_back(c);
+    const Column& column = table.columns[c];
     const std::string unit = html::unit(column.unit);
     shown.heading.push_back(unit.empty() ? column.name : fmt::format("{} [{}]", column.name, unit));
+    shown.text.push_back(!table.words && is_text(table, c));
   }
   for (const auto& row : table.rows) {
     if (shown.rows.size() == most_rows_shown) break;
     shown.rows.emplace_back();
-    for (std::size_t c = 0; c < row.size(); ++c) {
-      shown.rows.back().push_back(html::raised(in_words(row[c], table.columns[c])));
+    for (const std::size_t c : columns) {
+      std::string words = html::raised(in_words(row[c], table.columns[c]));
+      if (c + 1 < row.size() && is_unit_of_name(table, c + 1)) {
+        const std::string unit = html::unit(in_words(row[c + 1], table.columns[c + 1]));
+        if (!unit.empty()) words += fmt::format(" [{}]", unit);
+      }
+      shown.rows.back().push_back(std::move(words));
       if (const auto* badge = std::get_if<Badge>(&row[c])) shown.badges.push_back(badge->kind);
     }
   }
@@ -58,17 +91,29 @@ std::string html_of(const Table& table) {
     out += fmt::format("<p>The first {} of {}; all are in tables/{}.csv.</p>\n",
                        html::given(most_rows_shown),
                        html::given(static_cast<double>(table.rows.size())), html::escape(table.id));
-  return out;
+  if (folded || table.words || table.rows.size() <= most_rows_open) return out;
+  return html::details(fmt::format("{} ({} rows)", table.caption,
+                                   html::given(static_cast<double>(table.rows.size()))),
+                       out);
 }
 
 std::string html_of(const Details& details) {
-  return html::details(details.summary, html_of(details.blocks));
+  return html::details(details.summary, html_of(details.blocks, true));
 }
 
-std::string html_of(const std::vector<Block>& blocks) {
+std::string html_of(const std::vector<Block>& blocks, bool folded) {
   std::string out;
-  for (const Block& block : blocks)
-    out += std::visit([](const auto& content) { return html_of(content); }, block.content);
+  for (const Block& block : blocks) {
+    out += std::visit(
+        [&]<class Content>(const Content& content) {
+          if constexpr (std::is_same_v<Content, Table>) {
+            return html_of(content, folded);
+          } else {
+            return html_of(content);
+          }
+        },
+        block.content);
+  }
   return out;
 }
 
@@ -88,7 +133,7 @@ std::vector<const Table*> tables(const std::vector<Section>& sections) {
 }
 
 std::string html_of(const Section& section) {
-  return html_of(section.blocks);
+  return html_of(section.blocks, false);
 }
 
 }  // namespace wearwell::present

@@ -66,7 +66,10 @@ struct Section {
 /// All tables in the order of the sections, those in details too.
 std::vector<const Table*> tables(const std::vector<Section>& sections);
 
-/// The markup of its blocks.
+/// A page folds tables of more rows, unless their cells are sentences.
+inline constexpr std::size_t most_rows_open = 12;
+
+/// The markup of its blocks. Tables have no column without content there; units stand with what they are of.
 std::string html_of(const Section& section);
 
 }  // namespace wearwell::present

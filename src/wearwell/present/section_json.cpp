@@ -80,6 +80,8 @@ struct BlockJson {
                        {"title", figure.title},
                        {"caption", figure.caption},
                        {"specification", figure.specification}});
+      if (!figure.panel_of.empty()) items.back()["panel_of"] = figure.panel_of;
+      if (figure.wide) items.back()["wide"] = true;
     }
     return {{"figures", std::move(items)}};
   }
@@ -168,6 +170,9 @@ Block read_block(const JsonReader& json, int depth) {
       if (!specification.json().is_object()) specification.fail("should be an object");
       figures.figures.push_back({figure.at("id").text(), figure.at("title").text(),
                                  figure.at("caption").text(), specification.json()});
+      if (const auto group = figure.find("panel_of"))
+        figures.figures.back().panel_of = group->text();
+      if (const auto wide = figure.find("wide")) figures.figures.back().wide = wide->flag();
     }
     return {std::move(figures)};
   }

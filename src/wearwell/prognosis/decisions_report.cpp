@@ -201,8 +201,8 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
   for (const Check& check : decision_checks(report))
     policy.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
                                 check.detail + ". " + check.advice});
-  policy.add(policies_table(report));
   policy.add(present::Figures{{cost_figure(report)}});
+  policy.add(policies_table(report));
   std::vector<present::Section> sections = {policy};
   if (!report.decisions.units.empty()) {
     present::Section units{"units", html::capital(report.lives.noun) + "s"};
@@ -215,9 +215,9 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
   }
   if (!report.decisions.months.empty()) {
     present::Section fleet{"fleet", "Fleet"};
-    fleet.add(months_table(report));
-    fleet.add(present::Prose{how_counted(report)});
     fleet.add(present::Figures{{months_figure(report)}});
+    fleet.add(present::Prose{how_counted(report)});
+    fleet.add(months_table(report));
     sections.push_back(fleet);
   }
   return sections;

@@ -92,12 +92,12 @@ Table months_table(const DecisionsReport& report) {
   Table table{"fleet",
               fmt::format("How many of {} {}s, from now until the end of each month",
                           report.lives.units.size(), report.lives.noun),
-              {{"month"},
+              {{"month", "1", present::given},
                {"run by then", shown.unit()},
                {"reach the limit", "1", present::digits(3)},
-               {"5 to 95 %", "1", present::digits(3), true},
-               {"spare parts, " + level},
-               {"parts if replaced in time, " + level}}};
+               {"5 to 95 %", "1", present::given, true},
+               {"spare parts, " + level, "1", present::given},
+               {"parts if replaced in time, " + level, "1", present::given}}};
   for (const FleetMonth& each : report.decisions.months)
     table.rows.push_back({static_cast<double>(each.month), shown.at(each.until), mean(each.reached),
                           present::Range{present::count(each.low), present::count(each.high)},
@@ -112,12 +112,15 @@ html::Figure cost_figure(const DecisionsReport& report) {
   const std::vector<double> ages = ages_of(fresh.lives, 150);
   std::vector<double> x, y;
   const double reach = std::max(age.rate * 6, age.at_failure * 1.5);
+  double last = 0;  // from there on the curve is that of failure alone
   for (const double each : ages) {
     const double rate = cost_rate(fresh, report.question.costs, each);
     if (rate > reach) continue;
     x.push_back(shown.at(each));
     y.push_back(shown.rate(rate));
+    if (std::abs(rate - age.at_failure) > 0.01 * age.at_failure) last = x.back();
   }
+  const std::optional<double> end = last > 0 ? std::optional(1.3 * last) : std::nullopt;
   std::vector<plot::Json> marks = {plot::line({{"x", x}, {"y", y}}, {colour::posterior})};
   if (std::isfinite(age.age))
     marks.push_back(plot::vertical_line(shown.at(age.age), {colour::limit, "least", 1, 1.5, true}));
@@ -128,7 +131,7 @@ html::Figure cost_figure(const DecisionsReport& report) {
           "Cost in the long run against the age of replacement, averaged over what is not known of "
           "the population.",
           plot::plot("Cost per unit of use against the age of replacement",
-                     {fmt::format("Replaced at [{}]", html::unit(shown.unit()))},
+                     {fmt::format("Replaced at [{}]", html::unit(shown.unit())), false, 0.0, end},
                      {fmt::format("Cost [{}]", html::unit(shown.rate_unit())), false, 0.0},
                      std::move(marks), 300, true)};
 }

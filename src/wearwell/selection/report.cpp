@@ -31,6 +31,8 @@ std::string terms_of(const SelectionResult& result, const SubsetModel& model) {
   return fmt::format("{}", fmt::join(result.names(model.terms), " + "));
 }
 
+constexpr std::size_t figures_of_verdict = 2;  // of those by size
+
 Section verdict_section(const SelectionResult& result) {
   const SearchResult& search = result.selection.search;
   const SubsetModel& best = search.models.front();
@@ -51,6 +53,9 @@ Section verdict_section(const SelectionResult& result) {
        {"R2p", number(fit.r2p), "", "each row predicted without itself"},
        {"RMSE", number(fit.rmse), "",
         fmt::format("RMSEp, each row without itself: {}", number(fit.rmsep))}}});
+  std::vector<html::Figure> all = size_figures(result);
+  all.resize(std::min(all.size(), figures_of_verdict));
+  if (!all.empty()) section.add(Figures{std::move(all)});
   if (search.submodels > 1) {
     section.add(Prose{
         fmt::format("Honest for data to come: {}.", nested_sentence(result.selection.nested))});
@@ -79,7 +84,9 @@ Section size_section(const SelectionResult& result) {
     before = model.terms;
   }
   Section section{"sizes", "All models", {}, "Models by their size"};
-  section.add(Figures{size_figures(result)});
+  std::vector<html::Figure> all = size_figures(result);
+  all.erase(all.begin(), all.begin() + static_cast<long>(std::min(all.size(), figures_of_verdict)));
+  if (!all.empty()) section.add(Figures{std::move(all)});
   section.add(std::move(table));
   if (std::any_of(search.by_size.begin() + 1, search.by_size.end(),
                   [](const SizeBest& each) { return each.model && !each.proven; })) {

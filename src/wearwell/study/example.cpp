@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "wearwell/base/error.h"
 #include "wearwell/base/staged_folder.h"
 
@@ -34,7 +37,11 @@ fs::path write_example(const Model& model, const fs::path& folder) {
 fs::path write_first_study(const FirstStudy& study, const fs::path& data, const fs::path& folder) {
   require_new(folder);
   StagedFolder staged(folder);
-  staged.write(data.filename().string(), read_text_file(data).text);
+  std::ifstream stream(data, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream.good() && !stream.eof())
+    throw InputError(fmt::format("{} cannot be read to its end", data.string()));
+  staged.write(data.filename().string(), bytes);
   staged.write("study.toml", study.text);
   staged.commit({});
   return folder / "study.toml";

@@ -22,6 +22,8 @@ class Tracker;
 
 namespace wearwell {
 
+class ColumnRoles;
+
 /// A file that `wearwell new` writes.
 struct ExampleFile {
   const char* name;
@@ -40,9 +42,9 @@ struct Model {
   void (*add_commands)(CLI::App& app, int& exit_code);
   /// All keys of its studies, for messages and docs/study-keys.md; may be null.
   StudyKeys (*keys)() = nullptr;
-  /// A study of a table of that name, as far as its headings say; nothing where it is of another
-  /// trade. May be null.
-  std::optional<FirstStudy> (*first_study)(const Table& table, const std::string& file) = nullptr;
+  /// A study of a table whose columns have these roles; nothing where it is of another trade. May be
+  /// null.
+  std::optional<FirstStudy> (*first_study)(ColumnRoles& roles) = nullptr;
   /// Follows single units on line, from what a fit of this model left (prognosis/tracker.h). May be null.
   std::unique_ptr<const prognosis::Tracker> (*track)(const prognosis::CarriedState& state) =
       nullptr;

@@ -43,10 +43,15 @@ void add_answers(Section& section, const PosteriorSummary& result) {
     section.add(Prose{html::capital(each) + ".", true});
 }
 
-// What the trade shows there beyond that.
+// What the trade shows in a section.
+std::vector<html::Figure> exhibits_of(const std::string& section, const Plots& plots) {
+  const auto found = plots.exhibits.find(section);
+  return found == plots.exhibits.end() ? std::vector<html::Figure>() : found->second;
+}
+
 void add_exhibits(Section& section, const Plots& plots) {
-  const auto found = plots.exhibits.find(section.id);
-  if (found != plots.exhibits.end()) section.add(Figures{found->second});
+  if (auto figures = exhibits_of(section.id, plots); !figures.empty())
+    section.add(Figures{std::move(figures)});
 }
 
 void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) {
@@ -87,7 +92,6 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"verdict", "Verdict"};
   add_answers(section, result);
   section.add(trust_callout(result.checks));
-  if (!result.method_note.empty()) section.add(Prose{result.method_note + "."});
   std::vector<html::Tile> tiles;
   if (result.life) add_life_tiles(*result.life, tiles);
   for (const QuantitySummary* each : headlines(result)) {
@@ -112,20 +116,24 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
                      range(each.q05, each.q95, 3) + " (90 %)"});
   }
   section.add(present::Tiles{std::move(tiles)});
+  std::vector<html::Figure> figures = answer_figures(result, plots);
+  for (const html::Figure& each : exhibits_of(section.id, plots)) figures.push_back(each);
+  if (!figures.empty()) section.add(Figures{std::move(figures)});
+  if (!result.method_note.empty()) section.add(Prose{result.method_note + "."});
   if (const std::string defaults = default_priors(result.parameters); !defaults.empty()) {
     section.add(
         Prose{fmt::format("Default priors, which are weak: {} (see Parameters). State what you "
                           "know in [prior].",
                           defaults)});
   }
-  add_exhibits(section, plots);
   return section;
 }
 
 Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"predictions", "Predictions"};
-  if (auto figures = prediction_figures(result, plots); !figures.empty())
-    section.add(Figures{std::move(figures)});
+  std::vector<html::Figure> figures = prediction_figures(result, plots);
+  for (const html::Figure& each : exhibits_of(section.id, plots)) figures.push_back(each);
+  if (!figures.empty()) section.add(Figures{std::move(figures)});
   if (!result.predictions.empty()) section.add(prediction_table(result));
   if (result.life) section.add(life_table(*result.life));
   if (auto table = bound_table(result.quantities); !table.rows.empty()) {
@@ -138,7 +146,6 @@ Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
     section.add(std::move(table));
   }
   if (auto table = quantity_table(result.quantities); !table.rows.empty()) section.add(table);
-  add_exhibits(section, plots);
   if (auto table = stage_prediction_table(result); !table.rows.empty())
     section.add(Details{"Every prediction, row by row", {{std::move(table)}}});
   return section;

@@ -63,8 +63,11 @@ Figure life_figure(const PosteriorSummary& result, const Plots& plots) {
                   {"y", percent},
                   {summary.unit, plots.life->x},
                   {"percent", percent}},
-                 {colour::posterior, "probability that the limit is reached"}),
-      plot::vertical_line(summary.now, {colour::prior, "last inspection", 1, 1.5, true})};
+                 {colour::posterior, "probability that the limit is reached"})};
+  if (summary.now > 0) {
+    marks.push_back(
+        plot::vertical_line(summary.now, {colour::prior, "last inspection", 1, 1.5, true}));
+  }
   const std::pair<double, double> marked[] = {{life.b1, 1}, {life.b10, 10}, {life.b50, 50}};
   for (const auto& [x, p] : marked) {
     if (!std::isfinite(x)) continue;
@@ -80,7 +83,9 @@ Figure life_figure(const PosteriorSummary& result, const Plots& plots) {
                   "does not survive.",
                   summary.unit),
       plot::plot("Probability that the limit is reached, against " + summary.unit,
-                 {capital(summary.unit)}, {"Probability [%]", false, 0, 100}, marks, 300)};
+                 {fmt::format("Life [{}]", html::unit(summary.unit)), false, plots.life->x.front(),
+                  plots.life->x.back()},
+                 {"Probability [%]", false, 0, 100}, marks, 340)};
 }
 
 // What each stage said of the next inspection (Figs. 10 and 11).
@@ -137,10 +142,15 @@ Figure next_figure(const PosteriorSummary& result, const Plots& plots) {
 
 }  // namespace
 
-std::vector<Figure> prediction_figures(const PosteriorSummary& result, const Plots& plots) {
-  std::vector<Figure> figures;
+std::vector<Figure> answer_figures(const PosteriorSummary& result, const Plots& plots) {
+  std::vector<Figure> figures = remaining_life_figures(result);
   if (!plots.history.at.empty()) figures.push_back(history_figure(result, plots));
   if (result.life && plots.life) figures.push_back(life_figure(result, plots));
+  return figures;
+}
+
+std::vector<Figure> prediction_figures(const PosteriorSummary& result, const Plots& plots) {
+  std::vector<Figure> figures;
   const bool has_next =
       result.stages.size() > 2 &&
       std::all_of(result.stages.begin(), result.stages.end() - 1,

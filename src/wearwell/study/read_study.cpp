@@ -21,8 +21,10 @@ const Model& model_of(const TomlReader& root, Models models) {
   if (!name) {
     for (const std::string& key : root.keys()) {
       if (near_name(key, {"model"}))
-        root.fail(key, fmt::format("unknown key; did you mean 'model'? It is one of {}",
-                                   fmt::join(names, ", ")));
+        root.fail(key,
+                  fmt::format("unknown key; did you mean 'model'? It is one of {}",
+                              fmt::join(names, ", ")),
+                  {key, "model", true});
     }
     root.fail("model", fmt::format("is missing: it is one of {}", fmt::join(names, ", ")));
   }

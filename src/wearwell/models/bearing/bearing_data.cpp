@@ -112,11 +112,7 @@ class Inputs {
     for (std::size_t i = 0; i < table_.rows; ++i) {
       std::string name = fmt::format("row {}", i + 1);
       if (choice) {
-        name = cell_word(table_.column(choice->column), i);
-        if (name.empty()) {
-          throw InputError(
-              fmt::format("{}: no bearing is named", place(table_, choice->column, i)));
-        }
+        name = label_word(table_, table_.column(choice->column), i);
       }
       numbers[i] = known.emplace(name, known.size()).first->second;
       if (known.size() > names.size()) names.push_back(name);

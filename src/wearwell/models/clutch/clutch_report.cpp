@@ -70,6 +70,10 @@ Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
   tiles.push_back({"Plate to plate", fmt::format("{:.1f}", 100 * r.run_in.plate_sd), "%",
                    "standard deviation of a plate's factor"});
   section.add(present::Tiles{std::move(tiles)});
+  std::vector<html::Figure> figures;
+  for (const SequenceResult& s : r.sequences) figures.push_back(sequence_figure(s));
+  if (figures.empty()) figures.push_back(parity_figure(r));
+  section.add(Figures{std::move(figures)});
   return section;
 }
 
@@ -125,11 +129,10 @@ Table sequence_table(const ClutchResult& r) {
 
 Section prediction_section(const ClutchResult& r) {
   Section section{"predictions", "Predictions"};
-  std::vector<html::Figure> figures;
-  for (const SequenceResult& s : r.sequences) figures.push_back(sequence_figure(s));
-  if (!r.lives.empty()) figures.push_back(width_figure(r));
-  section.add(Figures{std::move(figures)});
-  if (!r.lives.empty()) section.add(life_table(r));
+  if (!r.lives.empty()) {
+    section.add(Figures{{width_figure(r)}});
+    section.add(life_table(r));
+  }
   section.add(Prose{
       fmt::format("Averaging the inputs over a point instead of summing its cycles changes the "
                   "predicted volume of the whole campaign by {:.3f}\u00a0%.",
@@ -220,7 +223,8 @@ Table measure_table(const Validation& validation) {
 
 Section map_section(const ClutchStudy& study, const ClutchResult& r) {
   Section section{"map", "Wear rate"};
-  std::vector<html::Figure> figures = {parity_figure(r), exponent_figure(r.search)};
+  std::vector<html::Figure> figures = {exponent_figure(r.search)};
+  if (!r.sequences.empty()) figures.insert(figures.begin(), parity_figure(r));
   for (html::Figure& each : map_figures(study, r)) figures.push_back(std::move(each));
   section.add(Figures{std::move(figures)});
   section.add(correlation_table(r));

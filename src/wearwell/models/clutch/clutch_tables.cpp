@@ -155,9 +155,7 @@ std::vector<std::string> plate_names(const std::vector<const CampaignTable*>& ta
   for (const CampaignTable* each : tables) {
     const Column& column = each->words("plate");
     for (std::size_t i = 0; i < each->table.rows; ++i) {
-      const std::string name = cell_word(column, i);
-      if (name.empty())
-        throw InputError(fmt::format("{}: no plate is named", place(each->table, column.name, i)));
+      const std::string name = label_word(each->table, column, i);
       if (seen.insert(name).second) names.push_back(name);
     }
   }

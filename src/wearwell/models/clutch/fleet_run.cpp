@@ -44,24 +44,13 @@ std::string offender(fleet::Engine& engine, const ClutchSql& sql) {
   return found;
 }
 
-/// "slip_speed 1100 to 2800 rpm, ...": least and most of each input in the units of its column.
-std::string ranges_in_words(const fleet::Row& row, const SqlSource& source) {
-  const auto value = [](double si, const SqlColumn& column, bool is_temperature) {
-    if (std::isnan(si)) return std::string("no number");
-    return fmt::format("{:.6g}", is_temperature ? si : si / column.scale);
+/// "torque 20 .. 31 N m" in the table's own unit; databases take NaN for the largest number.
+std::string range_in_words(const char* name, const SqlColumn& column, double low, double high) {
+  const auto end = [&](double x) {
+    return std::isfinite(x) ? fmt::format("{:.6g}", (x - column.offset) / column.scale)
+                            : "not a number";
   };
-  std::string words;
-  for (std::size_t i = 0; i < source.inputs.size(); ++i) {
-    const SqlColumn& column = source.inputs[i];
-    const std::string_view name = inputs[i].name;
-    const bool is_temperature = name == "temperature";
-    words +=
-        fmt::format("{} {} to {} {}, ", name, value(row.numbers[3 + 2 * i], column, is_temperature),
-                    value(row.numbers[4 + 2 * i], column, is_temperature),
-                    is_temperature ? "degC" : column.unit);
-  }
-  return words + fmt::format("energy up to {} {}", value(row.numbers[11], source.energy, false),
-                             source.energy.unit);
+  return fmt::format("{} {} to {} {}", name, end(low), end(high), column.unit);
 }
 
 /// Throws InputError for rows that no sum can take.
@@ -73,7 +62,17 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSour
     refused = row.numbers[1];
     const double nameless = row.numbers[2];
     if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
-    check.ranges = ranges_in_words(row, source);
+    check.ranges.clear();
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+      check.ranges += range_in_words(inputs[i].name, source.inputs[i], row.numbers[3 + 2 * i],
+                                     row.numbers[4 + 2 * i]) +
+                      ", ";
+    const double energy = row.numbers[3 + 2 * inputs.size()];
+    check.ranges += std::isfinite(energy)
+                        ? fmt::format("energy up to {:.6g} {}",
+                                      (energy - source.energy.offset) / source.energy.scale,
+                                      source.energy.unit)
+                        : "energy not a number";
     if (nameless > 0)
       throw InputError(fmt::format("{}: {:.0f} rows name no unit", engine.source(), nameless));
   });

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/models/fatigue/lives_under.h"
@@ -13,6 +14,7 @@
 #include "wearwell/models/fatigue/sn_result.h"
 #include "wearwell/models/fatigue/standard_fit.h"
 #include "wearwell/present/plain.h"
+#include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/plot_study.h"
 
@@ -138,6 +140,53 @@ Table curves_table(const SnData& data, const std::vector<At>& points, const std:
     if (at.band > 0) table.rows.back()[6] = life(at.band);
   }
   return table;
+}
+
+html::Figure curves_figure(const SnData& data, const std::vector<At>& points) {
+  namespace colour = plot::colour;
+  std::vector<double> stress, median;
+  for (const At& at : points) {
+    stress.push_back(from_si(data.stress_unit, at.stress));
+    median.push_back(from_si(data.life_unit, at.median));
+  }
+  std::vector<plot::Json> marks = {
+      plot::line({{"x", median}, {"y", stress}, {"median", median}, {"stress", stress}},
+                 {colour::prior, "median", 1, 1.5})};
+  constexpr const char* colours[] = {colour::chains[0], colour::chains[1], colour::limit,
+                                     colour::chains[2]};
+  const auto& levels = design_levels();
+  std::vector<double> all = median;
+  for (std::size_t l = 0; l < levels.size(); ++l) {
+    std::vector<double> life;
+    for (const At& at : points) life.push_back(from_si(data.life_unit, at.posterior[l]));
+    all.insert(all.end(), life.begin(), life.end());
+    marks.push_back(
+        plot::line({{"x", life}, {"y", stress}, {"life", life}, {"stress", stress}},
+                   {colours[l % std::size(colours)], levels[l].name, 1, 2, l % 2 == 1}));
+  }
+  std::erase_if(all, [](double life) { return !std::isfinite(life) || !(life > 0); });
+  plot::Axis lives{fmt::format("Life [{}]", html::unit(data.life_unit.text)), true};
+  if (!all.empty()) {
+    // A fatigue limit sends curves to lives without end.
+    double tested = 0;
+    for (const fatigue::LifeTest& test : data.tests)
+      tested = std::max({tested, test.life, test.until});
+    lives.low = *std::min_element(all.begin(), all.end()) / 1.5;
+    lives.high = std::min(1.5 * *std::max_element(all.begin(), all.end()),
+                          100 * from_si(data.life_unit, tested));
+  }
+  html::Figure figure{
+      "design-curves", "Design curves",
+      "The life that such a share outlasts, with such confidence, under each alternating stress. "
+      "The "
+      "table has the numbers.",
+      plot::plot("Design curves: alternating stress against life", lives,
+                 {fmt::format("Alternating stress [{}]", html::unit(data.stress_unit.text)), true,
+                  *std::min_element(stress.begin(), stress.end()),
+                  *std::max_element(stress.begin(), stress.end())},
+                 marks, 320, true)};
+  figure.wide = true;
+  return figure;
 }
 
 // ASTM E739's line log10 N = A + B log10 S in the table's own units.
@@ -309,6 +358,7 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
                       ": 90/90, B-basis (90 % with 95 % confidence), A-basis (99 % with 95 %) and "
                       "97.7 % with 90 % (FKM's probability of survival). " +
                       why + " " + e739}});
+  blocks.push_back({present::Figures{{curves_figure(data, points)}}});
   blocks.push_back({curves_table(data, points, where)});
   added.text += text_of(data, points, where, why, e739);
   added.body["design_curves"] = json_of(law, data, points, standard, why);

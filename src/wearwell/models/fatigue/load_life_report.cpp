@@ -271,12 +271,12 @@ std::vector<present::Section> load_life_sections(const LoadLifeReport& report) {
     life.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
                               check.detail + ". " + check.advice});
   }
+  life.add(present::Figures{{life_figure(report), damage_figure(report)}});
   life.add(lives_table(report));
   life.add(present::Prose{
       "At least: with this confidence (Bayesian: credible) the true value, of all such items, lies "
       "above it; 5, 50 and 95 % are of the same. Next one: what the next item has with just that "
       "chance."});
-  life.add(present::Figures{{life_figure(report), damage_figure(report)}});
   present::Section parts{"parts", "What it comes from"};
   if (!report.life.contributions.empty()) parts.add(contributions_table(report));
   parts.add(damage_table(report));

@@ -56,7 +56,8 @@ Model staircase() {
                 return read_posterior_study(root, source, read_staircase_study);
               },
           .add_commands = nullptr,
-          .keys = staircase_keys};
+          .keys = staircase_keys,
+          .first_study = first_staircase};
 }
 
 Model strain_life() {
@@ -67,6 +68,7 @@ Model strain_life() {
           .example = example,
           .read = read,
           .add_commands = nullptr,
+          .first_study = first_strain_study,
           .track = track_parts};
 }
 

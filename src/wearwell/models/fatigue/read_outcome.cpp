@@ -10,8 +10,10 @@ namespace wearwell {
 
 using fatigue::Outcome;
 
-Outcome read_outcome(const Table& table, const LifeStatus& status, std::size_t row) {
-  switch (seen_in(table, status, row)) {
+namespace {
+
+Outcome outcome_of(Seen seen) {
+  switch (seen) {
     case Seen::exactly:
       return Outcome::failure;
     case Seen::above:
@@ -22,6 +24,24 @@ Outcome read_outcome(const Table& table, const LifeStatus& status, std::size_t r
       return Outcome::interval;
   }
   return Outcome::failure;
+}
+
+}  // namespace
+
+Outcome read_outcome(const Table& table, const LifeStatus& status, std::size_t row) {
+  return outcome_of(seen_in(table, status, row));
+}
+
+Outcome read_outcome(const Table& table, const std::optional<LifeStatus>& status,
+                     const ColumnChoice& life, Seen seen, std::size_t row) {
+  if (!status || seen == Seen::exactly)
+    return status ? read_outcome(table, *status, row) : outcome_of(seen);
+  if (seen_in(table, *status, row) != seen)
+    throw InputError(fmt::format("{}: '{}' is a limit, and column '{}' says '{}'; which is right?",
+                                 place(table, life.column, row),
+                                 cell_word(table.column(life.column), row), status->column,
+                                 cell_word(table.column(status->column), row)));
+  return outcome_of(seen);
 }
 
 double read_interval_end(const Table& table, const ColumnChoice& until, std::size_t row,

@@ -289,7 +289,11 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   const auto count = read_column(columns, "count", "1", table);
   const auto label = read_word_column(columns, "label", table);
   const auto part = read_word_column(columns, "part", table);
-  const std::vector<double> lives = si_numbers(table, life);
+  bool any_label = false;
+  for (std::size_t i = 0; label && i < table.rows; ++i)
+    any_label = any_label || !cell_word(table.column(label->column), i).empty();
+  const SeenNumbers seen = seen_numbers(table, life);
+  const std::vector<double>& lives = seen.values;
   data.columns.push_back({"life", "cycle", life.unit, lives});
   const std::vector<double> counts = count ? si_numbers(table, *count) : std::vector<double>();
   if (count) data.columns.push_back({"count", "1", count->unit, counts});
@@ -298,8 +302,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   bool any_broke = false;
   for (std::size_t i = 0; i < table.rows; ++i) {
     require(lives[i] > 0, table, life, i, "positive");
-    LifeTest test{stresses[i], status ? read_outcome(table, *status, i) : Outcome::failure,
-                  lives[i], 0, 1};
+    LifeTest test{stresses[i], read_outcome(table, status, life, seen.seen[i], i), lives[i], 0, 1};
     if (test.outcome == Outcome::interval && !until) {
       columns.fail("life_until",
                    fmt::format("is missing: {} is an interval, which ends at a second life",
@@ -319,7 +322,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
     }
     any_broke = any_broke || test.outcome != Outcome::runout;
     data.tests.push_back(test);
-    data.labels.push_back(label ? cell_word(table.column(label->column), i) : "");
+    data.labels.push_back(any_label ? label_word(table, table.column(label->column), i) : "");
     if (part) read_part(table, *part, i, test, data.parts);
   }
   if (!any_broke) {

@@ -2,94 +2,126 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include "wearwell/study/column_values.h"
 
 namespace wearwell::fatigue {
 namespace {
 
-using Found = std::optional<HeadingGuesses::Found>;
+using Found = std::optional<ColumnRoles::Found>;
 
-bool differs(const HeadingGuesses::Found& found) {
-  const auto values = values_of(*found.column);
-  return !values.empty() && *std::max_element(values.begin(), values.end()) -
-                                    *std::min_element(values.begin(), values.end()) >
-                                1e-9 * std::abs(values.front());
+// What all tests have: lives, how they ended, how many alike; into `columns`.
+bool take_lives(ColumnRoles& roles, std::string& columns) {
+  const Found life = roles.take("life", {"life", "cycles"});
+  if (!life || life->si != "cycle") return false;
+  columns += ColumnRoles::line("life", *life);
+  const auto status = roles.take_status(true);
+  if (status) columns += *status;
+  if (const Found count = roles.take("count", {"count"}))
+    columns += ColumnRoles::line("count", *count);
+  if (const Found label = roles.take("label", {"label"}))
+    columns += ColumnRoles::line("label", *label);
+  if (!status)
+    roles.guesses.emplace_back(
+        "no column says which tests were stopped unbroken: all count as failures");
+  return true;
 }
+
+// Where lives are not in the table no S-N curve is.
+bool has_lives(const ColumnRoles& roles) {
+  const Found life = roles.find({"life", "cycles"});
+  return life && life->si == "cycle";
+}
+
+constexpr const char* asked =
+    "types = \"all\"                            # lives under every stress that was tested\n";
 
 }  // namespace
 
-std::optional<FirstStudy> first_study(const Table& table, const std::string& file) {
-  HeadingGuesses headings(table);
-  // The extremes and the mean first: the plain word "stress" is part of their names.
-  const Found lowest = headings.take("min_stress", "Pa", "MPa",
-                                     {"min stress", "minimum stress", "lower stress", "stress min",
-                                      "smin", "s min", "unterspannung", "sigma min", "sigma u"});
-  const Found highest = headings.take("max_stress", "Pa", "MPa",
-                                      {"max stress", "maximum stress", "upper stress", "stress max",
-                                       "smax", "s max", "oberspannung", "sigma max", "sigma o"});
-  const Found mean = headings.take("mean_stress", "Pa", "MPa",
-                                   {"mean stress", "stress mean", "mittelspannung", "sm", "s m",
-                                    "sigma m", "contrainte moyenne"});
-  const Found ratio = headings.take(
-      "stress_ratio", "1", "1", {"stress ratio", "r ratio", "r", "spannungsverhältnis", "ratio"});
-  const Found amplitude = headings.take(
-      "alternating_stress", "Pa", "MPa",
-      {"stress amplitude", "alternating stress", "amplitude", "spannungsamplitude", "sa", "s a",
-       "sigma a", "ausschlagspannung", "stress", "spannung", "contrainte", "tensione", "s"});
-  const Found life = headings.take(
-      "life", "cycle", "1",
-      {"cycles to failure", "life", "lives", "cycles", "cycle", "bruchlastspielzahl",
-       "schwingspielzahl", "lastspiele", "lastwechsel", "zyklen", "nf", "n f", "n", "cicli"});
-  const bool extremes = highest && lowest;
-  if (!life || !(extremes || amplitude)) return {};
-  const Found status = headings.take("status", "1", "1",
-                                     {"status", "outcome", "result", "runout", "run out",
-                                      "durchläufer", "censored", "failure", "failed", "bruch"},
-                                     false);
-  const Found count = headings.take("count", "1", "1", {"count", "number of specimens", "anzahl"});
-  const Found label = headings.take(
-      "label", "1", "1", {"type", "series", "batch", "material", "typ", "charge", "serie"}, false);
-
+std::optional<FirstStudy> first_study(ColumnRoles& roles) {
+  const bool extremes = roles.has({"max_stress"}) && roles.has({"min_stress"});
+  if (!has_lives(roles) || !(extremes || roles.has({"alternating_stress"}))) return {};
   std::string columns;
-  bool means = false;
+  bool means = extremes;
   if (extremes) {
-    columns =
-        HeadingGuesses::line("max_stress", *highest) + HeadingGuesses::line("min_stress", *lowest);
-    means = true;
+    columns = ColumnRoles::line("max_stress", *roles.take("max_stress", {"max_stress"})) +
+              ColumnRoles::line("min_stress", *roles.take("min_stress", {"min_stress"}));
   } else {
-    columns = HeadingGuesses::line("alternating_stress", *amplitude);
-    if (mean) columns += HeadingGuesses::line("mean_stress", *mean);
-    if (!mean && ratio) columns += HeadingGuesses::line("stress_ratio", *ratio);
-    means = (mean && differs(*mean)) || (!mean && ratio && differs(*ratio));
+    const Found amplitude = roles.take("alternating_stress", {"alternating_stress"});
+    const Found mean = roles.take("mean_stress", {"mean_stress"});
+    const Found ratio = mean ? std::nullopt : roles.take("stress_ratio", {"stress_ratio"});
+    columns = ColumnRoles::line("alternating_stress", *amplitude);
+    if (mean) columns += ColumnRoles::line("mean_stress", *mean);
+    if (ratio) columns += ColumnRoles::line("stress_ratio", *ratio);
+    means = (mean && differs(roles.table(), *mean->column)) ||
+            (ratio && differs(roles.table(), *ratio->column));
   }
-  columns += HeadingGuesses::line("life", *life);
-  if (status) columns += HeadingGuesses::line("status", *status);
-  if (count) columns += HeadingGuesses::line("count", *count);
-  if (label) columns += HeadingGuesses::line("label", *label);
-  if (!status)
-    headings.guesses.emplace_back(
-        "no column says which tests were stopped unbroken: all count as failures");
+  if (!take_lives(roles, columns)) return {};
 
-  return headings.study(fmt::format(
-      "title = {}\n"
-      "model = \"sn\"\n\n"
-      "[data]\nfile = {}\n[data.columns]\n{}\n"
-      "[law]\nmean_stress = \"{}\"{}\n\n"
-      "# Without [prior] weak defaults hold (docs/priors.md). What you know makes a better "
-      "answer:\n"
-      "# [prior]\n# b = {{ law = \"normal\", mean = -0.1, sd = 0.03 }}\n{}\n"
-      "[predict]\n"
-      "{}# b_lives = [1, 10]                       # when 1 and 10 % have failed\n"
-      "# required_life = \"1e6 cycles\"            # which alternating stress lets\n"
-      "# reliability = [\"90 %\"]                  # such a share outlast that?\n",
-      toml_text("S-N curve, from " + file), toml_text(file), columns, means ? "goodman" : "none",
-      means ? "                   # or gerber, soderberg, morrow, swt, walker, none"
-            : "                      # all tests at one mean stress or ratio",
-      means ? "# log10_Sut = { law = \"normal\", mean = \"3 log10(MPa)\", sd = 0.02 }    # the "
-              "strength of a tensile test\n"
-            : "",
-      "types = \"all\"                            # lives under every stress that was tested\n"));
+  return roles.study(
+      "S-N curve: cycles to failure under stresses", ReadingFit::specific,
+      fmt::format(
+          "title = {}\n"
+          "model = \"sn\"\n\n"
+          "{}[data.columns]\n{}\n"
+          "[law]                                   # the simplest curve: Basquin's; others: curve "
+          "= \"knee\", "
+          "fatigue_limit = \"random\" (docs/fatigue.md)\n"
+          "mean_stress = \"{}\"{}\n\n"
+          "# Without [prior] weak defaults hold (docs/priors.md). What you know makes a better "
+          "answer:\n"
+          "# [prior]\n# b = {{ law = \"normal\", mean = -0.1, sd = 0.03 }}\n{}\n"
+          "[predict]\n"
+          "{}# b_lives = [1, 10]                       # when 1 and 10 % have failed\n"
+          "# required_life = \"1e6 cycles\"            # which alternating stress lets\n"
+          "# reliability = [\"90 %\"]                  # such a share outlast that?\n",
+          toml_text("S-N curve, from " + roles.file()), roles.data_section(), columns,
+          means ? "goodman" : "none",
+          means ? "                   # or gerber, soderberg, morrow, swt, walker, none"
+                : "                      # all tests at one mean stress or ratio",
+          means ? "# log10_Sut = { law = \"normal\", mean = \"3 log10(MPa)\", sd = 0.02 }    # the "
+                  "strength of a tensile test\n"
+                : "",
+          asked));
+}
+
+std::optional<FirstStudy> first_strain_study(ColumnRoles& roles) {
+  if (!has_lives(roles) || !roles.has({"strain"})) return {};
+  const Found strain = roles.take("alternating_stress", {"strain"});
+  std::string columns = ColumnRoles::line("alternating_stress", *strain);
+  if (!take_lives(roles, columns)) return {};
+  return roles.study(
+      "strain-life curve: cycles to failure under strains", ReadingFit::specific,
+      fmt::format(
+          "title = {}\n"
+          "model = \"sn\"\n\n"
+          "{}[data.columns]    # alternating_stress holds the strain amplitude\n{}\n"
+          "[law]\nmean_stress = \"none\"\n"
+          "curve = \"strain-life\"                   # sigma_f'/E (2N)^b + eps_f' (2N)^c\n\n"
+          "# Without [prior] weak defaults for metals hold (docs/priors.md).\n\n"
+          "[predict]\n{}",
+          toml_text("Strain-life curve, from " + roles.file()), roles.data_section(), columns,
+          asked));
+}
+
+std::optional<FirstStudy> first_staircase(ColumnRoles& roles) {
+  if (!roles.has({"alternating_stress"}) || roles.has({"life", "cycles", "time"})) return {};
+  const Found stress = roles.take("alternating_stress", {"alternating_stress"});
+  const auto status = roles.take_status(true);
+  if (!status) return {};
+  std::string columns = ColumnRoles::line("alternating_stress", *stress) + *status;
+  if (const Found count = roles.take("count", {"count"}))
+    columns += ColumnRoles::line("count", *count);
+  return roles.study(
+      "fatigue limit: what broke and what did not, under stresses", ReadingFit::specific,
+      fmt::format(
+          "title = {}\n"
+          "model = \"staircase\"\n\n"
+          "{}[data.columns]\n{}\n"
+          "# Without [prior] weak defaults hold (docs/priors.md).\n\n"
+          "[predict]\n"
+          "reliability    = [\"50 %\", \"90 %\"]        # which stress is borne by such a share?\n"
+          "credible_level = 0.9                     # of the lower bound\n",
+          toml_text("Fatigue limit, from " + roles.file()), roles.data_section(), columns));
 }
 
 }  // namespace wearwell::fatigue

@@ -2,11 +2,17 @@
 
 #include <optional>
 
-#include "wearwell/study/first_study.h"
+#include "wearwell/study/column_roles.h"
 
 namespace wearwell::fatigue {
 
 /// A study of lives under stresses, or nothing where the headings name none.
-std::optional<FirstStudy> first_study(const Table& table, const std::string& file);
+std::optional<FirstStudy> first_study(ColumnRoles& roles);
+
+/// A study of lives under strains.
+std::optional<FirstStudy> first_strain_study(ColumnRoles& roles);
+
+/// A study of stresses and of what ended there, without lives: an up-and-down sequence.
+std::optional<FirstStudy> first_staircase(ColumnRoles& roles);
 
 }  // namespace wearwell::fatigue

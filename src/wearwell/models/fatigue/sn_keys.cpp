@@ -133,6 +133,7 @@ StudyKeys point_keys() {
 StudyKeys study_keys() {
   StudyKeys keys = posterior_keys();
   add_keys(keys, stress_keys());
+  add_keys(keys, status_keys());
   add_keys(
       keys,
       {needed_key("data.columns.life", "\"cycles\"",
@@ -140,7 +141,6 @@ StudyKeys study_keys() {
        {"data.columns.life_until", "\"cycles_until\"", "end of an interval in which it broke"},
        {"data.columns.status", "\"status\"",
         "failure, runout, left or interval; without it all failed"},
-       status_code_key(),
        unused_columns_key(),
        {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
        {"data.columns.label", "\"type\"", "a name, for predict.types and the report"},
@@ -173,12 +173,12 @@ StudyKeys study_keys() {
 
 StudyKeys staircase_keys() {
   StudyKeys keys = posterior_keys();
+  add_keys(keys, status_keys());
   add_keys(
       keys,
       {needed_key("data.columns.alternating_stress",
                   "{ column = \"alternating_stress\", unit = \"MPa\" }", "stress of the test"),
        needed_key("data.columns.status", "\"status\"", "failure or runout"),
-       status_code_key(),
        {"data.columns.count", "\"count\"", "how many tests alike a row stands for"},
        {"law.limit_family", "\"normal\"", "how the logarithm of the limit scatters (normal)"},
        {"prior.log10_limit", "{ law = \"normal\", mean = \"2.5 log10(MPa)\", sd = 0.2 }",

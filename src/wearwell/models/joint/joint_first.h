@@ -2,11 +2,11 @@
 
 #include <optional>
 
-#include "wearwell/study/first_study.h"
+#include "wearwell/study/column_roles.h"
 
 namespace wearwell::joint {
 
 /// A study of worn volumes against cycles, or nothing where the headings name none.
-std::optional<FirstStudy> first_study(const Table& table, const std::string& file);
+std::optional<FirstStudy> first_study(ColumnRoles& roles);
 
 }  // namespace wearwell::joint

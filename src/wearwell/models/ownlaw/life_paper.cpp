@@ -1,15 +1,14 @@
 #include "wearwell/models/ownlaw/life_paper.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "wearwell/models/ownlaw/own_life_law.h"
-#include "wearwell/models/ownlaw/own_path.h"
+#include "wearwell/models/ownlaw/life_groups.h"
+#include "wearwell/models/ownlaw/life_stress.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/prob/plotting_positions.h"
 #include "wearwell/prob/standard_law.h"
@@ -21,7 +20,9 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-constexpr std::size_t most_conditions = 6, curve_points = 40;
+// So many conditions share a plot, and so many are drawn at all.
+constexpr std::size_t most_together = 6, most_drawn = 24, most_conditions = 2000;
+constexpr std::size_t curve_points = 40;
 constexpr Eigen::Index few_draws = 1000;
 
 // On which a law of the family is a straight line.
@@ -58,60 +59,24 @@ Paper paper_of(ResponseFamily family) {
   }
 }
 
-// Observations under one condition, and the law there.
-struct Group {
-  Conditions conditions;
-  std::vector<Response> responses;
-  std::vector<int> counts;
-  std::shared_ptr<const LifeLaw> life;
-};
-
-// What the law depends on, of a row.
-Conditions conditions_of_row(const OwnLaw& law, std::size_t row) {
-  const law::Program& program = law.measured.front().program;
-  Conditions found;
-  std::vector<std::string> words;
-  for (std::size_t c = 0; c < law.row_symbols.columns.size(); ++c) {
-    if (!program.uses_column(c)) continue;
-    const NumberColumn& column = *law.data.number(law.row_symbols.columns[c].name);
-    found.numbers[column.name] = column.values[row];
-    const std::string& unit = column.unit.unit.text;
-    words.push_back(fmt::format("{} = {:.6g}{}", column.name,
-                                from_si(column.unit.unit, column.values[row]),
-                                unit == "1" ? "" : " " + unit));
-  }
-  for (std::size_t c = 0; c < law.row_symbols.labels.size(); ++c) {
-    if (!program.uses_label(c)) continue;
-    const LabelColumn& column = *law.data.label(law.row_symbols.labels[c].name);
-    found.labels[column.name] = column.at[row];
-    words.push_back(fmt::format("{} = {}", column.name,
-                                column.levels[static_cast<std::size_t>(column.at[row])]));
-  }
-  found.words = fmt::format("{}", fmt::join(words, ", "));
-  return found;
-}
-
-// None where there are more conditions than a figure shows.
-std::vector<Group> groups_of(const TomlReader& root, const std::shared_ptr<const OwnLaw>& law) {
-  const Measured& measured = law->measured.front();
-  std::vector<Group> groups;
-  for (std::size_t i = 0; i < measured.observed.rows.size(); ++i) {
-    const Conditions own = conditions_of_row(*law, measured.observed.rows[i]);
-    auto at = std::find_if(groups.begin(), groups.end(), [&](const Group& each) {
-      return each.conditions.numbers == own.numbers && each.conditions.labels == own.labels;
+// The observations by condition with the law of each; of many conditions those with the most failures, in the
+// order of their numbers.
+std::vector<LifeGroup> drawn_groups(const TomlReader& root,
+                                    const std::shared_ptr<const OwnLaw>& law,
+                                    std::vector<LifeGroup> groups) {
+  if (groups.size() > most_drawn) {
+    std::stable_sort(groups.begin(), groups.end(), [](const LifeGroup& a, const LifeGroup& b) {
+      return a.failures() > b.failures();
     });
-    if (at == groups.end()) {
-      if (groups.size() == most_conditions) return {};
-      groups.push_back({own, {}, {}, {}});
-      at = groups.end() - 1;
-    }
-    at->responses.push_back(measured.observed.responses[i]);
-    at->counts.push_back(measured.observed.counts[i]);
+    groups.resize(most_drawn);
   }
-  for (Group& each : groups) {
-    each.life = std::make_shared<const LifeLaw>(
-        make_path(law, root, "likelihood", measured.wanted, false, each.conditions), measured);
+  if (groups.size() > most_together) {
+    std::stable_sort(groups.begin(), groups.end(), [](const LifeGroup& a, const LifeGroup& b) {
+      return std::pair(a.conditions.labels, a.conditions.numbers) <
+             std::pair(b.conditions.labels, b.conditions.numbers);
+    });
   }
+  for (LifeGroup& each : groups) each.life = life_law(root, law, each.conditions);
   return groups;
 }
 
@@ -119,18 +84,20 @@ const char* colour_of(std::size_t group) {
   constexpr const char* colours[] = {plot::colour::chains[0], plot::colour::chains[1],
                                      plot::colour::chains[2], plot::colour::chains[3],
                                      plot::colour::limit,     plot::colour::prior};
-  return colours[group];
+  return colours[group % most_together];
 }
 
 class Drawing {
  public:
-  Drawing(const OwnLaw& law, const std::vector<Group>& groups, const Fit& fit)
+  Drawing(const OwnLaw& law, const std::vector<LifeGroup>& groups, std::size_t left_out,
+          const Fit& fit)
       : measured_(law.measured.front()),
         varies_(law.varies()),
         groups_(groups),
+        left_out_(left_out),
         paper_(paper_of(measured_.form->family)),
         draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled, few_draws)) {
-    for (const Group& group : groups) {
+    for (const LifeGroup& group : groups) {
       for (const Response& each : group.responses) {
         cover(each.at);
         if (each.seen == Seen::between) cover(each.until);
@@ -154,31 +121,14 @@ class Drawing {
     }
   }
 
-  html::Figure paper() const {
-    std::vector<plot::Json> marks;
-    // Shares as a paper has them.
-    for (const double percent : {0.01, 0.1, 1., 5., 10., 20., 50., 80., 90., 99., 99.9}) {
-      const double p = percent / 100;
-      if (p < least_ || p > most_) continue;
-      marks.push_back(
-          plot::horizontal_line(paper_.height(p), {plot::colour::prior, "", 0.35, 0.5}));
-      marks.push_back(plot::text(shown(high_), paper_.height(p), fmt::format("{:g} %", percent),
-                                 plot::colour::prior));
-    }
-    for (std::size_t g = 0; g < groups_.size(); ++g) add_law(g, marks);
-    for (std::size_t g = 0; g < groups_.size(); ++g) add_points(g, marks);
-    return {"probability-paper", fmt::format("Probability plot on {} paper", paper_.name),
-            caption(),
-            plot::plot(fmt::format("Share that has failed against {}, on {} paper",
-                                   measured_.column, paper_.name),
-                       axis(),
-                       {"Share that has failed",
-                        false,
-                        paper_.height(least_),
-                        paper_.height(most_),
-                        {},
-                        false},
-                       marks, 380, true)};
+  // Plots of up to `most_together` conditions each, on common axes.
+  std::vector<html::Figure> papers() const {
+    std::vector<html::Figure> figures;
+    const std::size_t count = (groups_.size() + most_together - 1) / most_together;
+    const std::size_t each = (groups_.size() + count - 1) / count;
+    for (std::size_t first = 0; first < groups_.size(); first += each)
+      figures.push_back(paper(first, std::min(first + each, groups_.size())));
+    return figures;
   }
 
   // None where no curve is finite anywhere.
@@ -186,7 +136,8 @@ class Drawing {
     std::vector<plot::Json> marks;
     const double per = measured_.unit.scale;
     double least = INFINITY, most = 0;
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::size_t step = (groups_.size() + most_together - 1) / most_together;
+    for (std::size_t g = 0; g < groups_.size(); g += step) {
       const std::vector<Numbers> bands = over_places([&](double life) {
         const Distribution known = groups_[g].life->hazard(draws_, life);
         return Numbers{per * known.quantile(0.05), per * known.quantile(0.5),
@@ -204,9 +155,10 @@ class Drawing {
         most = std::max(most, middle.back());
       }
       if (x.empty()) continue;
-      marks.push_back(plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour_of(g), "", 0.25}));
-      marks.push_back(plot::line({{"x", x}, {"y", middle}, {"hazard", middle}},
-                                 {colour_of(g), label(g), 1, 2}));
+      const char* colour = colour_of(g / step);
+      marks.push_back(plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour, "", 0.25}));
+      marks.push_back(
+          plot::line({{"x", x}, {"y", middle}, {"hazard", middle}}, {colour, label(g), 1, 2}));
     }
     if (marks.empty()) return {};
     const std::string unit = measured_.unit.text == "1"
@@ -220,6 +172,28 @@ class Drawing {
   }
 
  private:
+  html::Figure paper(std::size_t first, std::size_t end) const {
+    std::vector<plot::Json> marks;
+    for (std::size_t g = first; g < end; ++g) add_law(g, g - first, marks);
+    for (std::size_t g = first; g < end; ++g) add_points(g, g - first, marks);
+    plot::Axis shares{"Share that has failed [%]", false, paper_.height(least_),
+                      paper_.height(most_)};
+    // As a paper has them.
+    for (const double percent : {0.01, 0.1, 1., 5., 10., 20., 50., 90., 99., 99.9}) {
+      const double p = percent / 100;
+      if (p >= least_ && p <= most_)
+        shares.ticks.emplace_back(paper_.height(p), fmt::format("{:g}", percent));
+    }
+    std::string id = "probability-paper",
+                title = fmt::format("Probability plot on {} paper", paper_.name);
+    if (first > 0) id += fmt::format("-{}", first);
+    if (end - first < groups_.size()) title += ": " + label(first) + " to " + label(end - 1);
+    return {id, title, first == 0 ? caption() : "",
+            plot::plot(fmt::format("Share that has failed against {}, on {} paper",
+                                   measured_.column, paper_.name),
+                       axis(), shares, marks, 340, true)};
+  }
+
   bool positive() const { return measured_.form->positive; }
   void cover(double y) {
     if (!std::isfinite(y) || (positive() && !(y > 0))) return;
@@ -244,7 +218,7 @@ class Drawing {
     return all;
   }
 
-  void add_law(std::size_t g, std::vector<plot::Json>& marks) const {
+  void add_law(std::size_t g, std::size_t colour, std::vector<plot::Json>& marks) const {
     const std::vector<Numbers> bands = over_places([&](double life) {
       const Distribution left = groups_[g].life->survival(draws_, life);
       const auto failed = [&](double q) {
@@ -261,11 +235,12 @@ class Drawing {
       high.push_back(bands[i][2]);
     }
     if (x.empty()) return;
-    marks.push_back(plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour_of(g), "", 0.22}));
-    marks.push_back(plot::line({{"x", x}, {"y", middle}}, {colour_of(g), label(g), 1, 2}));
+    marks.push_back(
+        plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour_of(colour), "", 0.22}));
+    marks.push_back(plot::line({{"x", x}, {"y", middle}}, {colour_of(colour), label(g), 1, 2}));
   }
 
-  void add_points(std::size_t g, std::vector<plot::Json>& marks) const {
+  void add_points(std::size_t g, std::size_t colour, std::vector<plot::Json>& marks) const {
     Numbers x, y, percent;
     for (const PlottingPosition& each : positions_[g]) {
       x.push_back(shown(each.at));
@@ -274,9 +249,10 @@ class Drawing {
     }
     if (x.empty()) return;
     const bool alone = groups_.size() == 1;
-    marks.push_back(plot::points(
-        {{"x", x}, {"y", y}, {measured_.column, x}, {"failed [%]", percent}},
-        {alone ? plot::colour::measured : colour_of(g), alone ? "observed" : "", 1, 0, false, 60}));
+    marks.push_back(
+        plot::points({{"x", x}, {"y", y}, {measured_.column, x}, {"failed [%]", percent}},
+                     {alone ? plot::colour::measured : colour_of(colour), alone ? "observed" : "",
+                      1, 0, false, 60}));
   }
 
   std::string caption() const {
@@ -300,13 +276,18 @@ class Drawing {
                           "run-outs have no point, but count in the steps of others."
                         : "Points stand at (i - 1/2)/n.";
     if (none) words += " Where nothing failed, or entries come with intervals, there is no point.";
+    if (left_out_ > 0) {
+      words += fmt::format(" Of {} conditions, the {} with the most failures are drawn.",
+                           left_out_ + groups_.size(), groups_.size());
+    }
     if (varies_) words += " Units differ, and the line is that of all units together.";
     return words;
   }
 
   const Measured& measured_;
   bool varies_;
-  const std::vector<Group>& groups_;
+  const std::vector<LifeGroup>& groups_;
+  std::size_t left_out_;
   Paper paper_;
   WeightedDraws draws_;
   std::vector<std::vector<PlottingPosition>> positions_;
@@ -323,12 +304,19 @@ void show_life_paper(const TomlReader& root, std::shared_ptr<const OwnLaw> law,
       measured.program.has_paths() || measured.observed.failures == 0) {
     return;
   }
-  const auto groups = std::make_shared<const std::vector<Group>>(groups_of(root, law));
-  if (groups->empty()) return;
-  study.exhibits = [law, groups, before = study.exhibits](const Fit& fit) {
+  std::vector<LifeGroup> all = life_groups(*law, most_conditions);
+  if (all.empty()) return;
+  const std::size_t conditions = all.size();
+  const auto stresses =
+      std::make_shared<const std::vector<LifeStress>>(life_stresses(root, law, all));
+  const auto groups =
+      std::make_shared<const std::vector<LifeGroup>>(drawn_groups(root, law, std::move(all)));
+  study.exhibits = [law, groups, conditions, stresses, before = study.exhibits](const Fit& fit) {
     auto exhibits = before ? before(fit) : std::map<std::string, std::vector<html::Figure>>();
-    const Drawing drawing(*law, *groups, fit);
-    exhibits["verdict"].push_back(drawing.paper());
+    const Drawing drawing(*law, *groups, conditions - groups->size(), fit);
+    std::vector<html::Figure>& shown = exhibits["verdict"];
+    for (const LifeStress& each : *stresses) shown.push_back(life_stress_figure(*law, each, fit));
+    for (html::Figure& each : drawing.papers()) shown.push_back(std::move(each));
     if (auto hazard = drawing.hazard()) exhibits["predictions"].push_back(std::move(*hazard));
     return exhibits;
   };

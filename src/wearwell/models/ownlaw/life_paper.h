@@ -9,7 +9,8 @@
 namespace wearwell::ownlaw {
 
 /// Of a study whose likelihood is of a life: its observations on probability paper of their family with the
-/// fitted law and its band under each of up to six conditions, and the hazard. Adds to what the study shows.
+/// fitted law and its band under each condition, six to a plot, life against each numeric column that it depends on,
+/// and the hazard. Adds to what the study shows.
 void show_life_paper(const TomlReader& root, std::shared_ptr<const OwnLaw> law,
                      PosteriorStudy& study);
 

@@ -1,9 +1,11 @@
 #include "wearwell/models/ownlaw/model.h"
 
 #include "wearwell/models/ownlaw/export_command.h"
+#include "wearwell/models/ownlaw/life_first.h"
 #include "wearwell/models/ownlaw/own_keys.h"
 #include "wearwell/models/ownlaw/own_study.h"
 #include "wearwell/models/ownlaw/own_tracker.h"
+#include "wearwell/models/ownlaw/path_first.h"
 #include "wearwell/models/ownlaw/simulated_fleet.h"
 
 namespace wearwell {
@@ -27,7 +29,10 @@ namespace ownlaw {
 
 namespace {
 
-Model law_with(std::string_view trade, std::span<const ExampleFile> example) {
+using FirstOf = std::optional<FirstStudy> (*)(ColumnRoles&);
+
+Model law_with(std::string_view trade, std::span<const ExampleFile> example,
+               FirstOf first_study = nullptr) {
   return {.key = "law",
           .trade = trade,
           .example = example,
@@ -37,6 +42,7 @@ Model law_with(std::string_view trade, std::span<const ExampleFile> example) {
               },
           .add_commands = nullptr,
           .keys = law_keys,
+          .first_study = first_study,
           .track = track_units};
 }
 
@@ -59,7 +65,7 @@ std::string_view fleet_truth() {
 Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::law_study},
                                             {"wear.csv", resource::law_data}};
-  Model law = law_with("law", example);
+  Model law = law_with("law", example, first_wear_study);
   law.add_commands = add_export_command;  // of all that are of this model
   return law;
 }
@@ -67,19 +73,19 @@ Model model() {
 Model life() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::life_study},
                                             {"bearings.csv", resource::life_data}};
-  return law_with("life", example);
+  return law_with("life", example, first_life_study);
 }
 
 Model accelerated() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::accelerated_study},
                                             {"device_a.csv", resource::accelerated_data}};
-  return law_with("accelerated", example);
+  return law_with("accelerated", example, first_accelerated_study);
 }
 
 Model degradation() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::degradation_study},
                                             {"laser.csv", resource::degradation_data}};
-  return law_with("degradation", example);
+  return law_with("degradation", example, first_degradation_study);
 }
 
 Model fleet() {

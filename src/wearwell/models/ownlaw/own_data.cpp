@@ -26,11 +26,7 @@ auto find(const Columns& columns, const std::string& name) {
 LabelColumn read_labels(const Table& table, const std::string& name, const Column& column) {
   LabelColumn result{name, column.name, {}, {}};
   for (std::size_t i = 0; i < table.rows; ++i) {
-    const std::string text = cell_word(column, i);
-    if (text.empty()) {
-      throw InputError(
-          fmt::format("{}: no value; a label must not be empty", place(table, column.name, i)));
-    }
+    const std::string text = label_word(table, column, i);
     const auto at = std::find(result.levels.begin(), result.levels.end(), text);
     result.at.push_back(static_cast<int>(at - result.levels.begin()));
     if (at == result.levels.end()) result.levels.push_back(text);
@@ -38,23 +34,33 @@ LabelColumn read_labels(const Table& table, const std::string& name, const Colum
   return result;
 }
 
-// SI, NaN where the cell is empty.
+// SI, NaN where the cell is empty. `limit` [SI]: what "<LOD" stands for, NaN where the study does not say it.
 NumberColumn read_numbers(const Table& table, const std::string& name, const Column& column,
-                          law::AnyUnit unit) {
-  bool any_empty = false;
+                          law::AnyUnit unit, double limit) {
+  bool any_empty = false, any_limit = false;
   std::vector<double> values;
+  std::vector<Seen> seen(table.rows, Seen::exactly);
   for (std::size_t i = 0; i < table.rows; ++i) {
-    values.push_back(cell_number(table, column, i));
+    const CellValue cell = cell_value(table, column, i);
+    if (cell.unstated && std::isnan(limit))
+      refuse_unstated_limit(table, column, i,
+                            fmt::format("{} = {{ column = \"{}\", unit = \"{}\", detection_limit = "
+                                        "\"0.05 {}\" }}",
+                                        name, column.name, unit.unit.text, unit.unit.text));
+    values.push_back(cell.unstated ? from_si(unit.unit, limit) : cell.number);
+    if (cell.sign) seen[i] = cell.sign == '<' ? Seen::below : Seen::above;
+    any_limit |= cell.sign != 0;
     any_empty |= std::isnan(values.back());
   }
-  if (!any_empty) {
+  if (!any_limit) seen.clear();
+  if (!any_empty && !any_limit) {
     values = si_numbers(table, column.name, unit.unit);
     return {name, column.name, std::move(unit), std::move(values)};
   }
   for (double& each : values) {
     if (!std::isnan(each)) each = to_si(unit.unit, each);
   }
-  return {name, column.name, std::move(unit), std::move(values)};
+  return {name, column.name, std::move(unit), std::move(values), std::move(seen)};
 }
 
 bool is_text(const Column& column) {
@@ -79,6 +85,9 @@ class ObservedReader {
     count_ = column(special.count);
     trials_ = column(trials);
     if (data.status) status_ = &*data.status;
+    for (const NumberColumn* each : {lower_, upper_, entry_, count_, trials_}) {
+      if (each) data.require_values(*each);
+    }
   }
 
   Observed read(bool may_lack) {
@@ -153,9 +162,21 @@ class ObservedReader {
     refuse(upper_, y.seen == Seen::above && upper_ && upper_->values[i] == infinity);
   }
 
+  // By its cell, "<0.5", or by its status; both may say it, alike.
+  Seen seen_of(std::size_t i) const {
+    const Seen said = status_ ? seen_in(data_.table, *status_, i) : Seen::exactly;
+    if (!exact_ || exact_->seen.empty() || exact_->seen[i] == Seen::exactly) return said;
+    if (status_ && said != exact_->seen[i])
+      throw InputError(fmt::format(
+          "{}: '{}' is a limit, and column '{}' says '{}'; which is right?",
+          place(data_.table, exact_->column, i), data_.table.column(exact_->column).text[i],
+          status_->column, cell_word(data_.table.column(status_->column), i)));
+    return exact_->seen[i];
+  }
+
   Response row(std::size_t i) const {
     const bool has_exact = exact_ && !std::isnan(exact_->values[i]);
-    const Seen seen = status_ ? seen_in(data_.table, *status_, i) : Seen::exactly;
+    const Seen seen = seen_of(i);
     Response y;
     if (seen == Seen::between || (!status_ && lower_ && !has_exact)) {
       y = between(i);
@@ -214,7 +235,15 @@ const LabelColumn* OwnData::label(const std::string& name) const {
   return find(labels, name);
 }
 
+void OwnData::require_values(const NumberColumn& column) const {
+  for (std::size_t i = 0; i < column.seen.size(); ++i) {
+    if (column.seen[i] != Seen::exactly)
+      static_cast<void>(cell_number(table, table.column(column.column), i));  // refuses it
+  }
+}
+
 void OwnData::require_complete(const NumberColumn& column) const {
+  require_values(column);
   for (std::size_t i = 0; i < table.rows; ++i) {
     if (std::isfinite(column.values[i])) continue;
     throw InputError(fmt::format(
@@ -251,6 +280,13 @@ std::string si_of(const law::AnyUnit& unit) {
   return whole ? law::si_text(unit.powers) : std::string();
 }
 
+// What "<LOD" stands for in a column of this unit, SI; NaN where the study does not say it.
+double detection_limit(const TomlReader& choice, const law::AnyUnit& unit) {
+  const std::string si = si_of(unit);
+  const auto limit = si.empty() ? std::nullopt : choice.quantity("detection_limit", si);
+  return limit ? limit->si() : NAN;
+}
+
 }  // namespace
 
 OwnData read_own_data(const TomlReader& root, const Source& source,
@@ -265,10 +301,12 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
   for (const std::string& name : columns.keys()) {
     std::string heading;
     std::optional<law::AnyUnit> unit;
+    const std::optional<TomlReader> in_table =
+        columns.is_text(name) ? std::nullopt : std::optional(columns.required_table(name));
     if (columns.is_text(name)) {
       heading = columns.required_text(name);
     } else {
-      const TomlReader choice = columns.required_table(name);
+      const TomlReader& choice = *in_table;
       heading = choice.required_text("column");
       if (const auto text = choice.text("unit")) {
         try {
@@ -278,12 +316,7 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
         }
       }
     }
-    const Column* column = nullptr;
-    try {
-      column = &data.table.column(heading);
-    } catch (const InputError& error) {
-      columns.fail(name, error.what());
-    }
+    const Column* const column = &study_column(columns, name, heading, data.table);
     if (is_label(name) && unit) {
       columns.fail(name, "has a unit, but the study uses it as a label; keep one of the two");
     }
@@ -295,7 +328,8 @@ OwnData read_own_data(const TomlReader& root, const Source& source,
       } else if (const std::string si = si_of(*unit); !si.empty() && says_unit(*column)) {
         unit->unit = column_unit(data.table, *column, si, unit->unit);  // refuses what contradicts
       }
-      data.numbers.push_back(read_numbers(data.table, name, *column, std::move(*unit)));
+      const double limit = in_table ? detection_limit(*in_table, *unit) : NAN;
+      data.numbers.push_back(read_numbers(data.table, name, *column, std::move(*unit), limit));
     }
   }
   if (data.table.rows == 0) throw InputError(fmt::format("{} has no rows", data.table.source));

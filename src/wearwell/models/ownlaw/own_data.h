@@ -18,7 +18,8 @@ struct NumberColumn {
   std::string name;    ///< in expressions: "force"
   std::string column;  ///< in the file: "F"
   law::AnyUnit unit;
-  std::vector<double> values;  ///< SI; NaN where the cell is empty
+  std::vector<double> values;   ///< SI; NaN where the cell is empty; of a limit, "<0.5", the limit
+  std::vector<Seen> seen = {};  ///< of each row, where any cell is a limit
 };
 
 /// A column of labels.
@@ -37,8 +38,10 @@ struct OwnData {
 
   const NumberColumn* number(const std::string& name) const;
   const LabelColumn* label(const std::string& name) const;
-  /// Throws InputError that names file, row and column where a cell is empty.
+  /// Throws InputError that names file, row and column where a cell is empty or a limit.
   void require_complete(const NumberColumn& column) const;
+  /// The same of limits alone.
+  void require_values(const NumberColumn& column) const;
 };
 
 /// Reads [data.columns]. Columns of text are labels, and columns of numbers that the study uses as

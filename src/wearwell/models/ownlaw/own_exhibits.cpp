@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 #include "wearwell/models/ownlaw/own_limit.h"
 #include "wearwell/models/ownlaw/own_path_ahead.h"
@@ -37,8 +39,29 @@ struct Drawing {
   std::optional<ProcessLimit> process;  // with the mean of a process
 
   std::vector<html::Figure> draw(const WeightedDraws& draws) const;
-  html::Figure figure(std::size_t i, const Spread& spread) const;
-  std::string caption(bool of_new) const;
+};
+
+// 90 % of a path and its median, in the units of the figure.
+struct Band {
+  Numbers x, low, middle, high;
+};
+
+// What small multiples show of both axes.
+struct Window {
+  double x_low = INFINITY, x_high = -INFINITY, y_low = INFINITY, y_high = -INFINITY;
+
+  void take(const Numbers& x, const Numbers& y) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      x_low = std::min(x_low, x[i]);
+      x_high = std::max(x_high, x[i]);
+      take_height(y[i]);
+    }
+  }
+  void take_height(double y) {
+    y_low = std::min(y_low, y);
+    y_high = std::max(y_high, y);
+  }
+  double margin() const { return 0.08 * (y_high - y_low); }
 };
 
 Readings readings_of(const Asked& asked, const Measured& measured,
@@ -54,55 +77,108 @@ Readings readings_of(const Asked& asked, const Measured& measured,
   return result;
 }
 
-std::string Drawing::caption(bool of_new) const {
-  if (!of_new) {
-    return "What its rows say of its own path, and how it goes on under the conditions asked for: "
-           "90 % of what is known of the path, without the scatter of a reading.";
-  }
-  std::string words = fmt::format(
-      "Where the path of a new {} runs with a probability of 90 %, under the conditions asked for, "
-      "with the readings of all.",
-      noun);
-  if (left_out > 0) words += fmt::format(" Paths of {} more are not drawn.", left_out);
-  return words;
-}
-
-html::Figure Drawing::figure(std::size_t i, const Spread& spread) const {
-  Numbers x, low, middle, high;
+Band band_of(const Drawing& drawing, std::size_t i, const Spread& spread) {
+  Band band;
   const auto add = [&](double place, const CellMixture& known) {
     const double ends[] = {known.quantile(0.05), known.quantile(0.5), known.quantile(0.95)};
     if (!std::all_of(ends, ends + 3, [](double each) { return std::isfinite(each); })) return;
-    x.push_back(from_si(axis, place));
-    low.push_back(from_si(unit, ends[0]));
-    middle.push_back(from_si(unit, ends[1]));
-    high.push_back(from_si(unit, ends[2]));
+    band.x.push_back(from_si(drawing.axis, place));
+    band.low.push_back(from_si(drawing.unit, ends[0]));
+    band.middle.push_back(from_si(drawing.unit, ends[1]));
+    band.high.push_back(from_si(drawing.unit, ends[2]));
   };
-  for (std::size_t k = 0; k < spread.traced.size(); ++k) add(traced[i][k], spread.traced[k]);
-  for (std::size_t k = 0; k < spread.ahead.size(); ++k) add(paths[i].places[k], spread.ahead[k]);
-  const Readings& seen = readings[i];
+  for (std::size_t k = 0; k < spread.traced.size(); ++k)
+    add(drawing.traced[i][k], spread.traced[k]);
+  for (std::size_t k = 0; k < spread.ahead.size(); ++k)
+    add(drawing.paths[i].places[k], spread.ahead[k]);
+  return band;
+}
+
+// With names of the marks, for a legend, or without.
+std::vector<plot::Json> marks_of(const Drawing& drawing, std::size_t i, const Band& band,
+                                 bool named) {
+  const auto name = [&](const char* words) { return named ? words : ""; };
+  const std::string &along = drawing.along, &quantity = drawing.quantity;
+  const Readings& seen = drawing.readings[i];
   std::vector<plot::Json> marks = {
-      plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour::wide, "90 % of the path", 0.35}),
-      plot::line({{"x", x}, {"y", middle}, {along, x}, {quantity, middle}},
-                 {colour::posterior, "median path"}),
+      plot::area({{"x", band.x}, {"y", band.high}, {"y2", band.low}},
+                 {colour::wide, name("90 % of the path"), 0.35}),
+      plot::line({{"x", band.x}, {"y", band.middle}, {along, band.x}, {quantity, band.middle}},
+                 {colour::posterior, name("median path")}),
       plot::points(
           {{"x", seen.place}, {"y", seen.value}, {along, seen.place}, {quantity, seen.value}},
-          {colour::measured, "readings", 1, 0, false, 35})};
-  if (limit) {
-    marks.push_back(
-        plot::horizontal_line(from_si(unit, *limit), {colour::limit, "limit", 1, 1.5, true}));
+          {colour::measured, name("readings"), 1, 0, false, named ? 35. : 20.})};
+  if (drawing.limit) {
+    marks.push_back(plot::horizontal_line(from_si(drawing.unit, *drawing.limit),
+                                          {colour::limit, name("limit"), 1, 1.5, true}));
   }
-  const bool of_new = !paths[i].unit;
-  return {fmt::format("path-{}-{}", quantity, i), html::capital(of[i]), caption(of_new),
-          plot::plot(fmt::format("{} of {} along {}", quantity, of[i], along),
-                     {fmt::format("{} [{}]", along, axis.text)},
-                     {fmt::format("{} [{}]", quantity, unit.text)}, marks, of_new ? 280 : 200)};
+  return marks;
+}
+
+html::Figure figure_of(const Drawing& drawing, std::size_t i, const Band& band) {
+  const bool of_new = !drawing.paths[i].unit;
+  const std::string caption =
+      of_new ? fmt::format(
+                   "Where the path of a new {} runs with a probability of 90 %, under the "
+                   "conditions asked for, with the readings of all.",
+                   drawing.noun)
+             : "What its rows say of its own path, and how it goes on under the conditions asked "
+               "for: 90 % of what is known of the path, without the scatter of a reading.";
+  return {
+      fmt::format("path-{}-{}", drawing.quantity, i), html::capital(drawing.of[i]), caption,
+      plot::plot(
+          fmt::format("{} of {} along {}", drawing.quantity, drawing.of[i], drawing.along),
+          {fmt::format("{} [{}]", html::capital(drawing.along), html::unit(drawing.axis.text))},
+          {fmt::format("{} [{}]", html::capital(drawing.quantity), html::unit(drawing.unit.text))},
+          marks_of(drawing, i, band, true), 280)};
+}
+
+// The paths of units as small multiples on common axes.
+std::vector<html::Figure> panels_of(const Drawing& drawing, const std::vector<Band>& bands) {
+  Window window;
+  if (drawing.limit) window.take_height(from_si(drawing.unit, *drawing.limit));
+  for (std::size_t i = 1; i < bands.size(); ++i) {
+    window.take(bands[i].x, bands[i].middle);
+    window.take(drawing.readings[i].place, drawing.readings[i].value);
+  }
+  const std::string quantity = html::capital(drawing.quantity);
+  std::string caption = fmt::format(
+      "{} [{}] against {} [{}], all on the same axes: readings, the median path and 90 % of what "
+      "is "
+      "known of it under the conditions asked for, without the scatter of a reading{}.",
+      quantity, html::unit(drawing.unit.text), drawing.along, html::unit(drawing.axis.text),
+      drawing.limit ? "; dashed: the limit" : "");
+  if (drawing.left_out > 0) {
+    caption +=
+        fmt::format(" Of {} {}s, those {} are drawn.", drawing.left_out + bands.size() - 1,
+                    drawing.noun, drawing.limit ? "nearest to the limit" : "that come first");
+  }
+  std::vector<html::Figure> figures;
+  for (std::size_t i = 1; i < bands.size(); ++i) {
+    html::Figure figure{
+        fmt::format("path-{}-{}", drawing.quantity, i), html::capital(drawing.of[i]), caption,
+        plot::plot(fmt::format("{} of {} along {}", drawing.quantity, drawing.of[i], drawing.along),
+                   {"", false, window.x_low, window.x_high},
+                   {"", false, window.y_low - window.margin(), window.y_high + window.margin()},
+                   marks_of(drawing, i, bands[i], false), 130)};
+    figure.panel_of = fmt::format("{} of each {}", quantity, drawing.noun);
+    figures.push_back(std::move(figure));
+  }
+  return figures;
 }
 
 std::vector<html::Figure> Drawing::draw(const WeightedDraws& draws) const {
   const std::vector<Spread> known = process ? process_spreads(*rows, *process, paths, draws)
                                             : spreads(*rows, paths, draws, most_points);
-  std::vector<html::Figure> figures;
-  for (std::size_t i = 0; i < known.size(); ++i) figures.push_back(figure(i, known[i]));
+  std::vector<Band> bands;
+  for (std::size_t i = 0; i < known.size(); ++i) bands.push_back(band_of(*this, i, known[i]));
+  constexpr std::size_t fewest_multiples = 3;
+  std::vector<html::Figure> figures = {figure_of(*this, 0, bands[0])};
+  if (bands.size() > fewest_multiples) {
+    for (html::Figure& each : panels_of(*this, bands)) figures.push_back(std::move(each));
+  } else {
+    for (std::size_t i = 1; i < bands.size(); ++i) figures.push_back(figure_of(*this, i, bands[i]));
+  }
   return figures;
 }
 
@@ -174,6 +250,29 @@ std::optional<double> limit_of(const Asked& asked, const Measured& measured, con
   return limits->required_quantity(name, law::si_text(limited->program.outputs()[0].powers)).si();
 }
 
+// All units, or of many those whose last reading is nearest to the limit.
+std::vector<std::size_t> drawn_units(const Asked& asked, const Measured& measured,
+                                     const LimitedPath& path, const Drawing& drawing) {
+  std::vector<std::size_t> units(asked.law->units.size());
+  std::iota(units.begin(), units.end(), std::size_t{0});
+  if (units.size() <= most_figures) return units;
+  if (drawing.limit) {
+    Numbers place(units.size(), -INFINITY), last(units.size(), path.rising ? -INFINITY : INFINITY);
+    for (std::size_t i = 0; i < measured.observed.rows.size(); ++i) {
+      const std::size_t row = measured.observed.rows[i], unit = asked.law->unit_of_row[row];
+      if (measured.observed.responses[i].seen != Seen::exactly) continue;
+      if (asked.axis().values[row] < place[unit]) continue;
+      place[unit] = asked.axis().values[row];
+      last[unit] = measured.observed.responses[i].at;
+    }
+    std::stable_sort(units.begin(), units.end(), [&](std::size_t a, std::size_t b) {
+      return path.rising ? last[a] > last[b] : last[a] < last[b];
+    });
+  }
+  units.resize(most_figures);
+  return units;
+}
+
 std::shared_ptr<const Drawing> drawing_of(const Asked& asked, const Measured& measured) {
   auto drawing = std::make_shared<Drawing>();
   drawing->rows = asked.rows;
@@ -195,9 +294,9 @@ std::shared_ptr<const Drawing> drawing_of(const Asked& asked, const Measured& me
     drawing->process = ProcessLimit{column, path};
   }
   if (!asked.law->label && !path.next->goes_on() && !measured.process) return drawing;
-  const std::size_t units = asked.law->units.size(), drawn = std::min(units, most_figures);
-  for (std::size_t u = 0; u < drawn; ++u) add_unit(asked, measured, path, far, u, *drawing);
-  drawing->left_out = units - drawn;
+  const std::vector<std::size_t> drawn = drawn_units(asked, measured, path, *drawing);
+  for (const std::size_t unit : drawn) add_unit(asked, measured, path, far, unit, *drawing);
+  drawing->left_out = asked.law->units.size() - drawn.size();
   return drawing;
 }
 
@@ -212,9 +311,9 @@ void add_path_figures(const Asked& asked, PosteriorStudy& study) {
   study.exhibits = [all](const Fit& fit) {
     std::map<std::string, std::vector<html::Figure>> figures;
     for (const auto& each : all) {
-      for (html::Figure& figure : each->draw(fit.exact ? fit.exact->nodes : fit.pooled)) {
-        figures["predictions"].push_back(std::move(figure));
-      }
+      std::vector<html::Figure> own = each->draw(fit.exact ? fit.exact->nodes : fit.pooled);
+      figures["verdict"].push_back(std::move(own.front()));
+      std::move(own.begin() + 1, own.end(), std::back_inserter(figures["predictions"]));
     }
     return figures;
   };

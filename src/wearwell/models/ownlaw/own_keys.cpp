@@ -38,13 +38,15 @@ StudyKeys slot_keys() {
 
 StudyKeys law_keys() {
   StudyKeys keys = posterior_keys();
+  add_keys(keys, status_keys());
   add_keys(
       keys,
       {{"data.columns.*", "{ column = \"h_um\", unit = \"um\" }",
         "what expressions call `*`; `status`, `lower`, `upper`, `count` and `entry` say how much "
         "is "
         "known of an observation"},
-       status_code_key(),
+       {"data.columns.*.detection_limit", "\"0.05 mm^3\"",
+        "what `<LOD` stands for in its cells: the value lies below"},
        unused_columns_key(),
        {"data.rows_of", "\"machine\"",
         "of several labels that parameters vary with: whose levels are the units"},

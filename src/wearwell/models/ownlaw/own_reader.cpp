@@ -588,10 +588,16 @@ class Reader {
       } catch (const InputError& error) {
         fail_at_place(root_, table, error.what());
       }
+      if (written.process) law_->data.require_values(*column);
       const bool may_lack = written_.size() > 1;
       measured.observed = read_observed(law_->data, written.column, *written.form, special,
                                         written.trials, may_lack);
       law_->measured.push_back(std::move(measured));
+    }
+    for (const NumberColumn& each : law_->data.numbers) {
+      const bool measured = std::any_of(law_->measured.begin(), law_->measured.end(),
+                                        [&](const Measured& m) { return m.column == each.name; });
+      if (!measured) law_->data.require_values(each);
     }
     for (std::size_t c = 0; c < law_->row_symbols.columns.size(); ++c) {
       const bool used = std::any_of(law_->measured.begin(), law_->measured.end(),

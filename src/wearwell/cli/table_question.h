@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "wearwell/study/first_study.h"
+
+namespace wearwell {
+
+/// Whether somebody can be asked.
+bool is_somebody_there();
+
+/// Prints the question and reads a number; throws InputError where the input ends first.
+std::size_t read_choice(const TableQuestion& question);
+
+/// The refusal: the question, and below it each reading with its command.
+std::string as_refusal(const TableQuestion& question, const std::vector<std::string>& commands);
+
+}  // namespace wearwell

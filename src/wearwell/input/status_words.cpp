@@ -1,0 +1,119 @@
+#include "wearwell/input/status_words.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/algorithm/string/trim.hpp>
+#include <cctype>
+#include <map>
+#include <vector>
+
+#include "wearwell/base/nearest.h"
+
+namespace wearwell {
+namespace {
+
+/// Letters of the second half of Latin-1 (U+00C0 to U+00FF, each behind the byte C3) without accents.
+constexpr std::array<std::string_view, 64> latin_letters = {
+    "a", "a", "a", "a", "a", "a", "ae", "c", "e", "e", "e", "e", "i", "i", "i", "i",
+    "d", "n", "o", "o", "o", "o", "o",  "",  "o", "u", "u", "u", "u", "y", "t", "ss",
+    "a", "a", "a", "a", "a", "a", "ae", "c", "e", "e", "e", "e", "i", "i", "i", "i",
+    "d", "n", "o", "o", "o", "o", "o",  "",  "o", "u", "u", "u", "u", "y", "t", "y"};
+
+using Words = std::map<std::string, Seen, std::less<>>;
+
+const Words& status_words() {
+  static const Words words = [] {
+    Words all;
+    const auto add = [&](Seen seen, std::initializer_list<const char*> list) {
+      for (const char* each : list) all.emplace(folded_word(each), seen);
+    };
+    add(Seen::exactly,
+        {"failure", "failed", "fail", "F", "broke", "broken", "breakage", "fracture", "fractured",
+         "ruptured", "cracked", "crack", "dead", "died", "observed", "event", "uncensored", "NOK",
+         "not ok", "worn out", "exact",
+         // German
+         "ausgefallen", "Ausfall", "defekt", "versagt", "Versagen", "Bruch", "gebrochen",
+         "Dauerbruch", "Schwingbruch", "Anriss", "gerissen", "n.i.O.", "unzensiert",
+         // French
+         "défaillance", "défaillant", "défaillante", "rupture", "rompu", "rompue", "cassé",
+         "cassée", "panne", "en panne", "hors service",
+         // Spanish
+         "fallo", "falla", "fallado", "fallada", "avería", "averiado", "averiada", "rotura", "roto",
+         "rota"});
+    add(Seen::above,
+        {"runout", "RO", "right", "right censored", "S", "suspended", "suspension", "susp", "C",
+         "censored", "censor", "cens", "survived", "survivor", "surviving", "alive", "running",
+         "still running", "in service", "OK", "unbroken", "intact", "not failed", "no failure",
+         "not broken", "unfailed", "passed", "pass", "active", "withdrawn",
+         // German
+         "Durchläufer", "Durchlaeufer", "Läufer", "Laeufer", "läuft", "laeuft", "läuft noch",
+         "laeuft noch", "überlebt", "ueberlebt", "zensiert", "rechts", "rechtszensiert",
+         "nicht ausgefallen", "nicht gebrochen", "kein Bruch", "kein Ausfall", "ohne Bruch",
+         "ohne Ausfall", "in Betrieb", "intakt", "bestanden", "i.O.", "ungebrochen",
+         // French
+         "censuré", "censurée", "droite", "censuré à droite", "non rompu", "non rompue",
+         "sans rupture", "pas de rupture", "survie", "survivant", "en service", "en marche",
+         "suspendu", "suspendue", "non défaillant",
+         // Spanish
+         "censurado", "censurada", "derecha", "censura derecha", "suspendido", "suspendida",
+         "sobrevivió", "superviviente", "en servicio", "en marcha", "en funcionamiento",
+         "sin rotura", "sin fallo", "sin falla", "no roto", "no rota", "intacto", "intacta"});
+    add(Seen::below, {"left", "left censored", "links", "linkszensiert", "gauche",
+                      "censuré à gauche", "izquierda", "censura izquierda"});
+    add(Seen::between, {"interval", "interval censored", "Intervall", "intervallzensiert",
+                        "intervalle", "censuré par intervalle", "intervalo"});
+    return all;
+  }();
+  return words;
+}
+
+}  // namespace
+
+std::string folded_word(std::string_view word) {
+  std::string folded;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    const auto c = static_cast<unsigned char>(word[i]);
+    const unsigned char next = i + 1 < word.size() ? static_cast<unsigned char>(word[i + 1]) : 0;
+    if (c < 0x80) {
+      if (std::isalnum(c)) folded += static_cast<char>(std::tolower(c));
+    } else if (c == 0xC3 && next >= 0x80 && next < 0xC0) {
+      folded += latin_letters[next - 0x80u];
+      ++i;
+    } else if ((c == 0xCC && next >= 0x80) || (c == 0xCD && next >= 0x80 && next < 0xB0)) {
+      ++i;  // an accent that stands behind its letter
+    } else if (c == 0xC2 && next == 0xA0) {
+      ++i;  // a blank that does not break
+    } else {
+      folded += word[i];
+    }
+  }
+  return folded.empty() ? boost::algorithm::trim_copy(std::string(word)) : folded;
+}
+
+std::optional<Seen> seen_by_word(std::string_view word) {
+  const auto found = status_words().find(folded_word(word));
+  if (found == status_words().end()) return {};
+  return found->second;
+}
+
+std::optional<std::string> near_status_word(std::string_view word) {
+  std::vector<std::string> words;
+  for (const auto& [each, seen] : status_words()) {
+    if (each.size() > 2) words.push_back(each);
+  }
+  return near_name(folded_word(word), words);
+}
+
+std::optional<bool> truth_in(std::string_view word) {
+  static const std::map<std::string, bool, std::less<>> truths = {
+      {"1", true},       {"true", true},  {"yes", true},    {"y", true},    {"wahr", true},
+      {"ja", true},      {"j", true},     {"vrai", true},   {"oui", true},  {"verdadero", true},
+      {"si", true},      {"0", false},    {"false", false}, {"no", false},  {"n", false},
+      {"falsch", false}, {"nein", false}, {"faux", false},  {"non", false}, {"falso", false}};
+  if (!word.empty() && (word.front() == '-' || word.front() == '+')) return {};
+  const auto found = truths.find(folded_word(word));
+  if (found == truths.end()) return {};
+  return found->second;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "wearwell/infer/fit.h"
+#include "wearwell/models/ownlaw/life_groups.h"
+#include "wearwell/present/html.h"
+
+namespace wearwell::ownlaw {
+
+/// The law of a life along one numeric column, all else held.
+struct LifeStress {
+  std::string column;
+  Conditions held;                                    ///< words of what is held; may be empty
+  std::vector<double> at;                             ///< SI
+  std::vector<std::shared_ptr<const LifeLaw>> lives;  ///< at each of them
+  std::vector<LifeGroup> tested;                      ///< observations under what is held
+};
+
+/// One for each numeric column on which the life depends and that has more than one value among the
+/// observations; all else is held as most observations have it. Reaches to `given` conditions.
+std::vector<LifeStress> life_stresses(const TomlReader& root,
+                                      const std::shared_ptr<const OwnLaw>& law,
+                                      const std::vector<LifeGroup>& groups);
+
+/// Life against the column: the median with its band, B10, and the observations.
+html::Figure life_stress_figure(const OwnLaw& law, const LifeStress& stress, const Fit& fit);
+
+}  // namespace wearwell::ownlaw

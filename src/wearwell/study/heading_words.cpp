@@ -1,0 +1,167 @@
+#include "wearwell/study/heading_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/unit.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/heading.h"
+
+namespace wearwell {
+namespace {
+
+std::string plain_powers(std::string text) {
+  for (const auto& [raised, plain] : {std::pair{"²", "^2"}, {"³", "^3"}, {"µ", "u"}, {"μ", "u"}}) {
+    for (std::size_t at; (at = text.find(raised)) != text.npos;)
+      text.replace(at, std::string_view(raised).size(), plain);
+  }
+  return text;
+}
+
+// Letters with accents, as they are written without.
+std::string without_accents(std::string_view text) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 44> plain = {
+      {{"ä", "ae"},     {"ö", "oe"},    {"ü", "ue"}, {"Ä", "Ae"}, {"Ö", "Oe"}, {"Ü", "Ue"},
+       {"ß", "ss"},     {"à", "a"},     {"á", "a"},  {"â", "a"},  {"ã", "a"},  {"À", "A"},
+       {"Á", "A"},      {"Â", "A"},     {"ç", "c"},  {"Ç", "C"},  {"è", "e"},  {"é", "e"},
+       {"ê", "e"},      {"ë", "e"},     {"È", "E"},  {"É", "E"},  {"Ê", "E"},  {"ì", "i"},
+       {"í", "i"},      {"î", "i"},     {"ï", "i"},  {"Í", "I"},  {"ñ", "n"},  {"Ñ", "N"},
+       {"ò", "o"},      {"ó", "o"},     {"ô", "o"},  {"õ", "o"},  {"Ó", "O"},  {"ù", "u"},
+       {"ú", "u"},      {"û", "u"},     {"Ú", "U"},  {"Ù", "U"},  {"œ", "oe"}, {"’", "'"},
+       {"\u00a0", " "}, {"\u202f", " "}}};
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    bool found = false;
+    for (const auto& [accented, without] : plain) {
+      if (!text.substr(i).starts_with(accented)) continue;
+      result += without;
+      i += accented.size();
+      found = true;
+      break;
+    }
+    if (!found) result += text[i++];
+  }
+  return result;
+}
+
+std::string stripped(std::string_view words) {
+  return std::string(words.substr(1, words.size() < 2 ? 0 : words.size() - 2));
+}
+
+// "wearDepth" is two words; "kN" and "MPa" are none.
+bool begins_word(std::string_view text, std::size_t i) {
+  const auto at = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  return i >= 2 && std::isupper(at(i)) && std::islower(at(i - 1)) && std::isalpha(at(i - 2));
+}
+
+}  // namespace
+
+bool is_unit_of(const std::string& text, std::string_view si) {
+  if (text.empty()) return false;
+  if (si.empty()) return parse_unit(text).has_value();
+  try {
+    read_unit(text, si);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+std::string bracketed(const std::string& heading) {
+  const std::size_t close = heading.find_last_of("])");
+  if (close == heading.npos) return "";
+  const std::size_t open = heading.rfind(heading[close] == ']' ? '[' : '(', close);
+  return open == heading.npos ? "" : bare_unit(heading.substr(open + 1, close - open - 1));
+}
+
+std::string stated_unit(const Column& column) {
+  if (!column.unit.empty()) return bare_unit(column.unit);
+  const Heading heading = read_heading(column.name, "");
+  // Behind '_' a letter may be an index, and "min" the least.
+  const bool index = heading.suffix && (heading.unit.size() < 2 || heading.unit == "min" ||
+                                        heading.unit == "in" || heading.unit == "at");
+  if (!heading.unit.empty() && !index) return plain_powers(heading.unit);
+  const std::string brackets = plain_powers(bracketed(column.name));
+  return is_unit_of(brackets, "") ? brackets : "";
+}
+
+NameAndUnit name_and_unit(const Column& column, std::string_view si) {
+  const std::string& heading = column.name;
+  const std::size_t close = heading.find_last_of("])");
+  const bool brackets = close != heading.npos && heading.find_first_of("[(") < close;
+  Heading found = read_heading(heading, si);
+  if (brackets && found.unit.empty()) found = read_heading(heading.substr(0, close + 1), si);
+  found.unit = plain_powers(found.unit);
+  if (found.certain && !is_unit_of(found.unit, si)) found.unit.clear();
+  if (!column.unit.empty())
+    found.unit = is_unit_of(plain_powers(bare_unit(column.unit)), si) ? bare_unit(column.unit) : "";
+  if (found.unit.empty() && si == "K") {
+    const Heading any = read_heading(heading, "");
+    const std::string letter = column.unit.empty() ? any.unit : bare_unit(column.unit);
+    if (letter == "C") return {any.name, "degC", true};
+    if (letter == "F" || letter == "°F") return {any.name, "degF", letter == "F"};
+  }
+  if (brackets && found.unit.empty() && bracketed(heading) == found.name) found.name = heading;
+  if (brackets || !found.unit.empty()) return {found.name, found.unit};
+  for (std::size_t at = heading.find(' '); at != heading.npos && at > 0;
+       at = heading.find(' ', at + 1)) {
+    const std::string unit = plain_powers(heading.substr(at + 1));
+    if (unit.find_first_not_of("0123456789") != unit.npos && !si.empty() && is_unit_of(unit, si))
+      return {heading.substr(0, at), unit};
+  }
+  return {found.name, found.unit};
+}
+
+std::string with_multiple(const std::string& heading, const std::string& unit) {
+  const std::string words = plain_words(heading);
+  const bool has_own =
+      !unit.empty() && std::isdigit(static_cast<unsigned char>(unit.front())) && unit != "1";
+  const auto says = [&](std::initializer_list<const char*> any) {
+    return std::any_of(any.begin(), any.end(), [&](const char* each) {
+      return words.find(fmt::format(" {} ", each)) != words.npos;
+    });
+  };
+  const std::string base = unit.empty() || unit == "1" ? "cycles" : unit;
+  if (has_own) return unit;
+  if (says({"million", "millions", "mio", "millionen", "millones", "milioni"}))
+    return "1e6 " + base;
+  if (says({"thousand", "thousands", "tsd", "tausend", "milliers", "miles de"}))
+    return "1e3 " + base;
+  return unit;
+}
+
+std::string plain_words(std::string_view text) {
+  const std::string plain = without_accents(text);
+  std::string words = " ";
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const auto u = static_cast<unsigned char>(plain[i]);
+    if (std::isalnum(u) || u >= 0x80) {
+      if (begins_word(plain, i)) words += ' ';
+      words += static_cast<char>(std::tolower(u));
+    } else if (words.back() != ' ') {
+      words += ' ';
+    }
+  }
+  return words.back() == ' ' ? words : words + ' ';
+}
+
+bool is_called(const std::string& heading, std::string_view word) {
+  constexpr std::size_t telling = 5;
+  const std::string words = plain_words(heading), wanted = plain_words(word);
+  const bool letter = wanted.size() == 3;
+  if (letter) return words == wanted;
+  if (words.find(wanted) != words.npos) return true;
+  const std::string bare = stripped(wanted);
+  return bare.size() >= telling && words.find(bare) != words.npos;
+}
+
+bool is_exactly(const std::string& heading, std::string_view word) {
+  return plain_words(heading) == plain_words(word);
+}
+
+}  // namespace wearwell
