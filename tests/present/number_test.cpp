@@ -46,6 +46,8 @@ TEST(Number, IsFoundInASentence) {
             "within 9\u00a0×\u00a010⁻⁶ of 2\u00a0×\u00a010⁷, 1\u202f000\u202f000 cycles");
   EXPECT_EQ(powers_in_words("machine 100234, A1e+06, 1e6 cycles", Script::page),
             "machine 100234, A1e+06, 1e6 cycles");
+  EXPECT_EQ(powers_in_words("depth = k * force / 5e-05 [m^2]", Script::page),
+            "depth = k * force / 5e-05 [m^2]");
   EXPECT_EQ(numbers_in_words("survival to 500000 cycles", Script::terminal),
             "survival to 500\u202f000 cycles");
   EXPECT_EQ(numbers_in_words("at 1050 MPa, R = 0.123456, log10_a", Script::terminal),

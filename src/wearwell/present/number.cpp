@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 namespace wearwell {
 namespace {
@@ -109,6 +110,13 @@ bool belongs_to_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || (c & 0x80) != 0;
 }
 
+// A number in a formula, "/ 5e-05 [m^2]", is one operand, and stays.
+bool is_operand(const std::string& before) {
+  const std::size_t last = before.find_last_not_of(' ');
+  return last != before.npos &&
+         std::string_view("*/^").find(before[last]) != std::string_view::npos;
+}
+
 std::string in_text(const std::string& text, Script script, bool thousands) {
   constexpr std::size_t most_together = 4;
   std::string out;
@@ -124,7 +132,7 @@ std::string in_text(const std::string& text, Script script, bool thousands) {
         token.end < text.size() && (belongs_to_word(text[token.end]) || text[token.end] == '^');
     const bool long_one = thousands && token.is_whole && digits.size() > most_together &&
                           digits.size() <= given_digits && digits.front() != '0';
-    const bool changes = !cut_off && (token.has_power || long_one);
+    const bool changes = !cut_off && !is_operand(out) && (token.has_power || long_one);
     out += changes ? given_in_words(std::strtod(digits.c_str(), nullptr), script) : digits;
     i = token.end;
   }

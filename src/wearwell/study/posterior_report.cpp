@@ -108,8 +108,10 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
     const ParameterSummary& p = result.parameters[i];
     const ExactSummary each = p.best();
     if (const auto natural = of_logarithm(p)) {
-      tiles.push_back({html::capital(natural->meaning), number(natural->q50, 3),
-                       unit(natural->unit), range(natural->q05, natural->q95, 3) + " (90 %)"});
+      const bool has_article = natural->meaning.starts_with("the ");
+      tiles.push_back({html::capital(natural->meaning.substr(has_article ? 4 : 0)),
+                       number(natural->q50, 3), unit(natural->unit),
+                       range(natural->q05, natural->q95, 3) + " (90 %)"});
       continue;
     }
     tiles.push_back({fmt::format("{}, {}", p.name, p.meaning), number(each.mean, 3), unit(p.unit),

@@ -17,6 +17,7 @@
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/plot_study.h"
+#include "wearwell/study/terminal_rows.h"
 
 namespace wearwell {
 namespace {
@@ -258,7 +259,8 @@ std::string text_of(const SnData& data, const std::vector<At>& points, const std
     add("ISO 12107", at.iso);
     add("Owen", at.owen);
   }
-  return fmt::format("Design curves{}, life [{}]\n", where, data.life_unit.text) +
+  return fmt::format("Design curves{}, {}\n", where,
+                     printable_heading("life", data.life_unit.text)) +
          text_table(rows) + wrapped(why, 2, 4) + (e739.empty() ? "" : wrapped(e739, 2, 4));
 }
 
