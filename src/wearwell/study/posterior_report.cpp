@@ -111,11 +111,11 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
       const bool has_article = natural->meaning.starts_with("the ");
       tiles.push_back({html::capital(natural->meaning.substr(has_article ? 4 : 0)),
                        number(natural->q50, 3), unit(natural->unit),
-                       range(natural->q05, natural->q95, 3) + " (90 %)"});
+                       range(natural->q05, natural->q95, 3) + " (90\u00a0%)"});
       continue;
     }
     tiles.push_back({fmt::format("{}, {}", p.name, p.meaning), number(each.mean, 3), unit(p.unit),
-                     range(each.q05, each.q95, 3) + " (90 %)"});
+                     range(each.q05, each.q95, 3) + " (90\u00a0%)"});
   }
   section.add(present::Tiles{std::move(tiles)});
   std::vector<html::Figure> figures = answer_figures(result, plots);
