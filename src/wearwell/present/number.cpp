@@ -64,7 +64,8 @@ std::string spaced(std::string text, Script script) {
 
 // 9.9996 to four digits is 10.00, not 10.000.
 double rounded(double x, int digits) {
-  return std::isfinite(x) ? std::strtod(fmt::format("{:.{}e}", x, digits - 1).c_str(), nullptr) : x;
+  const double near = std::strtod(fmt::format("{:.{}e}", x, digits - 1).c_str(), nullptr);
+  return std::isfinite(near) ? near : x;  // the largest doubles have none above them
 }
 
 std::string plain(double x, int digits, Script script) {
