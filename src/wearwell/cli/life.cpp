@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -176,7 +177,10 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
         "Not trusted: a check of the fit failed; wearwell report or its summary say which.\n");
   fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining useful life", life.of,
              life.at);
-  if (life.from) fmt::print("  counted from {} {} on\n", plain_given(*life.from), unit);
+  if (life.from) {
+    const double place = std::strtod(fmt::format("{:.6g}", *life.from).c_str(), nullptr);
+    fmt::print("  counted from {} {} on\n", plain_given(place), unit);
+  }
   if (!moved.how.empty())
     fmt::print("  with {} new reading{} ({} there already); {}\n", moved.counted,
                moved.counted == 1 ? "" : "s", moved.repeated, moved.how);
