@@ -47,12 +47,12 @@ class Defaults : public ScratchTest {
 
 TEST_F(Defaults, CheckShowsThem) {
   const std::string joint = check(without_priors("joint", "joint_wear.csv"));
-  EXPECT_THAT(joint, HasSubstr("prior: lognormal, median 1e-05, sd of the logarithm 4.2, above 0 "
+  EXPECT_THAT(joint, HasSubstr("prior: lognormal, median 10^-5, sd of the logarithm 4.2, above 0 "
                                "mm^3/(N m) (default"));
   EXPECT_THAT(joint, HasSubstr("prior: half-normal, scale 50, above 0 mm^3 (default"));
   const std::string bearing = check(without_priors("bearing", "inspections.csv"));
   EXPECT_THAT(bearing,
-              HasSubstr("median 1e-05, sd of the logarithm 4.2, above 0 mm^3/(N m) (default"));
+              HasSubstr("median 10^-5, sd of the logarithm 4.2, above 0 mm^3/(N m) (default"));
   const std::string fatigue = check(without_priors("fatigue", "tests.csv"));
   EXPECT_THAT(
       fatigue,

@@ -217,14 +217,18 @@ TEST_F(Door, SlipsInACommandLine) {
   write("other/model.json", "{}");
   const std::pair<const char*, const char*> slips[] = {
       {"fti joint/study.toml",
-       "'fti' is no command of wearwell; did you mean 'fit'? (commands: fit, bearing, clutch, "
-       "sql, fleet, fatigue, export, select, check, compare, update, life, decide, backtest, "
-       "monitor, new, report, help, version; see wearwell help)"},
+       "'fti' is no command of wearwell; did you mean 'fit'? (commands: new, check, fit, report, "
+       "life, "
+       "decide, update, backtest, compare, monitor, bearing, clutch, fleet, fatigue, export, "
+       "select, "
+       "help, version; see wearwell help)"},
       {"Fit joint/study.toml", "did you mean 'fit'?"},
-      {"joint/study.toml", "'joint/study.toml' is no command of wearwell (commands: fit, "},
-      {"", "wearwell needs a command: fit, bearing, "},
+      {"joint/study.toml",
+       "'joint/study.toml' is no command of wearwell (commands: new, check, fit, "},
+      {"", "wearwell needs a command: new, check, fit, "},
       {"clutch",
-       "wearwell clutch needs a command: design, simulate, features, predict, life, compare (see "
+       "wearwell clutch needs a command: design, simulate, features, predict, life, compare, sql "
+       "(see "
        "wearwell help clutch)"},
       {"clutch lfie", "'lfie' is no command of wearwell clutch; did you mean 'life'?"},
       {"bearing rat", "did you mean 'rate'?"},

@@ -134,7 +134,7 @@ TEST_F(FatigueDriver, SharesOfTheStrengthHaveNoUnitBehindThem) {
   fit("share", "1");
   EXPECT_THAT(run("check study.toml").out, HasSubstr("alternating stress 260 to 600\n"));
   EXPECT_THAT(run("fit study.toml --method exact --no-report -o again").out,
-              AllOf(HasSubstr(" x N^("), Not(HasSubstr(" 1 x N^("))));
+              AllOf(HasSubstr(" × N^("), Not(HasSubstr(" 1 × N^("))));
 }
 
 TEST_F(FatigueDriver, RefusesLoadsThatReadTwoWays) {

@@ -22,7 +22,8 @@ void add_commands(const std::string& command, std::vector<std::string>& all) {
                                                    command.substr(std::string("wearwell").size())))
                                .out;
   all.push_back(command);
-  const std::size_t list = help.find("\nSubcommands:\n");
+  std::size_t list = help.find("\nA study:\n");  // the first group of the program's commands
+  if (list == help.npos) list = help.find("\nSubcommands:\n");
   if (list == help.npos) return;
   static const std::regex line("\n  ([a-z]+) ");
   for (std::sregex_iterator at(help.begin() + static_cast<std::ptrdiff_t>(list), help.end(), line),

@@ -121,7 +121,7 @@ TEST_F(NewFrom, WhatNobodyStatedIsNoGroundForAResult) {
   write("volumes.csv", "cycles,worn volume [mm^3]\n1000,3\n2000,5\n3000,8\n");
   EXPECT_EQ(here("new --from volumes.csv").exit_code, 1);
   EXPECT_THAT(here("fit volumes-study/study.toml").err,
-              HasSubstr("conditions.work_per_cycle not stated"));
+              HasSubstr("conditions.work_per_cycle (like \"5.966 N m\") not stated"));
 }
 
 // What stands in brackets is a unit, or is said to be none.

@@ -101,7 +101,8 @@ TEST_F(Refusal, FilesAreNamedWhereTheStudyNamesThem) {
   const CommandResult read =
       run_command("cd '" + folder().string() + "' && '" WEARWELL_BINARY "' check " + study());
   EXPECT_EQ(read.exit_code, 0) << read.err;
-  EXPECT_THAT(read.out, AllOf(HasSubstr("decimal comma, thousands point"), HasSubstr("60000")));
+  EXPECT_THAT(read.out,
+              AllOf(HasSubstr("decimal comma, thousands point"), HasSubstr("60\u202f000")));
   EXPECT_THAT(refused("check /dev/null"), HasSubstr("a pipe or a device"));
   const CommandResult piped = run_command("cat '" + (folder() / study()).string() +
                                           "' | '" WEARWELL_BINARY "' check /dev/stdin");

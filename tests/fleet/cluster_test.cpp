@@ -1,4 +1,4 @@
-// `wearwell fleet` and `wearwell sql` with servers of PostgreSQL, alone and three together.
+// `wearwell fleet` and `wearwell clutch sql` with servers of PostgreSQL, alone and three together.
 #include <gmock/gmock.h>
 
 #include "fleet/clickhouse_server.h"

@@ -30,5 +30,13 @@ TEST(PrintedNumbers, WordsAreExact) {
   EXPECT_NE(printed_difference("", "a line"), "");
 }
 
+TEST(PrintedNumbers, GroupsAndPowersAreOneNumber) {
+  EXPECT_EQ(printed_difference("after 21\u202f600\u00a0cycles", "after 21\u202f601\u00a0cycles"), "");
+  EXPECT_NE(printed_difference("after 21\u202f600", "after 22\u202f600"), "");
+  EXPECT_EQ(printed_difference("k is 7.76\u00a0×\u00a010^-4", "k is 7.77\u00a0×\u00a010^-4"), "");
+  EXPECT_NE(printed_difference("k is 7.76\u00a0×\u00a010^-4", "k is 7.76\u00a0×\u00a010^-5"), "");
+  EXPECT_NE(printed_difference("k is 7.76\u00a0×\u00a010^-4", "k is 7.79\u00a0×\u00a010^-4"), "");
+}
+
 }  // namespace
 }  // namespace wearwell

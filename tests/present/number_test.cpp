@@ -12,7 +12,9 @@ TEST(Number, IsWrittenAlikeOnPagesAndTerminals) {
   EXPECT_EQ(number_in_words(0.0026, 2, Script::terminal), "0.0026");
   EXPECT_EQ(number_in_words(21602.3, 4, Script::page), "21\u202f600");
   EXPECT_EQ(number_in_words(21602.3, 4, Script::terminal), "21\u202f600");
-  EXPECT_EQ(number_in_words(9'996'000, 3, Script::terminal), "10\u202f000\u202f000");
+  EXPECT_EQ(number_in_words(9'996'000, 3, Script::terminal), "1.00\u00a0×\u00a010^7");
+  EXPECT_EQ(number_in_words(999.96, 4, Script::page), "1\u202f000");
+  EXPECT_EQ(number_in_words(9.9996e-9, 4, Script::page), "1.000\u00a0×\u00a010⁻⁸");
   EXPECT_EQ(number_in_words(6.88e7, 3, Script::page), "6.88\u00a0×\u00a010⁷");
   EXPECT_EQ(number_in_words(-6.88e-10, 3, Script::terminal), "-6.88\u00a0×\u00a010^-10");
   EXPECT_EQ(number_in_words(0, 4, Script::terminal), "0");
@@ -44,6 +46,8 @@ TEST(Number, IsFoundInASentence) {
             "within 9\u00a0×\u00a010⁻⁶ of 2\u00a0×\u00a010⁷, 1\u202f000\u202f000 cycles");
   EXPECT_EQ(powers_in_words("machine 100234, A1e+06, 1e6 cycles", Script::page),
             "machine 100234, A1e+06, 1e6 cycles");
+  EXPECT_EQ(powers_in_words("depth = k * force / 5e-05 [m^2]", Script::page),
+            "depth = k * force / 5e-05 [m^2]");
   EXPECT_EQ(numbers_in_words("survival to 500000 cycles", Script::terminal),
             "survival to 500\u202f000 cycles");
   EXPECT_EQ(numbers_in_words("at 1050 MPa, R = 0.123456, log10_a", Script::terminal),

@@ -45,7 +45,7 @@ TEST(Comparison, RanksByElpd) {
   const std::string text = comparison_text(comparison);
   EXPECT_THAT(text, HasSubstr("better"));
   EXPECT_THAT(text, HasSubstr("Log densities (elpd, AIC, BIC): data in mm^3"));
-  EXPECT_THAT(text, HasSubstr("0.000751 +- 1.1e-05"));
+  EXPECT_THAT(text, HasSubstr("7.510\u00a0×\u00a010^-4 +- 1.100\u00a0×\u00a010^-5"));
   EXPECT_THAT(text, HasSubstr("AIC and BIC of worse are at the mode"));
   EXPECT_THAT(text, HasSubstr("From 2 observations"));
 }

@@ -32,7 +32,7 @@ PosteriorSummary fleet(std::size_t units, bool alike = true) {
 TEST(RemainingLifeFigures, NameUnitsMostUrgentFirst) {
   const auto figures = remaining_life_figures(fleet(3));
   ASSERT_EQ(figures.size(), 1u);
-  EXPECT_EQ(figures[0].title, "Remaining life, most urgent first");
+  EXPECT_EQ(figures[0].title, "Remaining useful life, most urgent first");
   EXPECT_THAT(figures[0].caption, HasSubstr("To wear = 1 mm from 50 h on"));
   // From below: the most urgent is at the top.
   const auto& y = figures[0].specification["layer"][0]["encoding"]["y"];
@@ -44,12 +44,12 @@ TEST(RemainingLifeFigures, NameUnitsMostUrgentFirst) {
 TEST(RemainingLifeFigures, OfAThousandUnitsNameTheMostUrgentAndRankAll) {
   const auto figures = remaining_life_figures(fleet(1000, false));
   ASSERT_EQ(figures.size(), 2u);
-  EXPECT_EQ(figures[0].title, "Remaining life: the 40 most urgent of 1000");
+  EXPECT_EQ(figures[0].title, "Remaining useful life: the 40 most urgent of 1000");
   EXPECT_THAT(figures[0].caption, HasSubstr("from where each stands now"));
   const auto& names = figures[0].specification["layer"][0]["encoding"]["y"]["axis"]["labelExpr"];
   EXPECT_THAT(names.get<std::string>(), HasSubstr("\"pump 1000\"]"));
   EXPECT_THAT(names.get<std::string>(), Not(HasSubstr("\"pump 960\"")));
-  EXPECT_EQ(figures[1].title, "Remaining life of all 1000 units");
+  EXPECT_EQ(figures[1].title, "Remaining useful life of all 1000 units");
 }
 
 TEST(RemainingLifeFigures, ALifeWithoutEndIsCutOffAtTheAxis) {

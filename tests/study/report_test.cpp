@@ -78,7 +78,7 @@ TEST(Report, SaysTheVerdictFirst) {
        {"The worn volume reaches 100\u00a0mm³ after 21\u202f600\u00a0cycles (median); 18\u202f000 "
         "to "
         "26\u202f000\u00a0cycles (90\u00a0%), one in ten before 19\u202f000\u00a0cycles.",
-        "Inspect again within 6\u202f000\u00a0cycles, unless the limit is passed: 1\u00a0% risk of "
+        "Inspect again within 6\u202f000\u00a0cycles: 1\u00a0% risk of "
         "reaching the limit before.",
         "At 20\u202f585\u00a0cycles the worn volume is 95.0\u00a0mm³; 90.0 to 100\u00a0mm³ "
         "(90\u00a0%).",

@@ -242,7 +242,7 @@ TEST(TerminalSummary, GivesTheNumberNotItsLogarithm) {
   limit.meaning = "logarithm of the median fatigue limit";
   limit.exact = ExactSummary{2.48, 0.01, 2.46, 2.48, 2.5};
   EXPECT_THAT(terminal_summary(result, {}),
-              HasSubstr("The median fatigue limit is 302\u00a0MPa (median); 288 to 316\u00a0MPa"));
+              HasSubstr("The median fatigue limit is 302\u00a0MPa; 288 to 316\u00a0MPa"));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(Terminal, HistogramIsAsHighAsItsBinsAreFull) {
   std::string bars = "█";
   for (int i = 0; i < 30; ++i) bars += "▁";
   EXPECT_THAT(terminal_summary(two_values(), {.histograms = true}),
-              HasSubstr("k [mm]           1 " + bars + "▃ 2\n"));
+              HasSubstr("k [mm]       1.000 " + bars + "▃ 2.000\n"));
 }
 
 // `script` gives the program a terminal.

@@ -19,10 +19,11 @@ struct PrintedToken {
 };
 
 /// Words and numbers of a text. White space separates them and is left out: columns move with the width of a number. Groups of three
-/// digits ("18 200") are one number.
+/// digits ("18 200", blank or narrow blank) are one number, as is one with its power of ten ("7.76 × 10^-4").
 inline std::vector<PrintedToken> printed_tokens(const std::string& text) {
   // a group of digits is no number where it is a part of a word (sha1, Q4) or of a longer sequence
-  static const std::regex number(R"((\d{1,3}(?: \d{3})+(?!\d)|\d+)(\.\d+)?(e[+-]?\d+)?)");
+  static const std::regex number(
+      "(\\d{1,3}(?:(?: |\u202f)\\d{3})+(?!\\d)|\\d+)(\\.\\d+)?(e[+-]?\\d+)?(?:\u00a0×\u00a010\\^(-?\\d+))?");
   static const std::regex word(R"([A-Za-z_][A-Za-z_0-9]*|[^\s\w])");
   std::vector<PrintedToken> tokens;
   for (auto at = text.cbegin(); at != text.cend();) {
@@ -32,8 +33,8 @@ inline std::vector<PrintedToken> printed_tokens(const std::string& text) {
     } else if (std::regex_search(at, text.cend(), found, number,
                                  std::regex_constants::match_continuous)) {
       std::string digits = found[1];
-      std::erase(digits, ' ');
-      const std::string exponent = found[3];
+      std::erase_if(digits, [](char c) { return std::isdigit(static_cast<unsigned char>(c)) == 0; });
+      const std::string exponent = found[4].matched ? "e" + found[4].str() : found[3].str();
       const int places = found[2].matched ? static_cast<int>(found[2].length()) - 1 : 0;
       const int power = exponent.empty() ? 0 : std::atoi(exponent.c_str() + 1);
       tokens.push_back({found[0],

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -16,6 +17,7 @@
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/toml_reader.h"
+#include "wearwell/present/number.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/table.h"
 #include "wearwell/prognosis/known_lives.h"
@@ -166,6 +168,7 @@ present::Table path_ahead(const LifeOptions& options, Models models,
 }
 
 void print(const UnitLife& life, const Moved& moved, bool trusted) {
+  const std::string unit = printable(unit_in_words(life.unit, Script::terminal));
   const auto shown = [&](double value) {
     return std::isfinite(value) ? plain_number(value) : std::string("never");
   };
@@ -174,7 +177,10 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
         "Not trusted: a check of the fit failed; wearwell report or its summary say which.\n");
   fmt::print("{} of {} {}\n", life.name == "life" ? "Life" : "Remaining useful life", life.of,
              life.at);
-  if (life.from) fmt::print("  counted from {} {} on\n", plain_given(*life.from), life.unit);
+  if (life.from) {
+    const double place = std::strtod(fmt::format("{:.6g}", *life.from).c_str(), nullptr);
+    fmt::print("  counted from {} {} on\n", plain_given(place), unit);
+  }
   if (!moved.how.empty())
     fmt::print("  with {} new reading{} ({} there already); {}\n", moved.counted,
                moved.counted == 1 ? "" : "s", moved.repeated, moved.how);
@@ -185,15 +191,15 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
     fmt::print("  with a probability of {} it never ends\n", probability_in_words(*life.never));
   for (const prognosis::Contradiction& each : moved.contradictions)
     fmt::print("  look at {}: {}\n", each.place, each.why);
-  fmt::print("  median {} {}, {} to {} {} (90 %)\n", shown(life.quantile(0.5)), life.unit,
-             shown(life.quantile(0.05)), shown(life.quantile(0.95)), life.unit);
+  fmt::print("  median {} {}, {} to {} {} (90 %)\n", shown(life.quantile(0.5)), unit,
+             shown(life.quantile(0.05)), shown(life.quantile(0.95)), unit);
   fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
              shown(life.quantile(0.5)));
   if (life.horizon)
     fmt::print("  within {} {} the end is reached with a probability of {}\n",
-               plain_given(*life.horizon), life.unit, probability_in_words(*life.reached));
+               plain_given(*life.horizon), unit, probability_in_words(*life.reached));
   fmt::print("  inspect again within {} {}: {} risk of reaching the end before\n",
-             shown(life.inspect_within), life.unit, probability_in_words(life.risk));
+             shown(life.inspect_within), unit, probability_in_words(life.risk));
 }
 
 // A name of a part may be that of a stress as well.

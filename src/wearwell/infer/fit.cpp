@@ -63,7 +63,7 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const PosteriorSha
   if (!shape.mode.found) {
     found.push_back(
         {Stage::mode, fit.exact ? Verdict::warn : Verdict::fail,
-         fit.exact ? "there is none, or it was not found; quadrature vouches for the numbers"
+         fit.exact ? "there is none, or it was not found; the numbers are those of quadrature"
                    : "there is none, or it was not found",
          "Give priors that hold every parameter, or better guesses by their location."});
   } else if (shape.throat >= 0) {
@@ -73,8 +73,8 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const PosteriorSha
          fmt::format("there is none: the density rises without end as {} nears its bound, where no "
                      "sampler follows; {}",
                      posterior.parameters()[throat].name,
-                     !fit.exact                      ? "quadrature does not vouch for the numbers"
-                     : fit.method == settings.method ? "quadrature vouches for the numbers"
+                     !fit.exact                      ? "and there is no quadrature"
+                     : fit.method == settings.method ? "the numbers are those of quadrature"
                                                      : "the draws are quadrature's"),
          "More rows than parameters, or a measured scatter, would hold it."});
   } else if (fit.exact && shape.highest > fit.exact->highest + most_above) {

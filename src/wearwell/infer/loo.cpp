@@ -108,7 +108,7 @@ Check loo_check(const Loo& loo, const std::string& noun, int parameters) {
       refitted.empty()
           ? fmt::format("Pareto k at most {:.2f} (up to {:.2f} is good)", loo.khat_max(),
                         loo.threshold)
-          : fmt::format("Pareto k above {:.2f} for {}: fitted anew without each, by quadrature",
+          : fmt::format("Pareto k above {:.2f} for {}: refitted without each, by quadrature",
                         std::min(loo.threshold, refit_above), list(refitted)));
 }
 

@@ -463,10 +463,11 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
     } else if (width > hardly_narrower) {
       findings.add(
           Verdict::warn, numbers,
-          fmt::format("What is said of {} is its prior, which the data narrow by {:.0f} % only.",
-                      parameter.name, std::max(0.0, 100 * (1 - width))));
+          fmt::format(
+              "The posterior of {} is mostly its prior: the data narrow it by {:.0f} % only.",
+              parameter.name, std::max(0.0, 100 * (1 - width))));
     } else {
-      passed.push_back(numbers + " (prior and data both tell, and agree)");
+      passed.push_back(numbers + " (prior and data both inform, and agree)");
     }
   }
   return findings.result(fmt::format("{}", fmt::join(passed, "; ")));

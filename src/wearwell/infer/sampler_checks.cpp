@@ -70,7 +70,7 @@ Check divergences(const Fit& fit, bool agrees_with_exact) {
                  fmt::format("{} of {} transitions diverged{}", divergent, total,
                              agrees_with_exact ? ", but quadrature agrees with the draws" : ""),
                  agrees_with_exact
-                     ? "Nothing: quadrature vouches for the numbers."
+                     ? "Nothing to do: the numbers are those of quadrature."
                      : fmt::format("The sampler may have missed a narrow region: raise [sampler] "
                                    "target_accept{}.",
                                    fit.exact ? ", or use --method exact" : ""));

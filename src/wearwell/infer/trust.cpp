@@ -26,7 +26,7 @@ std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit) {
     checks.push_back(prior_data_conflict(posterior, fit));
   }
   const auto with_computation = [&] {
-    std::string detail = "every stage came to its end";
+    std::string detail = "every stage completed";
     if (!fit.maxima.found.empty()) detail += "; " + description(posterior, fit.maxima);
     if (fit.exact)
       detail += fmt::format("; quadrature to an estimated relative {:.1g}", fit.exact->error);

@@ -62,7 +62,7 @@
     if (fleet.horizon < end) marks.push({kind: 'rule', look: 'horizon', x: fleet.horizon, word: `horizon ${given(fleet.horizon, fleet.axis_unit)}`});
     return {
       id: 'survival', title: 'How long it lasts',
-      description: `Probability that the limit is not reached, by remaining life: median ${quantity(view.remaining.q50, fleet.axis_unit)}, 90 % within ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}.`,
+      description: `Probability that the limit is not reached, by remaining useful life: median ${quantity(view.remaining.q50, fleet.axis_unit)}, 90 % within ${range(view.remaining.q05, view.remaining.q95, fleet.axis_unit)}.`,
       x: {name: `Remaining life (${words(fleet.axis_unit) || fleet.axis})`, domain: [0, end]},
       y: {name: 'Probability of lasting longer', domain: [0, 1], percent: true}, marks,
       at: points.map((each) => each.x), start: 0,

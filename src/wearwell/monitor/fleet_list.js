@@ -44,7 +44,7 @@
       element('span', {class: 'name'}, each.unit),
       element('span', {class: 'risk'}, element('span', {class: 'unseen'}, 'risk '), each.known ? risk : null, each.known ? wearwell.probability(each.risk) : '–'),
       element('span', {class: past ? 'life past' : 'life'}, past || !each.known ? null : interval(each.remaining),
-              element('span', {class: 'unseen'}, 'remaining life '), element('span', {class: 'range'}, life)),
+              element('span', {class: 'unseen'}, 'remaining useful life '), element('span', {class: 'range'}, life)),
       element('span', {class: 'age'}, element('span', {class: 'unseen'}, 'last reading '),
               each.last_reading_ms ? wearwell.age(wearwell.now() - each.last_reading_ms) : 'none')];
   }

@@ -16,7 +16,7 @@ present::Table fleet_table(const FleetReader& reader, std::size_t most) {
       {fleet.axis, fleet.axis_unit},
       {fleet.limited, fleet.level_unit},
       {"5 to 95 %", fleet.level_unit, {}, true},
-      {"remaining life", fleet.axis_unit},
+      {"remaining useful life", fleet.axis_unit},
       {"5 to 95 %", fleet.axis_unit, {}, true},
       {"risk", "%", present::digits(3)},
       {"readings", "1", present::given},

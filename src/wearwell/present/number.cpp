@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 namespace wearwell {
 namespace {
@@ -61,8 +62,15 @@ std::string spaced(std::string text, Script script) {
   return sign + text;
 }
 
+// 9.9996 to four digits is 10.00, not 10.000.
+double rounded(double x, int digits) {
+  const double near = std::strtod(fmt::format("{:.{}e}", x, digits - 1).c_str(), nullptr);
+  return std::isfinite(near) ? near : x;  // the largest doubles have none above them
+}
+
 std::string plain(double x, int digits, Script script) {
   if (x == 0) return "0";
+  x = rounded(x, digits);
   const int whole = static_cast<int>(std::floor(std::log10(std::abs(x)))) + 1;
   if (whole < digits) return spaced(fmt::format("{:.{}f}", x, digits - whole), script);
   const double step = std::pow(10.0, whole - digits);
@@ -103,6 +111,13 @@ bool belongs_to_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || (c & 0x80) != 0;
 }
 
+// A number in a formula, "/ 5e-05 [m^2]", is one operand, and stays.
+bool is_operand(const std::string& before) {
+  const std::size_t last = before.find_last_not_of(' ');
+  return last != before.npos &&
+         std::string_view("*/^").find(before[last]) != std::string_view::npos;
+}
+
 std::string in_text(const std::string& text, Script script, bool thousands) {
   constexpr std::size_t most_together = 4;
   std::string out;
@@ -118,7 +133,7 @@ std::string in_text(const std::string& text, Script script, bool thousands) {
         token.end < text.size() && (belongs_to_word(text[token.end]) || text[token.end] == '^');
     const bool long_one = thousands && token.is_whole && digits.size() > most_together &&
                           digits.size() <= given_digits && digits.front() != '0';
-    const bool changes = !cut_off && (token.has_power || long_one);
+    const bool changes = !cut_off && !is_operand(out) && (token.has_power || long_one);
     out += changes ? given_in_words(std::strtod(digits.c_str(), nullptr), script) : digits;
     i = token.end;
   }
@@ -129,6 +144,7 @@ std::string in_text(const std::string& text, Script script, bool thousands) {
 
 std::string number_in_words(double x, int digits, Script script) {
   if (!std::isfinite(x)) return not_finite(x, script);
+  x = rounded(x, digits);
   const int exponent = exponent_of(x);
   return plain(mantissa(x, exponent), digits, script) + times_power(exponent, script);
 }
@@ -147,6 +163,7 @@ std::string fixed_in_words(double x, int decimals, Script script) {
 }
 
 std::string range_in_words(double low, double high, int digits, Script script) {
+  low = rounded(low, digits), high = rounded(high, digits);
   const int exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
   if (exponent == 0 || !std::isfinite(low) || !std::isfinite(high)) {
     return number_in_words(low, digits, script) + " to " + number_in_words(high, digits, script);

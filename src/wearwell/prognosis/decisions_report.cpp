@@ -29,8 +29,8 @@ std::string costs_in_words(const DecisionsReport& report) {
   if (question.inspected || question.hidden)
     text += fmt::format(", an inspection {}", shown.money(question.costs.inspection));
   if (question.hidden)
-    text += fmt::format(", and a failure not yet seen {:.6g} {}", shown.rate(*question.hidden),
-                        shown.rate_unit());
+    text += fmt::format(", and a failure not yet seen {} {}",
+                        plain_given(shown.rate(*question.hidden)), shown.rate_unit());
   return text;
 }
 
@@ -83,11 +83,11 @@ std::vector<std::string> cells(const Table& table, const std::vector<present::Ce
     const double* number = std::get_if<double>(&row[c]);
     const auto* range = std::get_if<present::Range>(&row[c]);
     const std::string* text = std::get_if<std::string>(&row[c]);
-    const bool life = table.columns[c].format.kind == present::Format::Kind::life;
     const auto said = [&](double x) {
-      return std::isinf(x) ? std::string("never") : plain_number(x, 4);
+      return std::isinf(x) ? std::string("never")
+                           : present::in_words(x, table.columns[c].format, Script::terminal);
     };
-    words.push_back(number  ? (life ? said(*number) : plain_number(*number, 4))
+    words.push_back(number  ? said(*number)
                     : range ? fmt::format("{} to {}", said(range->low), said(range->high))
                     : text  ? *text
                             : "");

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "wearwell/present/html.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/present/table.h"
 #include "wearwell/prognosis/decisions_report.h"
 
@@ -23,8 +24,8 @@ struct Shown {
   }
   std::string money(double amount) const {
     return report.question.currency.empty()
-               ? fmt::format("{:.10g}", amount)
-               : fmt::format("{:.10g} {}", amount, report.question.currency);
+               ? plain_given(amount)
+               : fmt::format("{} {}", plain_given(amount), report.question.currency);
   }
 };
 

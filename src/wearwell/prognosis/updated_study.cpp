@@ -55,10 +55,10 @@ Check check_of(const JoinedData& joined, const std::string& files) {
                             ? "1 contradicts"
                             : fmt::format("{} contradict", joined.contradictions.size()),
                         fmt::join(told, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
-  return {"new-data", Verdict::warn, detail,
-          "They count all the same. Look at them: a slip of the pen, another unit's, another "
-          "gauge, or something has "
-          "happened to this one that the law does not know."};
+  return {
+      "new-data", Verdict::warn, detail,
+      "They count all the same. Look at them: a typing error, a reading of another unit, another "
+      "gauge, or an event that the model does not describe."};
 }
 
 TradeAddition addition_of(const JoinedData& joined, const std::string& files) {

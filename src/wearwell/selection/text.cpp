@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 
 namespace wearwell {
@@ -17,7 +18,7 @@ using Rows = std::vector<std::vector<std::string>>;
 constexpr std::size_t most_models = 20;  // of a table on the terminal
 
 std::string number(double x) {
-  return fmt::format("{:.4g}", x);
+  return plain_number(x);
 }
 
 std::string coefficient_table(const SelectionResult& result) {
@@ -146,9 +147,9 @@ std::string selection_text(const SelectionResult& result) {
   std::string text =
       fmt::format("{} = {}\n", result.response,
                   fmt::format("{}", fmt::join(result.names(search.models.front().terms), " + ")));
-  text += fmt::format("  {} of {} terms, the best of {:.0f} submodels by {}{}\n",
+  text += fmt::format("  {} of {} terms, the best of {} submodels by {}{}\n",
                       search.models.front().terms.size(), result.design.terms.size(),
-                      search.submodels, best_by(result.settings.search.criterion),
+                      plain_number(search.submodels), best_by(result.settings.search.criterion),
                       search.certified ? ": proven" : " that was found: NOT PROVEN");
   text += fmt::format(
       "  {} rows of {}{}\n", result.observed.size(), result.data_file,

@@ -135,9 +135,10 @@ class Clauses {
   void parameter(const ParameterSummary& first) {
     const ExactSummary k = first.best();
     if (const auto natural = of_logarithm(first)) {
-      all.push_back(fmt::format("the {} is {} (median); {}", natural->meaning,
-                                number(natural->q50, natural->unit),
-                                interval(natural->q05, natural->q95, natural->unit)));
+      all.push_back(
+          fmt::format("{} is {}{}; {}", natural->meaning, number(natural->q50, natural->unit),
+                      natural->meaning.find("median") == std::string::npos ? " (median)" : "",
+                      interval(natural->q05, natural->q95, natural->unit)));
       return;
     }
     all.push_back(fmt::format("the {} {} is {}; {}", first.meaning, first.name,
@@ -214,8 +215,7 @@ std::optional<NaturalParameter> of_logarithm(const ParameterSummary& parameter) 
   if (!parameter.name.starts_with("log10_") || !parameter.meaning.starts_with(words) ||
       !(has_unit || unit == "1"))
     return {};
-  std::string meaning = parameter.meaning.substr(words.size());
-  if (meaning.starts_with("the ")) meaning = meaning.substr(4);
+  const std::string meaning = parameter.meaning.substr(words.size());
   const ExactSummary x = parameter.best();
   return NaturalParameter{
       meaning, has_unit ? unit.substr(prefix.size(), unit.size() - prefix.size() - 1) : "1",

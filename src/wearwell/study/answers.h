@@ -15,7 +15,7 @@ std::vector<std::string> answers(const PosteriorSummary& result, Script script);
 
 /// A quantity of which a study estimates the decimal logarithm.
 struct NaturalParameter {
-  std::string meaning;  ///< "median fatigue limit"
+  std::string meaning;  ///< "the median fatigue limit"
   std::string unit;
   double q05 = 0, q50 = 0, q95 = 0;
 };

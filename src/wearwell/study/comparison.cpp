@@ -8,6 +8,7 @@
 
 #include "wearwell/base/printable.h"
 #include "wearwell/infer/model_weights.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/density_unit.h"
 #include "wearwell/study/trust_blocks.h"
@@ -18,7 +19,7 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 
 std::string number(double x) {
-  return fmt::format("{:.4g}", x);
+  return plain_number(x);
 }
 
 bool same_observations(const LooSummary& a, const LooSummary& b) {

@@ -56,7 +56,7 @@ void add_exhibits(Section& section, const Plots& plots) {
 
 void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) {
   const Life& life = summary.best();
-  tiles.push_back({"Life B10", life_in_words(life.b10, summary.unit), summary.unit,
+  tiles.push_back({"Life B10", life_in_words(life.b10, summary.unit), unit(summary.unit),
                    fmt::format("one in ten reaches {} earlier",
                                given_with_unit(summary.limit, summary.limit_unit))});
   if (summary.passed_beyond_risk()) {
@@ -65,7 +65,7 @@ void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) 
                                  given(100 * summary.risk))});
   }
   tiles.push_back({summary.now > 0 ? "Inspect again within" : "Inspect within",
-                   life_in_words(life.inspect_within, summary.unit), summary.unit,
+                   life_in_words(life.inspect_within, summary.unit), unit(summary.unit),
                    fmt::format("{}; {} % risk of reaching the limit before",
                                summary.now > 0 ? fmt::format("after {}, unless the limit is passed",
                                                              given(summary.now))
@@ -108,12 +108,14 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
     const ParameterSummary& p = result.parameters[i];
     const ExactSummary each = p.best();
     if (const auto natural = of_logarithm(p)) {
-      tiles.push_back({html::capital(natural->meaning), number(natural->q50, 3),
-                       unit(natural->unit), range(natural->q05, natural->q95, 3) + " (90 %)"});
+      const bool has_article = natural->meaning.starts_with("the ");
+      tiles.push_back({html::capital(natural->meaning.substr(has_article ? 4 : 0)),
+                       number(natural->q50, 3), unit(natural->unit),
+                       range(natural->q05, natural->q95, 3) + " (90\u00a0%)"});
       continue;
     }
     tiles.push_back({fmt::format("{}, {}", p.name, p.meaning), number(each.mean, 3), unit(p.unit),
-                     range(each.q05, each.q95, 3) + " (90 %)"});
+                     range(each.q05, each.q95, 3) + " (90\u00a0%)"});
   }
   section.add(present::Tiles{std::move(tiles)});
   std::vector<html::Figure> figures = answer_figures(result, plots);

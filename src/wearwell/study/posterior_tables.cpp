@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "wearwell/present/html.h"
+#include "wearwell/study/answers.h"
 #include "wearwell/study/long_tables.h"
 #include "wearwell/study/trust_blocks.h"
 
@@ -150,7 +151,8 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
       return std::isinf(x) && each.is_life ? Cell("never") : Cell(x);
     };
     table.rows.push_back(
-        {each.name, each.unit, each.of, each.at, value(q.q05), value(q.q50), value(q.q95),
+        {shown_name(each.name), each.unit, each.of, each.at, value(q.q05), value(q.q50),
+         value(q.q95),
          bounds || !each.safe_end ? Cell() : value(*each.safe_end < 0.5 ? q.q05 : q.q95),
          each.is_life ? value(q.b1) : Cell(), each.is_life ? value(q.b10) : Cell()});
   }
@@ -174,8 +176,8 @@ Table bound_table(const std::vector<QuantitySummary>& quantities) {
           {"95 %"},
           {"Next one"}};
     }
-    table.rows.push_back(
-        {each.name, each.unit, each.of, each.at, *q.bound, q.q05, q.q50, q.q95, *q.predictive});
+    table.rows.push_back({shown_name(each.name), each.unit, each.of, each.at, *q.bound, q.q05,
+                          q.q50, q.q95, *q.predictive});
   }
   return table;
 }
@@ -333,7 +335,7 @@ Table loo_table(const LooSummary& summary) {
     const LooTerm& term = loo.terms[i];
     table.rows.push_back({count(i + 1), static_cast<double>(term.count), term.elpd, term.lpd,
                           std::isinf(term.khat) && term.khat < 0 ? Cell() : Cell(term.khat),
-                          term.refitted        ? "fitted anew"
+                          term.refitted        ? "refitted"
                           : loo.doubtful(term) ? "Pareto k too large"
                                                : ""});
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wearwell/present/plot.h"
+#include "wearwell/study/answers.h"
 #include "wearwell/study/axis_scale.h"
 #include "wearwell/study/figures.h"
 
@@ -38,10 +39,10 @@ std::vector<Fleet> fleets_of(const std::vector<QuantitySummary>& quantities) {
       continue;
     const auto [to, from] = parted(each.at);
     auto found = std::find_if(fleets.begin(), fleets.end(), [&](const Fleet& fleet) {
-      return fleet.name == each.name && fleet.unit == each.unit && fleet.to == to;
+      return fleet.name == shown_name(each.name) && fleet.unit == each.unit && fleet.to == to;
     });
     if (found == fleets.end()) {
-      fleets.push_back({each.name, each.unit, to, from});
+      fleets.push_back({shown_name(each.name), each.unit, to, from});
       found = fleets.end() - 1;
     }
     if (found->from != from) found->from.reset();

@@ -73,7 +73,7 @@ Check extrapolation_check(const std::vector<Reach>& reaches) {
         "No data lie there: the answer rests on the model. Inspect before, and fit again.");
   }
   return findings.result(fmt::format(
-      "what is asked for lies within {:.3g} times what the data hold (up to {:.3g} passes)",
+      "what is asked for lies within {:.3g} times the range of the data (up to {:.3g} passes)",
       farthest, farthest_reach));
 }
 

@@ -24,6 +24,8 @@
 #include "wearwell/models/bearing/profile_command.h"
 #include "wearwell/models/bearing/scar.h"
 #include "wearwell/models/bearing/solve.h"
+#include "wearwell/present/number.h"
+#include "wearwell/present/plain.h"
 
 // Longer than others: five questions with one kind of answer; texts, options and margins belong to all.
 namespace wearwell {
@@ -244,21 +246,27 @@ nlohmann::ordered_json json_of(const Answer& a) {
   return json;
 }
 
+// Computed from numbers that were given, not estimated: so many digits, without zeros at their end.
+std::string digits(double x, int count) {
+  return numbers_in_words(fmt::format("{:.{}g}", x, count), Script::terminal);
+}
+
 void print_text(const Answer& a) {
   const Solution& s = a.solution;
-  fmt::print("{}: {:.6g} {}\n", a.question.title, a.in_unit(s.value), a.unit.text);
+  fmt::print("{}: {} {}\n", a.question.title, digits(a.in_unit(s.value), 6), a.unit.text);
   if (a.interval) {
-    fmt::print("90 % interval: {:.4g} .. {:.4g}, median {:.4g} ({} draws, seed {})\n",
-               a.in_unit(a.interval->q05), a.in_unit(a.interval->q95), a.in_unit(a.interval->q50),
-               a.options.draws, a.options.seed);
+    fmt::print("{} {} (90 %), median {} ({} draws, seed {})\n",
+               plain_range(a.in_unit(a.interval->q05), a.in_unit(a.interval->q95)), a.unit.text,
+               plain_number(a.in_unit(a.interval->q50)), plain_given(a.options.draws),
+               a.options.seed);
     if (a.is_life())
-      fmt::print("B10 life: {:.4g} {}: one in ten reaches the depth before that\n",
-                 a.in_unit(a.interval->b10), a.unit.text);
+      fmt::print("B10 life: {} {}: one in ten reaches the depth before that\n",
+                 plain_number(a.in_unit(a.interval->b10)), a.unit.text);
   }
   fmt::print("\n");
-  print_row("sigma = clearance/radius", fmt::format("{:.10g}", s.sigma));
-  print_row("delta = depth/radius", fmt::format("{:.10g}", s.delta));
-  print_row("wear number p_a k n", fmt::format("{:.10g}", s.wear_number));
+  print_row("sigma = clearance/radius", digits(s.sigma, 10));
+  print_row("delta = depth/radius", digits(s.delta, 10));
+  print_row("wear number p_a k n", digits(s.wear_number, 10));
   if (a.question.wanted != Quantity::depth)
     print_row("depth", fmt::format("{:.6g} mm", s.delta * a.radius() * 1e3));
   if (a.scar) {
@@ -267,7 +275,7 @@ void print_text(const Answer& a) {
               fmt::format("{:.4g} deg", a.scar->centre_angle * 180 / pi));
   }
   if (const Bearing mean = a.given.mean(); a.question.wanted == Quantity::time)
-    print_row("revolutions", fmt::format("{:.6g}", s.value * *mean.speed));
+    print_row("revolutions", digits(s.value * *mean.speed, 6));
   fmt::print("\nChange of the {} when an input grows by 1 %:\n", a.question.command);
   std::size_t width = 0;
   for (const auto& g : a.given.given) width = std::max(width, g.value.text.size());

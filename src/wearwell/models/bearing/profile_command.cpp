@@ -16,6 +16,7 @@
 #include "wearwell/models/bearing/options.h"
 #include "wearwell/models/bearing/profile.h"
 #include "wearwell/models/bearing/wear_number.h"
+#include "wearwell/present/plain.h"
 
 namespace wearwell::bearing {
 namespace {
@@ -140,16 +141,16 @@ void print_json(const Result& r) {
 void print_text(const Result& r) {
   const WornArea& w = r.worn;
   const auto interval = [](double value, double half) {
-    return fmt::format("{:.4g} .. {:.4g}", value - half, value + half);
+    return plain_range(value - half, value + half);
   };
-  fmt::print("Worn area A: {:.6g} mm^2\n90 % interval: {}\n", w.area * 1e6,
+  fmt::print("Worn area A: {:.6g} mm^2\n{} mm^2 (90 %)\n", w.area * 1e6,
              interval(w.area * 1e6, w.half_width * 1e6));
   if (r.rate) {
-    fmt::print("Wear rate k: {:.6g} m^3/(N m)\n90 % interval: {}\n", *r.rate,
+    fmt::print("Wear rate k: {} m^3/(N m)\n{} m^3/(N m) (90 %)\n", plain_number(*r.rate, 6),
                interval(*r.rate, *r.rate_half));
   }
   fmt::print("\n");
-  print_row("worn place", fmt::format("{:.4g} .. {:.4g} mm", w.from * 1e3, w.to * 1e3));
+  print_row("worn place", fmt::format("{:.4g} to {:.4g} mm", w.from * 1e3, w.to * 1e3));
   if (r.depth) {
     print_row("depth of a scar of that area", fmt::format("{:.6g} mm", *r.depth * 1e3));
   }

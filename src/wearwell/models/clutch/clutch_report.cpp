@@ -43,10 +43,11 @@ Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
   const WearMap& map = r.maps.front();
   for (const NamedLife& each : r.lives) {
     const LifeAtLevel& at = each.life.levels.back();
-    section.add(Prose{fmt::format("{} is {} worn after {} cycles; {} cycles (95\u00a0%).",
-                                  html::capital(each.name), percent_in_words(at.level),
-                                  cycles_in_words(at.repetitions), in_words(at.full)),
-                      true});
+    section.add(
+        Prose{fmt::format("Operating point {}: {} worn after {} cycles; {} cycles (95\u00a0%).",
+                          each.name, percent_in_words(at.level), cycles_in_words(at.repetitions),
+                          in_words(at.full)),
+              true});
   }
   section.add(Prose{fmt::format("The wear rate follows {} terms of slip, temperature and torque; "
                                 "the predicted R2 (R2p) is {:.3f}.",

@@ -210,8 +210,8 @@ std::string answers_text(const ClutchResult& r) {
   std::string out = "\nAnswers\n";
   for (const NamedLife& each : r.lives) {
     const LifeAtLevel& at = each.life.levels.back();
-    out += wrapped(fmt::format("{} is {} % worn after {} cycles; {} cycles (95 %).",
-                               html::capital(printable(each.name)), plain_given(100 * at.level),
+    out += wrapped(fmt::format("Operating point {}: {} % worn after {} cycles; {} cycles (95 %).",
+                               printable(each.name), plain_given(100 * at.level),
                                plain_given(std::round(at.repetitions)), in_words(at.full)),
                    2, 4);
   }

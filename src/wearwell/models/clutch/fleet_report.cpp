@@ -140,7 +140,7 @@ html::Figure level_figure(const FleetCounts& counts) {
     }
     const plot::Look look{
         plot::colour::chains[h % std::size(plot::colour::chains)],
-        counts.horizons()[h] > 0 ? fmt::format("{:g} cycles on", counts.horizons()[h]) : "now"};
+        counts.horizons()[h] > 0 ? html::given(counts.horizons()[h]) + " cycles on" : "now"};
     plot::Look band = look;
     band.label = "";
     band.opacity = 0.2;
@@ -306,9 +306,10 @@ Result fleet_result(const WearModel& model, const FleetCounts& counts, const Fle
   const std::size_t last = counts.levels().size() - 1;
   const UnitCount now = counts.reached(last, 0);
   levels.add(Prose{
-      fmt::format("Of {} units {:.1f} ({:.1f} to {:.1f}) have reached {:g} % of the worn-out "
+      fmt::format("{1:.1f} of {0} units ({2:.1f} to {3:.1f}) have reached {4:g} % of the worn-out "
                   "volume.",
-                  counts.units(), now.expected, now.low, now.high, 100 * counts.levels()[last]),
+                  html::given(static_cast<double>(counts.units())), now.expected, now.low, now.high,
+                  100 * counts.levels()[last]),
       true});
   levels.add(level_table(counts));
   if (found.days.known) levels.add(day_table(counts, found.days));

@@ -13,6 +13,7 @@
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/models/clutch/command_parts.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 
 namespace wearwell::clutch {
@@ -69,26 +70,24 @@ void run(const LifeOptions& options) {
     fmt::print("{}\n", printable_json(json.dump(2)));
     return;
   }
-  fmt::print(
-      "One repetition takes {:.4g} kJ and wears {:.4g} mm^3 once run in; worn out at {:.6g} "
-      "mm^3.\n",
-      life.energy * 1e-3, life.volume / mm3, model.worn_out / mm3);
+  fmt::print("One repetition takes {} kJ and wears {} mm^3 once run in; worn out at {} mm^3.\n",
+             plain_number(life.energy * 1e-3), plain_number(life.volume / mm3),
+             plain_given(model.worn_out / mm3));
   if (life.outside)
     fmt::print("Outside the range of validity: {}.\n", names_of_inputs(life.outside));
   std::vector<std::vector<std::string>> rows = {
       {"worn [%]", "repetitions", "95 % scatter", "95 % full", "without run-in"}};
   for (const LifeAtLevel& at : life.levels)
-    rows.push_back({fmt::format("{:.6g}", 100 * at.level), fmt::format("{:.0f}", at.repetitions),
+    rows.push_back({plain_given(100 * at.level), plain_given(std::round(at.repetitions)),
                     in_words(at.scatter), in_words(at.full),
-                    fmt::format("{:.0f}", at.without_run_in)});
+                    plain_given(std::round(at.without_run_in))});
   fmt::print("{}", text_table(rows));
   rows = {{"worn [%]", "volume [mm^3]", "95 % scatter", "of it", "95 % full", "of it"}};
   for (const LifeAtLevel& at : life.levels)
-    rows.push_back({fmt::format("{:.6g}", 100 * at.level),
-                    fmt::format("{:.6g}", at.level * model.worn_out / mm3),
-                    fmt::format("+- {:.4g}", 2 * at.sd / mm3),
+    rows.push_back({plain_given(100 * at.level), plain_given(at.level * model.worn_out / mm3),
+                    "+- " + plain_number(2 * at.sd / mm3),
                     fmt::format("{:.1f} %", 100 * at.relative),
-                    fmt::format("+- {:.4g}", 2 * at.full_sd / mm3),
+                    "+- " + plain_number(2 * at.full_sd / mm3),
                     fmt::format("{:.1f} %", 100 * at.full_relative)});
   fmt::print("The volume after so many:\n{}", text_table(rows));
 }

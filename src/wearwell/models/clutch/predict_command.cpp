@@ -19,6 +19,7 @@
 #include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/models/clutch/command_parts.h"
 #include "wearwell/models/clutch/cycle_table.h"
+#include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 
 namespace wearwell::clutch {
@@ -48,10 +49,10 @@ void print_table(const WearModel& model, const CycleSum& sum, bool full) {
   rows.front().insert(rows.front().end(), {"worn [%]", "cycles outside the range"});
   for (const PlateWear& p : sum.plates()) {
     const auto half = [&](double sd) {
-      return fmt::format("+- {:.4g} ({:.1f} %)", 2 * sd / mm3, 200 * sd / p.volume);
+      return fmt::format("+- {} ({:.1f} %)", plain_number(2 * sd / mm3), 200 * sd / p.volume);
     };
-    rows.push_back({p.in_words(), fmt::format("{}", p.cycles),
-                    fmt::format("{:.5g}", p.energy * 1e-6), fmt::format("{:.5g}", p.volume / mm3),
+    rows.push_back({p.in_words(), plain_given(static_cast<double>(p.cycles)),
+                    plain_number(p.energy * 1e-6, 5), plain_number(p.volume / mm3, 5),
                     half(p.sd())});
     if (full) rows.back().push_back(half(p.full_sd(model.plate_sd)));
     rows.back().push_back(fmt::format("{:.1f}", 100 * p.volume / model.worn_out));

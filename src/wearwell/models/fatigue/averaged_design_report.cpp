@@ -50,8 +50,8 @@ std::string line_in_words(const AveragedDesignReport& report) {
                   [](const auto& each) { return each.result.law.correction == MeanStress::none; }))
     return "";
   const StressLine& line = report.question.line;
-  if (line.ratio) return fmt::format(", at stress ratio {:.4g}", *line.ratio);
-  return fmt::format(", about a mean stress of {:.5g} {}", in_stress(report, line.mean),
+  if (line.ratio) return fmt::format(", at R = {:.4g}", *line.ratio);
+  return fmt::format(", at a mean stress of {:.5g} {}", in_stress(report, line.mean),
                      first_of(report).stress_unit.text);
 }
 

@@ -18,6 +18,7 @@
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/plot_study.h"
+#include "wearwell/study/terminal_rows.h"
 
 namespace wearwell {
 namespace {
@@ -217,12 +218,12 @@ std::string e739_in_words(const SnData& data, const std::vector<At>& points,
       e739.a, e739.b < 0 ? "-" : "+", std::abs(e739.b), e739.sd, data.life_unit.text,
       data.stress_unit.text, life(points.front()));
   if (points.size() > 1) text += fmt::format(" and {}", life(points.back()));
+  const double middle = standard.line->mean_x - std::log10(data.stress_unit.scale);
   return text +
          fmt::format(
-             ". ISO 12107 lies k sd sqrt(1 + 1/n + (x - {0:.4f})^2/{1:.4g}) below that line, x = "
-             "log10 S, n = {2:.0f}; Owen k sd with the k of 1/n + (x - {0:.4f})^2/{1:.4g}.",
-             standard.line->mean_x - std::log10(data.stress_unit.scale), standard.line->sum_xx,
-             standard.line->n);
+             ". ISO 12107 lies k sd sqrt(1 + 1/n + (x {0} {1:.4f})^2/{2:.4g}) below that line, x = "
+             "log10 S, n = {3:.0f}; Owen k sd with the k of 1/n + (x {0} {1:.4f})^2/{2:.4g}.",
+             middle < 0 ? "+" : "-", std::abs(middle), standard.line->sum_xx, standard.line->n);
 }
 
 std::string difference(const SnLaw& law, const StandardFit& standard) {
@@ -260,7 +261,8 @@ std::string text_of(const SnData& data, const std::vector<At>& points, const std
     add("ISO 12107", at.iso);
     add("Owen", at.owen);
   }
-  return fmt::format("Design curves{}, life [{}]\n", where, data.life_unit.text) +
+  return fmt::format("Design curves{}, {}\n", where,
+                     printable_heading("life", data.life_unit.text)) +
          text_table(rows) + wrapped(why, 2, 4) + (e739.empty() ? "" : wrapped(e739, 2, 4));
 }
 

@@ -23,7 +23,7 @@ std::string unit_of(const HistoryReport& report) {
 }
 
 std::string with_unit(const HistoryReport& report, double value) {
-  return plain_number(value, 6) + (report.unit.empty() ? "" : " " + report.unit);
+  return plain_given(value) + (report.unit.empty() ? "" : " " + report.unit);
 }
 
 double width_of(const HistoryReport& report) {
@@ -202,14 +202,14 @@ std::string history_text(const HistoryReport& report) {
   std::string text =
       wrapped(fmt::format("{}, {}: {} samples, {} peaks and valleys from {} to {}", report.source,
                           report.column, counted.samples, counted.reversals,
-                          plain_number(counted.lowest, 6), with_unit(report, counted.highest)),
+                          plain_given(counted.lowest), with_unit(report, counted.highest)),
               0, 2);
   text += wrapped(counted_in_words(report) + ".", 0, 2);
-  text +=
-      wrapped(fmt::format("{:.10g} cycles, {:.10g} of them closed; the largest range is {}{}",
-                          cycles, counted.closed, with_unit(report, largest_range(counted.classes)),
-                          report.unit.empty() ? "; the column says no unit." : "."),
-              0, 2);
+  text += wrapped(
+      fmt::format("{} cycles, {} of them closed; the largest range is {}{}", plain_given(cycles),
+                  plain_given(counted.closed), with_unit(report, largest_range(counted.classes)),
+                  report.unit.empty() ? "; the column says no unit." : "."),
+      0, 2);
   if (!report.unread_times.empty())
     text += wrapped(fmt::format("Gaps were not looked for: --time '{}' does.", report.unread_times),
                     0, 2);
@@ -221,8 +221,8 @@ std::vector<present::Section> history_sections(const HistoryReport& report) {
   const LoadHistory::Counted& counted = report.counted;
   count.add(present::Prose{counted_in_words(report) + ".", true});
   count.add(present::Tiles{
-      {{"Cycles", plain_number(cycles_in(counted.classes), 6), "",
-        fmt::format("{} of them closed before the end", plain_number(counted.closed, 6))},
+      {{"Cycles", plain_given(cycles_in(counted.classes)), "",
+        fmt::format("{} of them closed before the end", plain_given(counted.closed))},
        {"Largest range", html::number(largest_range(counted.classes)), html::unit(report.unit), ""},
        {"Samples", html::given(static_cast<double>(counted.samples)), "",
         fmt::format("{} peaks and valleys",

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/present/number.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
@@ -33,7 +34,7 @@ std::string rule_in_words(const LoadLifeReport& report) {
                   report.result.law.limit     ? "no damage below each item's own fatigue limit"
                   : report.result.law.bends() ? "by the study's own curve"
                                               : words[static_cast<int>(rule.miner)]);
-  if (rule.knee.life) text += fmt::format("; knee at {:.6g} cycles", *rule.knee.life);
+  if (rule.knee.life) text += fmt::format("; knee at {} cycles", plain_given(*rule.knee.life));
   if (rule.knee.stress)
     text +=
         fmt::format("; knee at {:.6g} {}", from_si(report.result.stress_unit, *rule.knee.stress),
@@ -152,7 +153,7 @@ html::Figure damage_figure(const LoadLifeReport& report) {
   const auto in_unit = [&](double si) { return from_si(report.result.stress_unit, si); };
   return {"damage", "Where the damage comes from",
           "Share of the damage by amplitude; the two lines are the smallest and the largest "
-          "amplitude that was tested: outside, the curve is drawn beyond its tests.",
+          "amplitude that was tested: outside, the curve rests on the model.",
           plot::plot("Share of the damage by amplitude",
                      {fmt::format("Amplitude [{}]", html::unit(report.result.stress_unit.text))},
                      {"Damage [%]", false, 0.0},
@@ -192,7 +193,7 @@ std::vector<Check> load_life_checks(const LoadLifeReport& report) {
         fmt::format("{} of the damage is {}", percent(share), what),
         share < worth_a_warning
             ? ""
-            : "There the curve is drawn beyond its tests. Test there, or see how much "
+            : "There the answer rests on the model, not on tests. Test there, or see how much "
               "another rule (--rule) changes.");
   };
   const std::string amplitudes = span(tested.alternating_low, tested.alternating_high);
@@ -219,10 +220,11 @@ std::vector<Check> load_life_checks(const LoadLifeReport& report) {
 
 std::string load_life_text(const LoadLifeReport& report) {
   const LoadLife& life = report.life;
-  std::string text = wrapped(printable(report.result.title), 0, 2) +
-                     wrapped(printable(report.result.equation), 2, 4) +
-                     wrapped(printable(block_in_words(report)), 2, 4) +
-                     wrapped(printable(rule_in_words(report)), 2, 4);
+  std::string text =
+      wrapped(printable(report.result.title), 0, 2) +
+      wrapped(printable(powers_in_words(report.result.equation, Script::terminal)), 2, 4) +
+      wrapped(printable(block_in_words(report)), 2, 4) +
+      wrapped(printable(rule_in_words(report)), 2, 4);
   std::vector<std::vector<std::string>> rows = {
       {"", fmt::format("at least, {:.4g} %", 100 * report.question.confidence), "5 %", "50 %",
        "95 %", "next one"}};

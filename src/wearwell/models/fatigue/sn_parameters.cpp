@@ -214,8 +214,8 @@ std::vector<std::string> sn_meanings(const SnLaw& law) {
     words = {"logarithm of Bastenaire's life", "logarithm of Bastenaire's stress",
              "Bastenaire's exponent", "logarithm of the fatigue limit"};
   } else if (law.curve == SnCurve::strain_life) {
-    words = {"logarithm of sigma_f'/E, of the elastic line", "its exponent",
-             "logarithm of eps_f', of the plastic line", "its exponent"};
+    words = {"logarithm of the elastic line's sigma_f'/E", "its exponent",
+             "logarithm of the plastic line's eps_f'", "its exponent"};
   } else if (law.curve == SnCurve::knee) {
     words = {"slope above the knee", "logarithm of the knee's life"};
     if (!law.limit) words.emplace_back("logarithm of the knee's stress");
