@@ -50,13 +50,4 @@ bool repeats(const Table& table, const Column& column) {
   return kinds > 1 && kinds < table.rows;
 }
 
-double rounded_up(double value) {
-  if (!(value > 0) || !std::isfinite(value)) return 1;
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  for (const double step : {1., 2., 5.}) {
-    if (value <= step * power * (1 + 1e-9)) return step * power;
-  }
-  return 10 * power;
-}
-
 }  // namespace wearwell

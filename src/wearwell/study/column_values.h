@@ -21,7 +21,4 @@ bool differs(const Table& table, const Column& column);
 /// Whether its cells name groups of rows: more than one kind, and fewer than rows.
 bool repeats(const Table& table, const Column& column);
 
-/// 1, 2 or 5 times a power of ten, at least `value`, which is above 0.
-double rounded_up(double value);
-
 }  // namespace wearwell

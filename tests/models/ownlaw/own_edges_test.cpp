@@ -122,11 +122,11 @@ TEST_F(OwnEdges, WithoutAFailureTheAnswersAndAChecksSayThatThePriorCarriesTheLiv
   EXPECT_EQ(check->verdict, Verdict::warn);
   EXPECT_THAT(check->detail, HasSubstr("no failure was observed among 3"));
   EXPECT_THAT(check->detail, HasSubstr("rests on the prior"));
-  EXPECT_THAT(answers(result, Wording::plain).front(), HasSubstr("no failure was observed"));
+  EXPECT_THAT(answers(result, Script::terminal).front(), HasSubstr("no failure was observed"));
   // One failure, and it is not said.
   const PosteriorSummary one = run("hours,status\n500,runout\n700,F\n900,S\n", study);
   EXPECT_EQ(find(one, "no-failures"), nullptr);
-  EXPECT_THAT(answers(one, Wording::plain).front(), Not(HasSubstr("was observed")));
+  EXPECT_THAT(answers(one, Script::terminal).front(), Not(HasSubstr("was observed")));
 }
 
 TEST_F(OwnEdges, WithoutWearTheAnswersSaySo) {

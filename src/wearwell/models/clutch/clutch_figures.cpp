@@ -30,10 +30,6 @@ Numbers as_numbers(const std::vector<int>& values) {
   return {values.begin(), values.end()};
 }
 
-std::string percent(double share, int digits = 1) {
-  return fmt::format("{:.{}f}\u00a0%", 100 * share, digits);
-}
-
 }  // namespace
 
 /// Fig. 6: wear rates during run-in, each relative to its plate, and the fitted curve.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/input/prior.h"
 #include "wearwell/models/ownlaw/first_parts.h"
 #include "wearwell/models/ownlaw/straight_line.h"
 #include "wearwell/study/column_values.h"
