@@ -24,9 +24,9 @@ namespace {
 
 // So many stresses and points give the digits that are printed.
 constexpr std::size_t most_cycles = 2048, most_cycles_with_limit = 512;
-constexpr Eigen::Index most_points_with_limit = 2000;
+constexpr Eigen::Index most_points_with_limit = 4000;
 // Of the weight of a posterior: lighter points are gathered.
-constexpr double gathered_share = 1e-4;
+constexpr double gathered_share = 3e-5;
 
 struct LoadLifeOptions {
   std::filesystem::path result, output;
@@ -100,8 +100,7 @@ void read_block_length(const std::string& text, LoadLifeReport& report) {
 
 // The points of the posterior over which damage is summed.
 WeightedDraws summed_points(const SnLaw& law, const WeightedDraws& posterior) {
-  const bool expensive = law.limit || law.scatter_grows;
-  return expensive ? thinned(posterior, most_points_with_limit)
+  return law.limit ? thinned(posterior, most_points_with_limit)
                    : gathered(posterior, gathered_share);
 }
 

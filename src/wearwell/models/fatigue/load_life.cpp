@@ -76,8 +76,7 @@ class Draws {
       : result_(result),
         cycles_(cycles),
         question_(question),
-        places_(edges(result.law.standard(),
-                      result.law.limit || result.law.scatter_grows ? 48 : 128)) {}
+        places_(edges(result.law.standard(), result.law.limit ? 96 : 128)) {}
 
   /// `where` takes the shares of the cycles, by the weight of the point.
   Drawn operator()(Eigen::Index i, std::vector<double>& where) const {
