@@ -7,7 +7,6 @@
 #include <random>
 
 #include "wearwell/base/error.h"
-#include "wearwell/math/quantile.h"
 #include "wearwell/models/fatigue/life.h"
 
 namespace wearwell::fatigue {
@@ -21,10 +20,12 @@ SnResult basquin(int draws, std::uint64_t seed) {
   result.tested = {200e6, 450e6, 0, 0, 1e4, 2e6, 25, 22};
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  result.draws.resize(draws, 3);
+  Points& values = result.posterior.values;
+  values.resize(draws, 3);
+  result.posterior.weights.setConstant(draws, 1.0 / draws);
   for (int i = 0; i < draws; ++i) {
     const double u = normal(random);
-    auto row = result.draws.row(i);
+    auto row = values.row(i);
     row[0] = std::log10(2000e6) + 0.02 * u;
     row[1] = -0.12 - 0.003 * u + 0.001 * normal(random);
     row[2] = 0.18 * std::exp(0.12 * normal(random));
@@ -38,31 +39,17 @@ SnResult knee(int draws) {
   result.law.curve = SnCurve::knee;
   result.law.second_slope = SecondSlope::haibach;
   result.parameters = {"k", "log10_N_D", "log10_S_D", "sigma"};
-  const Points old = result.draws;
-  result.draws.resize(draws, 4);
+  const Points old = result.posterior.values;
+  result.posterior.values.resize(draws, 4);
   for (int i = 0; i < draws; ++i) {
     const double u = (old(i, 0) - std::log10(2000e6)) / 0.02;
-    result.draws.row(i) << 8 + 0.3 * u, 6, std::log10(380e6) + 0.004 * u, old(i, 2);
+    result.posterior.values.row(i) << 8 + 0.3 * u, 6, std::log10(380e6) + 0.004 * u, old(i, 2);
   }
   return result;
 }
 
 const std::vector<DesignLevel> levels = {{"90/90", 0.9, 0.9}, {"A-basis", 0.99, 0.95}};
 const DesignQuestion question{{450e6, 300e6, 200e6}, {}, levels};
-
-TEST(WeightedQuantile, OfEqualWeightsIsRsTypeSeven) {
-  std::vector<std::pair<double, double>> pairs;
-  std::vector<double> values = {3, 1, 4, 1.5, 9, 2.6, 5.3};
-  for (const double value : values) pairs.emplace_back(value, 0.125);
-  std::sort(values.begin(), values.end());
-  for (const double p : {0.0, 0.05, 0.31, 0.5, 0.9, 1.0})
-    EXPECT_NEAR(weighted_quantile(pairs, p), quantile(std::span<const double>(values), p), 1e-12)
-        << p;
-  // Towards what has no end nothing is interpolated.
-  EXPECT_EQ(weighted_quantile({{1, 0.5}, {INFINITY, 0.5}}, 0.5), 1);
-  EXPECT_EQ(weighted_quantile({{1, 0.2}, {INFINITY, 0.4}, {2, 0.2}, {INFINITY, 0.2}}, 0.8),
-            INFINITY);
-}
 
 TEST(AveragedDesign, ShareOfWeightThatOutlastsItIsTheConfidence) {
   const std::vector<WeightedModel> models = {{"basquin", 0.35, basquin(3000, 11)},
@@ -73,11 +60,11 @@ TEST(AveragedDesign, ShareOfWeightThatOutlastsItIsTheConfidence) {
     for (std::size_t l = 0; l < levels.size(); ++l) {
       double share = 0;
       for (const WeightedModel& model : models) {
-        const auto n = model.result.draws.rows();
+        const auto n = model.result.posterior.values.rows();
         for (Eigen::Index i = 0; i < n; ++i) {
-          const double life =
-              std::pow(10, life_quantile(model.result.law, model.result.draws.row(i).data(),
-                                         point.stress, 1 - levels[l].reliability));
+          const double life = std::pow(
+              10, life_quantile(model.result.law, model.result.posterior.values.row(i).data(),
+                                point.stress, 1 - levels[l].reliability));
           if (life > point.averaged[l]) share += model.weight / static_cast<double>(n);
         }
       }

@@ -24,10 +24,12 @@ SnResult posterior(int draws, bool limit = false) {
   result.tested = {200e6, 450e6, 0, 350e6, 1e4, 2e6, 25, 22};
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
-  result.draws.resize(draws, limit ? 6 : 4);
+  Points& values = result.posterior.values;
+  values.resize(draws, limit ? 6 : 4);
+  result.posterior.weights.setConstant(draws, 1.0 / draws);
   for (int i = 0; i < draws; ++i) {
     const double u = normal(random);
-    auto row = result.draws.row(i);
+    auto row = values.row(i);
     row[0] = std::log10(2000e6) + 0.02 * u;
     row[1] = -0.12 - 0.003 * u + 0.001 * normal(random);
     row[2] = std::log10(1200e6) + 0.01 * normal(random);
@@ -49,10 +51,10 @@ std::vector<double> lives_one_by_one(const SnResult& result, const LoadQuestion&
                                      int items, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  std::uniform_int_distribution<Eigen::Index> any(0, result.draws.rows() - 1);
+  std::uniform_int_distribution<Eigen::Index> any(0, result.posterior.values.rows() - 1);
   std::vector<double> lives;
   for (int i = 0; i < items; ++i) {
-    const double* x = result.draws.row(any(random)).data();
+    const double* x = result.posterior.values.row(any(random)).data();
     const double strength = std::pow(10, x[2]), z = normal(random);
     const double limit = result.law.limit ? std::pow(10, x[4] + x[5] * normal(random)) : 0;
     double damage = 0;
@@ -107,6 +109,33 @@ TEST(LoadLife, IsThatOfItemsOneByOne) {
   expect_same(load_life(result, history, question), lives_one_by_one(result, question, 200'000, 2));
 }
 
+// A point of weight k counts as k points: a posterior of uneven weights against one with copies.
+TEST(LoadLife, AWeightCountsAsCopies) {
+  const SnResult few = posterior(300);
+  SnResult weighted = few, copied = few;
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < 300; ++i) {
+    const int copies = 1 + static_cast<int>(i % 4);
+    weighted.posterior.weights[i] = copies / 750.0;
+    rows.insert(rows.end(), static_cast<std::size_t>(copies), i);
+  }
+  copied.posterior.values = few.posterior.values(rows, Eigen::all);
+  copied.posterior.weights.setConstant(750, 1.0 / 750);
+  LoadQuestion question;
+  question.sum = {1, 1};
+  const LoadLife a = load_life(weighted, history, question);
+  const LoadLife b = load_life(copied, history, question);
+  EXPECT_NEAR(a.next05 / b.next05, 1, 1e-9);
+  EXPECT_NEAR(a.sd / b.sd, 1, 1e-9);
+  EXPECT_NEAR(a.shares[0], b.shares[0], 1e-12);
+  for (std::size_t i = 0; i < a.lives.size(); ++i) {
+    EXPECT_NEAR(a.lives[i].bound / b.lives[i].bound, 1, 1e-9);
+    EXPECT_NEAR(a.lives[i].next / b.lives[i].next, 1, 1e-9);
+  }
+  for (std::size_t i = 0; i < a.contributions.size(); ++i)
+    EXPECT_NEAR(a.contributions[i].share, b.contributions[i].share, 1e-9);
+}
+
 TEST(LoadLife, IsThatOfItemsWithLimitsOneByOne) {
   const SnResult result = posterior(2000, true);
   LoadQuestion question;
@@ -118,20 +147,22 @@ TEST(LoadLife, IsThatOfItemsWithLimitsOneByOne) {
 // Where only the damage sum is unknown, B10 is lognormal as it is.
 TEST(LoadLife, BoundsOfAKnownCurve) {
   SnResult result = posterior(1);
-  result.draws = result.draws.replicate(2000, 1).eval();
+  result.posterior.values = result.posterior.values.replicate(2000, 1).eval();
+  result.posterior.weights.setConstant(2000, 1.0 / 2000);
   LoadQuestion question;
   question.sum = {0.5, 2};
   const LoadLife life = load_life(result, history, question);
   const double z = quantile(StandardLaw::normal, 0.1);
   const double b10 =
       0.5 *
-      std::pow(10,
-               -BlockDamage(result.law, result.draws.row(0).data(), {}, history).log10_damage(z));
+      std::pow(10, -BlockDamage(result.law, result.posterior.values.row(0).data(), {}, history)
+                        .log10_damage(z));
   EXPECT_NEAR(life.lives[1].q50 / b10, 1, 1e-3);
   EXPECT_NEAR(life.lives[1].bound / (b10 * std::pow(2, z)), 1, 2e-3);
   // The scatter of items and of the sum, and nothing else.
   ASSERT_EQ(life.contributions.size(), 6u);
-  const double items = std::pow(result.draws(0, 3), 2), sum = std::pow(std::log10(2.0), 2);
+  const double items = std::pow(result.posterior.values(0, 3), 2),
+               sum = std::pow(std::log10(2.0), 2);
   EXPECT_NEAR(life.contributions[4].share, items / (items + sum), 2e-3);
   EXPECT_NEAR(life.sd, std::sqrt(items + sum), 2e-3 * life.sd);
 }
@@ -143,8 +174,8 @@ TEST(LoadLife, ConstantAmplitudeHasTheLivesOfTheStudy) {
   const Stress stress{300e6, 50e6};
   const LoadLife life = load_life(result, {{stress, 1}}, question);
   MixedLife next(result.law.family);
-  for (Eigen::Index i = 0; i < result.draws.rows(); ++i) {
-    const double* x = result.draws.row(i).data();
+  for (Eigen::Index i = 0; i < result.posterior.values.rows(); ++i) {
+    const double* x = result.posterior.values.row(i).data();
     add_life(next, 1.0 / 4000, result.law, x, result.law.log10_reversed(x, stress));
   }
   EXPECT_NEAR(life.lives[0].next / next.quantile(0.1), 1, 1e-3);
@@ -192,7 +223,8 @@ TEST(VarianceShares, OfTwoThatDepend) {
   }
   const double all = 1 + 4 + 4 * r;
   const double first = (1 + 2 * r + r * r * (4 - 1) / 2) / all;
-  const std::vector<double> shares = variance_shares(x, y);
+  const std::vector<double> shares =
+      variance_shares({x, Eigen::VectorXd::Constant(n, 1.0 / n), {}, {}}, y);
   EXPECT_NEAR(shares[0], first, 0.01);
   EXPECT_NEAR(shares[0] + shares[1], 1, 1e-10);
   EXPECT_NEAR(shares[2], 0, 1e-10);
@@ -212,7 +244,8 @@ TEST(Reduced, KeepsTheDamage) {
   for (const LoadCycle& each : few) count += each.count;
   EXPECT_NEAR(count, 20'000, 1e-6);
   const auto damage = [&](const LoadCycles& cycles) {
-    return BlockDamage(result.law, result.draws.row(0).data(), {}, cycles).log10_damage(0);
+    return BlockDamage(result.law, result.posterior.values.row(0).data(), {}, cycles)
+        .log10_damage(0);
   };
   EXPECT_NEAR(damage(few), damage(many), 2e-3);
   EXPECT_LE(reduced(many, 512, false).size(), 512u);

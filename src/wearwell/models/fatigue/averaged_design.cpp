@@ -4,37 +4,48 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "wearwell/base/error.h"
-#include "wearwell/models/fatigue/life.h"
+#include "wearwell/models/fatigue/lives_under.h"
+#include "wearwell/prognosis/weighted_quantiles.h"
+#include "wearwell/study/plot_study.h"
 #include "wearwell/study/saved_result.h"
 
 namespace wearwell::fatigue {
 namespace {
 
-// So many draws of each model; a random limit makes an integral of each.
-constexpr Eigen::Index most_draws = 4000, most_draws_with_limit = 1000;
+// A random limit makes an integral of each point of a posterior.
+constexpr Eigen::Index most_points_with_limit = 1000;
+// Of the weight of a posterior: lighter points are gathered.
+constexpr double gathered_share = 3e-7;
 constexpr double slack = 1e-6;
 
 bool alike(double a, double b) {
   return std::abs(a - b) <= slack * std::max(std::abs(a), std::abs(b));
 }
 
-Eigen::Index draws_of(const SnResult& result) {
-  return std::min(result.draws.rows(),
-                  result.law.integrated() ? most_draws_with_limit : most_draws);
-}
+// log10 of the lives that a share outlasts, with the weights of their points.
+struct Lives {
+  std::vector<double> log10, weights;
 
-// log10 of the life that a share outlasts, of every draw.
-std::vector<double> log10_lives(const SnResult& result, const Stress& stress, double reliability) {
-  const Eigen::Index n = draws_of(result);
-  std::vector<double> lives;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double* x = result.draws.row(i * result.draws.rows() / n).data();
-    const double at = life_quantile(result.law, x, stress, 1 - reliability);
-    lives.push_back(result.law.logarithmic() ? at : std::log10(std::max(at, 0.0)));
+  double quantile(double p) const {
+    if (std::any_of(log10.begin(), log10.end(), [](double life) { return std::isnan(life); }))
+      return std::nan("");
+    return std::pow(10, prognosis::weighted_quantiles(log10, weights, std::array{p}).front());
   }
+  void add(const Lives& other, double weight) {
+    log10.insert(log10.end(), other.log10.begin(), other.log10.end());
+    for (const double each : other.weights) weights.push_back(weight * each);
+  }
+};
+
+Lives lives_of(const SnLaw& law, const LivesUnder& under, const WeightedDraws& posterior,
+               double reliability) {
+  Lives lives{under.at_points(reliability), {posterior.weights.begin(), posterior.weights.end()}};
+  if (law.logarithmic()) return lives;
+  for (double& life : lives.log10) life = std::log10(std::max(life, 0.0));
   return lives;
 }
 
@@ -67,45 +78,29 @@ void require_same_stresses(const WeightedModel& a, const WeightedModel& b) {
 
 }  // namespace
 
-double weighted_quantile(std::vector<std::pair<double, double>> values, double p) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  double total = 0;
-  for (const auto& [value, weight] : values) total += weight;
-  const double wanted = p * (total - values.back().second);
-  double before = 0;
-  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
-    const auto [value, weight] = values[i];
-    if (before + weight > wanted) {
-      const double next = values[i + 1].first;
-      // Towards a life without end there is nothing between.
-      if (!std::isfinite(next) || !std::isfinite(value)) return value;
-      return value + (next - value) * std::max(0.0, wanted - before) / weight;
-    }
-    before += weight;
-  }
-  return values.back().first;
-}
-
 std::vector<DesignPoint> averaged_design(const std::vector<WeightedModel>& models,
                                          const DesignQuestion& question) {
+  std::vector<WeightedDraws> posteriors;
+  for (const auto& [name, weight, result] : models)
+    posteriors.push_back(result.law.integrated() ? thinned(result.posterior, most_points_with_limit)
+                                                 : gathered(result.posterior, gathered_share));
   std::vector<DesignPoint> points(question.alternating.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
     DesignPoint& point = points[i];
     point.stress = question.line.at(question.alternating[i]);
     point.models.resize(models.size());
-    // The life at one level: of the mixture, and told to `each` of every model.
+    std::vector<LivesUnder> under;
+    for (std::size_t m = 0; m < models.size(); ++m)
+      under.emplace_back(models[m].result.law, posteriors[m], point.stress);
+    // The life at one level: of the mixture, and `each` gets every model's own.
     const auto at_level = [&](double reliability, double confidence, const auto& each) {
-      std::vector<std::pair<double, double>> mixture;
+      Lives mixture;
       for (std::size_t m = 0; m < models.size(); ++m) {
-        std::vector<std::pair<double, double>> own;
-        const std::vector<double> lives = log10_lives(models[m].result, point.stress, reliability);
-        for (const double life : lives) own.emplace_back(life, 1.0 / std::size(lives));
-        each(m, std::pow(10, weighted_quantile(own, 1 - confidence)));
-        for (auto& [life, weight] : own) weight *= models[m].weight;
-        if (models[m].weight > 0) mixture.insert(mixture.end(), own.begin(), own.end());
+        const Lives own = lives_of(models[m].result.law, under[m], posteriors[m], reliability);
+        each(m, own.quantile(1 - confidence));
+        if (models[m].weight > 0) mixture.add(own, models[m].weight);
       }
-      return std::pow(10, weighted_quantile(std::move(mixture), 1 - confidence));
+      return mixture.quantile(1 - confidence);
     };
     point.median = at_level(0.5, 0.5, [](std::size_t, double) {});
     for (const DesignLevel& level : question.levels) {

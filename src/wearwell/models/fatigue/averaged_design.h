@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "wearwell/models/fatigue/design_curve.h"
@@ -39,8 +38,8 @@ struct DesignPoint {
 
 /// The curve to design with of several models of the same tests. At reliability R and confidence C it is the life
 /// that a share R of the items outlasts with probability C, where the parameters are the posterior's of a model and
-/// the model is each with its weight: the quantile 1 - C of the life's R-quantile over the draws of all, every draw
-/// with its model's weight divided by their number. Weights are those of stacking (model_weights), which makes it a
+/// the model is each with its weight: the quantile 1 - C of the life's R-quantile over the points of all posteriors, the
+/// weight of each multiplied by its model's. Weights are those of stacking (model_weights), which makes it a
 /// quantile of the mixture that predicts best (Yao, Vehtari, Simpson, Gelman 2018); they are no probabilities
 /// of a model being true.
 std::vector<DesignPoint> averaged_design(const std::vector<WeightedModel>& models,
@@ -60,8 +59,5 @@ std::vector<double> design_stresses(const std::vector<WeightedModel>& models);
 /// The mean stress of the tests, where it follows from their span alone: the same everywhere, or at one stress ratio.
 /// Throws InputError where the tests have more than that.
 StressLine design_line(const std::vector<WeightedModel>& models);
-
-/// Of values with weights, R's type 7 where all weights are the same: sorted, with those before a value below it.
-double weighted_quantile(std::vector<std::pair<double, double>> values, double p);
 
 }  // namespace wearwell::fatigue

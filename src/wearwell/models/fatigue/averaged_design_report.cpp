@@ -38,7 +38,8 @@ std::string weights_in_words(const AveragedDesignReport& report) {
   for (const WeightedModel& each : report.from.models)
     shares.push_back(fmt::format("{} {:.3f}", each.name, each.weight));
   return fmt::format(
-      "Weights of the mixture that predicts best (stacking): {}. Every draw of a model's posterior "
+      "Weights of the mixture that predicts best (stacking): {}. Every point of a model's "
+      "posterior "
       "counts with the "
       "model's weight.",
       fmt::join(shares, ", "));

@@ -17,13 +17,16 @@
 #include "wearwell/models/fatigue/load_life_report.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
+#include "wearwell/study/plot_study.h"
 
 namespace wearwell::fatigue {
 namespace {
 
-// So many stresses and draws give the digits that are told.
+// So many stresses and points give the digits that are printed.
 constexpr std::size_t most_cycles = 2048, most_cycles_with_limit = 512;
-constexpr Eigen::Index most_draws = 4000, most_draws_with_limit = 2000;
+constexpr Eigen::Index most_points_with_limit = 4000;
+// Of the weight of a posterior: lighter points are gathered.
+constexpr double gathered_share = 3e-5;
 
 struct LoadLifeOptions {
   std::filesystem::path result, output;
@@ -95,18 +98,16 @@ void read_block_length(const std::string& text, LoadLifeReport& report) {
   report.unit = unit;
 }
 
-// Evenly among all.
-Points thinned(const Points& draws, Eigen::Index most) {
-  if (draws.rows() <= most) return draws;
-  Points few(most, draws.cols());
-  for (Eigen::Index i = 0; i < most; ++i) few.row(i) = draws.row(i * draws.rows() / most);
-  return few;
+// The points of the posterior over which damage is summed.
+WeightedDraws summed_points(const SnLaw& law, const WeightedDraws& posterior) {
+  return law.limit ? thinned(posterior, most_points_with_limit)
+                   : gathered(posterior, gathered_share);
 }
 
 // By which the damage at the mean of the posterior changes where classes are fewer.
 double reduction(const SnResult& result, const DamageRule& rule, const LoadCycles& all,
                  const LoadCycles& few) {
-  const Eigen::VectorXd mean = result.draws.colwise().mean();
+  const Eigen::VectorXd mean = result.posterior.values.transpose() * result.posterior.weights;
   const double before = BlockDamage(result.law, mean.data(), rule, all).log10_damage(0);
   const double after = BlockDamage(result.law, mean.data(), rule, few).log10_damage(0);
   return before == after ? 0 : std::abs(std::expm1((after - before) * std::log(10.0)));
@@ -148,7 +149,7 @@ int run(const LoadLifeOptions& options) {
   const bool dear = law.limit || law.scatter_grows;
   report.cycles =
       reduced(report.block.cycles, dear ? most_cycles_with_limit : most_cycles, with_mean);
-  report.result.draws = thinned(report.result.draws, dear ? most_draws_with_limit : most_draws);
+  report.result.posterior = summed_points(law, report.result.posterior);
   report.life = load_life(report.result, report.cycles, question);
   report.reduction = reduction(report.result, question.rule, report.block.cycles, report.cycles);
   if (folder) write_folder(report, *folder);

@@ -19,8 +19,7 @@ LivesUnder::LivesUnder(const SnLaw& law, const WeightedDraws& draws, const Stres
   }
 }
 
-std::vector<double> LivesUnder::outlasted(double reliability,
-                                          std::span<const double> levels) const {
+std::vector<double> LivesUnder::at_points(double reliability) const {
   const double z = quantile(law_.standard(), 1 - reliability);
   std::vector<double> lives;
   lives.reserve(static_cast<std::size_t>(draws_.values.rows()));
@@ -29,7 +28,15 @@ std::vector<double> LivesUnder::outlasted(double reliability,
     lives.push_back(law_.limit
                         ? life_quantile(law_, draws_.values.row(i).data(), stress_, 1 - reliability)
                         : center_[at] + z * sigma_[at]);
-    if (std::isnan(lives.back())) return std::vector<double>(levels.size(), lives.back());
+  }
+  return lives;
+}
+
+std::vector<double> LivesUnder::outlasted(double reliability,
+                                          std::span<const double> levels) const {
+  const std::vector<double> lives = at_points(reliability);
+  for (const double life : lives) {
+    if (std::isnan(life)) return std::vector<double>(levels.size(), life);
   }
   return prognosis::weighted_quantiles(
       lives, {draws_.weights.data(), static_cast<std::size_t>(draws_.weights.size())}, levels);

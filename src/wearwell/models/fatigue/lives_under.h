@@ -13,7 +13,10 @@ class LivesUnder {
  public:
   LivesUnder(const SnLaw& law, const WeightedDraws& draws, const Stress& stress);
 
-  /// The life that such a share outlasts, 0 < reliability < 1, on the scale on which lives scatter: at each `level` the quantile
+  /// The life that such a share outlasts at each point, 0 < reliability < 1, on the scale on which lives scatter.
+  std::vector<double> at_points(double reliability) const;
+
+  /// The same, on the scale on which lives scatter: at each `level` the quantile
   /// over the posterior. NaN where some point has none.
   std::vector<double> outlasted(double reliability, std::span<const double> levels) const;
 

@@ -4,12 +4,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "wearwell/base/error.h"
 #include "wearwell/math/constants.h"
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/predict/cell_mixture.h"
+#include "wearwell/prognosis/weighted_quantiles.h"
 
 namespace wearwell::fatigue {
 namespace {
@@ -49,6 +51,7 @@ void refuse_what_has_no_sum(const SnLaw& law, const DamageRule& rule) {
 
 // One point of the posterior.
 struct Drawn {
+  double weight = 0;
   std::vector<double> b;  // log10 of blocks to a damage sum of 1, by percent
   double median = 0;      // of the item at place 0, log10 of blocks to a sum of 1
   // Cells of items: weight, log10 of blocks to a sum of 1 at either end.
@@ -73,17 +76,17 @@ class Draws {
       : result_(result),
         cycles_(cycles),
         question_(question),
-        places_(edges(result.law.standard(),
-                      result.law.limit || result.law.scatter_grows ? 48 : 128)) {}
+        places_(edges(result.law.standard(), result.law.limit ? 96 : 128)) {}
 
-  /// `where` takes the shares of the cycles.
+  /// `where` takes the shares of the cycles, by the weight of the point.
   Drawn operator()(Eigen::Index i, std::vector<double>& where) const {
     const SnLaw& law = result_.law;
-    const double* x = result_.draws.row(i).data();
+    const double* x = result_.posterior.values.row(i).data();
     const BlockDamage damage(law, x, question_.rule, cycles_);
     Drawn drawn;
+    drawn.weight = result_.posterior.weights[i];
     drawn.median = clamped(-damage.log10_damage(0));
-    add_shares(damage, where);
+    add_shares(damage, drawn.weight, where);
     if (law.limit) {
       add_items_of_limits(damage, i, x, drawn);
     } else {
@@ -96,9 +99,9 @@ class Draws {
   }
 
  private:
-  void add_shares(const BlockDamage& damage, std::vector<double>& where) const {
+  void add_shares(const BlockDamage& damage, double weight, std::vector<double>& where) const {
     const std::vector<double> shares = damage.shares(cycles_);
-    for (std::size_t c = 0; c < shares.size(); ++c) where[c] += shares[c];
+    for (std::size_t c = 0; c < shares.size(); ++c) where[c] += weight * shares[c];
   }
 
   template <class Life>
@@ -159,21 +162,14 @@ double power(double log10) {
   return log10 <= -most_decades ? 0 : std::pow(10, log10);
 }
 
-// R's type 7, where some are infinite.
-double sorted_quantile(const std::vector<double>& sorted, double p) {
-  const double at = static_cast<double>(sorted.size() - 1) * p, below = std::floor(at);
-  const auto i = static_cast<std::size_t>(below);
-  if (at == below || sorted[i] == sorted[i + 1]) return sorted[i];
-  return sorted[i + 1] == infinity ? infinity : std::lerp(sorted[i], sorted[i + 1], at - below);
-}
-
 void add_lives(const std::vector<Drawn>& drawn, const LoadQuestion& question, LoadLife& life) {
   CellMixture next, damage;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const double shift = log10_sum(question.sum, i, 0);
     for (const Drawn::Cell& cell : drawn[i].cells) {
-      next.add(cell.weight, cell.low + shift, cell.high + shift);
-      damage.add(cell.weight, std::max(-cell.high, -most_decades), -cell.low);
+      const double weight = drawn[i].weight * cell.weight;
+      next.add(weight, cell.low + shift, cell.high + shift);
+      damage.add(weight, std::max(-cell.high, -most_decades), -cell.low);
     }
   }
   life.next05 = power(next.quantile(0.05));
@@ -188,16 +184,17 @@ void add_lives(const std::vector<Drawn>& drawn, const LoadQuestion& question, Lo
     life.cdf.emplace_back(at, next.cdf(at));
   }
   for (std::size_t p = 0; p < question.percents.size(); ++p) {
-    std::vector<double> all;
+    std::vector<double> all, weights;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
-      for (std::size_t j = 0; j < sums_per_draw; ++j)
+      for (std::size_t j = 0; j < sums_per_draw; ++j) {
         all.push_back(drawn[i].b[p] + log10_sum(question.sum, i, j));
+        weights.push_back(drawn[i].weight);
+      }
     }
-    std::sort(all.begin(), all.end());
-    const auto at = [&](double q) { return power(sorted_quantile(all, q)); };
-    life.lives.push_back({question.percents[p], at(0.05), at(0.5), at(0.95),
-                          at(1 - question.confidence),
-                          power(next.quantile(question.percents[p] / 100))});
+    const std::vector<double> at = prognosis::weighted_quantiles(
+        all, weights, std::array{0.05, 0.5, 0.95, 1 - question.confidence});
+    life.lives.push_back({question.percents[p], power(at[0]), power(at[1]), power(at[2]),
+                          power(at[3]), power(next.quantile(question.percents[p] / 100))});
   }
 }
 
@@ -216,15 +213,16 @@ void add_contributions(const SnResult& result, const std::vector<Drawn>& drawn,
     }
     if (!std::isfinite(square) || !std::isfinite(drawn[i].median)) return;
     mean /= weight;
-    items += (square / weight - mean * mean) / static_cast<double>(drawn.size());
+    items += (square / weight - mean * mean) * drawn[i].weight;
     y[static_cast<Eigen::Index>(i)] = mean;
   }
-  const double of_posterior = (y.array() - y.mean()).square().mean();
+  const Eigen::VectorXd& weights = result.posterior.weights;
+  const double of_posterior = weights.dot((y.array() - weights.dot(y)).square().matrix());
   const double of_sum = std::pow(std::log10(question.sum.factor), 2);
   const double all = of_posterior + of_sum + items;
   life.sd = std::sqrt(all);
   if (!(all > 0)) return;
-  const std::vector<double> shares = variance_shares(result.draws, y);
+  const std::vector<double> shares = variance_shares(result.posterior, y);
   for (std::size_t i = 0; i < result.parameters.size(); ++i)
     life.contributions.push_back({result.parameters[i], shares[i] * of_posterior / all});
   if (shares.back() * of_posterior > 0.005 * all)
@@ -253,7 +251,7 @@ void add_extrapolation(const SnResult& result, const LoadCycles& cycles, LoadLif
 LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question) {
   refuse_what_has_no_sum(result.law, question.rule);
   const Draws draw(result, cycles, question);
-  std::vector<Drawn> drawn(static_cast<std::size_t>(result.draws.rows()));
+  std::vector<Drawn> drawn(static_cast<std::size_t>(result.posterior.values.rows()));
   // Sums of shares by blocks, so that no thread changes their order.
   constexpr std::size_t block = 64;
   std::vector<std::vector<double>> sums((drawn.size() + block - 1) / block,
@@ -266,8 +264,7 @@ LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQ
   life.draws = drawn.size();
   life.shares.assign(cycles.size(), 0);
   for (const auto& sum : sums) {
-    for (std::size_t c = 0; c < sum.size(); ++c)
-      life.shares[c] += sum[c] / static_cast<double>(drawn.size());
+    for (std::size_t c = 0; c < sum.size(); ++c) life.shares[c] += sum[c];
   }
   add_extrapolation(result, cycles, life);
   add_lives(drawn, question, life);
@@ -275,21 +272,23 @@ LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQ
   return life;
 }
 
-std::vector<double> variance_shares(const Points& x, const Eigen::VectorXd& y) {
-  const auto d = static_cast<std::size_t>(x.cols());
-  const auto n = static_cast<double>(x.rows());
+std::vector<double> variance_shares(const WeightedDraws& x, const Eigen::VectorXd& y) {
+  const auto d = static_cast<std::size_t>(x.values.cols());
+  const Eigen::VectorXd& weights = x.weights;
   // In units of their standard deviations; a column that does not vary explains nothing.
-  Eigen::MatrixXd z = x.rowwise() - x.colwise().mean();
+  const Eigen::RowVectorXd mean = weights.transpose() * x.values;
+  Eigen::MatrixXd z = x.values.rowwise() - mean;
   for (Eigen::Index c = 0; c < z.cols(); ++c) {
-    const double sd = std::sqrt(z.col(c).squaredNorm() / n);
+    const double sd = std::sqrt(weights.dot(z.col(c).cwiseAbs2()));
     z.col(c) *= sd > 0 ? 1 / sd : 0;
   }
-  const Eigen::VectorXd centered = y.array() - y.mean();
-  const double variance = centered.squaredNorm() / n;
+  const Eigen::VectorXd centered = y.array() - weights.dot(y);
+  const double variance = weights.dot(centered.cwiseAbs2());
   std::vector<double> shares(d + 1, 0);
   if (!(variance > 0)) return shares;
-  const Eigen::MatrixXd covariance = z.transpose() * z / n;
-  const Eigen::VectorXd with_y = z.transpose() * centered / n;
+  const Eigen::MatrixXd weighted = weights.asDiagonal() * z;
+  const Eigen::MatrixXd covariance = z.transpose() * weighted;
+  const Eigen::VectorXd with_y = weighted.transpose() * centered;
   // What each set of columns explains.
   std::vector<double> explained(std::size_t{1} << d, 0);
   for (std::size_t set = 1; set < explained.size(); ++set) {

@@ -49,16 +49,16 @@ struct LoadLife {
   /// and below all that were tested, and of a mean stress beyond.
   double above = 0, below = 0, beyond_mean = 0;
   std::vector<double> shares;  ///< of the damage, by each of the cycles
-  std::size_t draws = 0;       ///< of the posterior
+  std::size_t draws = 0;       ///< points of the posterior
 };
 
 /// Cycles are few (load_cycles.h, reduced). Throws InputError for a law that damage cannot be summed
 /// with, or a rule that the law has no knee for.
 LoadLife load_life(const SnResult& result, const LoadCycles& cycles, const LoadQuestion& question);
 
-/// Shares of the variance of `y` that the columns of `x` bring, where these depend on each other:
+/// Shares of the variance of `y` at weighted points that the columns of their values bring, where these depend on each other:
 /// Shapley's values of the best linear predictors (Song, Nelson and Staum 2016), and last what no
 /// linear predictor explains. They sum to 1.
-std::vector<double> variance_shares(const Points& x, const Eigen::VectorXd& y);
+std::vector<double> variance_shares(const WeightedDraws& x, const Eigen::VectorXd& y);
 
 }  // namespace wearwell::fatigue

@@ -7,6 +7,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/input/json_reader.h"
+#include "wearwell/prognosis/carried_state.h"
 #include "wearwell/study/saved_result.h"
 
 namespace wearwell::fatigue {
@@ -74,12 +75,6 @@ std::pair<double, double> read_span(const JsonReader& json, const Unit& unit) {
   return {to_si(unit, ends[0]), to_si(unit, ends[1])};
 }
 
-// The dimension of a parameter.
-std::string si_of(const std::string& name, const std::string& stress_si) {
-  if (name == "log10_N_D" || name == "log10_N_B") return "log10(cycle)";
-  return name.starts_with("log10_") && stress_si != "1" ? fmt::format("log10({})", stress_si) : "1";
-}
-
 }  // namespace
 
 nlohmann::ordered_json sn_json(const SnLaw& law, const SnData& data) {
@@ -142,26 +137,14 @@ SnResult read_sn_result(const std::filesystem::path& folder) {
   span.tests = static_cast<int>(tested.at("tests").integer(1, 1 << 30));
   span.failures = static_cast<int>(tested.at("failures").integer(0, span.tests));
 
-  Eigen::Index rows = 0;
-  for (const Chain& chain : saved.draws) rows += chain.values.rows();
-  const auto columns = std::ssize(saved.parameters);
-  if (columns != result.law.dimension())
-    throw InputError(
-        fmt::format("{}: {} parameters do not make the law that it names", file.string(), columns));
-  result.draws.resize(rows, columns);
-  Eigen::Index at = 0;
-  for (const Chain& chain : saved.draws) {
-    result.draws.middleRows(at, chain.values.rows()) = chain.values;
-    at += chain.values.rows();
-  }
-  for (Eigen::Index c = 0; c < columns; ++c) {
-    const ParameterSummary& parameter = saved.parameters[static_cast<std::size_t>(c)];
-    result.parameters.push_back(parameter.name);
-    const bool cycles = result.law.family == LifeFamily::normal && parameter.name == "sigma";
-    const Unit unit =
-        read_unit(parameter.unit, cycles ? "cycle" : si_of(parameter.name, result.stress_si));
-    for (double& value : result.draws.col(c)) value = to_si(unit, value);
-  }
+  for (const ParameterSummary& each : saved.parameters) result.parameters.push_back(each.name);
+  if (std::ssize(result.parameters) != result.law.dimension())
+    throw InputError(fmt::format("{}: {} parameters do not make the law that it names",
+                                 file.string(), result.parameters.size()));
+  prognosis::CarriedState state = prognosis::read_state(folder);
+  prognosis::require_parameters(state, result.parameters);
+  result.posterior.values = std::move(state.posterior.values);
+  result.posterior.weights = std::move(state.posterior.weights);
   return result;
 }
 

@@ -27,7 +27,7 @@ struct SnResult {
   TestedSpan tested;
   Unit stress_unit;
   std::vector<std::string> parameters;  ///< names, as SnLaw counts them
-  Points draws;                         ///< of the posterior, SI
+  WeightedDraws posterior;              ///< without cells, SI
   std::string stress_si = "Pa";         ///< of the stress, or of what stands for it
   Unit life_unit = {"cycles", 1, 0};    ///< in which the study tells lives
 };
@@ -35,7 +35,7 @@ struct SnResult {
 /// What `fit` writes as "fatigue" into summary.json: the law's choices and what was tested.
 nlohmann::ordered_json sn_json(const SnLaw& law, const SnData& data);
 
-/// Reads summary.json and the draws. Throws InputError: no folder of results, of another model, of an
+/// Reads summary.json and the posterior of state.bin. Throws InputError: no folder of results, of another model, of an
 /// earlier version.
 SnResult read_sn_result(const std::filesystem::path& folder);
 
