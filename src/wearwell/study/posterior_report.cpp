@@ -9,6 +9,7 @@
 #include "wearwell/study/figures.h"
 #include "wearwell/study/long_tables.h"
 #include "wearwell/study/posterior_tables.h"
+#include "wearwell/study/row_tables.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {

@@ -9,6 +9,7 @@
 #include "wearwell/study/long_tables.h"
 #include "wearwell/study/posterior_report.h"
 #include "wearwell/study/posterior_tables.h"
+#include "wearwell/study/row_tables.h"
 #include "wearwell/study/terminal.h"
 
 namespace wearwell {

@@ -28,9 +28,6 @@ present::Table prior_table(const std::vector<ParameterSummary>& parameters);
 present::Table mode_table(const ModeSummary& mode);  ///< of a posterior that has one
 present::Table stage_table(const PosteriorSummary& result);
 present::Table fit_table(const Plots& plots);
-present::Table coverage_table(const CoverageTable& coverage);
-present::Table pointwise_table(const PointwiseTable& pointwise);
-present::Table loo_table(const LooSummary& summary);
 present::Table draws_table(const std::vector<ParameterSummary>& parameters);
 
 }  // namespace wearwell

@@ -1,15 +1,12 @@
 #include "wearwell/models/fatigue/design_curve.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 
-#include "wearwell/models/fatigue/life.h"
-#include "wearwell/models/fatigue/lives_under.h"
+#include "wearwell/models/fatigue/design_curve_points.h"
 #include "wearwell/models/fatigue/scatter_range.h"
 #include "wearwell/models/fatigue/sn_exhibits.h"
 #include "wearwell/models/fatigue/sn_result.h"
@@ -31,67 +28,14 @@ using fatigue::Stress;
 using fatigue::StressLine;
 using present::Table;
 
-constexpr std::size_t table_points = 21, shown_points = 3;
+constexpr std::size_t shown_points = 3;
 // A random limit makes a mixture of each point of the posterior.
-constexpr std::size_t table_points_with_limit = 9;
 constexpr Eigen::Index most_draws_with_limit = 600;
 // Of the weight of a quadrature: lighter nodes are gathered.
 constexpr double gathered_share = 3e-7;
 
 std::string with_unit(const SnData& data, double si) {
   return fmt::format("{:.4g}{}", from_si(data.stress_unit, si), after_number(data.stress_unit));
-}
-
-// One stress: lives [cycles] by the posterior and by the standards, for each level.
-struct At {
-  double stress = 0, mean = 0;  // Pa, alternating and mean
-  double median = 0;
-  std::vector<double> posterior, iso, owen;
-  double band = 0;  // lower end of E739's 95 % band of the median
-};
-
-std::vector<At> curve_points(const SnLaw& law, const SnData& data, const WeightedDraws& draws,
-                             const StandardFit& standard) {
-  double low = INFINITY, high = 0;
-  for (const LifeTest& test : data.tests) {
-    low = std::min(low, test.stress.alternating);
-    high = std::max(high, test.stress.alternating);
-  }
-  const StressLine line = line_of_tests(law, data);
-  const auto& levels = design_levels();
-  std::vector<At> points(!(high > low)      ? 1
-                         : law.integrated() ? table_points_with_limit
-                                            : table_points);
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-    At& at = points[i];
-    const double share =
-        points.size() == 1 ? 0 : static_cast<double>(i) / static_cast<double>(points.size() - 1);
-    at.stress = i == 0 ? high : i + 1 == points.size() ? low : high * std::pow(low / high, share);
-    const Stress stress = line.at(at.stress);
-    at.mean = stress.mean;
-    const fatigue::LivesUnder lives(law, draws, stress);
-    at.median = fatigue::cycles(law, lives.outlasted(0.5, std::array{0.5}).front());
-    for (auto level = levels.begin(); level != levels.end();) {
-      const double reliability = level->reliability;
-      std::vector<double> below;
-      for (; level != levels.end() && level->reliability == reliability; ++level)
-        below.push_back(1 - level->confidence);
-      for (const double life : lives.outlasted(reliability, below))
-        at.posterior.push_back(fatigue::cycles(law, life));
-    }
-    for (const DesignLevel& level : levels) {
-      if (!standard.line) continue;
-      const double x = standard_log10_stress(law, stress);
-      at.iso.push_back(std::pow(
-          10, fatigue::iso_12107_limit(*standard.line, x, level.reliability, level.confidence)));
-      at.owen.push_back(std::pow(
-          10, fatigue::owen_limit(*standard.line, x, level.reliability, level.confidence)));
-    }
-    if (standard.line)
-      at.band = std::pow(
-          10, fatigue::astm_e739_band(*standard.line, standard_log10_stress(law, stress), 0.95));
-  });
-  return points;
 }
 
 // Which mean stress the curves have: where there are several among the tests, none of theirs need be it.
@@ -103,7 +47,8 @@ std::string line_in_words(const SnLaw& law, const SnData& data) {
   return fmt::format(" at a mean stress of {}, the tests' average", with_unit(data, line.mean));
 }
 
-Table curves_table(const SnData& data, const std::vector<At>& points, const std::string& where) {
+Table curves_table(const SnData& data, const std::vector<CurvePoint>& points,
+                   const std::string& where) {
   const std::string unit = data.life_unit.text;
   Table table{
       "design-curves",
@@ -118,7 +63,7 @@ Table curves_table(const SnData& data, const std::vector<At>& points, const std:
   const auto life = [&](double cycles) { return from_si(data.life_unit, cycles); };
   const auto& levels = design_levels();
   for (std::size_t l = 0; l < levels.size(); ++l) {
-    for (const At& at : points) {
+    for (const CurvePoint& at : points) {
       table.rows.push_back({levels[l].name,
                             from_si(data.stress_unit, at.stress),
                             from_si(data.stress_unit, at.mean),
@@ -131,7 +76,7 @@ Table curves_table(const SnData& data, const std::vector<At>& points, const std:
       table.rows.back()[5] = life(at.owen[l]);
     }
   }
-  for (const At& at : points) {
+  for (const CurvePoint& at : points) {
     table.rows.push_back({"median",
                           from_si(data.stress_unit, at.stress),
                           from_si(data.stress_unit, at.mean),
@@ -144,10 +89,11 @@ Table curves_table(const SnData& data, const std::vector<At>& points, const std:
   return table;
 }
 
-html::Figure curves_figure(const SnLaw& law, const SnData& data, const std::vector<At>& points) {
+html::Figure curves_figure(const SnLaw& law, const SnData& data,
+                           const std::vector<CurvePoint>& points) {
   namespace colour = plot::colour;
   std::vector<double> stress, median;
-  for (const At& at : points) {
+  for (const CurvePoint& at : points) {
     stress.push_back(from_si(data.stress_unit, at.stress));
     median.push_back(from_si(data.life_unit, at.median));
   }
@@ -160,7 +106,7 @@ html::Figure curves_figure(const SnLaw& law, const SnData& data, const std::vect
   std::vector<double> all = median;
   for (std::size_t l = 0; l < levels.size(); ++l) {
     std::vector<double> life;
-    for (const At& at : points) life.push_back(from_si(data.life_unit, at.posterior[l]));
+    for (const CurvePoint& at : points) life.push_back(from_si(data.life_unit, at.posterior[l]));
     all.insert(all.end(), life.begin(), life.end());
     marks.push_back(
         plot::line({{"x", life}, {"y", stress}, {"life", life}, {"stress", stress}},
@@ -203,11 +149,11 @@ OwnUnits e739_line(const SnData& data, const fatigue::FittedLine& line) {
 }
 
 // What E739 tells of the same tests, and the closed form of Owen's and ISO's curves.
-std::string e739_in_words(const SnData& data, const std::vector<At>& points,
+std::string e739_in_words(const SnData& data, const std::vector<CurvePoint>& points,
                           const StandardFit& standard) {
   if (!standard.line) return "";
   const OwnUnits e739 = e739_line(data, *standard.line);
-  const auto life = [&](const At& at) {
+  const auto life = [&](const CurvePoint& at) {
     return fmt::format("{} at {}", plain_number(from_si(data.life_unit, at.band)),
                        with_unit(data, at.stress));
   };
@@ -242,8 +188,8 @@ std::string difference(const SnLaw& law, const StandardFit& standard) {
          ". ISO 12107 takes the uncertainty of the line for scatter, Owen's factor is exact.";
 }
 
-std::string text_of(const SnData& data, const std::vector<At>& points, const std::string& where,
-                    const std::string& why, const std::string& e739) {
+std::string text_of(const SnData& data, const std::vector<CurvePoint>& points,
+                    const std::string& where, const std::string& why, const std::string& e739) {
   const auto& levels = design_levels();
   std::vector<std::vector<std::string>> rows = {{""}};
   for (const DesignLevel& level : levels) rows[0].push_back(level.name);
@@ -254,7 +200,7 @@ std::string text_of(const SnData& data, const std::vector<At>& points, const std
   };
   const std::size_t step = std::max<std::size_t>(1, (points.size() - 1) / (shown_points - 1));
   for (std::size_t i = 0; i < points.size(); i += step) {
-    const At& at = points[i];
+    const CurvePoint& at = points[i];
     rows.push_back({"at " + with_unit(data, at.stress)});
     add("posterior", at.posterior);
     if (at.iso.empty()) continue;
@@ -266,15 +212,16 @@ std::string text_of(const SnData& data, const std::vector<At>& points, const std
          text_table(rows) + wrapped(why, 2, 4) + (e739.empty() ? "" : wrapped(e739, 2, 4));
 }
 
-nlohmann::ordered_json json_of(const SnLaw& law, const SnData& data, const std::vector<At>& points,
-                               const StandardFit& standard, const std::string& why) {
+nlohmann::ordered_json json_of(const SnLaw& law, const SnData& data,
+                               const std::vector<CurvePoint>& points, const StandardFit& standard,
+                               const std::string& why) {
   using Json = nlohmann::ordered_json;
   const auto life = [&](double cycles) { return from_si(data.life_unit, cycles); };
   Json curves = Json::array();
   const auto& levels = design_levels();
   for (std::size_t l = 0; l < levels.size(); ++l) {
     Json rows = Json::array();
-    for (const At& at : points) {
+    for (const CurvePoint& at : points) {
       Json row = {{"stress", from_si(data.stress_unit, at.stress)},
                   {"life", life(at.posterior[l])}};
       if (!at.iso.empty()) {
@@ -300,7 +247,7 @@ nlohmann::ordered_json json_of(const SnLaw& law, const SnData& data, const std::
   if (standard.line) {
     const OwnUnits e739 = e739_line(data, *standard.line);
     Json band = Json::array();
-    for (const At& at : points)
+    for (const CurvePoint& at : points)
       band.push_back({{"stress", from_si(data.stress_unit, at.stress)}, {"life", life(at.band)}});
     json["astm_e739"] = {{"A", e739.a},
                          {"B", e739.b},
@@ -347,7 +294,7 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
   const WeightedDraws draws =
       law.integrated() ? thinned(all, most_draws_with_limit) : gathered(all, gathered_share);
   const StandardFit standard = standard_fit(law, data);
-  const std::vector<At> points = curve_points(law, data, draws, standard);
+  const std::vector<CurvePoint> points = curve_points(law, data, draws, standard);
   const std::string where = line_in_words(law, data);
   std::string why = difference(law, standard);
   if (draws.values.rows() < all.values.rows() && law.integrated())
