@@ -11,7 +11,9 @@ using testing::HasSubstr;
 using testing::Not;
 
 Table lives(std::size_t rows) {
-  Table table{"lives", "Lives", {{"Quantity"}, {"Unit"}, {"Of"}, {"50 %"}, {"B10"}, {"Range", "h", {}, true}}};
+  Table table{"lives",
+              "Lives",
+              {{"Quantity"}, {"Unit"}, {"Of"}, {"50 %"}, {"B10"}, {"Range", "h", {}, true}}};
   for (std::size_t i = 0; i < rows; ++i)
     table.rows.push_back({"life", "mm^3/(N m)", "pump", 5.0, std::nan(""), Range{NAN, NAN}});
   return table;
@@ -53,8 +55,7 @@ TEST(Section, ALongTableIsFolded) {
   words.words = true;
   EXPECT_THAT(page_of({words}), Not(HasSubstr("<details>")));
   // What is folded already is not folded twice.
-  EXPECT_THAT(page_of({Details{"more", {{lives(most_rows_open + 1)}}}}),
-              Not(HasSubstr("13 rows")));
+  EXPECT_THAT(page_of({Details{"more", {{lives(most_rows_open + 1)}}}}), Not(HasSubstr("13 rows")));
 }
 
 TEST(Section, SmallMultiplesHaveOneTitleAndCaption) {

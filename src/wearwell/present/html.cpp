@@ -155,10 +155,9 @@ std::string table(const Table& table) {
 namespace {
 
 std::string plot_of(const Figure& figure) {
-  return fmt::format(
-      "<div class=\"plot\"></div>\n<script type=\"application/json\">{}</script>\n",
-      script_safe(
-          figure.specification.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
+  return fmt::format("<div class=\"plot\"></div>\n<script type=\"application/json\">{}</script>\n",
+                     script_safe(figure.specification.dump(
+                         -1, ' ', false, nlohmann::json::error_handler_t::replace)));
 }
 
 // The title stands above the plot, what to see in it below.
