@@ -31,7 +31,8 @@ TEST(PrintedNumbers, WordsAreExact) {
 }
 
 TEST(PrintedNumbers, GroupsAndPowersAreOneNumber) {
-  EXPECT_EQ(printed_difference("after 21\u202f600\u00a0cycles", "after 21\u202f601\u00a0cycles"), "");
+  EXPECT_EQ(printed_difference("after 21\u202f600\u00a0cycles", "after 21\u202f601\u00a0cycles"),
+            "");
   EXPECT_NE(printed_difference("after 21\u202f600", "after 22\u202f600"), "");
   EXPECT_EQ(printed_difference("k is 7.76\u00a0×\u00a010^-4", "k is 7.77\u00a0×\u00a010^-4"), "");
   EXPECT_NE(printed_difference("k is 7.76\u00a0×\u00a010^-4", "k is 7.76\u00a0×\u00a010^-5"), "");

@@ -23,7 +23,8 @@ struct PrintedToken {
 inline std::vector<PrintedToken> printed_tokens(const std::string& text) {
   // a group of digits is no number where it is a part of a word (sha1, Q4) or of a longer sequence
   static const std::regex number(
-      "(\\d{1,3}(?:(?: |\u202f)\\d{3})+(?!\\d)|\\d+)(\\.\\d+)?(e[+-]?\\d+)?(?:\u00a0×\u00a010\\^(-?\\d+))?");
+      "(\\d{1,3}(?:(?: "
+      "|\u202f)\\d{3})+(?!\\d)|\\d+)(\\.\\d+)?(e[+-]?\\d+)?(?:\u00a0×\u00a010\\^(-?\\d+))?");
   static const std::regex word(R"([A-Za-z_][A-Za-z_0-9]*|[^\s\w])");
   std::vector<PrintedToken> tokens;
   for (auto at = text.cbegin(); at != text.cend();) {
@@ -33,7 +34,8 @@ inline std::vector<PrintedToken> printed_tokens(const std::string& text) {
     } else if (std::regex_search(at, text.cend(), found, number,
                                  std::regex_constants::match_continuous)) {
       std::string digits = found[1];
-      std::erase_if(digits, [](char c) { return std::isdigit(static_cast<unsigned char>(c)) == 0; });
+      std::erase_if(digits,
+                    [](char c) { return std::isdigit(static_cast<unsigned char>(c)) == 0; });
       const std::string exponent = found[4].matched ? "e" + found[4].str() : found[3].str();
       const int places = found[2].matched ? static_cast<int>(found[2].length()) - 1 : 0;
       const int power = exponent.empty() ? 0 : std::atoi(exponent.c_str() + 1);

@@ -14,7 +14,7 @@ namespace wearwell::clutch {
 struct SqlColumn {
   std::string name;  ///< as the database has it
   double scale = 1, offset = 0;
-  bool is_real = false;  ///< of a unit: a number that may have a fraction, which no unit has
+  bool is_real = false;   ///< of a unit: a number that may have a fraction, which no unit has
   std::string unit = {};  ///< of its values, as the table has them: "rpm"
 };
 

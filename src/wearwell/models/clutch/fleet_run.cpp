@@ -68,11 +68,11 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSour
                                      row.numbers[4 + 2 * i]) +
                       ", ";
     const double energy = row.numbers[3 + 2 * inputs.size()];
-    check.ranges += std::isfinite(energy)
-                        ? fmt::format("energy up to {:.6g} {}",
-                                      (energy - source.energy.offset) / source.energy.scale,
-                                      source.energy.unit)
-                        : "energy not a number";
+    check.ranges +=
+        std::isfinite(energy)
+            ? fmt::format("energy up to {:.6g} {}",
+                          (energy - source.energy.offset) / source.energy.scale, source.energy.unit)
+            : "energy not a number";
     if (nameless > 0)
       throw InputError(fmt::format("{}: {:.0f} rows name no unit", engine.source(), nameless));
   });
