@@ -276,6 +276,14 @@ std::vector<std::string> answers(const PosteriorSummary& result, Script script) 
   return std::move(clauses.all);
 }
 
+std::string results_title(const std::vector<QuantitySummary>& quantities) {
+  constexpr std::string_view next = "new ";
+  for (const QuantitySummary& each : quantities) {
+    if (each.of.starts_with(next)) return "Results by " + each.of.substr(next.size());
+  }
+  return "Results";
+}
+
 std::string default_priors(const std::vector<ParameterSummary>& parameters) {
   std::string names;
   for (const ParameterSummary& p : parameters) {

@@ -36,6 +36,9 @@ std::string of_whom(const LifeSummary& summary);
 /// that is expected to fail first, else the last life.
 std::vector<const QuantitySummary*> headlines(const PosteriorSummary& result);
 
+/// The title of their table: "Results by bearing"; "Results" where all are of one item.
+std::string results_title(const std::vector<QuantitySummary>& quantities);
+
 /// Names of the parameters whose prior is the default, "k, sigma"; empty when all are stated.
 std::string default_priors(const std::vector<ParameterSummary>& parameters);
 

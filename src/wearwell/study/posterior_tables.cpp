@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include "wearwell/present/html.h"
 #include "wearwell/study/answers.h"
@@ -118,14 +117,6 @@ Table life_table(const LifeSummary& summary) {
        {"At a risk of", "%", given}},
       {{life.b1, life.b10, life.b50, Range{life.q05, life.q95}, summary.now, 100 * life.passed,
         life.inspect_within, 100 * summary.risk}}};
-}
-
-std::string results_title(const std::vector<QuantitySummary>& quantities) {
-  constexpr std::string_view next = "new ";
-  for (const QuantitySummary& each : quantities) {
-    if (each.of.starts_with(next)) return "Results by " + each.of.substr(next.size());
-  }
-  return "Results";
 }
 
 Table quantity_table(const std::vector<QuantitySummary>& quantities) {

@@ -17,8 +17,6 @@ present::Format life_format(const std::string& unit, int digits = 4);
 present::Table prediction_table(const PosteriorSummary& result);
 present::Table stage_prediction_table(const PosteriorSummary& result);  ///< no rows without stages
 present::Table life_table(const LifeSummary& life);
-/// "Results by bearing"; "Results" where all are of one item.
-std::string results_title(const std::vector<QuantitySummary>& quantities);
 present::Table quantity_table(const std::vector<QuantitySummary>& quantities);
 /// Properties of all items, for the next one and with a lower bound: two columns that are not to be
 /// mistaken for each other.

@@ -88,11 +88,6 @@ std::string mode_lines(const ModeSummary& mode) {
                                         mode.maximum_likelihood ? "" : ", all at the mode");
 }
 
-std::string mode_title(const ModeSummary& mode) {
-  return mode.maximum_likelihood ? "Maximum likelihood (mode under flat priors)"
-                                 : "Mode of the posterior";
-}
-
 std::string loo_lines(const LooSummary& summary) {
   const Loo& loo = summary.loo;
   const std::string unit = DensityUnit::in_words(summary.density_unit);
@@ -301,7 +296,10 @@ std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle
     out += histogram_lines(result);
   }
   if (result.mode)
-    out += fmt::format("\n{}\n", mode_title(*result.mode)) + mode_lines(*result.mode);
+    out += fmt::format("\n{}\n", result.mode->maximum_likelihood
+                                     ? "Maximum likelihood (mode under flat priors)"
+                                     : "Mode of the posterior") +
+           mode_lines(*result.mode);
   if (result.loo) out += "\nLeave-one-out prediction\n" + loo_lines(*result.loo);
   if (result.coverage) out += "\nTests against the fit\n" + coverage_lines(*result.coverage);
   out += fmt::format("\nDraws ({}, {} chains of {})\n", result.method, result.chains,
