@@ -130,6 +130,6 @@ def test_what_cannot_be_written_leaves_nothing(examples, joint, wearwell, tmp_pa
     assert code == 2 and "no posterior" in error
     code, _, error = wearwell("fit", joint, "--netcdf", joint, "-o", tmp_path / "results")
     assert code == 2 and "--netcdf" in error
-    code, _, error = wearwell("fit", joint, "--netcdf", tmp_path / "none" / "fit.nc", "-o", tmp_path / "results")
+    code, _, error = wearwell("fit", joint, "--netcdf", "/proc/none/fit.nc", "-o", tmp_path / "results")
     assert code == 2 and "fit.nc" in error
     assert os.listdir(tmp_path) == []
