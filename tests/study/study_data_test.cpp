@@ -61,8 +61,8 @@ TEST_F(StudyDataTest, SecondLivesOfRowsThatAreNoIntervals) {
                     HasSubstr("write interval there")));
   EXPECT_THAT(sn_refusal(head + "7000,S\n200,9000,,F\n"), HasSubstr("row 2, column 'until'"));
   // A failure's own life, and a run-out's open end, say nothing else.
-  EXPECT_THAT(sn_refusal(head + "inf,S\n200,9000,9000,F\n150,9000,,broken\n"),
-              HasSubstr("row 4, column 'status': 'broken' is no status"));
+  EXPECT_THAT(sn_refusal(head + "inf,S\n200,9000,9000,F\n150,9000,,went on\n"),
+              HasSubstr("row 4, column 'status': 'went on' is no status"));
 }
 
 TEST_F(StudyDataTest, FilesAreNamedAtTheirKey) {

@@ -314,9 +314,9 @@ TEST_F(OwnProcessStudy, PathsOfAProcessAreDrawn) {
       wearwell::read_posterior_study(PROJECT_SOURCE_DIR "/examples/degradation/steps.toml"),
       {Method::exact, 1, {}, 1000, {}}, {}, true);
   const auto& figures = result.plots->exhibits.at("predictions");
-  ASSERT_EQ(figures.size(), 16u);
-  EXPECT_EQ(figures[3].title, "Laser 3");
-  EXPECT_NE(figures[3].specification.dump().find("limit"), std::string::npos);
+  ASSERT_EQ(figures.size(), 15u);
+  EXPECT_EQ(figures[2].title, "Laser 3");
+  EXPECT_NE(figures[2].specification.dump().find("limit"), std::string::npos);
 }
 
 TEST_F(OwnProcessStudy, WhatIsNoProcessIsRefused) {
