@@ -75,17 +75,14 @@ Figure life_figure(const PosteriorSummary& result, const Plots& plots) {
                                  {colour::limit, "", 1, 0, false, 60}));
     marks.push_back(plot::text(x, p, fmt::format("B{:.0f}", p), colour::limit));
   }
-  return {
-      "life",
-      fmt::format("Life until {}",
-                  html::given(summary.limit) + "\u00a0" + html::unit(summary.limit_unit)),
-      fmt::format("The probability that the limit is reached by then. B10: the {} that one in ten "
-                  "does not survive.",
-                  summary.unit),
-      plot::plot("Probability that the limit is reached, against " + summary.unit,
-                 {fmt::format("Life [{}]", html::unit(summary.unit)), false, plots.life->x.front(),
-                  plots.life->x.back()},
-                 {"Probability [%]", false, 0, 100}, marks, 340)};
+  return {"life",
+          fmt::format("Life until {}",
+                      html::given(summary.limit) + "\u00a0" + html::unit(summary.limit_unit)),
+          "The probability that the limit is reached by then. One in ten reaches it before B10.",
+          plot::plot("Probability that the limit is reached, against " + summary.unit,
+                     {fmt::format("Life [{}]", html::unit(summary.unit)), false,
+                      plots.life->x.front(), plots.life->x.back()},
+                     {"Probability [%]", false, 0, 100}, marks, 340)};
 }
 
 // What each stage said of the next inspection (Figs. 10 and 11).

@@ -164,7 +164,8 @@ class Drawing {
     const std::string unit = measured_.unit.text == "1"
                                  ? ""
                                  : fmt::format(" [{}]", html::unit(per_unit(measured_.unit)));
-    return html::Figure{"hazard", "Hazard: the rate at which those fail that have come so far",
+    return html::Figure{"hazard",
+                        "Hazard rate: failures per unit of life among those still running",
                         "The line is the posterior median, the band holds 90 %.",
                         plot::plot(fmt::format("Hazard against {}", measured_.column), axis(),
                                    {"Hazard" + unit, true, least > 0 ? least / 5 : 1e-12, 5 * most},
