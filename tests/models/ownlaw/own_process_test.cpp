@@ -316,7 +316,8 @@ TEST_F(OwnProcessStudy, PathsOfAProcessAreDrawn) {
   const auto& figures = result.plots->exhibits.at("predictions");
   ASSERT_EQ(figures.size(), 15u);
   EXPECT_EQ(figures[2].title, "Laser 3");
-  EXPECT_NE(figures[2].specification.dump().find("limit"), std::string::npos);
+  // The limit: a rule at 10 %.
+  EXPECT_NE(figures[2].specification.dump().find(R"("values":"y\n10")"), std::string::npos);
 }
 
 TEST_F(OwnProcessStudy, WhatIsNoProcessIsRefused) {

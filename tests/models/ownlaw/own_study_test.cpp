@@ -330,7 +330,8 @@ TEST_F(OwnStudy, PathsAheadAndRemainingLivesAreOneThing) {
   EXPECT_EQ(result.plots->exhibits.at("verdict").back().title, "New laser");
   const std::string text = figures[14].specification.dump();
   EXPECT_NE(text.find("6.62"), std::string::npos);
-  EXPECT_NE(text.find("limit"), std::string::npos);
+  // The limit: a rule at 10 %.
+  EXPECT_NE(text.find(R"("values":"y\n10")"), std::string::npos);
 }
 
 TEST_F(OwnStudy, WrongStudiesAreRefusedWithTheirPlace) {
