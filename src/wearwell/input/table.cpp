@@ -136,8 +136,9 @@ std::string no_value(const Table& table, const Column& column) {
   std::string words = "no value (empty or NaN)";
   if (!table.layout.empty() && column.name.find_first_of("\"\\\n") == std::string::npos)
     words += fmt::format(
-        "; to leave such rows out: sql (of [data], or --sql of select) = 'select * from data where "
-        "\"{}\" is not null'",
+        "; to leave such rows out: sql = 'select * from data where \"{}\" is not null' in [data], "
+        "or "
+        "--sql of select",
         column.name);
   return words;
 }
