@@ -9,8 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "support/run_command.h"
-#include "support/scratch.h"
+#include "support/new_from_table.h"
 
 namespace wearwell {
 namespace {
@@ -19,28 +18,8 @@ using nlohmann::json;
 using testing::AllOf;
 using testing::HasSubstr;
 
-class NewFromTables : public ScratchTest {
+class NewFromTables : public NewFromTable {
  protected:
-  CommandResult here(const std::string& words) {
-    return run_command("cd '" + folder().string() + "' && '" WEARWELL_BINARY "' " + words);
-  }
-  std::string content(const std::string& file) {
-    std::ifstream in(folder() / file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  // Two commands: what the first prints; the result of the second is in `result_`.
-  std::string fitted(const std::string& table, const std::string& text,
-                     const std::string& options = "") {
-    write(table, text);
-    const CommandResult run = here("new --from " + table + " out " + options);
-    EXPECT_EQ(run.exit_code, 0) << run.err << run.out << content("out/study.toml");
-    EXPECT_THAT(run.out, HasSubstr("wearwell fit out/study.toml"));
-    const CommandResult fit =
-        here("fit out/study.toml --method exact --draws 100 --json --no-report -o r");
-    EXPECT_LE(fit.exit_code, 1) << fit.err << content("out/study.toml");
-    if (fit.exit_code <= 1) result_ = json::parse(fit.out);
-    return run.out;
-  }
   double middle(const char* parameter) { return result_["parameters"][parameter]["q50"]; }
   // What is refused, with nothing written.
   std::string refused(const std::string& table, const std::string& text,
@@ -51,7 +30,6 @@ class NewFromTables : public ScratchTest {
     EXPECT_FALSE(std::filesystem::exists(folder() / "refused"));
     return run.err;
   }
-  json result_;
 };
 
 // Life data.

@@ -4,8 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "support/run_command.h"
-#include "support/scratch.h"
+#include "support/new_from_table.h"
 
 namespace wearwell {
 namespace {
@@ -15,35 +14,13 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class NewFrom : public ScratchTest {
- protected:
-  CommandResult here(const std::string& words) {
-    return run_command("cd '" + folder().string() + "' && '" WEARWELL_BINARY "' " + words);
-  }
-  std::string content(const std::string& file) {
-    std::ifstream in(folder() / file);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-  // What is guessed, after the study was checked and fitted as it is.
-  std::string runs(const std::string& table, const std::string& text) {
-    write(table, text);
-    const CommandResult run = here("new --from " + table + " out");
-    EXPECT_EQ(run.exit_code, 0) << run.err << run.out << content("out/study.toml");
-    EXPECT_EQ(content("out/" + table), text);
-    const CommandResult fit =
-        here("fit out/study.toml --method exact --draws 100 --json --no-report -o r");
-    EXPECT_LE(fit.exit_code, 1) << fit.err << content("out/study.toml");
-    if (fit.exit_code <= 1) result_ = json::parse(fit.out);
-    return run.out;
-  }
-  json result_;
-};
+class NewFrom : public NewFromTable {};
 
 TEST_F(NewFrom, WornVolumes) {
   const std::string said =
-      runs("pin.csv",
-           "Cycles [-],normal force (N),Sliding distance / m,worn volume [mm³],remark\n"
-           "100,60,6,0.3,\n1000,60,60,3.1,ok\n5000,60,300,14,\n10000,60,600,31,\n");
+      fitted("pin.csv",
+             "Cycles [-],normal force (N),Sliding distance / m,worn volume [mm³],remark\n"
+             "100,60,6,0.3,\n1000,60,60,3.1,ok\n5000,60,300,14,\n10000,60,600,31,\n");
   EXPECT_THAT(said, AllOf(HasSubstr("volume: column 'worn volume [mm³]' in mm^3"),
                           HasSubstr("force: column 'normal force (N)' in N"),
                           HasSubstr("slip: column 'Sliding distance / m' in m"),
@@ -55,10 +32,10 @@ TEST_F(NewFrom, WornVolumes) {
 
 TEST_F(NewFrom, LivesInGerman) {
   const std::string said =
-      runs("versuche.csv",
-           "Probe,Spannungsamplitude_MPa,Spannungsverhältnis,Lastspiele,Status\n1,400,-1,41000,"
-           "F\n2,400,-1,52000,F\n"
-           "3,350,-1,120000,F\n4,350,-1,160000,F\n5,300,-1,500000,F\n6,300,-1,2000000,S\n");
+      fitted("versuche.csv",
+             "Probe,Spannungsamplitude_MPa,Spannungsverhältnis,Lastspiele,Status\n1,400,-1,41000,"
+             "F\n2,400,-1,52000,F\n"
+             "3,350,-1,120000,F\n4,350,-1,160000,F\n5,300,-1,500000,F\n6,300,-1,2000000,S\n");
   EXPECT_THAT(said,
               AllOf(HasSubstr("alternating_stress: column 'Spannungsamplitude_MPa' in MPa"),
                     HasSubstr("life: column 'Lastspiele'"), HasSubstr("status: column 'Status'")));
@@ -70,7 +47,7 @@ TEST_F(NewFrom, LivesInGerman) {
 // A unit that no heading has is a guess, and is called one in the study and on the terminal.
 TEST_F(NewFrom, AUnitThatIsGuessedIsCalledAGuess) {
   const std::string said =
-      runs("lives.csv", "stress,N\n400,41000\n400,52000\n350,120000\n300,500000\n300,700000\n");
+      fitted("lives.csv", "stress,N\n400,41000\n400,52000\n350,120000\n300,500000\n300,700000\n");
   EXPECT_THAT(said, AllOf(HasSubstr("column 'stress' has no unit in its heading: MPa is a guess"),
                           HasSubstr("no column says which tests were stopped unbroken")));
   EXPECT_THAT(content("out/study.toml"), HasSubstr("unit = \"MPa\" }    # the unit is a GUESS"));
@@ -78,12 +55,12 @@ TEST_F(NewFrom, AUnitThatIsGuessedIsCalledAGuess) {
 
 TEST_F(NewFrom, DepthsOfSeveralBearings) {
   const std::string said =
-      runs("inspections.csv",
-           "bearing,contact,journal radius [mm],radial clearance [um],load [N],bearing length "
-           "[mm],revolutions,wear depth [um]\n"
-           "A,stationary,10,25,400,20,50000,16.7\nA,stationary,10,25,400,20,100000,31.9\n"
-           "B,stationary,10,35,400,20,50000,12.0\nB,stationary,10,35,400,20,100000,22.5\n"
-           "C,stationary,10,35,400,20,50000,19.0\nC,stationary,10,35,400,20,100000,34.5\n");
+      fitted("inspections.csv",
+             "bearing,contact,journal radius [mm],radial clearance [um],load [N],bearing length "
+             "[mm],revolutions,wear depth [um]\n"
+             "A,stationary,10,25,400,20,50000,16.7\nA,stationary,10,25,400,20,100000,31.9\n"
+             "B,stationary,10,35,400,20,50000,12.0\nB,stationary,10,35,400,20,100000,22.5\n"
+             "C,stationary,10,35,400,20,50000,19.0\nC,stationary,10,35,400,20,100000,34.5\n");
   EXPECT_THAT(said, AllOf(HasSubstr("depth: column 'wear depth [um]' in um"),
                           Not(HasSubstr("State what no heading says"))));
   EXPECT_EQ(result_["model"], "bearing-wear");

@@ -79,13 +79,14 @@ std::string shown(const Range& range, const Format& format, Script script) {
              : shown(range.low, format, script) + " to " + shown(range.high, format, script);
 }
 
-std::string plain(const Cell& cell, const Format& format) {
+std::string shown(const Cell& cell, const Format& format, Script script) {
+  const bool page = script == Script::page;
   return std::visit(
-      Overloaded{[](std::monostate) { return std::string("-"); },
-                 [](const std::string& text) { return powers_in_words(text, Script::terminal); },
-                 [&](double x) { return shown(x, format, Script::terminal); },
-                 [&](const Range& range) { return shown(range, format, Script::terminal); },
-                 [](const Badge& badge) { return badge.kind; }},
+      Overloaded{[&](std::monostate) { return std::string(page ? "–" : "-"); },
+                 [&](const std::string& text) { return powers_in_words(text, script); },
+                 [&](double x) { return shown(x, format, script); },
+                 [&](const Range& range) { return shown(range, format, script); },
+                 [&](const Badge& badge) { return page ? badge.word : badge.kind; }},
       cell);
 }
 
@@ -104,14 +105,7 @@ std::string in_words(double x, const Format& format, Script script) {
 }
 
 std::string in_words(const Cell& cell, const Column& column) {
-  const Format& format = column.format;
-  return std::visit(
-      Overloaded{[](std::monostate) { return std::string("–"); },
-                 [](const std::string& text) { return powers_in_words(text, Script::page); },
-                 [&](double x) { return shown(x, format, Script::page); },
-                 [&](const Range& range) { return shown(range, format, Script::page); },
-                 [](const Badge& badge) { return badge.word; }},
-      cell);
+  return shown(cell, column.format, Script::page);
 }
 
 std::string csv(const Table& table) {
@@ -147,7 +141,7 @@ std::string text(const Table& table) {
     if (rows.size() > most_rows_shown) break;
     rows.emplace_back();
     for (std::size_t c = 0; c < row.size(); ++c)
-      rows.back().push_back(plain(row[c], table.columns[c].format));
+      rows.back().push_back(shown(row[c], table.columns[c].format, Script::terminal));
   }
   std::string out = fmt::format("{}\n{}", printable(table.caption), text_table(rows, table.words));
   if (table.rows.size() > most_rows_shown)

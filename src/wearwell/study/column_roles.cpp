@@ -22,6 +22,19 @@ std::string dimension_of(const RoleForm& form, const std::string& unit) {
   return "";
 }
 
+// In a dimension that the role may have; `si` is tried first, and becomes that of the unit.
+NameAndUnit name_and_unit(const Column& column, const RoleForm& form, std::string& si) {
+  NameAndUnit heading = name_and_unit(column, si);
+  for (const std::string_view each : form.si) {
+    if (!heading.unit.empty()) break;
+    if (NameAndUnit other = name_and_unit(column, each); !other.unit.empty()) {
+      heading = std::move(other);
+      si = each;
+    }
+  }
+  return heading;
+}
+
 bool may_be_of(const RoleForm& form, const std::string& unit) {
   if (unit.empty() || form.si.empty()) return true;
   // "life (N)" counts cycles.
@@ -90,14 +103,7 @@ std::optional<ColumnRoles::Match> ColumnRoles::match(const Column& column, const
   const std::string stated = stated_unit(column);
   std::string si = dimension_of(form, stated);
   if (si.empty() && !form.si.empty()) si = form.si.front();
-  NameAndUnit heading = name_and_unit(column, si);
-  for (const std::string_view each : form.si) {
-    if (!heading.unit.empty()) break;
-    if (NameAndUnit other = name_and_unit(column, each); !other.unit.empty()) {
-      heading = std::move(other);
-      si = each;
-    }
-  }
+  const NameAndUnit heading = name_and_unit(column, form, si);
   for (std::size_t i = 0; i < form.words.size(); ++i) {
     const RoleWord& word = form.words[i];
     // "operating hours" names its unit: the word and not what is left of it counts.
@@ -172,14 +178,7 @@ ColumnRoles::Found ColumnRoles::take_column(const std::string& key, const Column
     match = *by_word;
   } else {
     std::string si = role.si.empty() ? "" : std::string(role.si.front());
-    NameAndUnit heading = name_and_unit(column, si);
-    for (const std::string_view each : role.si) {
-      if (!heading.unit.empty()) break;
-      if (NameAndUnit other = name_and_unit(column, each); !other.unit.empty()) {
-        heading = std::move(other);
-        si = each;
-      }
-    }
+    const NameAndUnit heading = name_and_unit(column, role, si);
     match.found = {&column, &role, si, heading.unit, false};
     match.letter = heading.letter;
     if (heading.unit.empty()) {

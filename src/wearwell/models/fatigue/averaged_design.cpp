@@ -10,7 +10,6 @@
 #include "wearwell/base/error.h"
 #include "wearwell/models/fatigue/lives_under.h"
 #include "wearwell/prognosis/weighted_quantiles.h"
-#include "wearwell/study/plot_study.h"
 #include "wearwell/study/saved_result.h"
 
 namespace wearwell::fatigue {
@@ -18,8 +17,6 @@ namespace {
 
 // A random limit makes an integral of each point of a posterior.
 constexpr Eigen::Index most_points_with_limit = 1000;
-// Of the weight of a posterior: lighter points are gathered.
-constexpr double gathered_share = 3e-7;
 constexpr double slack = 1e-6;
 
 bool alike(double a, double b) {
@@ -82,8 +79,7 @@ std::vector<DesignPoint> averaged_design(const std::vector<WeightedModel>& model
                                          const DesignQuestion& question) {
   std::vector<WeightedDraws> posteriors;
   for (const auto& [name, weight, result] : models)
-    posteriors.push_back(result.law.integrated() ? thinned(result.posterior, most_points_with_limit)
-                                                 : gathered(result.posterior, gathered_share));
+    posteriors.push_back(curve_nodes(result.law, result.posterior, most_points_with_limit));
   std::vector<DesignPoint> points(question.alternating.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
     DesignPoint& point = points[i];

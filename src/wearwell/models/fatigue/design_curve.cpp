@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "wearwell/models/fatigue/design_curve_points.h"
+#include "wearwell/models/fatigue/lives_under.h"
 #include "wearwell/models/fatigue/scatter_range.h"
 #include "wearwell/models/fatigue/sn_exhibits.h"
 #include "wearwell/models/fatigue/sn_result.h"
@@ -14,7 +15,6 @@
 #include "wearwell/present/plain.h"
 #include "wearwell/present/plot.h"
 #include "wearwell/present/text_table.h"
-#include "wearwell/study/plot_study.h"
 #include "wearwell/study/terminal_rows.h"
 
 namespace wearwell {
@@ -31,8 +31,6 @@ using present::Table;
 constexpr std::size_t shown_points = 3;
 // A random limit makes a mixture of each point of the posterior.
 constexpr Eigen::Index most_draws_with_limit = 600;
-// Of the weight of a quadrature: lighter nodes are gathered.
-constexpr double gathered_share = 3e-7;
 
 std::string with_unit(const SnData& data, double si) {
   return fmt::format("{:.4g}{}", from_si(data.stress_unit, si), after_number(data.stress_unit));
@@ -291,8 +289,7 @@ TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) 
   TradeAddition added;
   added.body["fatigue"] = fatigue::sn_json(law, data);
   const WeightedDraws& all = fit.exact ? fit.exact->nodes : fit.pooled;
-  const WeightedDraws draws =
-      law.integrated() ? thinned(all, most_draws_with_limit) : gathered(all, gathered_share);
+  const WeightedDraws draws = fatigue::curve_nodes(law, all, most_draws_with_limit);
   const StandardFit standard = standard_fit(law, data);
   const std::vector<CurvePoint> points = curve_points(law, data, draws, standard);
   const std::string where = line_in_words(law, data);

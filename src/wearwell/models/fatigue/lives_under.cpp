@@ -5,8 +5,16 @@
 #include "wearwell/models/fatigue/life.h"
 #include "wearwell/models/fatigue/reversed_at.h"
 #include "wearwell/prognosis/weighted_quantiles.h"
+#include "wearwell/study/plot_study.h"
 
 namespace wearwell::fatigue {
+
+WeightedDraws curve_nodes(const SnLaw& law, const WeightedDraws& posterior,
+                          Eigen::Index most_with_limit) {
+  constexpr double gathered_share = 3e-7;
+  return law.integrated() ? thinned(posterior, most_with_limit)
+                          : gathered(posterior, gathered_share);
+}
 
 LivesUnder::LivesUnder(const SnLaw& law, const WeightedDraws& draws, const Stress& stress)
     : law_(law), draws_(draws), stress_(stress) {

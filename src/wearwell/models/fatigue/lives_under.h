@@ -8,6 +8,11 @@
 
 namespace wearwell::fatigue {
 
+/// The points of a posterior at which curves are computed: its nodes, those of less than 3e-7 of the weight gathered; with a
+/// limit that scatters, an integral at each point, `most_with_limit`.
+WeightedDraws curve_nodes(const SnLaw& law, const WeightedDraws& posterior,
+                          Eigen::Index most_with_limit);
+
 /// Lives under one stress at each point of a posterior. Law and draws must outlive it.
 class LivesUnder {
  public:

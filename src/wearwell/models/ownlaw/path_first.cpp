@@ -157,7 +157,8 @@ std::string study_text(const ColumnRoles& roles, const Path& path, const std::st
 void say_limit(ColumnRoles& roles) {
   if (roles.choices().limit.empty())
     roles.guesses.emplace_back(
-        "no limit is stated: wear is fitted, and no life is told; state it with --limit, or as "
+        "no limit is stated: wear is fitted, and no life is predicted; state it with --limit, or "
+        "as "
         "[predict] limit");
 }
 
