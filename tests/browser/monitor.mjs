@@ -1,5 +1,5 @@
 // The monitor's page in headless Chromium: at both widths, light and dark, it renders, follows what machines report,
-// is worked by keyboard alone, says when it lost its server, is clean for axe-core, logs no error and fetches nothing
+// is worked by keyboard alone, says when it lost its server, is clean for axe-core, covers no text of a plot, logs no error and fetches nothing
 // from elsewhere.
 //
 //   node monitor.mjs NODE_MODULES SCREENSHOTS SERVE_GENERATED
@@ -8,6 +8,7 @@ import {mkdirSync, readFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {join, resolve} from 'node:path';
 import {createInterface} from 'node:readline';
+import {boxFaults} from './plot_boxes.mjs';
 
 const [modules, screenshots, server] = process.argv.slice(2);
 const require = createRequire(join(resolve(modules), 'any.js'));
@@ -97,7 +98,7 @@ async function looks(browser, {name, ...options}) {
   await accessibility(page, 'fleet', complaints);
   if (options.viewport.width < 700) await page.click('.row >> nth=3');
   await drawn(page);
-  complaints.push(...await layout(page));
+  complaints.push(...await layout(page), ...await boxFaults(page, 'svg.plot'));
   await page.screenshot({path: join(screenshots, `monitor-${name}-unit.png`), fullPage: true});
   await page.evaluate(() => { document.getElementById('detail').scrollTop = 600; });
   await page.screenshot({path: join(screenshots, `monitor-${name}-below.png`)});
@@ -105,7 +106,7 @@ async function looks(browser, {name, ...options}) {
   // The one of which nothing was heard: no readings, an interval without end.
   await page.goto(`${address}#unit=never%20heard%20of`);
   await page.waitForSelector('#detail[data-unit="never heard of"]');
-  complaints.push(...await layout(page));
+  complaints.push(...await layout(page), ...await boxFaults(page, 'svg.plot'));
   check(/more than/.test(await page.textContent('.tiles')), `${name}: an interval without end is not told`);
   await page.screenshot({path: join(screenshots, `monitor-${name}-unheard.png`)});
   await context.close();

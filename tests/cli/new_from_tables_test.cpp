@@ -108,6 +108,16 @@ TEST_F(NewFromTables, WearOfUnitsInFrench) {
   EXPECT_TRUE(result_["parameters"].contains("scatter"));
 }
 
+// A fit, too, says what it left out of its table.
+TEST_F(NewFromTables, RowsOfMeansAreLeftOutAndSaid) {
+  fitted("verschleiss.csv",
+         "Probe;Zyklen;Verschleiß [µm]\n1;100;10,5\n2;200;21,0\n3;300;30,2\n4;400;NA\n"
+         "Mittelwert;250;20,6\n");
+  EXPECT_EQ(result_["data"]["rows"], 4);
+  EXPECT_THAT(result_["data"]["remarks"].dump(),
+              AllOf(HasSubstr("Mittelwert"), HasSubstr("without a value ('NA')")));
+}
+
 TEST_F(NewFromTables, WearUnderForceIsArchards) {
   const std::string said =
       fitted("stift.csv",

@@ -105,6 +105,7 @@ TEST(SummaryJson, HoldsTheModeAndLeaveOneOut) {
   EXPECT_EQ(loo["pointwise"][1]["count"].get<int>(), 2);
   EXPECT_EQ(loo["pointwise"][1]["refitted"], true);
   EXPECT_EQ(json["data"]["fingerprint"], "da39a3ee");
+  EXPECT_EQ(json["data"]["remarks"], Json::array({"1 hidden row left out (3)"}));
   result.mode->problem = "the density still rises";
   EXPECT_EQ(whole(result)["mode"], (Json{{"problem", "the density still rises"}}));
 }

@@ -49,6 +49,7 @@ inline PosteriorSummary sample_result() {
   result.log_evidence = -12.25;
   result.density_unit = "mm^3";
   result.data_fingerprint = "da39a3ee";
+  result.data_remarks = {"1 hidden row left out (3)"};
   result.mode =
       ModeSummary{"",
                   {{"k", "mm^3/(N m)", 7.4e-4, 9e-6, "inside"},

@@ -88,6 +88,8 @@ class SavedResults : public ScratchTest {
 TEST_F(SavedResults, LoseNothing) {
   const SavedReport report = read_saved_report(folder());
   EXPECT_EQ(report_html(report.header, report.sections), report_html(full_.header, full_.sections));
+  EXPECT_THAT(report_html(report.header, report.sections),
+              HasSubstr("rows of joint.csv; 1 hidden row left out (3)"));
   const SavedResult read = read_saved_result(folder());
   const PosteriorSummary full = full_result();
   EXPECT_EQ(to_json(compare({{"a", read}, {"b", read}})).dump(),

@@ -54,6 +54,7 @@ Header selection_header(const SelectionResult& result) {
   header.data.rows = static_cast<std::size_t>(result.observed.size());
   header.data.fingerprint = fingerprint(
       result.response, std::vector<double>(result.observed.begin(), result.observed.end()));
+  header.data.remarks = result.data_remarks;
   header.seed = result.settings.seed;
   header.checks = {search_check(result.selection.search), nested_check(result.selection.nested)};
   header.trusted = result.selection.search.certified;

@@ -81,7 +81,7 @@ Table read_table(const std::filesystem::path& path, const std::optional<std::str
   DuckdbSession session(file, settings);
   Table table;
   table.source = file.source();
-  table.layout = session.layout_in_words();
+  table.reading = session.reading();
   if (sql) {
     table.source += " (through sql)";
     for (const TextColumn& column : session.layout() ? session.layout()->columns : no_columns) {
@@ -133,7 +133,7 @@ Table query_table(const Table& table, const std::string& sql, const QueryLimits&
   DuckdbSession session(*file, plain);
   Table result;
   result.source = table.source + " (through sql)";
-  result.layout = table.layout;
+  result.reading = table.reading;
   run_query(session, sql, limits);
   add_result(session, false, result);
   return result;

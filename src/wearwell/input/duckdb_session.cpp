@@ -223,8 +223,9 @@ std::string DuckdbSession::sentence(const std::string& message) const {
   return text;
 }
 
-std::string DuckdbSession::layout_in_words() const {
-  return layout_ ? in_words(*layout_, sheet_name_) : "";
+TableReading DuckdbSession::reading() const {
+  if (!layout_) return {};
+  return {in_words(*layout_, sheet_name_), layout_->notes};
 }
 
 const TextColumn* DuckdbSession::column(const std::string& name) const {

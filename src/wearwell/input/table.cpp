@@ -1,6 +1,7 @@
 #include "wearwell/input/table.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
@@ -12,6 +13,10 @@
 #include "wearwell/input/number_text.h"
 
 namespace wearwell {
+
+std::string remarks_suffix(const std::vector<std::string>& remarks) {
+  return remarks.empty() ? "" : fmt::format("; {}", fmt::join(remarks, "; "));
+}
 
 const Column& Table::column(std::string_view name) const {
   std::vector<std::string> names;
@@ -134,7 +139,7 @@ constexpr double smallest_si = 1e-100, largest_si = 1e100;
 // A file can be read without such rows.
 std::string no_value(const Table& table, const Column& column) {
   std::string words = "no value (empty or NaN)";
-  if (!table.layout.empty() && column.name.find_first_of("\"\\\n") == std::string::npos)
+  if (!table.reading.layout.empty() && column.name.find_first_of("\"\\\n") == std::string::npos)
     words += fmt::format(
         "; to leave such rows out: sql = 'select * from data where \"{}\" is not null' in [data], "
         "or "

@@ -27,12 +27,22 @@ struct Column {
   bool unit_in_cells = false;             ///< "12 mm"
 };
 
+/// How a file holds a table, for people.
+struct TableReading {
+  std::string
+      layout;  ///< "semicolons, decimal comma", then the remarks; empty where nothing is to say
+  std::vector<std::string> remarks = {};  ///< "2 hidden rows read like the others (rows 5, 9)"
+};
+
+/// "; 2 hidden rows read like the others (rows 5, 9)", to follow the name of a file; empty without remarks.
+std::string remarks_suffix(const std::vector<std::string>& remarks);
+
 /// Named columns of equal length, in the units of the file. Row 1 is the first row of data.
 struct Table {
   std::string source;  ///< the file, for messages
   std::vector<Column> columns;
   std::size_t rows = 0;
-  std::string layout = {};  ///< how the file holds them, for people: "commas, decimal point"
+  TableReading reading = {};
   std::vector<std::size_t> lines = {};    ///< of the file, for each row, where that is not row + 1
   std::vector<std::size_t> origins = {};  ///< the row of the file, where rows were repeated; from 1
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/input/table.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/section.h"
 #include "wearwell/selection/figures.h"
@@ -184,7 +185,8 @@ std::string selection_report(const SelectionResult& result) {
   fit.add(Figures{selection_fit_figures(result)});
   return html_page({result.version,
                     fmt::format("Terms of {}", result.response),
-                    fmt::format("{} rows of {}", result.observed.size(), result.data_file),
+                    fmt::format("{} rows of {}{}", result.observed.size(), result.data_file,
+                                remarks_suffix(result.data_remarks)),
                     {verdict_section(result), size_section(result), fit,
                      coefficient_section(result), model_section(result), method_section(result)}});
 }

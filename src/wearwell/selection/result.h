@@ -11,11 +11,12 @@ namespace wearwell {
 /// A selection of terms with what its writers need to speak of it.
 struct SelectionResult {
   std::string version;
-  std::string data_file, data_sha1, sql;  ///< sql: empty without
-  std::string response;                   ///< column
-  std::string weights_column;             ///< empty without
-  std::vector<std::string> inputs;        ///< columns of `input_values`
-  Eigen::MatrixXd input_values;           ///< rows x inputs
+  std::string data_file, data_sha1, sql;       ///< sql: empty without
+  std::vector<std::string> data_remarks = {};  ///< on how the table was read
+  std::string response;                        ///< column
+  std::string weights_column;                  ///< empty without
+  std::vector<std::string> inputs;             ///< columns of `input_values`
+  Eigen::MatrixXd input_values;                ///< rows x inputs
   Design design;
   Eigen::VectorXd observed, weights;
   SelectionSettings settings;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/input/table.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 
@@ -152,8 +153,9 @@ std::string selection_text(const SelectionResult& result) {
                       plain_number(search.submodels), best_by(result.settings.search.criterion),
                       search.certified ? ": proven" : " that was found: NOT PROVEN");
   text += fmt::format(
-      "  {} rows of {}{}\n", result.observed.size(), result.data_file,
-      result.weights_column.empty() ? "" : fmt::format(", weighted by {}", result.weights_column));
+      "  {} rows of {}{}{}\n", result.observed.size(), result.data_file,
+      result.weights_column.empty() ? "" : fmt::format(", weighted by {}", result.weights_column),
+      remarks_suffix(result.data_remarks));
   text += fmt::format("  R2 {}   R2p {}   RMSE {}   RMSEp {}\n", number(fit.r2), number(fit.r2p),
                       number(fit.rmse), number(fit.rmsep));
   if (search.submodels > 1) text += "  " + nested_sentence(selection.nested) + "\n";

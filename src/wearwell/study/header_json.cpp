@@ -23,15 +23,16 @@ Json to_json(const std::vector<Check>& checks) {
 }
 
 Json to_json(const Header& header) {
+  Json data = {{"files", header.data.files},
+               {"rows", header.data.rows},
+               {"fingerprint", header.data.fingerprint}};
+  if (!header.data.remarks.empty()) data["remarks"] = header.data.remarks;
   return {{"wearwell", header.version},
           {"schema", header.schema},
           {"title", header.title},
           {"model", header.model},
           {"equation", header.equation},
-          {"data",
-           {{"files", header.data.files},
-            {"rows", header.data.rows},
-            {"fingerprint", header.data.fingerprint}}},
+          {"data", std::move(data)},
           {"seed", header.seed},
           {"trusted", header.trusted},
           {"checks", to_json(header.checks)}};
@@ -74,6 +75,9 @@ Header read_header(const JsonReader& json) {
   for (const JsonReader& file : data.at("files").items()) header.data.files.push_back(file.text());
   header.data.rows = static_cast<std::size_t>(data.at("rows").integer(1));
   header.data.fingerprint = data.at("fingerprint").text();
+  if (const auto remarks = data.find("remarks")) {
+    for (const JsonReader& each : remarks->items()) header.data.remarks.push_back(each.text());
+  }
   header.seed = json.at("seed").natural();
   header.trusted = json.at("trusted").flag();
   header.checks = read_checks(json.at("checks"));

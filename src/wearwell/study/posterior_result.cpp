@@ -22,7 +22,7 @@ Result posterior_result(PosteriorSummary summary) {
                    .title = s.title,
                    .model = s.model,
                    .equation = s.equation,
-                   .data = {{s.data_file}, s.data_rows, s.data_fingerprint},
+                   .data = {{s.data_file}, s.data_rows, s.data_fingerprint, s.data_remarks},
                    .seed = s.seed,
                    .trusted = s.trusted,
                    .checks = s.checks};

@@ -118,8 +118,8 @@ struct PosteriorStudy : Study {
   std::vector<double> observed;
   DensityUnit density;  ///< in which log densities of what was observed are reported
   std::vector<DataColumn> data_columns;  ///< what was read, to find mistaken units
-  std::string data_layout;               ///< how the table is written, in words
-  std::string observation = "row";       ///< what the likelihood's factors are of: "row", "bearing"
+  TableReading data_reading;
+  std::string observation = "row";  ///< what the likelihood's factors are of: "row", "bearing"
   std::vector<Parameter> parameters;
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;
   std::optional<FitData> fit_data;  ///< by which the fit is checked

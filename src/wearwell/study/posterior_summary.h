@@ -236,6 +236,7 @@ struct PosteriorSummary {
   std::string version;
   std::string title, model, equation, data_file;
   std::size_t data_rows = 0;
+  std::vector<std::string> data_remarks = {};  ///< `Header::Data::remarks`
   std::string method;  ///< that made the draws: "exact" (quadrature), "nuts" or "metropolis"
   std::string method_note = {};  ///< why it is not the one that was asked for; empty where it is
   int chains = 0, warmup = 0, draws = 0;

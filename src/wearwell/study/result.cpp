@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/input/table.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/header_json.h"
@@ -27,7 +28,9 @@ std::string terminal_text(const Result& result, const TerminalStyle& style) {
   const std::string trust = wrapped(printable(trust_line(header.checks)), 0, 2);
   std::string out =
       wrapped(printable(header.title), 0, 2) + wrapped(printable(header.equation), 2, 4) +
-      wrapped(fmt::format("{}: {} rows", printable(header.data.names()), header.data.rows), 2, 4) +
+      wrapped(fmt::format("{}: {} rows", printable(header.data.names()), header.data.rows) +
+                  printable(remarks_suffix(header.data.remarks)),
+              2, 4) +
       "\n" + trust;
   for (const present::Table* table : present::tables(result.sections)) {
     if (table->id != "checks") out += "\n" + present::text(*table);
@@ -37,10 +40,10 @@ std::string terminal_text(const Result& result, const TerminalStyle& style) {
 }
 
 std::string report_html(const Header& header, const std::vector<present::Section>& sections) {
-  return html_page(
-      {header.version, header.title,
-       fmt::format("{}, {} rows of {}", header.model, header.data.rows, header.data.names()),
-       sections});
+  return html_page({header.version, header.title,
+                    fmt::format("{}, {} rows of {}{}", header.model, header.data.rows,
+                                header.data.names(), remarks_suffix(header.data.remarks)),
+                    sections});
 }
 
 }  // namespace wearwell

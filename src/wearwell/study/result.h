@@ -29,6 +29,8 @@ struct Header {
     std::vector<std::string> files = {};  ///< as the study names them
     std::size_t rows = 0;                 ///< of the data
     std::string fingerprint = {};         ///< of what was observed: equal for the same data
+    /// What to know of how the tables were read: "2 hidden rows read like the others (rows 5, 9)".
+    std::vector<std::string> remarks = {};
 
     std::string names() const;  ///< "a.csv, b.csv"
   } data = {};

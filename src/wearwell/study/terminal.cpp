@@ -8,6 +8,7 @@
 #include <span>
 
 #include "wearwell/base/printable.h"
+#include "wearwell/input/table.h"
 #include "wearwell/present/html.h"
 #include "wearwell/present/number.h"
 #include "wearwell/present/plain.h"
@@ -279,8 +280,9 @@ std::string answer_lines(const PosteriorSummary& result) {
 std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle& style) {
   std::string out = wrapped(printable(result.title), 0, 2) +
                     wrapped(printable(powers_in_words(result.equation, Script::terminal)), 2, 4) +
-                    wrapped(fmt::format("{}: {} rows", printable(result.data_file),
-                                        plain_given(static_cast<double>(result.data_rows))),
+                    wrapped(fmt::format("{}: {} rows{}", printable(result.data_file),
+                                        plain_given(static_cast<double>(result.data_rows)),
+                                        printable(remarks_suffix(result.data_remarks))),
                             2, 4);
   if (!result.method_note.empty()) out += wrapped(result.method_note, 2, 4);
   const std::string trust = printable(trust_line(result.checks));
