@@ -75,12 +75,12 @@ function(wearwell_library name)
   set_property(GLOBAL APPEND PROPERTY wearwell_libraries wearwell_${name})
 endfunction()
 
-# Commands cost seconds each, nearly all of it the parser of command lines: those of a folder are compiled as one source.
+# Commands cost seconds each, nearly all of it the parser of command lines: a group of them is compiled as one source.
 #
-#   wearwell_commands(cli fit.cpp check.cpp)
-function(wearwell_commands name)
+#   wearwell_commands(cli commands fit.cpp check.cpp)
+function(wearwell_commands name group)
   set_target_properties(wearwell_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP commands)
+  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${group})
 endfunction()
 
 # One test program per folder under tests/, linked to the folder it tests.

@@ -5,7 +5,7 @@
 #include "core.h"
 #include "wearwell/embed/cycles.h"
 #include "wearwell/embed/tools.h"
-#include "wearwell/models/bearing/commands.h"
+#include "wearwell/models/bearing/answer.h"
 
 namespace wearwell::python {
 namespace {
@@ -45,12 +45,12 @@ py::tuple rainflow(const py::array_t<double, py::array::forcecast>& signal, bool
 py::tuple bearing_answer(const std::string& command, const std::string& contact,
                          const std::map<std::string, std::string>& inputs, const std::string& unit,
                          const std::string& limit, int draws, std::uint64_t seed) {
-  bearing::Told told;
-  {
+  const bearing::Answer answer = [&] {
     const py::gil_scoped_release release;
-    told = bearing::answer(command, {contact, inputs, unit, limit, draws, seed});
-  }
-  return py::make_tuple(told.json.dump(), told.warnings, told.margin);
+    return bearing::answer(command, contact, inputs,
+                           {.unit = unit, .limit = limit, .draws = draws, .seed = seed});
+  }();
+  return py::make_tuple(bearing::to_json(answer).dump(), bearing::warnings(answer), answer.margin);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include "core.h"
 #include "look.h"
-#include "wearwell/models/bearing/commands.h"
+#include "wearwell/models/bearing/answer.h"
 
 namespace wearwell::r {
 namespace {
@@ -71,11 +71,12 @@ SEXP bearing_answer(const std::string& command, const std::string& contact,
     for (R_xlen_t i = 0; i < inputs.size(); ++i)
       texts[Rcpp::as<std::string>(names[i])] = Rcpp::as<std::string>(inputs[i]);
   }
-  const bearing::Told told =
-      bearing::answer(command, {contact, texts, unit, limit, draws, std::stoull(seed)});
-  return named_list({{"answer", Rcpp::Shield<SEXP>(list_of(told.json))},
-                     {"warnings", Rcpp::Shield<SEXP>(texts_of(told.warnings))},
-                     {"margin", Rcpp::Shield<SEXP>(text_of(told.margin))}});
+  const bearing::Answer answer =
+      bearing::answer(command, contact, texts,
+                      {.unit = unit, .limit = limit, .draws = draws, .seed = std::stoull(seed)});
+  return named_list({{"answer", Rcpp::Shield<SEXP>(list_of(bearing::to_json(answer)))},
+                     {"warnings", Rcpp::Shield<SEXP>(texts_of(bearing::warnings(answer)))},
+                     {"margin", Rcpp::Shield<SEXP>(text_of(answer.margin))}});
 }
 
 using Held = std::shared_ptr<embed::PlateCycles>;

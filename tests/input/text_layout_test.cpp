@@ -48,7 +48,7 @@ TEST_F(TextLayoutTest, GermanExcel) {
       "Lastwechsel;Volumen [mm\xB3];Gr\xF6\xDF"
       "e\r\n1.000;0,35;klein\r\n10.000;1,2;\r\n250.000;12,75;gro\xDF\r\n;;\r\n";
   const Table table = read(body);
-  EXPECT_EQ(table.reading.layout,
+  EXPECT_EQ(table.layout.text,
             "semicolons, decimal comma, thousands point, cp1252, 1 empty row left out");
   EXPECT_THAT(si_numbers(table, "Lastwechsel", Unit{}), ElementsAre(1000, 10000, 250000));
   EXPECT_THAT(si_numbers(table, "Volumen [mm\u00B3]", Unit{}), ElementsAre(0.35, 1.2, 12.75));
@@ -62,7 +62,7 @@ TEST_F(TextLayoutTest, GermanExcel) {
   for (const bool little : {true, false}) {
     const Table wide = read(utf16(body, little));
     EXPECT_THAT(si_numbers(wide, "Volumen", Unit{}), ElementsAre(0.35, 1.2, 12.75));
-    EXPECT_THAT(wide.reading.layout, HasSubstr("UTF-16"));
+    EXPECT_THAT(wide.layout.text, HasSubstr("UTF-16"));
   }
 }
 
@@ -77,7 +77,7 @@ TEST_F(TextLayoutTest, FrenchSwissAndItalian) {
                       "carico;cicli\r\n\"250,5\";\"35.000\"\r\n",
                       "cicli"),
               ElementsAre(35000));
-  EXPECT_EQ(read("charge;cycles\n250,5;35 000\n").reading.layout,
+  EXPECT_EQ(read("charge;cycles\n250,5;35 000\n").layout.text,
             "semicolons, decimal comma, thousands blank");
 }
 
@@ -109,7 +109,7 @@ TEST_F(TextLayoutTest, LinesAboveTheHeadings) {
   const std::string preamble =
       "Pr\u00FCfstand 7\nPr\u00FCfer;M\u00FCller, Hans\n# 12 Proben\n\nZeit;Kraft;Weg\n";
   const Table table = read(preamble + "0,5;1,5;2,5\n1,5;2,5;3,5\n");
-  EXPECT_EQ(table.reading.layout, "semicolons, decimal comma, headings in line 5");
+  EXPECT_EQ(table.layout.text, "semicolons, decimal comma, headings in line 5");
   EXPECT_THAT(si_numbers(table, "Kraft", Unit{}), ElementsAre(1.5, 2.5));
   // As Excel writes them, with all the semicolons.
   EXPECT_THAT(numbers("Bericht;;\nvom 3.4.2024;;\n;;\nZeit;Kraft;Weg\n1;2;3\n", "Weg"),
@@ -133,7 +133,7 @@ TEST_F(TextLayoutTest, CommentsAndCommasTooMany) {
   const char* const text = "x;y\n# warm\n1;2\n# cold; -5 degC\n3;4;\n";
   const Table table = read(text, {.comment = "#"});
   EXPECT_THAT(si_numbers(table, "y", Unit{}), ElementsAre(2, 4));
-  EXPECT_EQ(table.reading.layout, "semicolons, 2 comment lines left out");
+  EXPECT_EQ(table.layout.text, "semicolons, 2 comment lines left out");
   EXPECT_THAT(refused(text, "x"), HasSubstr("write comment = \"#\" into [data]"));
   EXPECT_THAT(numbers("x;y;\n1;2;\n3;4;\n", "y"), ElementsAre(2, 4));
   EXPECT_THAT(numbers("x;y\n1;2;;\n3;4;;\n", "y"), ElementsAre(2, 4));
@@ -147,7 +147,7 @@ TEST_F(TextLayoutTest, ARowOfUnits) {
   EXPECT_EQ(table.rows, 2u);
   EXPECT_EQ(table.column("Moment").unit, "Nm");
   EXPECT_EQ(table.column("Temp").unit, "\u00B0C");
-  EXPECT_EQ(table.reading.layout, "semicolons, decimal comma, units in the row below the headings");
+  EXPECT_EQ(table.layout.text, "semicolons, decimal comma, units in the row below the headings");
   EXPECT_EQ(read("t,x\n[s],[mm]\n1,2\n").column("x").unit, "[mm]");
   EXPECT_EQ(read("t,x\n(s),-\n1,2\n").column("x").unit, "-");
   // Rows of data stay rows of data.
@@ -173,7 +173,7 @@ TEST_F(TextLayoutTest, CellsWithoutAValue) {
   EXPECT_TRUE(std::isnan(table.column("y").numbers[0]));
   EXPECT_EQ(table.column("y").numbers[1], 2.5);
   EXPECT_EQ(
-      table.reading.layout,
+      table.layout.text,
       "commas, decimal point, 1 cell of 'x' without a value ('n/a'), 2 cells of 'y' without a "
       "value ('NA')");
   EXPECT_THAT(refused("x,y\n1,2\nNA,3\n", "x"),
@@ -188,7 +188,7 @@ TEST_F(TextLayoutTest, CellsWithTheirUnit) {
   const Table table = read("d;y\n12 mm;1\n12,5 mm;2\n");
   EXPECT_EQ(table.column("d").unit, "mm");
   EXPECT_THAT(si_numbers(table, "d", Unit{}), ElementsAre(12, 12.5));
-  EXPECT_EQ(table.reading.layout, "semicolons, decimal comma, the unit mm in the cells of 'd'");
+  EXPECT_EQ(table.layout.text, "semicolons, decimal comma, the unit mm in the cells of 'd'");
   EXPECT_THAT(table.column("d").text, ElementsAre("12 mm", "12,5 mm"));
   EXPECT_THAT(refused("d,y\n12 mm,1\n1.2 cm,2\n", "d"),
               AllOf(HasSubstr("row 1, column 'd': '12 mm'"), HasSubstr("'1.2 cm' in row 2")));
@@ -207,7 +207,7 @@ TEST_F(TextLayoutTest, CellsThatAreLimits) {
   EXPECT_EQ(cell(2).sign, '>');
   EXPECT_EQ(cell(2).number, 5e6);
   EXPECT_TRUE(cell(3).unstated);
-  EXPECT_THAT(table.reading.layout, HasSubstr("3 cells of 'V' that are limits ('<0,5')"));
+  EXPECT_THAT(table.layout.text, HasSubstr("3 cells of 'V' that are limits ('<0,5')"));
   EXPECT_THAT(message_of<InputError>([&] { si_numbers(table, "V", Unit{}); }),
               AllOf(HasSubstr("row 1, column 'V': '<0,5' is a limit"), HasSubstr("left-censored")));
 }
@@ -216,7 +216,7 @@ TEST_F(TextLayoutTest, RowsOfMeansBelow) {
   const std::string rows = "Nr.;x\n1;2,5\n2;3,5\n";
   const Table table = read(rows + "Mittelwert;3\nStabw.;0,7\n");
   EXPECT_THAT(si_numbers(table, "x", Unit{}), ElementsAre(2.5, 3.5));
-  EXPECT_EQ(table.reading.layout,
+  EXPECT_EQ(table.layout.text,
             "semicolons, decimal comma, the last 2 rows left out (Mittelwert, Stabw.)");
   EXPECT_THAT(numbers(rows + ";\n;\nmean;3\n", "x"), ElementsAre(2.5, 3.5));
   EXPECT_THAT(numbers(rows + "Summe;6\n", "x", {.summary_rows = false}), ElementsAre(2.5, 3.5, 6));
@@ -235,9 +235,8 @@ TEST_F(TextLayoutTest, MergedHeadings) {
   const Table table = read("Messung;;;\nPart;Load;;Wear\n1;2;3;4\n5;6;7;8\n");
   EXPECT_EQ(table.columns[2].name, "column3");
   EXPECT_THAT(si_numbers(table, "Wear", Unit{}), ElementsAre(4, 8));
-  EXPECT_THAT(table.reading.layout,
-              AllOf(HasSubstr("headings in line 2"),
-                    HasSubstr("a column without a heading, read as 'column3'")));
+  EXPECT_THAT(table.layout.text, AllOf(HasSubstr("headings in line 2"),
+                                       HasSubstr("a column without a heading, read as 'column3'")));
 }
 
 TEST_F(TextLayoutTest, SqlSeesTheNumbers) {

@@ -82,7 +82,7 @@ constexpr const char* two_columns =
 TEST_F(WorkbookTest, NumbersTextsAndFormulas) {
   const Table table = read(book(two_columns));
   ASSERT_EQ(table.rows, 2u);
-  EXPECT_EQ(table.reading.layout, "sheet 'Tabelle1'");
+  EXPECT_EQ(table.layout.text, "sheet 'Tabelle1'");
   EXPECT_THAT(si_numbers(table, "life", Unit{}), ElementsAre(35, 12000));
   EXPECT_THAT(si_numbers(table, "load [N]", Unit{}), ElementsAre(1.234, 0.1));
   EXPECT_EQ(place(table, "life", 1), table.source + ", row 2 (line 4), column 'life'");
@@ -153,8 +153,7 @@ TEST_F(WorkbookTest, SheetRangeAndHeadingRow) {
               HasSubstr("has no sheet 'a'; it has A, B, C (nearest: 'A')"));
   EXPECT_THAT(refused(file, {.sheet = "C"}), HasSubstr("holds nothing"));
   const Table table = read(file, {.sheet = "B", .range = "B2:C6"});
-  EXPECT_EQ(table.reading.layout,
-            "sheet 'B', headings in row 3, units in the row below the headings");
+  EXPECT_EQ(table.layout.text, "sheet 'B', headings in row 3, units in the row below the headings");
   EXPECT_EQ(table.column("y").unit, "N");
   EXPECT_THAT(si_numbers(table, "y", Unit{}), ElementsAre(2, 4));
   EXPECT_EQ(read(file, {.header_row = 3, .sheet = "B", .range = "$B$3:$C$5"}).rows, 1u);
@@ -194,7 +193,7 @@ TEST_F(WorkbookTest, NumbersInCellsOfText) {
     return si_numbers(read(with(cells), settings), "x", Unit{});
   };
   EXPECT_THAT(numbers({"'3,2", "3.4", "'1.234,5"}), ElementsAre(3.2, 3.4, 1234.5));
-  EXPECT_EQ(read(with({"'3,2", "3.4"})).reading.layout,
+  EXPECT_EQ(read(with({"'3,2", "3.4"})).layout.text,
             "sheet 'Tabelle1', decimal comma in cells of text");
   EXPECT_THAT(numbers({"'3.2", "'1,234.5"}), ElementsAre(3.2, 1234.5));
   // Beside a decimal comma a point is a mark for thousands; a cell that is a number has none.
@@ -222,8 +221,7 @@ TEST_F(WorkbookTest, MergedCellsStandInEachRow) {
       R"(</sheetData><mergeCells><mergeCell ref="A2:A3"/><mergeCell ref="A4:A5"/></mergeCells></worksheet>)";
   const Table table = read(zip_of(parts));
   EXPECT_THAT(table.column("part").text, ElementsAre("A", "A", "B", "B", ""));
-  EXPECT_EQ(table.reading.layout,
-            "sheet 'A', merged cells A2:A3, A4:A5 read in each of their rows");
+  EXPECT_EQ(table.layout.text, "sheet 'A', merged cells A2:A3, A4:A5 read in each of their rows");
 }
 
 TEST_F(WorkbookTest, HiddenRowsAreSaid) {
@@ -231,10 +229,10 @@ TEST_F(WorkbookTest, HiddenRowsAreSaid) {
                          row_of(3, {"3", "4"}, R"(hidden="1")") + row_of(4, {"5", "6"}));
   const Table table = read(file);
   EXPECT_EQ(table.rows, 3u);
-  EXPECT_EQ(table.reading.layout, "sheet 'Tabelle1', 1 hidden row read like the others (3)");
+  EXPECT_EQ(table.layout.text, "sheet 'Tabelle1', 1 hidden row read like the others (3)");
   const Table without = read(file, {.hidden_rows = false});
   EXPECT_THAT(si_numbers(without, "x", Unit{}), ElementsAre(1, 5));
-  EXPECT_EQ(without.reading.layout, "sheet 'Tabelle1', 1 hidden row left out (3)");
+  EXPECT_EQ(without.layout.text, "sheet 'Tabelle1', 1 hidden row left out (3)");
 }
 
 TEST_F(WorkbookTest, WhatIsRefused) {

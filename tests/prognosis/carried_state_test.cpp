@@ -25,7 +25,7 @@ CarriedState example() {
   state.source.study = {"study.toml", "title = \"\xc3\xa4\"\n"};
   Table table;
   table.source = "a.csv";
-  table.reading.layout = "commas";
+  table.layout.text = "commas";
   table.rows = 3;
   table.columns = {{"time", true, {1, NAN, -0.0}, {}, "h"},
                    {"unit", false, {}, {"J7", "", "\n,\""}}};

@@ -119,9 +119,9 @@ Model model() {
   return {.key = "linear-drift",
           .trade = "drift",
           .example = example,
-          .read = [](const TomlReader& root,
-                     const Source& source) { return read_posterior_study(root, source, read); },
-          .add_commands = nullptr};
+          .read = [](const TomlReader& root, const Source& source) {
+            return read_posterior_study(root, source, read);
+          }};
 }
 
 }  // namespace drift

@@ -4,10 +4,14 @@
 #include <string>
 
 #include "wearwell/cli/backtest.h"
+#include "wearwell/cli/bearing/bearing_commands.h"
 #include "wearwell/cli/check.h"
+#include "wearwell/cli/clutch/clutch_commands.h"
 #include "wearwell/cli/compare.h"
 #include "wearwell/cli/decide.h"
+#include "wearwell/cli/fatigue/fatigue_commands.h"
 #include "wearwell/cli/fit.h"
+#include "wearwell/cli/formula/export_command.h"
 #include "wearwell/cli/generate.h"
 #include "wearwell/cli/help.h"
 #include "wearwell/cli/life.h"
@@ -20,7 +24,7 @@
 namespace wearwell {
 namespace {
 
-// Under which heading the help shows a command; commands of other models stand with the applications.
+// Under which heading the help shows a command.
 void group_commands(CLI::App& app) {
   static const std::map<std::string, const char*> groups = {
       {"new", "A study"},       {"check", "A study"},       {"fit", "A study"},
@@ -53,9 +57,10 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   add_backtest_command(*app, models, exit_code);
   add_compare_command(*app, exit_code);
   add_monitor_command(*app, models, exit_code);
-  for (const Model& model : models) {
-    if (model.add_commands) model.add_commands(*app, exit_code);
-  }
+  bearing::add_bearing_command(*app);
+  clutch::add_clutch_commands(*app, exit_code);
+  fatigue::add_fatigue_command(*app, exit_code);
+  ownlaw::add_export_command(*app, exit_code);
   add_select_command(*app, exit_code);
   add_help_command(*app, exit_code);
   add_version_command(*app, exit_code);

@@ -4,6 +4,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/input/json_reader.h"
 #include "wearwell/study/posterior_study.h"
 

@@ -19,6 +19,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/followed_result.h"
 #include "wearwell/cli/monitored.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/monitor/stored_units.h"
 #include "wearwell/present/page.h"

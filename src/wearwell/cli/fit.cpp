@@ -11,7 +11,7 @@
 
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
-#include "wearwell/input/option_value.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/present/progress_line.h"
 #include "wearwell/prognosis/carry.h"
 #include "wearwell/study/inference_data.h"

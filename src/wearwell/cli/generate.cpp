@@ -6,7 +6,7 @@
 
 #include "wearwell/cli/completion.h"
 #include "wearwell/cli/man_page.h"
-#include "wearwell/input/option_value.h"
+#include "wearwell/cli/option_rules.h"
 
 namespace wearwell {
 

@@ -8,7 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/cli/new_from.h"
-#include "wearwell/input/option_value.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/study/example.h"
 
 namespace wearwell {

@@ -13,7 +13,7 @@
 #include "wearwell/base/printable.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/cli/carried.h"
-#include "wearwell/input/option_value.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/present/progress_line.h"
 #include "wearwell/prognosis/carry.h"
 #include "wearwell/prognosis/joined_campaign.h"

@@ -8,11 +8,11 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
-#include "wearwell/cli/selection_header.h"
 #include "wearwell/embed/fork_guard.h"
 #include "wearwell/models/fatigue/rainflow.h"
 #include "wearwell/selection/json.h"
 #include "wearwell/selection/report.h"
+#include "wearwell/selection/selection_header.h"
 #include "wearwell/selection/text.h"
 #include "wearwell/study/header_json.h"
 

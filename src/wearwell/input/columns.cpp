@@ -192,7 +192,7 @@ SeenNumbers seen_numbers(const Table& table, const ColumnChoice& choice) {
   Table values;  // of which limits are values
   values.source = table.source;
   values.rows = table.rows;
-  values.reading = table.reading;
+  values.layout = table.layout;
   values.lines = table.lines;
   values.origins = table.origins;
   values.columns.push_back({column.name, true, {}, {}});

@@ -81,7 +81,7 @@ Table read_table(const std::filesystem::path& path, const std::optional<std::str
   DuckdbSession session(file, settings);
   Table table;
   table.source = file.source();
-  table.reading = session.reading();
+  table.layout = session.layout_in_words();
   if (sql) {
     table.source += " (through sql)";
     for (const TextColumn& column : session.layout() ? session.layout()->columns : no_columns) {
@@ -133,7 +133,7 @@ Table query_table(const Table& table, const std::string& sql, const QueryLimits&
   DuckdbSession session(*file, plain);
   Table result;
   result.source = table.source + " (through sql)";
-  result.reading = table.reading;
+  result.layout = table.layout;
   run_query(session, sql, limits);
   add_result(session, false, result);
   return result;

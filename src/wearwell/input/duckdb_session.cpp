@@ -223,7 +223,7 @@ std::string DuckdbSession::sentence(const std::string& message) const {
   return text;
 }
 
-TableReading DuckdbSession::reading() const {
+TableLayout DuckdbSession::layout_in_words() const {
   if (!layout_) return {};
   return {in_words(*layout_, sheet_name_), layout_->notes};
 }

@@ -139,7 +139,7 @@ constexpr double smallest_si = 1e-100, largest_si = 1e100;
 // A file can be read without such rows.
 std::string no_value(const Table& table, const Column& column) {
   std::string words = "no value (empty or NaN)";
-  if (!table.reading.layout.empty() && column.name.find_first_of("\"\\\n") == std::string::npos)
+  if (!table.layout.text.empty() && column.name.find_first_of("\"\\\n") == std::string::npos)
     words += fmt::format(
         "; to leave such rows out: sql = 'select * from data where \"{}\" is not null' in [data], "
         "or "

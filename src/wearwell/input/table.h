@@ -28,10 +28,10 @@ struct Column {
 };
 
 /// How a file holds a table, for people.
-struct TableReading {
-  std::string
-      layout;  ///< "semicolons, decimal comma", then the remarks; empty where nothing is to say
+struct TableLayout {
+  std::string text;  ///< "semicolons, decimal comma", then the remarks; empty where nothing is to say
   std::vector<std::string> remarks = {};  ///< "2 hidden rows read like the others (rows 5, 9)"
+};  ///< "2 hidden rows read like the others (rows 5, 9)"
 };
 
 /// "; 2 hidden rows read like the others (rows 5, 9)", to follow the name of a file; empty without remarks.
@@ -42,7 +42,7 @@ struct Table {
   std::string source;  ///< the file, for messages
   std::vector<Column> columns;
   std::size_t rows = 0;
-  TableReading reading = {};
+  TableLayout layout = {};
   std::vector<std::size_t> lines = {};    ///< of the file, for each row, where that is not row + 1
   std::vector<std::size_t> origins = {};  ///< the row of the file, where rows were repeated; from 1
 

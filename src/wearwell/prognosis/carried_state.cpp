@@ -57,7 +57,7 @@ Column read_column(std::size_t rows, ByteReader& in) {
 
 void write(const Table& table, ByteWriter& out) {
   out.text(table.source);
-  out.text(table.reading.layout);
+  out.text(table.layout.text);
   out.u64(table.rows);
   out.u64(table.columns.size());
   for (const Column& column : table.columns) write(column, out);
@@ -67,7 +67,7 @@ Table read_table(ByteReader& in) {
   constexpr std::size_t least_column = 28;
   Table table;
   table.source = in.text();
-  table.reading.layout = in.text();
+  table.layout.text = in.text();
   table.rows = in.count(1);
   const std::size_t columns = in.count(least_column);
   for (std::size_t c = 0; c < columns; ++c) table.columns.push_back(read_column(table.rows, in));

@@ -135,7 +135,7 @@ SelectionResult read_selection(const SelectData& data, const Table& table) {
   check(data);
   SelectionResult result;
   result.data_file = table.source;
-  result.data_remarks = table.reading.remarks;
+  result.data_remarks = table.layout.remarks;
   result.response = data.response;
   result.weights_column = data.weights;
   result.inputs = data.inputs;

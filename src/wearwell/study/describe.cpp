@@ -75,7 +75,7 @@ std::string study_in_words(const PosteriorStudy& study) {
   std::string out = fmt::format("{}\n  {}\n\nData\n  {}: {} rows of {}\n", printable(study.title),
                                 powers_in_words(study.equation, Script::terminal), study.data_file,
                                 rows_in_words(study), study.quantity);
-  if (!study.data_reading.layout.empty()) out += fmt::format("  {}\n", study.data_reading.layout);
+  if (!study.data_layout.text.empty()) out += fmt::format("  {}\n", study.data_layout.text);
   out += columns_in_words(study.data_columns);
   for (const std::string& note : study.data_notes)
     out += fmt::format("  {}\n", powers_in_words(note, Script::terminal));

@@ -11,10 +11,6 @@
 #include "wearwell/study/first_study.h"
 #include "wearwell/study/study.h"
 
-namespace CLI {
-class App;
-}
-
 namespace wearwell::prognosis {
 struct CarriedState;
 class Tracker;
@@ -38,8 +34,6 @@ struct Model {
   /// Reads the study's own part of the file; the caller refuses keys that were never asked for.
   /// Throws InputError.
   std::unique_ptr<const Study> (*read)(const TomlReader& root, const Source& source);
-  /// Adds commands of its own; may be null.
-  void (*add_commands)(CLI::App& app, int& exit_code);
   /// All keys of its studies, for messages and docs/study-keys.md; may be null.
   StudyKeys (*keys)() = nullptr;
   /// A study of a table whose columns have these roles; nothing where it is of another trade. May be

@@ -118,7 +118,7 @@ struct PosteriorStudy : Study {
   std::vector<double> observed;
   DensityUnit density;  ///< in which log densities of what was observed are reported
   std::vector<DataColumn> data_columns;  ///< what was read, to find mistaken units
-  TableReading data_reading;
+  TableLayout data_layout;
   std::string observation = "row";  ///< what the likelihood's factors are of: "row", "bearing"
   std::vector<Parameter> parameters;
   std::function<std::shared_ptr<const LogDensity>(std::size_t rows)> likelihood;

@@ -127,7 +127,7 @@ PosteriorSummary described(const PosteriorStudy& study, const FitSettings& setti
   result.equation = study.equation;
   result.data_file = study.data_file;
   result.data_rows = study.data_rows;
-  result.data_remarks = study.data_reading.remarks;
+  result.data_remarks = study.data_layout.remarks;
   result.density_unit = study.density.text;
   result.data_fingerprint = fingerprint(study.quantity, study.observed);
   result.method = method_name(fit.method);

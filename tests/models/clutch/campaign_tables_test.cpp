@@ -106,7 +106,7 @@ TEST_F(CampaignTables, HeadingsAreMappedAndPlatesHaveNames) {
     EXPECT_NEAR(a.weighings[i].mass / b.weighings[i].mass, 1, 1e-8);
   EXPECT_TRUE(a.plate_names.empty());
   EXPECT_EQ(b.plate_name(2), "VIN-2");
-  EXPECT_THAT(mapped.readings[1].layout,
+  EXPECT_THAT(mapped.layouts[1].text,
               HasSubstr("semicolons, decimal comma, units in the row below"));
   EXPECT_EQ(mapped.data_columns[5].name, "cycles.slip_speed");
   EXPECT_EQ(mapped.data_columns[5].unit.text, "1/min");

@@ -42,7 +42,7 @@ TEST_F(SnCells, ALifeWithASignIsCensoredAtThatValue) {
   EXPECT_EQ(data.tests[0].life, 120000);
   EXPECT_EQ(data.tests[1].life, 5e6);
   EXPECT_EQ(data.tests[2].life, 1000);
-  EXPECT_THAT(data.reading.layout, HasSubstr("2 cells of 'N' that are limits ('>5.000.000')"));
+  EXPECT_THAT(data.layout.text, HasSubstr("2 cells of 'N' that are limits ('>5.000.000')"));
 }
 
 TEST_F(SnCells, ASignAndAStatusMustAgree) {

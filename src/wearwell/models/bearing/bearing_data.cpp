@@ -161,7 +161,7 @@ BearingData read_bearing_data(const TomlReader& root, const Source& source,
   const std::vector<Contact> contacts = inputs.contacts();
   BearingData data;
   data.source = table.source;
-  data.reading = table.reading;
+  data.layout = table.layout;
   data.pressure_unit = read_unit("MPa", "Pa");
   std::vector<double> pressures, revolutions;
   if (inputs.first_of("pressure", "force", "length")) {

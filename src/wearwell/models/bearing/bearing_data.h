@@ -23,7 +23,7 @@ struct BearingCommon {
 /// The inspections of a study, and how to speak of them in the user's terms.
 struct BearingData {
   std::string source;  ///< the file, for messages
-  TableReading reading;
+  TableLayout layout;
   bearing::Inspections inspections;
   BearingCommon common;
   Unit depth_unit, pressure_unit;

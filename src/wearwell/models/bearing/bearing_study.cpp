@@ -161,7 +161,7 @@ void read_bearing_study(const TomlReader& root, const Source& source, PosteriorS
   study.observed = data.inspections.depth;
   study.density = density_of(model, data);
   study.data_columns = data.columns;
-  study.data_reading = data.reading;
+  study.data_layout = data.layout;
   if (model.has_scatter) study.observation = "bearing";
   study.meanings = {"specific wear rate"};
   if (!model.depth_error) study.meanings.emplace_back("scatter of one measured depth");

@@ -4,7 +4,6 @@
 #include "wearwell/models/bearing/bearing_keys.h"
 #include "wearwell/models/bearing/bearing_study.h"
 #include "wearwell/models/bearing/bearing_tracker.h"
-#include "wearwell/models/bearing/commands.h"
 
 namespace wearwell {
 namespace resource {
@@ -26,7 +25,6 @@ Model model() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_bearing_study);
               },
-          .add_commands = add_bearing_command,
           .keys = study_keys,
           .first_study = first_study,
           .track = track_bearings};

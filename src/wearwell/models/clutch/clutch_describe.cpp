@@ -28,9 +28,9 @@ std::string data_in_words(const ClutchStudy& study, const ClutchResult& prepared
                         : "\nData\n";
   std::vector<std::string> files;
   for (const auto& file : study.files) files.push_back(file.filename().string());
-  if (study.readings.empty()) out += fmt::format("  {}\n", fmt::join(files, ", "));
-  for (std::size_t i = 0; i < study.readings.size(); ++i)
-    out += fmt::format("  {}: {}\n", files[i], study.readings[i].layout);
+  if (study.layouts.empty()) out += fmt::format("  {}\n", fmt::join(files, ", "));
+  for (std::size_t i = 0; i < study.layouts.size(); ++i)
+    out += fmt::format("  {}: {}\n", files[i], study.layouts[i].text);
   out +=
       columns_in_words(study.data_columns.empty() ? cycle_columns(campaign) : study.data_columns);
   out += fmt::format("  {} points of the factorial, {} beyond it, {} held out\n", points[0],

@@ -79,8 +79,8 @@ Result result_of(const ClutchStudy& study, const ClutchResult& found, bool repor
   for (const auto& file : study.files) header.data.files.push_back(file.filename().string());
   header.data.rows = study.campaign.weighings.size();
   header.data.fingerprint = fingerprint_of(study.campaign);
-  for (std::size_t i = 0; i < study.readings.size(); ++i) {
-    for (const std::string& remark : study.readings[i].remarks)
+  for (std::size_t i = 0; i < study.layouts.size(); ++i) {
+    for (const std::string& remark : study.layouts[i].remarks)
       header.data.remarks.push_back(fmt::format("{}: {}", header.data.files[i], remark));
   }
   header.seed = study.seed;

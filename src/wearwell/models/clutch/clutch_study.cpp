@@ -68,7 +68,7 @@ CampaignTable open_table(const TomlReader& data, const char* key, const Source& 
               : read_table(section, source),
       is_name ? std::nullopt : section.table("columns")};
   study.sha1s.push_back(in_memory ? "" : read.sha1());
-  study.readings.push_back(table.table.reading);
+  study.layouts.push_back(table.table.layout);
   keep_table(is_name ? name : as_read_name(section), name, table.table,
              !is_name && section.has("sql"), study);
   return table;

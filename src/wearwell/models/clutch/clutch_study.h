@@ -29,7 +29,7 @@ struct ClutchStudy {
   /// Where the campaign comes from: a rig's files or a simulation.
   std::vector<std::filesystem::path> files;  ///< that were read
   std::vector<std::string> sha1s;            ///< of each, when it was read
-  std::vector<TableReading> readings;        ///< of each; of a rig only
+  std::vector<TableLayout> layouts;          ///< of each; of a rig only
   bool simulated = false;
   std::optional<Truth> truth;            ///< of a simulated campaign
   std::vector<DataColumn> data_columns;  ///< of a rig's tables, as they were read

@@ -4,7 +4,6 @@
 #include "wearwell/models/clutch/clutch_describe.h"
 #include "wearwell/models/clutch/clutch_keys.h"
 #include "wearwell/models/clutch/clutch_result.h"
-#include "wearwell/models/clutch/commands.h"
 #include "wearwell/prognosis/carried_state.h"
 
 namespace wearwell {
@@ -61,7 +60,6 @@ Model model() {
           .read = [](const TomlReader& root, const Source& source) -> std::unique_ptr<const Study> {
             return std::make_unique<CampaignStudy>(read_clutch_study(root, source));
           },
-          .add_commands = add_clutch_command,
           .keys = study_keys};
 }
 

@@ -1,6 +1,5 @@
 #include "wearwell/models/fatigue/model.h"
 
-#include "wearwell/models/fatigue/commands.h"
 #include "wearwell/models/fatigue/part_tracker.h"
 #include "wearwell/models/fatigue/sn_first.h"
 #include "wearwell/models/fatigue/sn_keys.h"
@@ -39,7 +38,6 @@ Model model() {
           .trade = "fatigue",
           .example = example,
           .read = read,
-          .add_commands = add_commands,
           .keys = study_keys,
           .first_study = first_study,
           .track = track_parts};
@@ -55,7 +53,6 @@ Model staircase() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_staircase_study);
               },
-          .add_commands = nullptr,
           .keys = staircase_keys,
           .first_study = first_staircase};
 }
@@ -67,7 +64,6 @@ Model strain_life() {
           .trade = "strain-life",
           .example = example,
           .read = read,
-          .add_commands = nullptr,
           .first_study = first_strain_study,
           .track = track_parts};
 }
@@ -76,12 +72,7 @@ Model spectrum() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::spectrum_study},
                                             {"tests.csv", resource::spectrum_data},
                                             {"loads.csv", resource::spectrum_loads}};
-  return {.key = "sn",
-          .trade = "spectrum",
-          .example = example,
-          .read = read,
-          .add_commands = nullptr,
-          .track = track_parts};
+  return {.key = "sn", .trade = "spectrum", .example = example, .read = read, .track = track_parts};
 }
 
 }  // namespace fatigue

@@ -275,7 +275,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   const Table table = read_table(section, source);
   SnData data;
   data.source = table.source;
-  data.reading = table.reading;
+  data.layout = table.layout;
   data.stress_si = stated_driver_si(root, table);
   const std::vector<Stress> stresses = read_stresses(columns, conditions, table, correction, data);
 

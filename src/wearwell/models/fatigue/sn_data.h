@@ -27,7 +27,7 @@ struct SnData {
   Unit stress_unit;
   Unit life_unit;      ///< "cycles", "1e5 cycles"
   std::string source;  ///< the file, for messages
-  TableReading reading;
+  TableLayout layout;
   std::string mean_stress_column;
   std::optional<fatigue::HelicalSpring> spring;  ///< where the study gives displacements
   std::vector<DataColumn> columns;               ///< as they were read

@@ -287,7 +287,7 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
   study.fit_data = sn_fit_data(law, data, study.parameters);
   study.data_notes = notes(law, data);
   study.data_columns = data.columns;
-  study.data_reading = data.reading;
+  study.data_layout = data.layout;
   SnPredictions predictions;
   if (const auto predict = root.table("predict")) {
     predictions = read_sn_predictions(*predict, law, data);

@@ -63,7 +63,7 @@ void read_tests(const TomlReader& root, const Source& source, PosteriorStudy& st
         {stresses[i], static_cast<double>(outcome == fatigue::Outcome::failure), n});
   }
   study.data_columns.push_back({"alternating_stress", data.stress_si, stress.unit, stresses, true});
-  study.data_reading = table.reading;
+  study.data_layout = table.layout;
   study.data_rows = data.tests.size();
   study.density.text = "1";
 }

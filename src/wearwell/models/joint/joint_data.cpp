@@ -141,7 +141,7 @@ JointData read_joint_data(const TomlReader& root, const Source& source, Observat
   const Table table = with_counts(columns, read_table(data_table, source));
   const ColumnChoice cycles = required_column(columns, "cycles", "cycle", table);
   JointData data;
-  data.reading = table.reading;
+  data.layout = table.layout;
   data.name = data_table.text("joint").value_or("joint");
   data.cycles = si_numbers(table, cycles);
   for (std::size_t i = 0; i < table.rows; ++i) {

@@ -22,7 +22,7 @@ struct JointData {
   std::string work_in_words;
   std::optional<PointwiseTable> pointwise;
   std::vector<DataColumn> columns;
-  TableReading reading;
+  TableLayout layout;
   std::string name;  ///< of the joint, as its readings come under it: "joint" unless the study says
 };
 

@@ -95,7 +95,7 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   study.observed = data.inspections.volume;
   study.density = density_unit(data.volume_unit, data.inspections.volume.size());
   study.data_columns = data.columns;
-  study.data_reading = data.reading;
+  study.data_layout = data.layout;
   study.meanings = {"wear coefficient", "scatter of one measurement"};
   const std::vector<double>& volumes = data.inspections.volume;
   if (*std::max_element(volumes.begin(), volumes.end()) <= 0) {

@@ -25,7 +25,6 @@ Model model() {
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_joint_study);
               },
-          .add_commands = nullptr,
           .keys = study_keys,
           .first_study = first_study,
           .track = track_joint};

@@ -1,6 +1,5 @@
 #include "wearwell/models/ownlaw/model.h"
 
-#include "wearwell/models/ownlaw/export_command.h"
 #include "wearwell/models/ownlaw/life_first.h"
 #include "wearwell/models/ownlaw/own_keys.h"
 #include "wearwell/models/ownlaw/own_study.h"
@@ -40,7 +39,6 @@ Model law_with(std::string_view trade, std::span<const ExampleFile> example,
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_law_study);
               },
-          .add_commands = nullptr,
           .keys = law_keys,
           .first_study = first_study,
           .track = track_units};
@@ -65,9 +63,7 @@ std::string_view fleet_truth() {
 Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::law_study},
                                             {"wear.csv", resource::law_data}};
-  Model law = law_with("law", example, first_wear_study);
-  law.add_commands = add_export_command;  // of all that are of this model
-  return law;
+  return law_with("law", example, first_wear_study);
 }
 
 Model life() {

@@ -220,7 +220,7 @@ void read_law_study(const TomlReader& root, const Source& source, PosteriorStudy
         "= \"select ... limit 6\")");
   }
   study.data_rows = law->data.table.rows;
-  study.data_reading = law->data.table.reading;
+  study.data_layout = law->data.table.layout;
   const auto rows = std::make_shared<const OwnRows>(law, study.data_rows, true);
   const auto likelihood = ownlaw::own_likelihood(rows);
   ownlaw::find_starts(*likelihood, law->parameters);

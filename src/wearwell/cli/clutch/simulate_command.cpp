@@ -5,10 +5,10 @@
 
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_folder.h"
-#include "wearwell/input/option_value.h"
+#include "wearwell/cli/clutch/command_parts.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/models/clutch/clutch_tables.h"
 #include "wearwell/models/clutch/clutch_truth.h"
-#include "wearwell/models/clutch/command_parts.h"
 
 namespace wearwell::clutch {
 namespace {

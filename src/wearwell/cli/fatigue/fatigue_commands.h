@@ -7,6 +7,6 @@ class App;
 namespace wearwell::fatigue {
 
 /// `wearwell fatigue` and its subcommands.
-void add_commands(CLI::App& app, int& exit_code);
+void add_fatigue_command(CLI::App& app, int& exit_code);
 
 }  // namespace wearwell::fatigue

@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
-#include "wearwell/input/option_value.h"
+#include "wearwell/cli/clutch/command_parts.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_sql.h"
-#include "wearwell/models/clutch/command_parts.h"
 #include "wearwell/models/clutch/fleet_columns.h"
 
 namespace wearwell::clutch {

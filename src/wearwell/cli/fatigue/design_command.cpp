@@ -9,9 +9,10 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/cli/fatigue/command_parts.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/fatigue/averaged_design_report.h"
-#include "wearwell/models/fatigue/command_parts.h"
 #include "wearwell/present/page.h"
 #include "wearwell/present/result_folder.h"
 

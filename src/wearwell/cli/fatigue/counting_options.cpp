@@ -1,8 +1,7 @@
-#include "wearwell/models/fatigue/counting_options.h"
+#include "wearwell/cli/fatigue/counting_options.h"
 
 #include <CLI/CLI.hpp>
-
-#include "wearwell/input/option_value.h"
+#include "wearwell/cli/option_rules.h"
 
 namespace wearwell::fatigue {
 

@@ -1,4 +1,4 @@
-#include "wearwell/models/bearing/chart_command.h"
+#include "wearwell/cli/bearing/chart_command.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -15,7 +15,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/base/unit.h"
-#include "wearwell/models/bearing/options.h"
+#include "wearwell/cli/bearing/bearing_options.h"
 #include "wearwell/models/bearing/solve.h"
 #include "wearwell/present/html.h"
 #include "wearwell/present/page.h"
@@ -25,7 +25,7 @@ namespace wearwell::bearing {
 namespace {
 
 struct ChartOptions {
-  BearingOptions point;
+  BearingInputs point;
   std::string sigma = "2e-4,5e-4,10e-4,20e-4";
   std::string delta = "2e-4:20e-4:181";
   std::filesystem::path file;
@@ -167,7 +167,7 @@ void add_chart_command(CLI::App& bearing) {
       "chart", "wear number p_a k n against depth for several clearances, as CSV or HTML");
   const auto options = std::make_shared<ChartOptions>();
   options->point.contact = contact_name(Contact::stationary);
-  options->point.add_to(*sub);
+  add_inputs(*sub, options->point);
   sub->add_option("--sigma", options->sigma, "clearance/radius: A,B,C or FROM:TO:COUNT")
       ->type_name("LIST")
       ->capture_default_str();

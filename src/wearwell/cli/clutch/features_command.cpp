@@ -6,10 +6,10 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/same_file.h"
 #include "wearwell/base/staged_file.h"
+#include "wearwell/cli/clutch/command_parts.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/clutch/closing.h"
 #include "wearwell/models/clutch/clutch_tables.h"
-#include "wearwell/models/clutch/command_parts.h"
 
 namespace wearwell::clutch {
 namespace {

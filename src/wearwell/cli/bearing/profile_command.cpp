@@ -1,4 +1,4 @@
-#include "wearwell/models/bearing/profile_command.h"
+#include "wearwell/cli/bearing/profile_command.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -10,10 +10,10 @@
 #include <numbers>
 
 #include "wearwell/base/error.h"
+#include "wearwell/cli/bearing/bearing_options.h"
 #include "wearwell/input/columns.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/input/table.h"
-#include "wearwell/models/bearing/options.h"
 #include "wearwell/models/bearing/profile.h"
 #include "wearwell/models/bearing/wear_number.h"
 #include "wearwell/present/plain.h"
@@ -26,7 +26,7 @@ struct ProfileOptions {
   std::string position = "position", height = "height";
   std::string position_unit, height_unit;
   std::string flank;
-  BearingOptions bearing;
+  BearingInputs bearing;
   bool json = false;
 };
 
@@ -210,7 +210,7 @@ void add_profile_command(CLI::App& bearing) {
                   "length at either end that is not worn (default: a fifth of the profile)")
       ->type_name("'NUMBER m'");
   options->bearing.contact = contact_name(Contact::stationary);
-  options->bearing.add_to(*sub, {&Bearing::depth, &Bearing::scar_width, &Bearing::rate});
+  add_inputs(*sub, options->bearing, {&Bearing::depth, &Bearing::scar_width, &Bearing::rate});
   sub->get_option("--contact")->group("");
   sub->add_flag("--json", options->json, "print one JSON object");
   sub->footer(

@@ -1,12 +1,12 @@
-#include "wearwell/models/fatigue/commands.h"
+#include "wearwell/cli/fatigue/fatigue_commands.h"
 
 #include <CLI/CLI.hpp>
 
-#include "wearwell/models/fatigue/command_parts.h"
+#include "wearwell/cli/fatigue/command_parts.h"
 
 namespace wearwell::fatigue {
 
-void add_commands(CLI::App& app, int& exit_code) {
+void add_fatigue_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "fatigue", "Fatigue under load histories: rainflow counts, damage and life; design curves");
   command->require_subcommand(1);

@@ -1,4 +1,4 @@
-#include "wearwell/models/ownlaw/export_command.h"
+#include "wearwell/cli/formula/export_command.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -8,7 +8,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
-#include "wearwell/input/option_value.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/models/ownlaw/c_export.h"
 #include "wearwell/models/ownlaw/sql_export.h"
 #include "wearwell/present/result_folder.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,22 +50,15 @@ struct UncertainBearing {
   bool is_exact() const;
 };
 
-/// What was written on the command line, before it is read.
-struct BearingOptions {
+/// A bearing as it is written, before it is read.
+struct BearingInputs {
   std::string contact;
   std::array<std::string, input_options.size()> texts;
-
-  /// Adds --contact and the inputs; those in `hidden` are taken, so that they can be refused with a
-  /// reason, but no help shows them. `this` must stay until the command has run.
-  void add_to(CLI::App& command, const std::vector<Input>& hidden = {});
 
   const std::string& text(Input input) const;
 
   /// Throws InputError that starts with the flag at fault.
   UncertainBearing read() const;
 };
-
-/// One line of an answer.
-void print_row(const char* name, const std::string& value);
 
 }  // namespace wearwell::bearing

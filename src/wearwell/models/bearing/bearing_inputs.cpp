@@ -1,7 +1,6 @@
-#include "wearwell/models/bearing/options.h"
+#include "wearwell/models/bearing/bearing_inputs.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -50,25 +49,13 @@ bool UncertainBearing::is_exact() const {
                      [](const Given& g) { return g.value.law == Uncertain::Law::exact; });
 }
 
-void BearingOptions::add_to(CLI::App& command, const std::vector<Input>& hidden) {
-  command.add_option("--contact", contact, "stationary, journal or bushing: what wears, and how")
-      ->type_name("NAME");
-  for (std::size_t i = 0; i < input_options.size(); ++i) {
-    const InputOption& o = input_options[i];
-    CLI::Option* added =
-        command.add_option(o.flag, texts[i], o.help)
-            ->type_name(may_be_plain(o.si) ? "NUMBER" : fmt::format("'NUMBER {}'", o.si));
-    if (std::find(hidden.begin(), hidden.end(), o.input) != hidden.end()) added->group("");
-  }
-}
-
-const std::string& BearingOptions::text(Input input) const {
+const std::string& BearingInputs::text(Input input) const {
   const auto found = std::find_if(input_options.begin(), input_options.end(),
                                   [&](const InputOption& o) { return o.input == input; });
   return texts[static_cast<std::size_t>(found - input_options.begin())];
 }
 
-UncertainBearing BearingOptions::read() const {
+UncertainBearing BearingInputs::read() const {
   UncertainBearing result;
   result.contact = read_contact(contact);
   for (std::size_t i = 0; i < input_options.size(); ++i) {
@@ -81,10 +68,6 @@ UncertainBearing BearingOptions::read() const {
     result.given.push_back({&input_options[i], read_input(input_options[i], texts[i])});
   }
   return result;
-}
-
-void print_row(const char* name, const std::string& value) {
-  fmt::print("  {:<32}{}\n", name, value);
 }
 
 }  // namespace wearwell::bearing

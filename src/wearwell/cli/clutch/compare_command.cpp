@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "wearwell/base/error.h"
+#include "wearwell/cli/clutch/command_parts.h"
 #include "wearwell/input/json_reader.h"
-#include "wearwell/models/clutch/command_parts.h"
 #include "wearwell/present/text_table.h"
 #include "wearwell/study/saved_result.h"
 

@@ -1,4 +1,4 @@
-#include "wearwell/cli/selection_header.h"
+#include "wearwell/selection/selection_header.h"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@ namespace CLI {
 class App;
 }
 
-namespace wearwell {
+namespace wearwell::clutch {
 
 /// `wearwell clutch design|simulate|features|predict|life|compare|sql` and `wearwell fleet`.
-void add_clutch_command(CLI::App& app, int& exit_code);
+void add_clutch_commands(CLI::App& app, int& exit_code);
 
-}  // namespace wearwell
+}  // namespace wearwell::clutch

@@ -9,10 +9,11 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/cli/clutch/command_parts.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/clutch/clutch_tables.h"
-#include "wearwell/models/clutch/command_parts.h"
 #include "wearwell/present/plain.h"
 #include "wearwell/present/text_table.h"
 

@@ -7,9 +7,10 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/staged_file.h"
 #include "wearwell/base/unit.h"
+#include "wearwell/cli/clutch/command_parts.h"
+#include "wearwell/cli/option_rules.h"
 #include "wearwell/input/option_value.h"
 #include "wearwell/models/clutch/clutch_tables.h"
-#include "wearwell/models/clutch/command_parts.h"
 #include "wearwell/models/clutch/design.h"
 
 namespace wearwell::clutch {
