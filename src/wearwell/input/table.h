@@ -31,7 +31,6 @@ struct Column {
 struct TableLayout {
   std::string text;  ///< "semicolons, decimal comma", then the remarks; empty where nothing is to say
   std::vector<std::string> remarks = {};  ///< "2 hidden rows read like the others (rows 5, 9)"
-};  ///< "2 hidden rows read like the others (rows 5, 9)"
 };
 
 /// "; 2 hidden rows read like the others (rows 5, 9)", to follow the name of a file; empty without remarks.
