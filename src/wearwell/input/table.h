@@ -29,7 +29,8 @@ struct Column {
 
 /// How a file holds a table, for people.
 struct TableLayout {
-  std::string text;  ///< "semicolons, decimal comma", then the remarks; empty where nothing is to say
+  std::string
+      text;  ///< "semicolons, decimal comma", then the remarks; empty where nothing is to say
   std::vector<std::string> remarks = {};  ///< "2 hidden rows read like the others (rows 5, 9)"
 };
 
