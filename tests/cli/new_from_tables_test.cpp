@@ -118,6 +118,33 @@ TEST_F(NewFromTables, RowsOfMeansAreLeftOutAndSaid) {
               AllOf(HasSubstr("Mittelwert"), HasSubstr("without a value ('NA')")));
 }
 
+// Degradation tables often have a column for each unit, as Meeker and Escobar (1998, tables C.17 and C.18).
+TEST_F(NewFromTables, AColumnForEachUnit) {
+  const std::string said = fitted("laser.csv",
+                                  "Hours,Laser 1 [%],Laser 2 [%],Laser 3 [%],Laser 4 [%]\n"
+                                  "250,0.47,0.71,0.71,0.36\n500,0.93,1.22,1.17,0.62\n"
+                                  "750,2.11,1.90,1.73,1.36\n1000,2.72,2.30,1.99,\n");
+  EXPECT_THAT(
+      said, AllOf(HasSubstr("columns Laser 1 [%], Laser 2 [%], Laser 3 [%], Laser 4 [%] are units "
+                            "with a"),
+                  HasSubstr("unit: column 'unit'"), HasSubstr("in %")));
+  EXPECT_EQ(result_["data"]["rows"], 15);
+  EXPECT_NEAR(middle("rate"), 0.0024, 0.0006);
+  EXPECT_THAT(content("out/study.toml"), HasSubstr("unpivot"));
+}
+
+TEST_F(NewFromTables, ColumnsThatAreNoUnits) {
+  for (const char* heading : {"h,T1 [degC],T2 [degC],T3 [degC]\n", "h,force 1,force 2,force 3\n",
+                              "x,P1,P2,P3\n", "h,P1 [um],P2 [um],P3 [mm]\n", "h,P1,P2\n"}) {
+    write("t.csv", std::string(heading) + (std::string(heading) == "h,P1,P2\n"
+                                               ? "1,2,3\n2,3,4\n3,5,6\n"
+                                               : "1,2,3,4\n2,3,4,5\n3,5,6,7\n"));
+    const CommandResult run = here("new --from t.csv out");
+    EXPECT_THAT(run.out + run.err, Not(HasSubstr("with a column each"))) << heading;
+    std::filesystem::remove_all(folder() / "out");
+  }
+}
+
 TEST_F(NewFromTables, WearUnderForceIsArchards) {
   const std::string said =
       fitted("stift.csv",

@@ -34,6 +34,7 @@ std::string settings_text(const NewOptions& options) {
   std::string text;
   for (const auto& [key, value] : options.table)
     text += fmt::format("{} = {}\n", key, key == "header_row" ? value : toml_text(value));
+  if (options.wide) text += fmt::format("sql = {}\n", toml_text(options.wide->sql));
   return text;
 }
 
@@ -93,11 +94,13 @@ void ask(NewOptions& options, const TableQuestion& question) {
 
 // The table; nothing where it was asked which sheet, and the answer is in `options`.
 std::optional<Table> read_from(NewOptions& options) {
-  const std::string settings = settings_text(options);
+  options.wide.reset();
   try {
-    if (settings.empty()) return read_table(options.from);
-    return read_table(options.from, {}, {},
-                      read_table_settings(TomlReader::parse({"options of the table", settings})));
+    const TableSettings settings =
+        read_table_settings(TomlReader::parse({"options of the table", settings_text(options)}));
+    const Table table = read_table(options.from, {}, {}, settings);
+    options.wide = options.columns.empty() ? wide_table(table) : std::nullopt;
+    return options.wide ? read_table(options.from, options.wide->sql, {}, settings) : table;
   } catch (const SeveralSheets& several) {
     TableQuestion question{fmt::format("{} has several sheets.", options.from.filename().string()),
                            {}};
@@ -192,6 +195,12 @@ void require_used(const NewOptions& options, const FirstStudy& study) {
     refuse("--failure", "column of codes that say how a life ended");
 }
 
+std::string in_words(const WideTable& wide) {
+  return fmt::format(
+      "columns {} are units with a column each: `sql` puts their readings below each other",
+      fmt::join(wide.units, ", "));
+}
+
 // The one reading that fits best; nothing where a question was asked, and the answer is in `options`.
 std::optional<std::vector<Candidate>> chosen(NewOptions& options, Models models,
                                              const Table& table) {
@@ -216,6 +225,10 @@ std::optional<std::vector<Candidate>> chosen(NewOptions& options, Models models,
     return {};
   }
   require_used(options, found.front().study);
+  if (options.wide) {
+    for (Candidate& each : found)
+      each.study.guesses.insert(each.study.guesses.begin(), in_words(*options.wide));
+  }
   return found;
 }
 

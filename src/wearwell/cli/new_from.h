@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "wearwell/study/model.h"
+#include "wearwell/study/wide_table.h"
 
 namespace wearwell {
 
@@ -19,6 +20,7 @@ struct NewOptions {
   std::optional<int> failure;
   std::string limit;
   std::map<std::string, std::string> table;  ///< of [data]: how the file holds the table
+  std::optional<WideTable> wide = {};        ///< found in the table: read by its SELECT
 };
 
 /// The model of that trade. Throws InputError that names all trades.
