@@ -1,4 +1,4 @@
-"""Lives at any level, remaining lives, and measurements of items that were seen: against sums over the draws by numpy."""
+"""Lives at any level, remaining useful lives, and measurements of items that were seen: against sums over the draws by numpy."""
 
 import math
 import os
@@ -86,7 +86,7 @@ def test_next_joint_given_that_it_came_so_far(fit):
     def outlasts(life):
         return _normal_below(-np.log(life / middle) / scatter)
 
-    left = found[found["name"] == "remaining life"].iloc[0]
+    left = found[found["name"] == "remaining useful life"].iloc[0]
     for p, value in ((0.1, left["b10"]), (0.5, left["q50"]), (0.95, left["q95"])):
         assert outlasts(4e5 + value).mean() / outlasts(4e5).mean() == pytest.approx(1 - p, abs=0.02)
     survival = found[found["name"] == "survival to 400 km"].iloc[0]
@@ -185,10 +185,10 @@ def test_program_and_python_agree(fit, wearwell, tmp_path):
     said = json.loads(out)
     told = {(q["name"], q["of"]): q for q in said["quantities"]}
     here = fit.life(**asked, b=[5, 0.1], confidence=0.95, unit="J5", survived="400 km")
-    assert told["B5 remaining life", "joint J5"]["predictive"] == here.loc[0, "b5"]
-    assert told["B0.1 remaining life", "joint J5"]["bound"] == here.loc[0, "bound"]
+    assert told["B5 remaining useful life", "joint J5"]["predictive"] == here.loc[0, "b5"]
+    assert told["B0.1 remaining useful life", "joint J5"]["bound"] == here.loc[0, "bound"]
     of_new = fit.life(**asked, b=[5, 0.1], confidence=0.95, survived="400 km").set_index("name")
-    assert told["B5 remaining life", "joint"]["bound"] == of_new.loc["B5 remaining life", "bound"]
+    assert told["B5 remaining useful life", "joint"]["bound"] == of_new.loc["B5 remaining useful life", "bound"]
     unit = [p for p in said["predictions"] if p.get("mean_of") == "joint J5"]
     row = fit.predict({"joint": ["J5"], "F": [200.0], "s": [6e4]}, kind="unit", along="s").loc[0]
     assert (unit[0]["mean"], unit[0]["pi95"]) == (row["mean"], row["upper"])
@@ -247,7 +247,7 @@ def test_weibull_lives_given_that_they_were_reached():
     def outlasts(millions):
         return np.exp(-(millions * scale / eta) ** beta)
 
-    for p, value in ((0.1, found.loc["remaining life", "b10"]), (0.5, found.loc["remaining life", "q50"])):
+    for p, value in ((0.1, found.loc["remaining useful life", "b10"]), (0.5, found.loc["remaining useful life", "q50"])):
         assert (outlasts(60 + value).mean() / outlasts(60).mean()) == pytest.approx(1 - p, abs=0.01)
     with pytest.raises(ValueError, match="survived is 60 without a unit"):
         life.life(survived=60)

@@ -116,7 +116,7 @@ def life(fit, limit, b, confidence, unit, survived, along, given):
         rows = [{"name": "life", "of": of or "joint", "at": f"to {told['limit']:g} {told['limit_unit']}", "unit": told["unit"],
                  **{q: _number(told[k]) for q, k in (("q05", "q05"), ("q50", "b50"), ("q95", "q95"))}, "predictive": _nan,
                  "bound": _nan}, *rows] if study["model"] == "archard-joint" else rows
-    wanted = "remaining life" if unit is not None or (law and survived is not None) else "life"
+    wanted = "remaining useful life" if unit is not None or (law and survived is not None) else "life"
     if unit is None:
         def mine(row):  # the next one's, and of all
             return not row["of"].startswith("median ") if not law else row["of"].startswith("new ") or " " not in row["of"]

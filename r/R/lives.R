@@ -86,7 +86,7 @@ ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NU
   if (length(given)) question <- c(question, if (law) list(given = as.list(given)) else as.list(given))
   answers <- ww_ask(fit, c(question, list(b_lives = as.list(b), credible_level = as.double(confidence))))
   rows <- life_rows(answers, study$model)
-  wanted <- if (!is.null(unit) || (law && !is.null(survived))) "remaining life" else "life"
+  wanted <- if (!is.null(unit) || (law && !is.null(survived))) "remaining useful life" else "life"
   item <- sub("^[^ ]* ", "", rows$of)
   is_new <- startsWith(rows$of, "new ")
   if (is.null(unit)) {

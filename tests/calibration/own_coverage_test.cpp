@@ -1,4 +1,4 @@
-// How often 90 % intervals of the remaining life of a new unit hold the truth, where units differ: straight
+// How often 90 % intervals of the remaining useful life of a new unit hold the truth, where units differ: straight
 // paths y = b t, 5 readings of each unit of a population and 3 of the new one. Beside it two ways that plug
 // estimates of the population in. The truth is drawn from the priors, where the share is 90 % by the laws of
 // probability if all is right, or held fixed, where nothing promises it. WEARWELL_REPLICATIONS says how many.
@@ -116,7 +116,7 @@ std::vector<double> most_likely(const LogDensity& likelihood, const std::vector<
   return best.empty() ? guess : best;
 }
 
-// Where the truth lies in what is said of the remaining life: P(remaining life <= truth).
+// Where the truth lies in what is said of the remaining useful life: P(remaining useful life <= truth).
 struct Places {
   double exact = NAN, likely = NAN, moments = NAN;
 };
@@ -125,7 +125,7 @@ Places replicate(const Design& design, std::size_t units, const std::vector<doub
                  std::uint64_t stream) {
   Rng rng(20261122, stream);
   std::vector<double> x, y, rate;
-  do {  // a unit that has reached the limit has no remaining life
+  do {  // a unit that has reached the limit has no remaining useful life
     x = fixed.empty() ? design.own.from_priors(rng) : fixed;
     rate.clear();
     for (std::size_t u = 0; u <= units; ++u) rate.push_back(x[0] * std::exp(x[1] * rng.normal()));

@@ -14,13 +14,13 @@
 
 namespace wearwell::ownlaw {
 
-/// How often 90 % intervals of the remaining life of units followed on line hold the truth, when a population was
+/// How often 90 % intervals of the remaining useful life of units followed on line hold the truth, when a population was
 /// learned from 5 units of 5 readings: straight paths y = b t, read each half hour.
 struct TrackedCoverage {
   static constexpr std::array<int, 3> shown = {3, 5, 10};  ///< readings of the unit
   struct Count {
     int units = 0, held = 0, shorter = 0, longer = 0;  ///< the truth below the interval, above
-    int bins[20] = {};                                 ///< of P(remaining life <= truth)
+    int bins[20] = {};                                 ///< of P(remaining useful life <= truth)
     double share() const { return static_cast<double>(held) / units; }
   };
   std::array<Count, 3> of;

@@ -1,4 +1,4 @@
-// Units on line, their remaining lives: 2,000 of them with 3, 5 and 10 readings each, each of a population of its own that
+// Units on line, their remaining useful lives: 2,000 of them with 3, 5 and 10 readings each, each of a population of its own that
 // was learned from 5 units. Truths are drawn from the priors, where the share is 90 % by the laws of probability if all is
 // right, or held fixed, where nothing promises it. WEARWELL_REPLICATIONS says how many populations.
 #include "calibration/tracker_coverage.h"

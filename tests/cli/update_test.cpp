@@ -196,7 +196,7 @@ limit = { depth = "100 um" }
     EXPECT_NEAR(moved[number], fitted[number], 2e-3 * fitted[number].get<double>()) << number;
   const json fitted_all = summary("all");
   for (const json& each : fitted_all["quantities"]) {
-    if (each["of"] != "machine M5" || each["name"] != "remaining life") continue;
+    if (each["of"] != "machine M5" || each["name"] != "remaining useful life") continue;
     EXPECT_NEAR(fitted["q50"], each["q50"], 2e-3 * each["q50"].get<double>());
   }
   // The path ahead is at the limit where half of its lives end.
@@ -284,7 +284,8 @@ TEST_F(UpdateCommand, LifeIsThatOfTheFit) {
   EXPECT_NEAR(life["b50"].get<double>() + 10000, fitted["b50"], 3);
   EXPECT_GT(life["horizon"]["reached"], 0);
   EXPECT_LT(life["horizon"]["reached"], 0.01);
-  EXPECT_THAT(slurp(folder() / "curve.csv"), HasSubstr("remaining life [cycles],survival\r\n"));
+  EXPECT_THAT(slurp(folder() / "curve.csv"),
+              HasSubstr("remaining useful life [cycles],survival\r\n"));
   // Survival beyond s + t over that beyond s.
   const json later = json::parse(run("life r --survived '16000 cycles' --json").out);
   EXPECT_NEAR(later["passed"], life["horizon"]["reached"], 2e-4);

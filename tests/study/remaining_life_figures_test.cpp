@@ -17,7 +17,7 @@ PosteriorSummary fleet(std::size_t units, bool alike = true) {
   PosteriorSummary result;
   for (std::size_t i = 0; i < units; ++i) {
     QuantitySummary each;
-    each.name = "remaining life";
+    each.name = "remaining useful life";
     each.of = fmt::format("pump {}", i + 1);
     each.at = fmt::format("to wear = 1 mm from {} h on", alike ? 50 : 50 + i);
     each.unit = "h";

@@ -212,7 +212,7 @@ TEST(TerminalSummary, NamesTheItemThatFailsFirst) {
   PosteriorSummary result = sample_result();
   result.life.reset();
   const auto left = [](const char* of, double q50) {
-    QuantitySummary each{"remaining life",
+    QuantitySummary each{"remaining useful life",
                          of,
                          "to wear = 100 um, force = 20 N from 30 km on",
                          "km",

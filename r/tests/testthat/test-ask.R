@@ -62,7 +62,7 @@ test_that("lives to a limit, of a new joint and of those seen", {
   expect_identical(left$of, "joint J5")
   expect_true(left$b5 < left$b40 && left$b40 < left$q50 && left$q05 == left$b5)
   further <- asked(survived = "400 km", b = 10)
-  expect_identical(further$name[1], "remaining life")
+  expect_identical(further$name[1], "remaining useful life")
   expect_true("survival to 400 km" %in% further$name)
   refused(asked(unit = "J9"), "no item 'J9'")
   refused(ww_life(fit, limit = "10 mm^3"), "along is missing")

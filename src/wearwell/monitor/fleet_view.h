@@ -32,7 +32,7 @@ struct UnitView {
   std::int64_t last_reading_ms = 0;  ///< Unix time of its last message; 0: none
   Interval level;                    ///< wear, now
   Interval remaining;                ///< life, from now on
-  double b10 = 0;                    ///< remaining life that 90 % exceed
+  double b10 = 0;                    ///< remaining useful life that 90 % exceed
   double risk = 0;                   ///< probability that the limit is reached within the horizon
   double passed = 0;                 ///< probability that it is reached already
   Quality quality;

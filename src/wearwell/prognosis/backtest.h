@@ -39,7 +39,7 @@ struct Backtest {
 };
 
 /// Follows each unit of `readings` from its first on, as it would have been followed on line, in the order in which the rows stand, and holds
-/// every forecast of its remaining life against where its life ended. Columns are those of the study, by the headings of the study's
+/// every forecast of its remaining useful life against where its life ended. Columns are those of the study, by the headings of the study's
 /// names with units ("wear [um]", "wear_um"), and a column of units, named as the study calls them. A row that is the same as
 /// one before counts once. Throws InputError naming column and row.
 Backtest backtest(const Tracker& tracker, const Table& readings,

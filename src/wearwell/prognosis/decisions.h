@@ -28,7 +28,7 @@ struct Question {
 struct UnitDecision {
   const KnownUnit* unit = nullptr;
   UnitReplacement best;
-  double q05 = 0, q50 = 0, q95 = 0;  ///< remaining life, SI
+  double q05 = 0, q50 = 0, q95 = 0;  ///< remaining useful life, SI
 };
 
 /// The fleet up to the end of a month: numbers of units, each counted once.

@@ -26,11 +26,11 @@ struct InspectionWorth {
   double net = 0;       ///< worth less what it is expected to cost
   double replaced = 0;  ///< the probability that the unit is replaced upon what it shows
   /// How far the outcomes, mixed, are from what is known now: the difference of the probability to have failed by
-  /// the median of the remaining life. What is not 0 comes of outcomes that are too few, or nodes laid anew.
+  /// the median of the remaining useful life. What is not 0 comes of outcomes that are too few, or nodes laid anew.
   double error = 0;
 };
 
-/// `after`: how far ahead the inspection is; the unit fails before with the probability that its remaining life says,
+/// `after`: how far ahead the inspection is; the unit fails before with the probability that its remaining useful life says,
 /// and is not inspected then. Outcomes are of units whose failure shows by itself only as `passed`.
 InspectionWorth inspection_worth(const WeightedLives& remaining, double passed,
                                  std::span<const Outcome> outcomes, double after,

@@ -42,7 +42,7 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
   const auto unit = tracker.begin(name);
   const Unit& told = tracker.axis().unit;
   UnitLife life{.of = tracker.noun() + " " + name, .at = "until it breaks", .unit = told.text};
-  life.name = "remaining life";
+  life.name = "remaining useful life";
   const double seen = from_si(told, unit->forecast().now);
   if (question.survived) {
     const double survived = along_life("--survived", *question.survived, life.unit);

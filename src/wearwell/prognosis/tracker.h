@@ -61,7 +61,7 @@ struct LevelAhead {
   double level05 = 0, level50 = 0, level95 = 0;
 };
 
-/// Places that show how a unit goes on: from `now` to the median of its remaining life and on to the 95 %
+/// Places that show how a unit goes on: from `now` to the median of its remaining useful life and on to the 95 %
 /// quantile, in even steps each. Where the limit is reached by fewer, to the farthest quantile that there is;
 /// where it never is, as far again as the unit has come. Empty where the limit certainly is behind, or nothing
 /// says how far to look.

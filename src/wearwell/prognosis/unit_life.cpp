@@ -46,7 +46,7 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
                       *question.survived, from, life.unit));
     from = survived;
   }
-  life.name = from > 0 ? "remaining life" : "life";
+  life.name = from > 0 ? "remaining useful life" : "life";
   if (from > 0) life.from = from;
   const double before = from > 0 ? law.cdf(from) : 0;
   if (from > 0) life.passed = before;
@@ -173,7 +173,7 @@ const QuantityRequest& chosen(const std::vector<QuantityRequest>& all,
 void require_ahead(const QuantityRequest& mine, const std::vector<QuantityRequest>& all,
                    const std::string& survived) {
   for (const QuantityRequest& each : all) {
-    if (!is_new(each) || each.name != "remaining life" || each.at == mine.at) continue;
+    if (!is_new(each) || each.name != "remaining useful life" || each.at == mine.at) continue;
     throw InputError(fmt::format(
         "--survived: {} was read beyond {} already: leave it out, what remains counts {}", mine.of,
         survived, mine.at.substr(std::min(mine.at.rfind("from "), mine.at.size()))));
@@ -207,7 +207,7 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
     if (gone > 1 - 1e-3)
       throw InputError(
           fmt::format("--survived: hardly any {} comes to {}", life.of, *question.survived));
-    life.name = "remaining life";
+    life.name = "remaining useful life";
     life.from = from;
     life.passed = gone;
   } else if (question.survived) {

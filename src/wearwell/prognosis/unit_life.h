@@ -22,7 +22,7 @@ struct LifeQuestion {
 /// The life of one unit, all that is unknown averaged in. Lives count from `from` on.
 struct UnitLife {
   std::string of = {}, at = {}, unit = {};  ///< "machine J7", "to wear = 100 um", "h"
-  std::string name = {};                    ///< "life", or "remaining life"
+  std::string name = {};                    ///< "life", or "remaining useful life"
   std::optional<double> from = {};          ///< along the axis
   std::optional<double> passed = {};        ///< the probability that the end lies before that
   std::optional<double> never = {};  ///< where that may be: the probability that life has no end

@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t most_headlines = 6;
 
-// The life that is left to an item that was seen: "remaining life", not "B10 remaining life".
+// The life that is left to an item that was seen: "remaining useful life", not "B10 remaining useful life".
 bool is_remaining(const QuantitySummary& each) {
-  return each.is_life && each.name == "remaining life" && !each.of.starts_with("new ");
+  return each.is_life && each.name == "remaining useful life" && !each.of.starts_with("new ");
 }
 
 bool has_passed(const QuantitySummary& each) {
@@ -104,7 +104,7 @@ class Clauses {
     const QuantityQuantiles& q = each.best();
     const std::string of =
         each.of == "specimen" ? "" : " of " + item_in_words(each.of, q.bound.has_value());
-    const std::string name = numbers(shown_name(each.name)), at = numbers(behind(each.at));
+    const std::string name = numbers(each.name), at = numbers(behind(each.at));
     const std::string what = fmt::format("the {}{}{}", name, of, at);
     if (q.bound) {
       all.push_back(fmt::format("{}{} is at least {} ({} confidence)", what,
@@ -228,12 +228,6 @@ std::string item_in_words(const std::string& of, bool is_kind) {
   if (begins("median ")) return "the " + of;
   const bool has_label = of.find(' ') != of.npos && (!is_kind || begins("type "));
   return has_label ? of : "the " + of;
-}
-
-std::string shown_name(const std::string& name) {
-  constexpr std::string_view term = "remaining life";
-  return name.ends_with(term) ? name.substr(0, name.size() - term.size()) + "remaining useful life"
-                              : name;
 }
 
 std::vector<const QuantitySummary*> headlines(const PosteriorSummary& result) {

@@ -26,9 +26,6 @@ std::optional<NaturalParameter> of_logarithm(const ParameterSummary& parameter);
 /// "a new bearing", "the median bearing", "machine 12"; of a kind of items, "the softer spring".
 std::string item_in_words(const std::string& of, bool is_kind = false);
 
-/// A quantity's name as people read it: "remaining useful life" of "remaining life".
-std::string shown_name(const std::string& name);
-
 /// " of bearing B at 1 MPa" of one that is known, " of a bearing at 1 MPa" of one to come; empty where nothing is said.
 std::string of_whom(const LifeSummary& summary);
 

@@ -121,12 +121,11 @@ std::string study_in_words(const PosteriorStudy& study) {
     quantities.insert(quantities.end(), group.requests.begin(), group.requests.end());
   }
   for (const QuantityRequest& q : quantities) {
-    const std::string what =
-        shown_name(q.name) + (q.unit.text == "1" ? "" : " [" + q.unit.text + "]");
+    const std::string what = q.name + (q.unit.text == "1" ? "" : " [" + q.unit.text + "]");
     out += fmt::format("  {} of {}{}{}\n", numbers_in_words(what, Script::terminal),
                        item_in_words(q.of, q.credible_level.has_value()),
                        q.at.empty() ? "" : " " + numbers_in_words(q.at, Script::terminal),
-                       q.credible_level && !q.name.ends_with("remaining life")
+                       q.credible_level && !q.name.ends_with("remaining useful life")
                            ? fmt::format("; at least, with {:.4g} % confidence (credible), "
                                          "and of the next one",
                                          100 * *q.credible_level)

@@ -18,7 +18,7 @@ struct LifeLevels {
 /// Throws InputError.
 LifeLevels read_life_levels(const TomlReader& predict);
 
-/// "B10 life", "B0.1 remaining life".
+/// "B10 life", "B0.1 remaining useful life".
 std::string b_life_name(double percent, const std::string& life = "life");
 
 /// What is asked of that B-life of what `life` is the life of; `life` itself where `of` is empty.

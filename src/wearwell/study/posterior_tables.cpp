@@ -142,8 +142,7 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
       return std::isinf(x) && each.is_life ? Cell("never") : Cell(x);
     };
     table.rows.push_back(
-        {shown_name(each.name), each.unit, each.of, each.at, value(q.q05), value(q.q50),
-         value(q.q95),
+        {each.name, each.unit, each.of, each.at, value(q.q05), value(q.q50), value(q.q95),
          bounds || !each.safe_end ? Cell() : value(*each.safe_end < 0.5 ? q.q05 : q.q95),
          each.is_life ? value(q.b1) : Cell(), each.is_life ? value(q.b10) : Cell()});
   }
@@ -167,8 +166,8 @@ Table bound_table(const std::vector<QuantitySummary>& quantities) {
           {"95 %"},
           {"Next one"}};
     }
-    table.rows.push_back({shown_name(each.name), each.unit, each.of, each.at, *q.bound, q.q05,
-                          q.q50, q.q95, *q.predictive});
+    table.rows.push_back(
+        {each.name, each.unit, each.of, each.at, *q.bound, q.q05, q.q50, q.q95, *q.predictive});
   }
   return table;
 }

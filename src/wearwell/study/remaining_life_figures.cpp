@@ -15,7 +15,7 @@ namespace colour = plot::colour;
 
 constexpr std::size_t least_units = 3, most_named = 40;
 
-// The remaining lives of units in one unit of life, to one end.
+// The remaining useful lives of units in one unit of life, to one end.
 struct Fleet {
   std::string name, unit;
   std::string to;                   ///< "to wear = 100 um, force = 20 N"
@@ -39,10 +39,10 @@ std::vector<Fleet> fleets_of(const std::vector<QuantitySummary>& quantities) {
       continue;
     const auto [to, from] = parted(each.at);
     auto found = std::find_if(fleets.begin(), fleets.end(), [&](const Fleet& fleet) {
-      return fleet.name == shown_name(each.name) && fleet.unit == each.unit && fleet.to == to;
+      return fleet.name == each.name && fleet.unit == each.unit && fleet.to == to;
     });
     if (found == fleets.end()) {
-      fleets.push_back({shown_name(each.name), each.unit, to, from});
+      fleets.push_back({each.name, each.unit, to, from});
       found = fleets.end() - 1;
     }
     if (found->from != from) found->from.reset();

@@ -107,7 +107,7 @@ Check sense_check(const PosteriorSummary& result) {
   }
   for (const QuantitySummary& each : result.quantities) {
     const QuantityQuantiles& q = each.best();
-    sense.interval(fmt::format("{} of {}{}{}", shown_name(each.name), item_in_words(each.of),
+    sense.interval(fmt::format("{} of {}{}{}", each.name, item_in_words(each.of),
                                each.at.empty() ? "" : " ", each.at),
                    each.unit, q.q05, q.q95,
                    {q.q50, q.b1, q.b10, q.b50, q.predictive.value_or(0), q.bound.value_or(0)},

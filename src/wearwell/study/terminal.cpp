@@ -26,7 +26,7 @@ namespace {
 
 // Words of the program as people read them.
 std::string shown(const std::string& words) {
-  return numbers_in_words(shown_name(words), Script::terminal);
+  return numbers_in_words(words, Script::terminal);
 }
 
 // The better of the two: quadrature where there is one.
@@ -171,7 +171,7 @@ std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
     const QuantityQuantiles& q = each.best();
     if (!q.predictive) continue;
     level = fmt::format("{:.4g} %", 100 * *each.credible_level);
-    seen |= each.name.ends_with("remaining life");
+    seen |= each.name.ends_with("remaining useful life");
     if (rows.empty()) {
       rows.push_back({"", "at least, " + level, "5 %", "50 %", "95 %", "next one"});
     }

@@ -110,8 +110,8 @@ TEST_F(OwnLevels, BLivesOfMachinesAreThoseOfTheirLaw) {
   const PosteriorSummary plain = run(example("law", machines));
   EXPECT_EQ(found(plain, "life", "new machine").exact->b10,
             found(result, "life", "new machine").exact->b10);
-  EXPECT_EQ(found(result, "B5 remaining life", "machine 3").best().bound.value(),
-            found(result, "remaining life", "machine 3").best().q05);
+  EXPECT_EQ(found(result, "B5 remaining useful life", "machine 3").best().bound.value(),
+            found(result, "remaining useful life", "machine 3").best().q05);
 }
 
 TEST_F(OwnLevels, LivesOfMachinesThatHaveComeSoFar) {
@@ -120,8 +120,8 @@ TEST_F(OwnLevels, LivesOfMachinesThatHaveComeSoFar) {
       "law",
       machines + std::string("b_lives = [10]\ncredible_level = 0.8\nsurvived = \"400 km\"\n")));
   const Points& draws = result.posterior_draws.front().values;
-  const QuantityQuantiles left = found(result, "remaining life", "new machine").drawn;
-  const QuantityQuantiles b10 = found(result, "B10 remaining life", "machine").drawn;
+  const QuantityQuantiles left = found(result, "remaining useful life", "new machine").drawn;
+  const QuantityQuantiles b10 = found(result, "B10 remaining useful life", "machine").drawn;
   std::vector<std::pair<double, double>> lives;
   double all = 0, by_q05 = 0, by_q50 = 0;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {
@@ -149,11 +149,11 @@ TEST_F(OwnLevels, RemainingLivesOfASeenMachineAreCutAtThePlace) {
   const PosteriorSummary now =
       run(example("law", machines + std::string("b_lives = [20, 36, 60]\n")));
   const double last = 50;  // km, of machine 3
-  const QuantityQuantiles& before = found(now, "remaining life", "machine 3").best();
-  const double place = *found(now, "B20 remaining life", "machine 3").best().predictive;
+  const QuantityQuantiles& before = found(now, "remaining useful life", "machine 3").best();
+  const double place = *found(now, "B20 remaining useful life", "machine 3").best().predictive;
   const PosteriorSummary later = run(example(
       "law", machines + fmt::format("b_lives = [20, 50]\nsurvived = \"{} km\"\n", last + place)));
-  EXPECT_NE(found(later, "remaining life", "machine 3").at.find("on"), std::string::npos);
+  EXPECT_NE(found(later, "remaining useful life", "machine 3").at.find("on"), std::string::npos);
   const double survival =
       found(later, "survival to " + fmt::format("{:.6g} km", last + place), "machine 3").best().q50;
   EXPECT_NEAR(survival, 80, 1e-6);
@@ -161,9 +161,9 @@ TEST_F(OwnLevels, RemainingLivesOfASeenMachineAreCutAtThePlace) {
   const auto b = [&](const PosteriorSummary& of, const char* name) {
     return *found(of, name, "machine 3").best().predictive;
   };
-  EXPECT_NEAR(b(later, "B20 remaining life"), b(now, "B36 remaining life") - place,
+  EXPECT_NEAR(b(later, "B20 remaining useful life"), b(now, "B36 remaining useful life") - place,
               1e-6 * before.q50);
-  EXPECT_NEAR(b(later, "B50 remaining life"), b(now, "B60 remaining life") - place,
+  EXPECT_NEAR(b(later, "B50 remaining useful life"), b(now, "B60 remaining useful life") - place,
               1e-6 * before.q50);
 }
 
@@ -172,8 +172,8 @@ TEST_F(OwnLevels, WeibullLivesGivenThatTheyWereReached) {
       run(example("life", "b_lives = [10]\ncredible_level = 0.95\nsurvived = \"60e6 cycles\"\n"));
   const Points& draws = result.posterior_draws.front().values;
   const double far = 60e6, million = 1e6;  // lives are told in millions, eta in cycles
-  const QuantityQuantiles left = found(result, "remaining life", "new unit").drawn;
-  const QuantityQuantiles b10 = found(result, "B10 remaining life", "unit").drawn;
+  const QuantityQuantiles left = found(result, "remaining useful life", "new unit").drawn;
+  const QuantityQuantiles b10 = found(result, "B10 remaining useful life", "unit").drawn;
   std::vector<std::pair<double, double>> lives;
   double all = 0, by_q05 = 0;
   for (Eigen::Index i = 0; i < draws.rows(); ++i) {

@@ -167,7 +167,7 @@ TEST(OwnLives, OfLasersAreThoseOfADenseGrid) {
   // P(so long or less | not failed at 4000 h): the limit, 10 %, is reached at 10/rate.
   for (const int laser : {2, 3, 5, 8, 13}) {
     const auto u = static_cast<std::size_t>(laser - 1);
-    const QuantityQuantiles life = found("remaining life", "laser " + std::to_string(laser));
+    const QuantityQuantiles life = found("remaining useful life", "laser " + std::to_string(laser));
     const double left = dense.below(u, 2.5);
     const auto cdf = [&](double hours) {
       return 1 - dense.below(u, 10 / (4 + hours / 1000)) / left;

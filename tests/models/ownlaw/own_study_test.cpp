@@ -213,7 +213,7 @@ TEST_F(OwnStudy, LivesOfMachinesThatDiffer) {
   EXPECT_EQ(life.name, "life");
   EXPECT_EQ(life.of, "new machine");
   EXPECT_EQ(life.unit, "km");
-  EXPECT_EQ(result.quantities[2].name, "remaining life");
+  EXPECT_EQ(result.quantities[2].name, "remaining useful life");
   EXPECT_EQ(result.quantities[2].of, "machine 1");
   // P(life <= q) over the exact posterior, with the normal law of log life written out.
   const Chain& chain = result.posterior_draws.front();
@@ -303,7 +303,7 @@ sigma = {{ law = "half-normal", scale = "1 um" }}
 }
 
 // Lasers of Meeker and Escobar (1998), straight paths: what is known of a path ahead is what is known of
-// the remaining life, seen along the other axis.
+// the remaining useful life, seen along the other axis.
 TEST_F(OwnStudy, PathsAheadAndRemainingLivesAreOneThing) {
   const PosteriorStudy study = wearwell::read_posterior_study(examples + "degradation/lines.toml");
   // With fewer draws each laser would be left out in earnest.
@@ -317,12 +317,12 @@ TEST_F(OwnStudy, PathsAheadAndRemainingLivesAreOneThing) {
   };
   for (const char* laser : {"laser 3", "laser 7", "laser 13"}) {
     const QuantityQuantiles path = found("increase", laser);
-    const QuantityQuantiles life = found("remaining life", laser);
+    const QuantityQuantiles life = found("remaining useful life", laser);
     EXPECT_NEAR(path.q05, 10 * 5000 / (4000 + life.q95), 5e-3) << laser;
     EXPECT_NEAR(path.q50, 10 * 5000 / (4000 + life.q50), 5e-3) << laser;
     EXPECT_NEAR(path.q95, 10 * 5000 / (4000 + life.q05), 5e-3) << laser;
   }
-  EXPECT_EQ(found("remaining life", "laser 10").q95, 0);  // 12.21 % at 4000 h
+  EXPECT_EQ(found("remaining useful life", "laser 10").q95, 0);  // 12.21 % at 4000 h
   // A figure of a new laser and one of each, with its readings and the limit.
   const auto& figures = result.plots->exhibits.at("predictions");
   ASSERT_EQ(figures.size(), 15u);

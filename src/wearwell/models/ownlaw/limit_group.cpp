@@ -54,10 +54,10 @@ LimitGroup::LimitGroup(const Asked& asked, const std::string& name, const Quanti
   };
   if (path_->next) add_life("life", "new " + asked.noun, at, unit);
   if (path_->next && wishes_.survived) {
-    add_life("remaining life", "new " + asked.noun, from(path_->survived), unit);
+    add_life("remaining useful life", "new " + asked.noun, from(path_->survived), unit);
   }
   for (std::size_t u = 0; u < path_->seen.size(); ++u) {
-    add_life("remaining life", asked.unit(path_->seen[u].unit), from(begin_of(u)), unit);
+    add_life("remaining useful life", asked.unit(path_->seen[u].unit), from(begin_of(u)), unit);
   }
   const std::size_t lives = requests_.size();
   if (wishes_.survived) {
@@ -126,7 +126,7 @@ std::vector<PredictiveLife> LimitGroup::predictive(const LimitedLives& lives) co
   return all;
 }
 
-// Where the remaining life of a unit begins: its last row, or later.
+// Where the remaining useful life of a unit begins: its last row, or later.
 double LimitGroup::begin_of(std::size_t u) const {
   return wishes_.survived ? std::max(path_->seen[u].now, path_->survived) : path_->seen[u].now;
 }

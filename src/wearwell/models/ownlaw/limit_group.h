@@ -12,7 +12,7 @@
 
 namespace wearwell::ownlaw {
 
-/// What is asked of lives to a limit beside the life of a new unit and the remaining life of each one seen.
+/// What is asked of lives to a limit beside the life of a new unit and the remaining useful life of each one seen.
 struct LimitWishes {
   LifeLevels levels;
   std::optional<Quantity> survived;  ///< then lives count from there, given that it was reached

@@ -193,11 +193,12 @@ class Predictions {
     }
     if (survived) {
       const std::string from = joined(given_words_, fmt::format("from {} on", in_words(*survived)));
-      group.requests.push_back(request("remaining life", "new " + noun_, from, measured.unit));
+      group.requests.push_back(
+          request("remaining useful life", "new " + noun_, from, measured.unit));
       group.requests.back().is_life = true;
       group.requests.back().safe_end = 0.05;
       for (const double percent : percents) {
-        bounded(b_life_name(percent, "remaining life"), from, measured.unit);
+        bounded(b_life_name(percent, "remaining useful life"), from, measured.unit);
       }
     }
     for (const Quantity& each : survival) {

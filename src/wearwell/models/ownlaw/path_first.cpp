@@ -117,8 +117,9 @@ std::string study_text(const ColumnRoles& roles, const Path& path, const std::st
           ? fmt::format(
                 "# limit = {{ {} = {} }}    # STATE IT to get lives: where has a part failed?\n",
                 path.line_name, toml_text(quantity_text(2 * sigma, path.measured_unit)))
-          : fmt::format("limit = {{ {} = {} }}    # lives, and remaining lives of each unit\n",
-                        path.line_name, toml_text(roles.choices().limit));
+          : fmt::format(
+                "limit = {{ {} = {} }}    # lives, and remaining useful lives of each unit\n",
+                path.line_name, toml_text(roles.choices().limit));
   const std::string varies =
       !path.unit
           ? ""
