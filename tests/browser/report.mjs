@@ -1,5 +1,5 @@
 // Opens reports in headless Chromium and refuses what a reader would stumble over: an error on the console, a request to
-// the network, a plot without marks, a text of a plot that is cut off or covered, a table that is cut off or has a column
+// the network, a plot without marks, a line that leaves the order of its points, a text of a plot that is cut off or covered, a table that is cut off or has a column
 // without content, a violation of WCAG AA, a page wider than the screen, something folded on paper.
 //
 //   node report.mjs NODE_MODULES SCREENSHOTS LEAST_PLOTS REPORT.html...
@@ -35,6 +35,18 @@ function plotFaults(page) {
         return box.width + box.height > 1;
       });
       if (seen.length === 0) wrong.push(`plot ${figure.id} shows nothing`);
+      // A curve runs through its points in their order, back and forth.
+      const turns = (x) => x.slice(2).filter((each, i) => (each - x[i + 1]) * (x[i + 1] - x[i]) < 0).length;
+      const source = figure.querySelector('script[type="application/json"]');
+      (source ? JSON.parse(source.textContent).layer : []).forEach(({mark, data}, i) => {
+        const path = figure.querySelector(`.layer_${i}_marks path`)?.getAttribute('d');
+        if (mark?.type !== 'line' || mark.interpolate || !path) return;
+        const [names, ...rows] = data.values.split('\n');
+        const of = names.split(',').indexOf('x');
+        const wanted = turns(rows.map((row) => Number(row.split(',')[of])));
+        const drawn = turns([...path.matchAll(/[ML](-?[\d.e-]+)/g)].map((each) => Number(each[1])));
+        if (wanted !== drawn) wrong.push(`plot ${figure.id}: a line turns ${drawn} times where its points turn ${wanted} times`);
+      });
       if (figure.querySelector('[d*="NaN"], [x1="NaN"], [y1="NaN"]')) wrong.push(`plot ${figure.id} has NaN`);
       const svg = figure.querySelector('svg.marks');
       if (svg.getBoundingClientRect().right > innerWidth + 1) wrong.push(`plot ${figure.id} leaves the screen`);

@@ -174,14 +174,25 @@ std::string range_in_words(double low, double high, int digits, Script script) {
          plain(mantissa(high, exponent), digits, script) + times_power(exponent, script);
 }
 
+namespace {
+
+// "10⁶ cycles" of "1e6 cycles"; empty of a unit that is no multiple.
+std::string multiple_in_words(const std::string& unit, Script script) {
+  const std::size_t digits = unit.find_first_not_of("0123456789", 2);
+  if (!unit.starts_with("1e") || digits == unit.npos || digits == 2) return {};
+  return power_of_ten(std::atoi(unit.substr(2, digits - 2).c_str()), script) +
+         unit_in_words(unit.substr(digits), script);
+}
+
+}  // namespace
+
 std::string unit_in_words(const std::string& unit, Script script) {
   if (unit == "1") return {};
-  // Multiples, "1e5 cycles".
-  const std::size_t digits = unit.find_first_not_of("0123456789", 2);
-  if (unit.starts_with("1e") && digits != unit.npos && digits > 2) {
-    return fmt::format("×{}{}{}", hard_space,
-                       power_of_ten(std::atoi(unit.substr(2, digits - 2).c_str()), script),
-                       unit_in_words(unit.substr(digits), script));
+  const std::string multiple = multiple_in_words(unit, script);
+  if (!multiple.empty()) return fmt::format("×{}{}", hard_space, multiple);
+  if (unit.starts_with("1/(") && unit.ends_with(")")) {
+    const std::string per = multiple_in_words(unit.substr(3, unit.size() - 4), script);
+    if (!per.empty()) return fmt::format("1/({})", per);
   }
   std::string out;
   for (const char c : script == Script::page ? powers_raised(unit) : unit)

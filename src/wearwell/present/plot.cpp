@@ -144,7 +144,7 @@ void set_axis(Json& encoding, const char* channel, const Axis& axis, bool has_po
 // Through its points in their order: Vega-Lite would sort them by x.
 Json line(const Columns& data, const Look& look) {
   Json json = layer(data, stroke("line", look), look);
-  json["encoding"]["order"] = nullptr;
+  json["encoding"]["order"] = {{"value", nullptr}};
   return json;
 }
 

@@ -136,6 +136,16 @@ html::Figure cost_figure(const DecisionsReport& report) {
                      std::move(marks), 300, true)};
 }
 
+// Whole months, a dozen ticks at most.
+plot::Axis month_axis(std::size_t months) {
+  constexpr std::size_t most = 12;
+  const std::size_t step = (months + most - 1) / most;
+  plot::Axis axis{"Month"};
+  for (std::size_t i = step; i <= months; i += step)
+    axis.ticks.emplace_back(static_cast<double>(i), fmt::format("{}", i));
+  return axis;
+}
+
 html::Figure months_figure(const DecisionsReport& report) {
   std::vector<double> month, low, high, middle, parts;
   for (const FleetMonth& each : report.decisions.months) {
@@ -148,7 +158,8 @@ html::Figure months_figure(const DecisionsReport& report) {
   return {"months", "How many reach their limit",
           "Expected number with the interval that holds it with 90 %, where none is replaced "
           "before; and the spare parts that are enough where each is replaced in time.",
-          plot::plot("Units that reach their limit against months", {"Month"},
+          plot::plot("Units that reach their limit against months",
+                     month_axis(report.decisions.months.size()),
                      {fmt::format("{}s", html::capital(report.lives.noun)), false, 0.0},
                      {plot::area({{"x", month}, {"y", high}, {"y2", low}},
                                  {colour::posterior, "90 % of cases", 0.25}),

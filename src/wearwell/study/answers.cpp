@@ -240,6 +240,12 @@ std::vector<const QuantitySummary*> headlines(const PosteriorSummary& result) {
   return {};
 }
 
+std::string titled(const ParameterSummary& parameter) {
+  if (parameter.meaning == meaning_not_stated) return parameter.name;
+  if (parameter.meaning.ends_with("'s")) return parameter.meaning + " " + parameter.name;
+  return parameter.name + ", " + parameter.meaning;
+}
+
 std::string of_whom(const LifeSummary& summary) {
   return summary.of.empty() ? "" : (summary.now > 0 ? " of " : " of a ") + summary.of;
 }

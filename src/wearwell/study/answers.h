@@ -26,6 +26,10 @@ std::optional<NaturalParameter> of_logarithm(const ParameterSummary& parameter);
 /// "a new bearing", "the median bearing", "machine 12"; of a kind of items, "the softer spring".
 std::string item_in_words(const std::string& of, bool is_kind = false);
 
+/// A parameter as the title of a figure: "k, wear coefficient", "median machine's rate", and its name alone where its meaning is not
+/// stated.
+std::string titled(const ParameterSummary& parameter);
+
 /// " of bearing B at 1 MPa" of one that is known, " of a bearing at 1 MPa" of one to come; empty where nothing is said.
 std::string of_whom(const LifeSummary& summary);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wearwell/present/plot.h"
+#include "wearwell/study/answers.h"
 #include "wearwell/study/axis_scale.h"
 #include "wearwell/study/figures.h"
 
@@ -42,7 +43,7 @@ Figure belief_figure(const ParameterSummary& p, const ParameterPlots& plots) {
     marks.push_back(plot::line({{"x", scale(plots.exact->x)}, {"y", plots.exact->y}},
                                {colour::posterior, "after the data (exact)"}));
   }
-  return {"belief-" + p.name, fmt::format("{} ({})", capital(p.meaning), p.name),
+  return {"belief-" + p.name, titled(p),
           fmt::format("Prior: {}.", html::raised(powers_in_words(p.prior, Script::page)) +
                                         (p.prior_is_default ? " (default)" : "")),
           plot::plot(fmt::format("Density of {} before and after the data", p.name),

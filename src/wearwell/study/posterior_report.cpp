@@ -115,7 +115,7 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
                        range(natural->q05, natural->q95, 3) + " (90\u00a0%)"});
       continue;
     }
-    tiles.push_back({fmt::format("{}, {}", p.name, p.meaning), number(each.mean, 3), unit(p.unit),
+    tiles.push_back({titled(p), number(each.mean, 3), unit(p.unit),
                      range(each.q05, each.q95, 3) + " (90\u00a0%)"});
   }
   section.add(present::Tiles{std::move(tiles)});

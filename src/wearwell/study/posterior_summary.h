@@ -28,6 +28,9 @@ struct ExactSummary {
   double mean = 0, sd = 0, q05 = 0, q50 = 0, q95 = 0;
 };
 
+/// The meaning of a parameter of which a study says nothing but its name.
+inline constexpr const char* meaning_not_stated = "parameter";
+
 struct ParameterSummary {
   std::string name;
   std::string unit;

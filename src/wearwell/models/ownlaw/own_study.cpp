@@ -66,11 +66,11 @@ std::vector<std::string> meanings(const OwnLaw& law) {
     const auto effect = std::find_if(law.effects.begin(), law.effects.end(),
                                      [&](const Effect& each) { return each.parameter == i; });
     all.push_back(effect == law.effects.end()
-                      ? "parameter"
+                      ? meaning_not_stated
                       : fmt::format("{} {}'s", effect->lognormal ? "median" : "mean", *law.label));
   }
   for (const ownlaw::DrawnEffect& each : law.drawn) {
-    if (all[each.middle] == "parameter") {
+    if (all[each.middle] == meaning_not_stated) {
       all[each.middle] = fmt::format("{} {}'s", each.lognormal ? "median" : "mean", each.label);
     }
     for (std::size_t i = 0; i <= each.seen; ++i) {
