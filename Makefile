@@ -6,14 +6,14 @@ run: setup
 	@cmake --build --preset release --target wearwell
 	@build/release/bin/wearwell fit examples/joint/study.toml -o build/joint-results
 
-# The Python module as a wheel in build/wheel (docs/python.md).
+# The Python module as a wheel in build/wheel (docs/reference/python.md).
 python: setup-python
 	@cmake --preset release -DWEARWELL_BUILD_PYTHON=ON >/dev/null
 	@cmake --build --preset release --target wearwell_python
 	@WEARWELL_BUILD=$(CURDIR)/build/release /usr/bin/python3 -m pip wheel python/ --no-build-isolation --no-deps -q -w build/wheel
-	@echo "$$(ls -t build/wheel/*.whl | head -1): for pip in a virtual environment (docs/python.md)"
+	@echo "$$(ls -t build/wheel/*.whl | head -1): for pip in a virtual environment (docs/reference/python.md)"
 
-# The R package, built, in build/r (docs/r.md).
+# The R package, built, in build/r (docs/reference/r.md).
 r: setup-r
 	@cmake --preset release -DWEARWELL_BUILD_R=ON >/dev/null
 	@cmake --build --preset release --target wearwell_r
@@ -23,7 +23,7 @@ r: setup-r
 test: build
 	@ctest --preset release
 
-# The program, its manual page, completions of bash and zsh, and the library (docs/library.md); PREFIX=$HOME/.local for
+# The program, its manual page, completions of bash and zsh, and the library (docs/reference/library.md); PREFIX=$HOME/.local for
 # one user.
 PREFIX = /usr/local
 install: setup

@@ -40,7 +40,7 @@ struct Model {
   std::unique_ptr<const Study> (*read)(const TomlReader& root, const Source& source);
   /// Adds commands of its own; may be null.
   void (*add_commands)(CLI::App& app, int& exit_code);
-  /// All keys of its studies, for messages and docs/study-keys.md; may be null.
+  /// All keys of its studies, for messages and docs/reference/study-keys.md; may be null.
   StudyKeys (*keys)() = nullptr;
   /// A study of a table whose columns have these roles; nothing where it is of another trade. May be
   /// null.
