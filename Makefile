@@ -1,5 +1,5 @@
 # make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
-.PHONY: run python r test install build calibrate sanitize fuzz tidy bench format clean
+.PHONY: run python r docs test install build calibrate sanitize fuzz tidy bench format clean
 
 run: setup
 	@cmake --preset release >/dev/null
@@ -19,6 +19,13 @@ r: setup-r
 	@cmake --build --preset release --target wearwell_r
 	@r/tools/binary build/release build/r
 	@echo "R CMD INSTALL $$(ls -t build/r/*.tar.gz | head -1)"
+
+# The site, in build/docs/html: offline, and a warning or a link that leads nowhere is an error.
+docs: setup-docs
+	@mkdir -p build/docs/doxygen
+	@doxygen docs/Doxyfile
+	@/usr/bin/python3 -m sphinx -q -W --keep-going -b html -d build/docs/doctrees docs build/docs/html
+	@echo "build/docs/html/index.html"
 
 test: build
 	@ctest --preset release
@@ -61,7 +68,7 @@ build: setup-tests
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release
 
-.PHONY: setup setup-python setup-r setup-tests setup-clang
+.PHONY: setup setup-python setup-r setup-docs setup-tests setup-clang
 setup:
 	@setup/install
 
@@ -70,6 +77,9 @@ setup-python:
 
 setup-r:
 	@setup/install --r
+
+setup-docs:
+	@setup/install --docs
 
 setup-tests:
 	@setup/install --tests
