@@ -16,7 +16,7 @@ author = "the authors of wearwell"
 copyright = "the authors of wearwell; Apache-2.0"
 root_doc = "index"
 exclude_patterns = ["_ext", "_tools"]
-extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "repository_files", "r_help"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "repository_files", "cpp_header", "r_help", "furo_of_debian"]
 
 # Pages. Links go to pages and to their headings as GitHub names these, so that both places show them.
 myst_heading_anchors = 4
@@ -38,6 +38,20 @@ highlight_language = "none"
 autodoc_mock_imports = ["wearwell._core"]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
+smartquotes = False
+
+
+def _code_in(app, what, name, thing, options, lines):
+    """Docstrings are plain text: what stands indented between blank lines is code."""
+    for i in range(len(lines) - 1, 1, -1):
+        if lines[i].startswith("    ") and not lines[i - 1].strip() and lines[i - 2] and not lines[i - 2].startswith(" "):
+            if not lines[i - 2].rstrip().endswith("::"):
+                lines[i:i] = ["::", ""]
+
+
+def setup(app):
+    app.connect("autodoc-process-docstring", _code_in)
+
 
 html_theme = "furo"
 html_title = "wearwell"

@@ -31,7 +31,7 @@ class RHelp(SphinxDirective):
         except (OSError, subprocess.CalledProcessError) as error:
             raise ExtensionError(f"Rscript cannot render {page}: {error}") from error
         # Headings of R's own page lie below the heading of ours; links between help pages go to places on this page.
-        text = re.search(r"</h2>(.*?)(?:<hr />|</body>)", text, re.S)[1]
+        text = re.search(r"</h2>(.*?)(?:<hr />|</body>)", text, re.S)[1].rstrip().removesuffix("</div>")
         text = re.sub(r"<(/?)h3[^>]*>", r"<\1h4>", text)
         text = re.sub(r"<a href=\"[^\"]*?([\w.-]+)\.html\"[^>]*>(.*?)</a>", _link, text, flags=re.S)
         return [nodes.raw("", text, format="html")]
