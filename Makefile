@@ -1,29 +1,36 @@
 # make run, make test: each does all its own set-up on a fresh Debian 12 machine, and nothing twice.
-.PHONY: run python r test install build calibrate sanitize fuzz tidy bench format clean
+.PHONY: run python r docs test install build calibrate sanitize fuzz tidy bench format clean
 
 run: setup
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release --target wearwell
 	@build/release/bin/wearwell fit examples/joint/study.toml -o build/joint-results
 
-# The Python module as a wheel in build/wheel (docs/python.md).
+# The Python module as a wheel in build/wheel (docs/reference/python.md).
 python: setup-python
 	@cmake --preset release -DWEARWELL_BUILD_PYTHON=ON >/dev/null
 	@cmake --build --preset release --target wearwell_python
 	@WEARWELL_BUILD=$(CURDIR)/build/release /usr/bin/python3 -m pip wheel python/ --no-build-isolation --no-deps -q -w build/wheel
-	@echo "$$(ls -t build/wheel/*.whl | head -1): for pip in a virtual environment (docs/python.md)"
+	@echo "$$(ls -t build/wheel/*.whl | head -1): for pip in a virtual environment (docs/reference/python.md)"
 
-# The R package, built, in build/r (docs/r.md).
+# The R package, built, in build/r (docs/reference/r.md).
 r: setup-r
 	@cmake --preset release -DWEARWELL_BUILD_R=ON >/dev/null
 	@cmake --build --preset release --target wearwell_r
 	@r/tools/binary build/release build/r
 	@echo "R CMD INSTALL $$(ls -t build/r/*.tar.gz | head -1)"
 
+# The site, in build/docs/html: offline, and a warning or a link that leads nowhere is an error.
+docs: setup-docs
+	@mkdir -p build/docs/doxygen
+	@doxygen docs/Doxyfile
+	@/usr/bin/python3 -m sphinx -q -W --keep-going -b html -d build/docs/doctrees docs build/docs/html
+	@echo "build/docs/html/index.html"
+
 test: build
 	@ctest --preset release
 
-# The program, its manual page, completions of bash and zsh, and the library (docs/library.md); PREFIX=$HOME/.local for
+# The program, its manual page, completions of bash and zsh, and the library (docs/reference/library.md); PREFIX=$HOME/.local for
 # one user.
 PREFIX = /usr/local
 install: setup
@@ -61,7 +68,7 @@ build: setup-tests
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release
 
-.PHONY: setup setup-python setup-r setup-tests setup-clang
+.PHONY: setup setup-python setup-r setup-docs setup-tests setup-clang
 setup:
 	@setup/install
 
@@ -70,6 +77,9 @@ setup-python:
 
 setup-r:
 	@setup/install --r
+
+setup-docs:
+	@setup/install --docs
 
 setup-tests:
 	@setup/install --tests

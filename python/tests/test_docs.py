@@ -1,4 +1,4 @@
-"""docs/python.md: every block of Python, in its order, in one namespace, where the examples are."""
+"""docs/reference/python.md: every block of Python, in its order, in one namespace, where the examples are."""
 
 import os
 import re
@@ -9,7 +9,7 @@ from conftest import source
 
 
 def test_every_block_runs(tmp_path, monkeypatch):
-    with open(os.path.join(source, "docs", "python.md")) as file:
+    with open(os.path.join(source, "docs", "reference", "python.md")) as file:
         text = file.read()
     blocks = [(text[:m.start()].count("\n") + 2, m[1]) for m in re.finditer(r"```python\n(.*?)```", text, re.S)]
     assert len(blocks) >= 8
@@ -19,7 +19,7 @@ def test_every_block_runs(tmp_path, monkeypatch):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
         for line, block in blocks:
-            exec(compile("\n" * (line - 1) + block, "docs/python.md", "exec"), space)
+            exec(compile("\n" * (line - 1) + block, "docs/reference/python.md", "exec"), space)
     assert sorted(os.listdir("joint-results"))[:2] == ["draws_1.csv", "draws_2.csv"]
     assert space["joint"].trusted and space["left"].loc[0, "of"] == "joint J5"
 

@@ -43,8 +43,8 @@ def test_wheel_holds_what_it_needs(tmp_path):
     module, = glob.glob(str(here / "wearwell" / "_core*.so"))
     linked = subprocess.run(["ldd", module], capture_output=True, text=True).stdout
     assert str(here / "wearwell" / "libduckdb.so") in linked and "not found" not in linked and "netcdf" not in linked
-    # The way that docs/python.md shows, with what was installed.
-    with open(os.path.join(source, "docs", "python.md")) as file:
+    # The way that docs/reference/python.md shows, with what was installed.
+    with open(os.path.join(source, "docs", "reference", "python.md")) as file:
         way = re.search(r"## From nothing to NetCDF.*?```python\n(.*?)```", file.read(), re.S)[1]
     os.symlink(os.path.join(source, "examples"), tmp_path / "examples")
     run = subprocess.run([sys.executable, "-c", way + "print(ww.__file__, posterior['k'].dims, posterior['k'].attrs['units'])"],

@@ -4,7 +4,7 @@
     fit = ww.fit("study.toml", seed=1)
     fit.trusted, fit.parameters, fit.report("report.html")
 
-docs/python.md has the rest.
+docs/reference/python.md has the rest.
 """
 
 from . import _errors

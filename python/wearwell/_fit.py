@@ -59,7 +59,7 @@ class Fit:
     """The outcome of ``Study.fit`` or ``wearwell.fit``. It does not change; threads may share it, and it can be copied and
     pickled.
 
-    summary: dict, summary.json as the command line writes it (docs/summary.schema.json).
+    summary: dict, summary.json as the command line writes it (docs/reference/summary.schema.json).
     trusted: no check failed. checks: list of Check.
     parameters, predictions, quantities, lives: data frames in the study's units, by quadrature where there is one.
     draws, sample_stats: data frames by chain and draw. tables: those of the report, by name.

@@ -1,4 +1,4 @@
-"""Laws of priors, as ``[prior]`` of a study has them (docs/priors.md).
+"""Laws of priors, as ``[prior]`` of a study has them (docs/reference/priors.md).
 
 A quantity is a text with its unit, "7e-4 mm^3/(N m)", a plain number, or a pint quantity. Every law may be cut by
 ``lower`` and ``upper``. What is wrong with a law is said when the study is read.
@@ -76,5 +76,5 @@ def jeffreys(unit, *, lower=None, upper=None):
 
 
 def default():
-    """What holds where nothing is said (docs/priors.md)."""
+    """What holds where nothing is said (docs/reference/priors.md)."""
     return {"law": "default"}

@@ -119,14 +119,14 @@ class Study:
 
     ``Study(law="V = k*F*s", data=df, units={"F": "N", "s": "m", "V": "mm^3"}, priors={...}, unit="joint")``
 
-    law: equations, one a line (docs/law.md); a line whose left side is a column is what is measured.
+    law: equations, one a line (docs/reference/law.md); a line whose left side is a column is what is measured.
     data: see ``wearwell.table``. units: of columns, by heading or name; a heading may say it, "F [N]".
     priors: by parameter, as made by ``wearwell.lognormal`` and its like; units are those of the answer.
     unit: the column that names the items; ``varies`` says which parameters differ between them (one or two; a list,
     or a dict to "lognormal" or "normal"), by default the only one of the law, lognormal where it is positive. The scatter
     of k is the parameter k_scatter (half-normal, scale 1, where ``priors`` does not say).
     family, scatter: how what is measured scatters about the law: "normal" with the parameter sigma, ...; or
-    ``likelihood``: tables as [likelihood.NAME] of docs/law-study.md. constants, predict, sampler: as there.
+    ``likelihood``: tables as [likelihood.NAME] of docs/reference/law-study.md. constants, predict, sampler: as there.
     status: the column that says how each life ended, "event" or {"column": "event", "failure": 1} where it holds codes and its
     heading does not tell what a failure is written as, or {"column": "end", "failure": "broke", "runout": ["ran", "stopped"]} with
     words of the table; by default the column "status", if there is one. unused: columns that look

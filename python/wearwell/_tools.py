@@ -43,7 +43,7 @@ class Selection:
 
 def select(data, response, *, inputs=(), degree=None, terms=(), criterion="loo", keep=10, near=0.0, force=(), weights="",
            folds=0, nested=None, seed=1, time=None, threads=0, report=False):
-    """The best terms of a regression among all submodels, with a proof (docs/select.md): options as ``wearwell select``.
+    """The best terms of a regression among all submodels, with a proof (docs/how-to/select.md): options as ``wearwell select``.
 
     data: whatever ``wearwell.table`` takes, or the path of a file. The interpreter's lock is released.
     Raises InputError. Warns (CheckWarning) where the search is not proven or a check warns.

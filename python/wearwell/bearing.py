@@ -1,4 +1,4 @@
-"""Radial journal bearings: wear rate, depth, allowable pressure, length and life (docs/bearing.md).
+"""Radial journal bearings: wear rate, depth, allowable pressure, length and life (docs/reference/bearing.md).
 
 Every function takes ``contact`` ("stationary", "journal" or "bushing") and texts with units, as the command's options:
 radius or diameter, clearance, depth or scar_width, rate, pressure or force and length, revolutions or speed and time. An

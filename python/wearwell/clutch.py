@@ -1,4 +1,4 @@
-"""Worn volume of clutch linings, cycle by cycle (docs/clutch.md)."""
+"""Worn volume of clutch linings, cycle by cycle (docs/reference/clutch.md)."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-# Laws of priors, as [prior] of a study has them (docs/priors.md). What is wrong with a law is said when the study is read.
+# Laws of priors, as [prior] of a study has them (docs/reference/priors.md). What is wrong with a law is said when the study is read.
 
 prior <- function(law, ..., unit = NULL) {
   keys <- list(...)

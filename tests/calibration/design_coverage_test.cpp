@@ -1,5 +1,5 @@
 // How often the design numbers of an S-N study hold what they promise, tests drawn from one truth many
-// times: the life that 90 % outlast, with 90 % confidence, under the lowest stress. docs/fatigue.md has the
+// times: the life that 90 % outlast, with 90 % confidence, under the lowest stress. docs/reference/fatigue.md has the
 // table that is printed here.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // How often the checks of fit warn of data that the law itself made, and how often they fail: at
 // most as often as they say, for few observations and many, with known and with fitted scatter,
-// where items differ and where tests were stopped. Prints the shares; docs/checks.md has them.
+// where items differ and where tests were stopped. Prints the shares; docs/reference/checks.md has them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>

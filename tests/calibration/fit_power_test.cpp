@@ -1,5 +1,5 @@
 // How often the check of fit accuses right studies of lives and readings, and how often it sees what is wrong, beside the
-// classical test with estimated parameters at the same level. Prints the shares; docs/checks.md has them.
+// classical test with estimated parameters at the same level. Prints the shares; docs/reference/checks.md has them.
 // WEARWELL_REPLICATIONS says how many studies of each kind.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

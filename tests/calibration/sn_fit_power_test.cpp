@@ -1,6 +1,6 @@
 // How often the check of fit accuses right S-N studies of thirty tests, and how often it sees a second failure mode,
 // scatter that grows with life and long tails, beside classical tests of the residuals of least squares at the same
-// level. Prints the shares; docs/checks.md has them. WEARWELL_REPLICATIONS says how many studies of each kind.
+// level. Prints the shares; docs/reference/checks.md has them. WEARWELL_REPLICATIONS says how many studies of each kind.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>

@@ -62,13 +62,16 @@ TEST_P(Tutorial, PrintsWhatItShows) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Tutorial,
-                         testing::Values("README.md", "docs/bearing.md", "docs/clutch.md",
-                                         "docs/compare.md", "docs/decisions.md",
-                                         "docs/degradation.md", "docs/edge.md", "docs/fatigue.md",
-                                         "docs/fleet.md", "docs/joint.md", "docs/life.md",
-                                         "docs/monitor-tutorial.md", "docs/select.md",
-                                         "docs/spectrum.md", "docs/staircase.md", "docs/state.md",
-                                         "docs/tables.md", "docs/units.md"),
+                         testing::Values("README.md", "docs/reference/bearing.md",
+                                         "docs/reference/clutch.md", "docs/how-to/compare.md",
+                                         "docs/how-to/decisions.md",
+                                         "docs/reference/degradation.md", "docs/how-to/edge.md",
+                                         "docs/reference/fatigue.md", "docs/how-to/fleet.md",
+                                         "docs/reference/joint.md", "docs/reference/life.md",
+                                         "docs/tutorials/monitoring.md", "docs/how-to/select.md",
+                                         "docs/how-to/spectrum.md", "docs/reference/staircase.md",
+                                         "docs/how-to/state.md", "docs/reference/tables.md",
+                                         "docs/reference/units.md"),
                          [](const auto& each) {
                            std::string name = std::filesystem::path(each.param).stem().string();
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -1,4 +1,4 @@
-// docs/priors.md against the reader: every line of its TOML is read, every key in it is needed, and no law is left out.
+// docs/reference/priors.md against the reader: every line of its TOML is read, every key in it is needed, and no law is left out.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -20,7 +20,7 @@ struct Line {
 };
 
 std::string text_of_page() {
-  std::ifstream file(PROJECT_SOURCE_DIR "/docs/priors.md");
+  std::ifstream file(PROJECT_SOURCE_DIR "/docs/reference/priors.md");
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -63,7 +63,7 @@ TEST(CarriedState, IsReadBackToTheBit) {
   EXPECT_EQ(again.posterior.cells.mass, state.posterior.cells.mass);
 }
 
-// docs/state.md: where the version stands, and in which order its bytes.
+// docs/how-to/state.md: where the version stands, and in which order its bytes.
 TEST(CarriedState, BeginsAsTheDocumentationSays) {
   const std::string bytes = state_bytes(example());
   EXPECT_EQ(bytes.substr(0, 20), std::string("wearwell state\r\n\x01\0\0\0", 20));

@@ -1,4 +1,4 @@
-// Validates results against docs/summary.schema.json, and sees that the schema can refuse: every result with a key taken away, renamed
+// Validates results against docs/reference/summary.schema.json, and sees that the schema can refuse: every result with a key taken away, renamed
 // or of another kind must be refused.
 //
 //   node validate.mjs NODE_MODULES SCHEMA SUMMARY...

@@ -1,4 +1,4 @@
-// What the lists of keys say of a study is what its reader does; docs/study-keys.md is made of both.
+// What the lists of keys say of a study is what its reader does; docs/reference/study-keys.md is made of both.
 #include "wearwell/input/study_keys.h"
 
 #include <fmt/format.h>
@@ -405,7 +405,7 @@ void add_examples(std::vector<std::pair<std::string, std::string>>& studies) {
   }
 }
 
-// What stands in docs/study-keys.md of some keys.
+// What stands in docs/reference/study-keys.md of some keys.
 using Asked = std::map<std::string, std::set<std::string>>;
 
 std::string kinds_of(const StudyKey& key, const Asked& asked) {
@@ -493,7 +493,8 @@ TEST_F(StudyKeysTest, ListsHoldWhatReadersAskForAndDocsShowThem) {
                         fmt::format("{{ column = \"{0} [{1}]\", unit = \"{1}\" }}", name, unit));
   }
   read(clutch, toml(completed(clutch, tables)));
-  std::string docs = read_text_file(fs::path(PROJECT_SOURCE_DIR) / "docs/study-keys.md").text;
+  std::string docs =
+      read_text_file(fs::path(PROJECT_SOURCE_DIR) / "docs/reference/study-keys.md").text;
   const auto put = [&](const std::string& name, const std::string& content) {
     const std::string begin = fmt::format("<!-- keys: {} -->\n", name), end = "<!-- end -->";
     const std::size_t from = docs.find(begin);
@@ -526,18 +527,19 @@ TEST_F(StudyKeysTest, ListsHoldWhatReadersAskForAndDocsShowThem) {
   }
   expect_asked(common, of_all);
   put("all", block(common, of_all));
-  const fs::path file = fs::path(PROJECT_SOURCE_DIR) / "docs/study-keys.md";
+  const fs::path file = fs::path(PROJECT_SOURCE_DIR) / "docs/reference/study-keys.md";
   if (std::getenv("WEARWELL_WRITE_DOCS")) std::ofstream(file) << docs;
-  EXPECT_EQ(docs, read_text_file(file).text)
-      << "docs/study-keys.md is not what readers ask for; WEARWELL_WRITE_DOCS=1 writes it anew";
+  EXPECT_EQ(docs, read_text_file(file).text) << "docs/reference/study-keys.md is not what readers "
+                                                "ask for; WEARWELL_WRITE_DOCS=1 writes it anew";
 }
 
 // The studies of the tutorials, whose data are the reader's own: no key of theirs is wrong or missing.
 TEST(DocsStudies, HaveTheKeysThatTheyNeed) {
   int studies = 0;
   for (const char* page : {"joint", "bearing", "fatigue", "clutch"}) {
-    const std::string text =
-        read_text_file(fs::path(PROJECT_SOURCE_DIR) / "docs" / (std::string(page) + ".md")).text;
+    const std::string text = read_text_file(fs::path(PROJECT_SOURCE_DIR) / "docs/reference" /
+                                            (std::string(page) + ".md"))
+                                 .text;
     const std::string begin = "```toml\n", end = "```\n";
     for (std::size_t at = text.find(begin); at != text.npos; at = text.find(begin, at)) {
       at += begin.size();

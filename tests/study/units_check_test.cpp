@@ -24,7 +24,7 @@ std::string found(const DataColumn& column) {
   if (!check) return {};
   EXPECT_EQ(check->name, "units");
   EXPECT_EQ(check->verdict, Verdict::warn);
-  EXPECT_THAT(check->advice, HasSubstr("docs/units.md"));
+  EXPECT_THAT(check->advice, HasSubstr("docs/reference/units.md"));
   return check->detail;
 }
 

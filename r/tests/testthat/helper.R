@@ -20,7 +20,7 @@ program <- function(...) {
 
 quiet <- function(code) withCallingHandlers(code, wearwell_check_warning = function(w) invokeRestart("muffleWarning"))
 
-# Six joints, each worn at its own rate: the numbers of docs/r.md.
+# Six joints, each worn at its own rate: the numbers of docs/reference/r.md.
 joints <- function() {
   rates <- 1e-7 * c(0.83, 1.06, 0.78, 1.61, 1.10, 0.78)
   frame <- expand.grid(pair = 1:3, joint = paste0("J", 1:6), stringsAsFactors = FALSE)

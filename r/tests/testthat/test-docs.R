@@ -1,7 +1,7 @@
-# docs/r.md: every block of R, in its order, in one place, where the examples are.
+# docs/reference/r.md: every block of R, in its order, in one place, where the examples are.
 
 test_that("every block runs", {
-  text <- readLines(file.path(source_of_project(), "docs", "r.md"))
+  text <- readLines(file.path(source_of_project(), "docs", "reference", "r.md"))
   starts <- which(text == "```r")
   expect_gte(length(starts), 8)
   folder <- tempfile()

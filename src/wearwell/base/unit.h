@@ -7,7 +7,7 @@ namespace wearwell {
 
 /// A unit that the user wrote, and its way to SI: si = offset + scale * value. Inside the program
 /// all is SI; units are read at the door and used again at the exit. The scale is finite and above
-/// 0. docs/units.md says what may be written.
+/// 0. docs/reference/units.md says what may be written.
 struct Unit {
   std::string text;   ///< as written, "mm^3/(N m)"; "1" for a plain number
   double scale = 1;   ///< one unit in SI; converts differences (standard deviations) too

@@ -19,7 +19,7 @@ struct ParsedUnit {
   bool linear = true;  ///< false for decibels and other logarithms, and for points in time
 };
 
-/// Reads a unit as UDUNITS-2 does, with names of our own (docs/units.md); nothing where it is none.
+/// Reads a unit as UDUNITS-2 does, with names of our own (docs/reference/units.md); nothing where it is none.
 /// Throws MachineError when the database of UDUNITS-2 is missing.
 std::optional<ParsedUnit> parse_unit(const std::string& text);
 

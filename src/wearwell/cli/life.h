@@ -6,7 +6,7 @@
 
 namespace wearwell {
 
-/// `wearwell life`: the remaining useful life of one unit of a result (docs/state.md).
+/// `wearwell life`: the remaining useful life of one unit of a result (docs/how-to/state.md).
 void add_life_command(CLI::App& app, Models models, int& exit_code);
 
 }  // namespace wearwell

@@ -93,7 +93,7 @@ void add_monitor_command(CLI::App& app, Models models, int& exit_code) {
   const auto command = std::make_shared<MonitorCommand>();
   CLI::App* monitor = app.add_subcommand(
       "monitor", "Follow machines on line: wear, remaining useful life and risk of each");
-  monitor->add_option("CONFIG", command->config, "Configuration (TOML, docs/monitor.md)")
+  monitor->add_option("CONFIG", command->config, "Configuration (TOML, docs/reference/monitor.md)")
       ->required();
   CLI::Option* once = monitor->add_flag(
       "--once", command->run.once,

@@ -10,7 +10,7 @@
 namespace wearwell {
 
 /// The prior of a parameter of which the study says nothing: weak, what the field knows or what units
-/// and the size of the data say, never what a fit says. docs/priors.md has them all.
+/// and the size of the data say, never what a fit says. docs/reference/priors.md has them all.
 struct DefaultPrior {
   std::string law;  ///< as in study files: "lognormal"
   Family family;    ///< SI

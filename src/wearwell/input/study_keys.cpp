@@ -65,7 +65,7 @@ class Keys {
       if (!table_was_read || asked_.contains(each.path)) continue;
       faults.push_back(fmt::format(
           "{}: {}: has no effect beside the rest of this study; take it out, or give what it "
-          "needs (docs/study-keys.md)",
+          "needs (docs/reference/study-keys.md)",
           each.place, each.path));
       add_excerpt(each, {});
     }

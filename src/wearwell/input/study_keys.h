@@ -8,7 +8,7 @@
 
 namespace wearwell {
 
-/// A key that a study file may hold, for messages and for docs/study-keys.md. What a study means is
+/// A key that a study file may hold, for messages and for docs/reference/study-keys.md. What a study means is
 /// the reader's business alone; tests hold these lists against what readers ask for.
 struct StudyKey {
   /// "data.columns.volume". A part "*" is a name that the user chooses, or one of those that stand
@@ -41,7 +41,7 @@ StudyKey unused_columns_key();
 /// How a table is written, of [data] or of whatever table names a file.
 StudyKeys layout_keys(const std::string& table = "data");
 
-/// What `[prior]` may say of each unknown (docs/priors.md).
+/// What `[prior]` may say of each unknown (docs/reference/priors.md).
 StudyKeys prior_keys();
 
 /// The needed keys that do not stand in a study.

@@ -107,7 +107,7 @@ double cell_number(const Table& table, const Column& column, std::size_t index) 
   throw InputError(fmt::format(
       "{}: '{}' is a limit: the value lies {} it, and a value is needed here. Such rows are "
       "{}-censored; they are read in the life of a test and in what a formula (model = \"law\") "
-      "measures (docs/tables.md)",
+      "measures (docs/reference/tables.md)",
       place(table, column.name, index), column.text[index], value.sign == '<' ? "below" : "above",
       value.sign == '<' ? "left" : "right"));
 }

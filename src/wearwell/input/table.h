@@ -61,7 +61,7 @@ struct QueryError : InputError {
 };
 
 /// Reads exactly this file, by its ending: text (.csv, .tsv, .txt, .dat, .asc), .json, .ndjson,
-/// .jsonl (each also with .gz behind), .parquet, .xlsx (docs/tables.md). `sql`, when given, is one
+/// .jsonl (each also with .gz behind), .parquet, .xlsx (docs/reference/tables.md). `sql`, when given, is one
 /// SELECT over the table `data`; it can read nothing else. Throws InputError: no such file, no
 /// regular file, unreadable, empty, cut off, no rows, two columns of one name, malformed; and
 /// QueryError.

@@ -9,7 +9,7 @@ namespace wearwell {
 /// How the bytes of a text are read.
 enum class Encoding { utf8, utf16_le, utf16_be, cp1252 };
 
-/// What a study says of how a table is written (docs/tables.md); the rest is found out.
+/// What a study says of how a table is written (docs/reference/tables.md); the rest is found out.
 struct TableSettings {
   std::optional<char> decimal = {};    ///< '.' or ','
   std::optional<char> thousands = {};  ///< '.', ',', '\'', ' '; 0: there are none

@@ -28,7 +28,7 @@ class Power {
   int above_ = 0, below_ = 1;
 };
 
-/// Powers of the base units (docs/units.md: those of the SI, "cycle" for whatever is counted and
+/// Powers of the base units (docs/reference/units.md: those of the SI, "cycle" for whatever is counted and
 /// "radian"), none of them 0. Unlike those of a written unit they may be fractions: the square root
 /// of a length is met on the way to a stress intensity. Empty for a pure number.
 using Powers = std::map<std::string, Power>;

@@ -15,7 +15,7 @@ struct HttpCounts {
   std::map<unsigned, std::uint64_t> answers = {};  ///< so far, by status
 };
 
-/// The text that Prometheus reads, with `units` one by one (text format 0.0.4; names and units: docs/monitor-api.md).
+/// The text that Prometheus reads, with `units` one by one (text format 0.0.4; names and units: docs/reference/monitor-api.md).
 std::string metrics_text(const FleetView& fleet, const std::vector<UnitView>& units,
                          const HttpCounts& http);
 

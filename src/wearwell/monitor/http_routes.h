@@ -12,7 +12,7 @@
 
 namespace wearwell::monitor {
 
-/// Which path is answered how (docs/monitor-api.md). Any thread may ask.
+/// Which path is answered how (docs/reference/monitor-api.md). Any thread may ask.
 class HttpRoutes {
  public:
   /// `inbox`: null where readings are not taken by HTTP.

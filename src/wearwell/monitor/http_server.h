@@ -8,7 +8,7 @@
 
 namespace wearwell::monitor {
 
-/// The page, the JSON API, events and metrics of a fleet (docs/monitor-api.md), on threads of its own: one
+/// The page, the JSON API, events and metrics of a fleet (docs/reference/monitor-api.md), on threads of its own: one
 /// that moves bytes and never waits, two that ask the reader, two that hand to the inbox. What a client is
 /// slow to take or to send costs others nothing: a stream of events holds one event, and the next tells all
 /// that changed since.

@@ -48,7 +48,7 @@ struct PublishSettings {
   std::string prefix;  ///< PREFIX/UNIT/state
 };
 
-/// What `wearwell monitor` is told in its file (docs/monitor.md).
+/// What `wearwell monitor` is told in its file (docs/reference/monitor.md).
 struct MonitorConfig {
   std::string title;
   std::filesystem::path folder;  ///< of the file; paths in it are relative to this

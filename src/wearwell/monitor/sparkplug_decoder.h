@@ -15,7 +15,7 @@
 
 namespace wearwell::monitor {
 
-/// Makes rows of messages of Sparkplug B (docs/monitor.md): knows of each edge node and device what its birth certificate said, which
+/// Makes rows of messages of Sparkplug B (docs/reference/monitor.md): knows of each edge node and device what its birth certificate said, which
 /// values hold until others come, and whether a message is missing. What cannot be read for sure is a row with a problem, and
 /// the edge node is asked for its birth certificates. One thread calls; times are of a clock that does not jump.
 class SparkplugDecoder {

@@ -10,7 +10,7 @@
 
 namespace wearwell::prognosis {
 
-/// What `wearwell fit` leaves for those who go on from it, state.bin (docs/state.md): the study with its data, and
+/// What `wearwell fit` leaves for those who go on from it, state.bin (docs/how-to/state.md): the study with its data, and
 /// the posterior as nodes.
 struct CarriedState {
   std::string model;    ///< key: "law"

@@ -32,7 +32,7 @@ struct NodeCourse {
   std::function<double(const double* node, double at)> level;  ///< what is limited, from `now` on
 };
 
-/// What a trade says of its units, of whose rows none depends on another: all else is done by nodes (docs/tracking.md).
+/// What a trade says of its units, of whose rows none depends on another: all else is done by nodes (docs/explanation/tracking.md).
 /// Functions are called by many threads at once.
 struct NodeModel {
   std::vector<ReadingColumn> columns;

@@ -14,7 +14,7 @@ struct Reweighted {
 };
 Reweighted reweighted(const WeightedDraws& draws, const Posterior& before, const Posterior& after);
 
-/// Whether lives may be read off it (measured in docs/state.md).
+/// Whether lives may be read off it (measured in docs/how-to/state.md).
 bool resolves(const Reweighted& moved);
 
 }  // namespace wearwell::prognosis

@@ -31,7 +31,7 @@ Comparison compare(std::vector<std::pair<std::string, SavedResult>> results);
 /// For the terminal, ending with a newline.
 std::string comparison_text(const Comparison& comparison);
 
-/// comparable, obstacle, cautions, studies[].{study, title, model, ...}; keys in docs/compare.md.
+/// comparable, obstacle, cautions, studies[].{study, title, model, ...}; keys in docs/how-to/compare.md.
 nlohmann::ordered_json to_json(const Comparison& comparison);
 
 /// One page: the tables, and the densities of parameters of the same name over each other.

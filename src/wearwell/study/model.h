@@ -34,7 +34,7 @@ struct Model {
   /// Reads the study's own part of the file; the caller refuses keys that were never asked for.
   /// Throws InputError.
   std::unique_ptr<const Study> (*read)(const TomlReader& root, const Source& source);
-  /// All keys of its studies, for messages and docs/study-keys.md; may be null.
+  /// All keys of its studies, for messages and docs/reference/study-keys.md; may be null.
   StudyKeys (*keys)() = nullptr;
   /// A study of a table whose columns have these roles; nothing where it is of another trade. May be
   /// null.

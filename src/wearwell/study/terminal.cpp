@@ -41,7 +41,7 @@ std::string parameter_table(const PosteriorSummary& result) {
   const std::string defaults = default_priors(result.parameters);
   if (!defaults.empty()) {
     out += wrapped("default priors: " + printable(defaults) +
-                       "; state what you know in [prior] (docs/priors.md)",
+                       "; state what you know in [prior] (docs/reference/priors.md)",
                    2, 4);
   }
   return out;

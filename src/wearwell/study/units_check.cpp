@@ -46,7 +46,7 @@ bool below_one(double count) {
 void look_at(const DataColumn& column, Findings& findings) {
   const auto add = [&](const std::string& what) {
     findings.add(Verdict::warn, fmt::format("{}: {}", column.name, what),
-                 "Are the units and these cells right? docs/units.md has the rules.");
+                 "Are the units and these cells right? docs/reference/units.md has the rules.");
   };
   std::vector<double> positive;
   double largest = 0;

@@ -20,7 +20,7 @@ struct DataColumn {
       false;  ///< a length may be a way, how far something slid: no size of a machine bounds it
 };
 
-/// Whether units were mistaken, by rules that hold for any machine (docs/units.md): a count below
+/// Whether units were mistaken, by rules that hold for any machine (docs/reference/units.md): a count below
 /// one, a size that no machine has, rows of one column that differ by hundreds. Nothing when there
 /// is nothing to say, else a warning named "units".
 std::optional<Check> units_check(const std::vector<DataColumn>& columns);

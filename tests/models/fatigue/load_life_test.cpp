@@ -46,7 +46,7 @@ const LoadCycles history = {
     {{330e6, 60e6}, 3}, {{260e6, 20e6}, 40}, {{180e6, 80e6}, 900}, {{120e6, 10e6}, 2e4}};
 
 // What happens to one item after the other: parameters, place, damage sum are drawn, damage is summed
-// cycle by cycle along the curve as it is written in docs/fatigue.md.
+// cycle by cycle along the curve as it is written in docs/reference/fatigue.md.
 std::vector<double> lives_one_by_one(const SnResult& result, const LoadQuestion& question,
                                      int items, std::uint64_t seed) {
   std::mt19937_64 random(seed);

@@ -14,7 +14,7 @@ WearModel read_wear_model(const TomlReader& root);
 
 }  // namespace bearing
 
-/// Reads `model = "bearing-wear"` (docs/bearing.md) into `study`, whose general parts are read
+/// Reads `model = "bearing-wear"` (docs/reference/bearing.md) into `study`, whose general parts are read
 /// already.
 void read_bearing_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
 

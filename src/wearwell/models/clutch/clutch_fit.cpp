@@ -252,7 +252,8 @@ Check data_check(const Campaign& campaign, const ClutchResult& r) {
                  fmt::format("points {} of the design were not run", fmt::join(missing, ", ")),
                  "The map knows less there; run them, or strike them from the design.");
   for (const std::string& each : campaign.filled)
-    findings.add(Verdict::warn, each, "docs/clutch.md says what that does to the result.");
+    findings.add(Verdict::warn, each,
+                 "docs/reference/clutch.md says what that does to the result.");
   for (const std::string& flag : r.blocks.flags)
     findings.add(Verdict::warn, flag, "Look at the rows named; weigh longer blocks.");
   for (const Closing& closing : r.closings) {

@@ -10,7 +10,7 @@
 
 namespace wearwell::clutch {
 
-/// model.json (docs/clutch.md): everything in SI, temperatures in degrees Celsius. Writing and
+/// model.json (docs/reference/clutch.md): everything in SI, temperatures in degrees Celsius. Writing and
 /// reading loses no bit.
 nlohmann::ordered_json to_json(const WearModel& model);
 /// Throws InputError that names the file and what is missing or wrong in it.

@@ -7,7 +7,7 @@
 
 namespace wearwell::clutch {
 
-/// What summary.json holds after the header (docs/clutch.md). Wear rates in mm^3/MJ, volumes in mm^3,
+/// What summary.json holds after the header (docs/reference/clutch.md). Wear rates in mm^3/MJ, volumes in mm^3,
 /// energies in MJ.
 nlohmann::ordered_json summary_body(const ClutchStudy& study, const ClutchResult& result);
 /// One row a weighing of a sequence.

@@ -11,7 +11,7 @@
 #include "wearwell/models/clutch/closing.h"
 #include "wearwell/models/clutch/tribometer.h"
 
-/// Files of a campaign. Headings carry units, "torque [N m]" (docs/tables.md); any unit of the
+/// Files of a campaign. Headings carry units, "torque [N m]" (docs/reference/tables.md); any unit of the
 /// right dimension will do. All readers throw InputError naming file, row, column and value.
 namespace wearwell::clutch {
 

@@ -69,9 +69,10 @@ std::optional<FirstStudy> first_study(ColumnRoles& roles) {
           "{}[data.columns]\n{}\n"
           "[law]                                   # the simplest curve: Basquin's; others: curve "
           "= \"knee\", "
-          "fatigue_limit = \"random\" (docs/fatigue.md)\n"
+          "fatigue_limit = \"random\" (docs/reference/fatigue.md)\n"
           "mean_stress = \"{}\"{}\n\n"
-          "# Without [prior] weak defaults hold (docs/priors.md). What you know makes a better "
+          "# Without [prior] weak defaults hold (docs/reference/priors.md). What you know makes a "
+          "better "
           "answer:\n"
           "# [prior]\n# b = {{ law = \"normal\", mean = -0.1, sd = 0.03 }}\n{}\n"
           "[predict]\n"
@@ -101,7 +102,7 @@ std::optional<FirstStudy> first_strain_study(ColumnRoles& roles) {
           "{}[data.columns]    # alternating_stress holds the strain amplitude\n{}\n"
           "[law]\nmean_stress = \"none\"\n"
           "curve = \"strain-life\"                   # sigma_f'/E (2N)^b + eps_f' (2N)^c\n\n"
-          "# Without [prior] weak defaults for metals hold (docs/priors.md).\n\n"
+          "# Without [prior] weak defaults for metals hold (docs/reference/priors.md).\n\n"
           "[predict]\n{}",
           toml_text("Strain-life curve, from " + roles.file()), roles.data_section(), columns,
           asked));
@@ -121,7 +122,7 @@ std::optional<FirstStudy> first_staircase(ColumnRoles& roles) {
           "title = {}\n"
           "model = \"staircase\"\n\n"
           "{}[data.columns]\n{}\n"
-          "# Without [prior] weak defaults hold (docs/priors.md).\n\n"
+          "# Without [prior] weak defaults hold (docs/reference/priors.md).\n\n"
           "[predict]\n"
           "reliability    = [\"50 %\", \"90 %\"]        # which stress is borne by such a share?\n"
           "credible_level = 0.9                     # of the lower bound\n",

@@ -146,7 +146,7 @@ StudyKeys study_keys() {
        {"data.columns.label", "\"type\"", "a name, for predict.types and the report"},
        {"data.columns.part", "\"part\"",
         "a name of its own for each, so that run-outs can be followed "
-        "([tracking.md](tracking.md))"},
+        "([tracking.md](../explanation/tracking.md))"},
        needed_key("law.mean_stress", "\"goodman\"",
                   "how a mean stress shortens life ([fatigue.md](fatigue.md))"),
        {"law.fatigue_limit", "\"random\"", "whether there is a fatigue limit (none)"},

@@ -40,7 +40,7 @@ void refuse_beyond(const SnData& data, double strength, const std::string& name)
 }
 
 // What is known of S-N curves before any test of this one, and the size of the stresses, which are
-// set and not measured (docs/priors.md).
+// set and not measured (docs/reference/priors.md).
 class Defaults {
  public:
   explicit Defaults(const SnData& data) : data_(data) {

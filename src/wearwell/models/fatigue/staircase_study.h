@@ -4,7 +4,7 @@
 
 namespace wearwell {
 
-/// What model = "staircase" reads beyond what all studies of a posterior have (docs/staircase.md).
+/// What model = "staircase" reads beyond what all studies of a posterior have (docs/reference/staircase.md).
 /// Throws InputError.
 void read_staircase_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
 

@@ -26,7 +26,7 @@ struct JointData {
   std::string name;  ///< of the joint, as its readings come under it: "joint" unless the study says
 };
 
-/// Work and volume from whichever sources the study names (docs/joint.md): columns, one constant, a
+/// Work and volume from whichever sources the study names (docs/reference/joint.md): columns, one constant, a
 /// profile of one cycle, pin positions. Throws InputError where none or two are given, and where a
 /// row cannot be.
 JointData read_joint_data(const TomlReader& root, const Source& source, ObservationFamily family);

@@ -16,7 +16,7 @@ Archard read_law(const TomlReader& root, const JointData& data);
 
 }  // namespace joint
 
-/// Reads `model = "archard-joint"` (docs/joint.md) into `study`, whose general parts are read
+/// Reads `model = "archard-joint"` (docs/reference/joint.md) into `study`, whose general parts are read
 /// already.
 void read_joint_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
 

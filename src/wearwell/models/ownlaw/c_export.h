@@ -15,7 +15,7 @@ struct CExportChoice {
   std::size_t lines = 0;  ///< points of the population's posterior; 0: as many as on line
 };
 
-/// A unit of a population as C99 (docs/edge.md): NAME.h, NAME.c and a test with numbers of our own.
+/// A unit of a population as C99 (docs/how-to/edge.md): NAME.h, NAME.c and a test with numbers of our own.
 struct CExport {
   std::string header, source, test;
   std::size_t nodes = 0, lines = 0;

@@ -138,7 +138,7 @@ constexpr const char* family =
     "[likelihood.life]\n"
     "family = \"weibull\"                       # the usual first choice; or lognormal, "
     "loglogistic, gamma "
-    "(docs/law-study.md)\n"
+    "(docs/reference/law-study.md)\n"
     "scale  = \"characteristic\"                # 63.2 % have failed by then\n"
     "shape  = \"slope\"\n";
 
@@ -168,10 +168,11 @@ std::optional<FirstStudy> first_life_study(ColumnRoles& roles) {
           life_priors(*lives, "characteristic", lives->largest) + "\n[predict]\n" + answers +
           fmt::format("# survival_to = {}                  # which share outlasts that?\n",
                       survival) +
-          (conditions.empty() ? ""
-                              : "\n# Lives that differ by group: characteristic = \"m[group]\" "
-                                "with the label `group` in "
-                                "[data.columns], or [varies.group]\n# (docs/life.md).\n"));
+          (conditions.empty()
+               ? ""
+               : "\n# Lives that differ by group: characteristic = \"m[group]\" "
+                 "with the label `group` in "
+                 "[data.columns], or [varies.group]\n# (docs/reference/life.md).\n"));
 }
 
 std::optional<FirstStudy> first_accelerated_study(ColumnRoles& roles) {

@@ -8,7 +8,7 @@
 
 namespace wearwell::ownlaw {
 
-/// The scores by which the check of fit judges a law (docs/checks.md), measured column by column; none where readings of a
+/// The scores by which the check of fit judges a law (docs/reference/checks.md), measured column by column; none where readings of a
 /// process are truncated. Where units differ their effects are drawn from what x and their rows say of them: a draw of both
 /// together is one of the posterior, under which residuals and effects are standard normal. A reading of a
 /// process is scored in the light of those before it.

@@ -7,7 +7,7 @@
 
 namespace wearwell::ownlaw {
 
-/// Follows units of a law in the user's own words (docs/tracking.md). Throws InputError where the study asks for
+/// Follows units of a law in the user's own words (docs/explanation/tracking.md). Throws InputError where the study asks for
 /// no limit, or its units cannot be followed.
 std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedState& state);
 

@@ -134,7 +134,7 @@ std::string study_text(const ColumnRoles& roles, const Path& path, const std::st
       "[likelihood.{}]\n"
       "family = \"normal\"                        # readings scatter about the path; paths that "
       "are random "
-      "themselves: docs/degradation.md\n"
+      "themselves: docs/reference/degradation.md\n"
       "mean   = \"{}\"\n"
       "sd     = \"sigma\"\n\n"
       "# What was known before the data, as weak as it goes: PROPOSED from the size of the data. "
@@ -169,7 +169,7 @@ void say_others(ColumnRoles& roles) {
   if (names.empty()) return;
   roles.guesses.push_back(
       fmt::format("the rate is taken not to depend on {}; that it does is a formula of your own "
-                  "(docs/law-study.md)",
+                  "(docs/reference/law-study.md)",
                   fmt::join(names, ", ")));
 }
 
@@ -218,7 +218,7 @@ std::optional<FirstStudy> first_wear_study(ColumnRoles& roles) {
                              "law, in proportion to {0} and {1}\n"
                              "{2} = \"{3}\"\n"
                              "# {2} = \"k * {0}^a * {1}^b\" and the like: divide by a unit first, "
-                             "(force/1 [N])^a (docs/law.md)\n",
+                             "(force/1 [N])^a (docs/reference/law.md)\n",
                              name, path->axis_name, path->line_name, formula),
                  "k",
                  fmt::format("k = {{ law = \"lognormal\", median = {}, log_sd = 2 }}    # a factor "
