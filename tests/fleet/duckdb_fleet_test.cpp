@@ -296,18 +296,19 @@ TEST_F(DuckdbFleet, AnEnergyThatNoClosingHasIsNotTrusted) {
 
 TEST_F(DuckdbFleet, TwoColumnsOfOneNameAreRefused) {
   const std::string name = model();
-  const auto refused = [&](const std::string& heading) {
+  const auto refused = [&](const std::string& heading, const std::string& words) {
     write("twice.csv",
           "plate,cycle,slip_speed [rad/s],torque [N m],temperature [degC],closing_time [s],energy "
           "[J]," +
               heading + "\n1,1,200,40,150,2,8000,8\n1,2,200,40,150,2,8000,8\n");
     const CommandResult run = run_wearwell("fleet " + name + " " + path("twice.csv") + output());
     EXPECT_EQ(run.exit_code, 2);
-    EXPECT_THAT(run.err, HasSubstr("columns 7 and 8 have one name"));
+    EXPECT_THAT(run.err, HasSubstr(words));
     EXPECT_FALSE(std::filesystem::exists(folder() / "results"));
   };
-  refused("energy [J]");
-  refused("Energy [J]");
+  refused("energy [J]", "has two columns named 'energy [J]': columns 7 and 8");
+  refused("Energy [J]",
+          "'energy [J]' (column 7) and 'Energy [J]' (column 8), that differ by capital");
 }
 
 // Names are quoted and texts are data, whatever is in them.
