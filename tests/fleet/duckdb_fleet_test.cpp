@@ -276,20 +276,35 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   refused(changed, "beyond what the sums hold");
 }
 
-// One cycle of 1.6e9 J among 500 of some ten thousand.
+// One cycle of 1.6e9 J among 500 of some ten thousand, which the sum of its unit shows; and one of 5 MJ, which it does not.
 TEST_F(DuckdbFleet, AnEnergyThatNoClosingHasIsNotTrusted) {
-  auto cycles = fleet_cycles(2000, 4, 7);
-  cycles[50].energy *= 1e5;
-  const CommandResult run =
-      run_wearwell("fleet " + model() + " " + file("kilo.csv", cycles) + output() + " --json");
-  EXPECT_EQ(run.exit_code, 1) << run.err;
-  const json summary = json::parse(run.out);
-  EXPECT_EQ(summary["trusted"], false);
-  for (const auto& check : summary["checks"]) {
-    EXPECT_EQ(check["verdict"] == "fail", check["name"] == "energy");
-    if (check["name"] == "energy") {
-      EXPECT_THAT(check["detail"].get<std::string>(),
-                  AllOf(HasSubstr("of 1 of 4 units"), HasSubstr(cycles[50].unit)));
+  for (const auto& [factor, by_sum] : {std::pair(1e5, true), {300.0, false}}) {
+    auto cycles = fleet_cycles(2000, 4, 7);
+    cycles[50].energy *= factor;
+    for (const char* how : {"", " --statements"}) {
+      const CommandResult run = run_wearwell("fleet " + model() + " " + file("kilo.csv", cycles) +
+                                             output() + " --json" + how);
+      EXPECT_EQ(run.exit_code, 1) << run.err;
+      const json summary = json::parse(run.out);
+      EXPECT_EQ(summary["trusted"], false);
+      int named = 0;
+      for (const auto& check : summary["checks"]) {
+        const std::string detail = check["detail"];
+        if (check["name"] == "energy") {
+          EXPECT_EQ(check["verdict"] == "fail", by_sum) << how;
+          if (by_sum)
+            EXPECT_THAT(detail, AllOf(HasSubstr("of 1 of 4 units"), HasSubstr(cycles[50].unit)));
+          continue;
+        }
+        EXPECT_EQ(check["verdict"] == "fail", check["name"] == "energy-of-cycles") << how;
+        if (check["name"] != "energy-of-cycles") continue;
+        ++named;
+        EXPECT_THAT(detail, AllOf(HasSubstr("1 of 2000 cycles read now has more than 10 times"),
+                                  HasSubstr(fmt::format("farthest off is cycle {} of unit {},",
+                                                        cycles[50].number, cycles[50].unit))))
+            << how;
+      }
+      EXPECT_EQ(named, 1) << how;
     }
   }
 }

@@ -46,6 +46,23 @@ struct EnergyOutliers {
   }
 };
 
+/// The same of units that have names.
+struct FleetOutliers {
+  EnergyOutliers all;
+  std::string unit;  ///< of the farthest off
+
+  void look_at(const std::string& name, long long cycle, double energy, double closing) {
+    const double before = all.worst_ratio;
+    all.look_at(cycle, energy, closing);
+    if (all.worst_ratio > before) unit = name;
+  }
+  void add(const FleetOutliers& other) {
+    const long long count = all.count + other.all.count;
+    if (other.all.worst_ratio > all.worst_ratio) *this = other;
+    all.count = count;
+  }
+};
+
 /// What to do where it does not fit.
 inline constexpr const char* energy_advice =
     "Check the unit of the column energy, and look for single cycles with an energy that no "
