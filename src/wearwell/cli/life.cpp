@@ -296,7 +296,11 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell life study-results --unit J7 --survived \"1e4 cycles\" --horizon \"500 cycles\"\n"
       "  wearwell life study-results --unit J7 --readings today.csv --risk \"1 %\" --json\n"
       "  wearwell life bearing-results --unit B --path path.csv\n"
-      "  wearwell life sn-results --unit shaft --survived \"2e5 cycles\"\n\n"
+      "  wearwell life sn-results --unit shaft --survived \"2e5 cycles\"\n"
+      "  wearwell life fluid-results --horizon \"100 h\"      (does the next one fail within 100 "
+      "h?)\n"
+      "  wearwell life fluid-results --survived \"100 h\"     (does it before, and what remains "
+      "then?)\n\n"
       "Exit codes: 0 done; 1 done, but a check of the fit had failed; 2 the request is wrong; 3 "
       "the machine failed.");
   life->callback([options, models, &exit_code] { exit_code = run_life(*options, models); });
