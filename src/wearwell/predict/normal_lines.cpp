@@ -77,7 +77,7 @@ double NormalLines::score_at(const Line& line, std::size_t i, double x) const {
     }
     return sign * (p[0] - at);
   };
-  const double u = solve_increasing(beyond, 0.5, 0.5, {.absolute = 1e-12}, 0, 1);
+  const double u = solve_increasing(beyond, 0.5, 0.5, {.absolute = 1e-10}, 0, 1);
   return score + line.step * u;
 }
 
@@ -133,7 +133,7 @@ double NormalLines::quantile(double p) const {
   const double near = y[i > 0 ? i - 1 : std::min<std::size_t>(1, y.size() - 1)];
   double step = std::max(std::abs(near - guess), 1e-6 * std::abs(guess));
   if (!(step > 0) || !std::isfinite(step)) step = 0.25 * (high_ - low_);
-  return solve_increasing([&](double x) { return cdf(x) - p; }, guess, step, {.relative = 1e-10},
+  return solve_increasing([&](double x) { return cdf(x) - p; }, guess, step, {.relative = 1e-8},
                           low_, high_);
 }
 
