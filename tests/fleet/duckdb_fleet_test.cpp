@@ -276,38 +276,54 @@ TEST_F(DuckdbFleet, WhatCannotBeIsRefused) {
   refused(changed, "beyond what the sums hold");
 }
 
-// One cycle of 1.6e9 J among 500 of some ten thousand.
+// One cycle of 1.6e9 J among 500 of some ten thousand, which the sum of its unit shows; and one of 5 MJ, which it does not.
 TEST_F(DuckdbFleet, AnEnergyThatNoClosingHasIsNotTrusted) {
-  auto cycles = fleet_cycles(2000, 4, 7);
-  cycles[50].energy *= 1e5;
-  const CommandResult run =
-      run_wearwell("fleet " + model() + " " + file("kilo.csv", cycles) + output() + " --json");
-  EXPECT_EQ(run.exit_code, 1) << run.err;
-  const json summary = json::parse(run.out);
-  EXPECT_EQ(summary["trusted"], false);
-  for (const auto& check : summary["checks"]) {
-    EXPECT_EQ(check["verdict"] == "fail", check["name"] == "energy");
-    if (check["name"] == "energy") {
-      EXPECT_THAT(check["detail"].get<std::string>(),
-                  AllOf(HasSubstr("of 1 of 4 units"), HasSubstr(cycles[50].unit)));
+  for (const auto& [factor, by_sum] : {std::pair(1e5, true), {300.0, false}}) {
+    auto cycles = fleet_cycles(2000, 4, 7);
+    cycles[50].energy *= factor;
+    for (const char* how : {"", " --statements"}) {
+      const CommandResult run = run_wearwell("fleet " + model() + " " + file("kilo.csv", cycles) +
+                                             output() + " --json" + how);
+      EXPECT_EQ(run.exit_code, 1) << run.err;
+      const json summary = json::parse(run.out);
+      EXPECT_EQ(summary["trusted"], false);
+      int named = 0;
+      for (const auto& check : summary["checks"]) {
+        const std::string detail = check["detail"];
+        if (check["name"] == "energy") {
+          EXPECT_EQ(check["verdict"] == "fail", by_sum) << how;
+          if (by_sum)
+            EXPECT_THAT(detail, AllOf(HasSubstr("of 1 of 4 units"), HasSubstr(cycles[50].unit)));
+          continue;
+        }
+        EXPECT_EQ(check["verdict"] == "fail", check["name"] == "energy-of-cycles") << how;
+        if (check["name"] != "energy-of-cycles") continue;
+        ++named;
+        EXPECT_THAT(detail, AllOf(HasSubstr("1 of 2000 cycles read now has more than 10 times"),
+                                  HasSubstr(fmt::format("farthest off is cycle {} of unit {},",
+                                                        cycles[50].number, cycles[50].unit))))
+            << how;
+      }
+      EXPECT_EQ(named, 1) << how;
     }
   }
 }
 
 TEST_F(DuckdbFleet, TwoColumnsOfOneNameAreRefused) {
   const std::string name = model();
-  const auto refused = [&](const std::string& heading) {
+  const auto refused = [&](const std::string& heading, const std::string& words) {
     write("twice.csv",
           "plate,cycle,slip_speed [rad/s],torque [N m],temperature [degC],closing_time [s],energy "
           "[J]," +
               heading + "\n1,1,200,40,150,2,8000,8\n1,2,200,40,150,2,8000,8\n");
     const CommandResult run = run_wearwell("fleet " + name + " " + path("twice.csv") + output());
     EXPECT_EQ(run.exit_code, 2);
-    EXPECT_THAT(run.err, HasSubstr("columns 7 and 8 have one name"));
+    EXPECT_THAT(run.err, HasSubstr(words));
     EXPECT_FALSE(std::filesystem::exists(folder() / "results"));
   };
-  refused("energy [J]");
-  refused("Energy [J]");
+  refused("energy [J]", "has two columns named 'energy [J]': columns 7 and 8");
+  refused("Energy [J]",
+          "'energy [J]' (column 7) and 'Energy [J]' (column 8), that differ by capital");
 }
 
 // Names are quoted and texts are data, whatever is in them.

@@ -99,7 +99,8 @@ TEST_F(TextFileTest, ColumnsAreSeparatedInOneWay) {
     EXPECT_THAT(table.columns[1].numbers, ElementsAre(2)) << content;
   }
   EXPECT_THAT(refused("a;b,c\n1;2,3\n4;5,6\n"), HasSubstr("can be separated by ';' and by ','"));
-  EXPECT_THAT(refused("n,N\n1,2\n"), HasSubstr("'n' and 'N', that differ by capital letters"));
+  EXPECT_THAT(refused("n,N\n1,2\n"),
+              HasSubstr("'n' (column 1) and 'N' (column 2), that differ by capital letters"));
 }
 
 TEST_F(TextFileTest, CutOrDamagedGzip) {

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
 
@@ -50,6 +53,28 @@ TEST_F(TableTest, ReadsTsvJsonAndParquetAlike) {
   }
 }
 
+// Of Parquet the same file with its second column named as the first, in the schema and where its pages are listed; of JSON any row may have
+// two keys of one name.
+TEST_F(TableTest, TwoColumnsOfOneNameAreRefusedAtEachDoor) {
+  std::stringstream read;
+  read << std::ifstream(PROJECT_SOURCE_DIR "/tests/input/two_columns.parquet").rdbuf();
+  std::string parquet = read.str();
+  std::size_t renamed = 0;
+  for (std::size_t at = parquet.find("\x01y"); at != std::string::npos;
+       at = parquet.find("\x01y", at + 1)) {
+    parquet[at + 1] = 'x';
+    ++renamed;
+  }
+  ASSERT_EQ(renamed, 2u);
+  EXPECT_THAT(refusal(write("a.csv", "x,x\n1,2.5\n")),
+              HasSubstr("a.csv has two columns named 'x': columns 1 and 2"));
+  EXPECT_THAT(refusal(write("a.parquet", parquet)),
+              HasSubstr("a.parquet has two columns named 'x': columns 1 and 2"));
+  for (const char* rows : {R"([{"x": 1, "x": 2.5}])", R"([{"x": 1}, {"x": 1, "x": 2.5}])",
+                           "{\"x\": 1}\n{\"x\": 1, \"x\": 2.5}\n"})
+    EXPECT_THAT(refusal(write("a.json", rows)), HasSubstr("has duplicate key \"x\"")) << rows;
+}
+
 TEST_F(TableTest, SqlKeepsItsOrder) {
   const auto file = write("a.csv", "angle,cycles,v\n0,5,1\n0,2,3\npi,5,3\npi,2,5\n");
   const Table table =
@@ -74,12 +99,12 @@ TEST_F(TableTest, NamesRowColumnAndValue) {
     const Table table = read_table(write("a.csv", content));
     return message_of<InputError>([&] { si_numbers(table, "v", Unit{}); });
   };
-  EXPECT_THAT(message("n,v\n1,2.5\n2,abc\n"),
+  EXPECT_THAT(refusal("n,v\n1,2.5\n2,abc\n"),
               HasSubstr("row 2, column 'v': 'abc' is not a number"));
-  EXPECT_THAT(message("n,v\n1,2.5\n2,\n3,1\n"), HasSubstr("row 2, column 'v': no value"));
-  EXPECT_THAT(message("n,v\n1,nan\n2,3\n"), HasSubstr("row 1, column 'v': no value"));
-  EXPECT_THAT(message("n,v\n1,inf\n2,3\n"), HasSubstr("row 1, column 'v': the value is infinite"));
-  EXPECT_THAT(message("n,w\n1,2\n"), HasSubstr("has no column 'v' (nearest: 'n')"));
+  EXPECT_THAT(refusal("n,v\n1,2.5\n2,\n3,1\n"), HasSubstr("row 2, column 'v': no value"));
+  EXPECT_THAT(refusal("n,v\n1,nan\n2,3\n"), HasSubstr("row 1, column 'v': no value"));
+  EXPECT_THAT(refusal("n,v\n1,inf\n2,3\n"), HasSubstr("row 1, column 'v': the value is infinite"));
+  EXPECT_THAT(refusal("n,w\n1,2\n"), HasSubstr("has no column 'v' (nearest: 'n')"));
 }
 
 TEST_F(TableTest, ManyRows) {

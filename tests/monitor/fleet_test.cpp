@@ -94,7 +94,7 @@ TEST_F(BlindFleets, ShowNothingWhereNothingIsKnown) {
   EXPECT_EQ(units[1].alarm, Alarm::unknown);
   const auto json = json_of(units[1]);
   EXPECT_EQ(json["known"], false);
-  for (const char* key : {"at", "level", "remaining", "b10", "risk", "passed"})
+  for (const char* key : {"at", "level", "remaining", "b10", "numerical_error", "risk", "passed"})
     EXPECT_TRUE(json[key].is_null()) << key;
   EXPECT_EQ(json["quality"]["readings"], 1);
   EXPECT_EQ(json_of(units[0])["known"], true);

@@ -109,6 +109,7 @@ class GrowthTracker : public prognosis::Tracker {
   bool rising() const override { return true; }
   const std::string& noun() const override { return noun_; }
   std::span<const std::string> seen() const override { return {}; }
+  double probability_error() const override { return 0.01; }
   std::unique_ptr<prognosis::TrackedUnit> begin(const std::string&) const override {
     return std::make_unique<GrowthUnit>();
   }

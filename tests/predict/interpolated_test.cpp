@@ -54,7 +54,7 @@ TEST(Interpolated, QuantilesAreThoseOfTheWholePosterior) {
   const double sd = std::sqrt(0.01 + 0.01 + 2 * 0.6 * 0.1 * 0.1);
   for (const double p : {0.01, 0.05, 0.1, 0.5, 0.9, 0.95}) {
     const double expected = std::exp(mean + sd * boost::math::quantile(boost::math::normal(), p));
-    EXPECT_NEAR(found.front()->quantile(p) / expected, 1, 1e-4) << p;
+    EXPECT_NEAR(found.front()->distribution.quantile(p) / expected, 1, 1e-4) << p;
   }
 }
 
@@ -67,7 +67,7 @@ TEST(Interpolated, CurvedNumbersToo) {
   ASSERT_TRUE(found.front());
   const Distribution direct(draws, value);
   for (const double p : {0.01, 0.05, 0.5, 0.95, 0.99})
-    EXPECT_NEAR(found.front()->quantile(p) / direct.quantile(p), 1, 1e-5) << p;
+    EXPECT_NEAR(found.front()->distribution.quantile(p) / direct.quantile(p), 1, 1e-5) << p;
 }
 
 TEST(Interpolated, WhatIsNotSmoothHasNone) {

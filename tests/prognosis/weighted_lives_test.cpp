@@ -36,6 +36,17 @@ TEST(WeightedLives, GoStraightBetweenTheMiddlesOfPoints) {
   EXPECT_DOUBLE_EQ(some.mean_up_to(infinity), 20);
 }
 
+// Even points: the p-quantile is p, so that 1 % of probability is a fifth of the 5 % quantile.
+TEST(WeightedLives, AnErrorOfProbabilityIsOneOfTheLife) {
+  std::vector<double> life, weight(1000, 1);
+  for (int i = 0; i < 1000; ++i) life.push_back((i + 0.5) / 1000);
+  EXPECT_NEAR(relative_error(lives(life, weight), 0.01), 0.2, 1e-12);
+  EXPECT_NEAR(relative_error(lives(life, weight), 0.001), 0.02, 1e-12);
+  EXPECT_EQ(relative_error(lives({7}, {1}), 0.01), 0);
+  EXPECT_EQ(relative_error(WeightedLives(), 0.01), 0);
+  EXPECT_EQ(relative_error(lives({infinity}, {1}), 0.01), 0);
+}
+
 TEST(WeightedLives, EqualOnesAreOnePoint) {
   const WeightedLives two = lives({3, 1, 3}, {1, 1, 2});
   EXPECT_EQ(two.points().size(), 2u);

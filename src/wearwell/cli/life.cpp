@@ -27,6 +27,7 @@
 #include "wearwell/prognosis/unit_life.h"
 #include "wearwell/prognosis/updated_study.h"
 #include "wearwell/study/inference_data.h"
+#include "wearwell/study/numerical_error.h"
 #include "wearwell/study/run_study.h"
 
 namespace wearwell {
@@ -111,6 +112,7 @@ ordered_json json_of(const UnitLife& life, const Moved& moved, bool trusted) {
                                {"b10", 0.1},
                                {"b50", 0.5}})
     json[key] = number(life.quantile(p));
+  if (life.numerical_error) json["numerical_error"] = *life.numerical_error;
   json["risk"] = life.risk;
   json["inspect_within"] = number(life.inspect_within);
   if (life.horizon) json["horizon"] = {{"within", *life.horizon}, {"reached", *life.reached}};
@@ -169,8 +171,9 @@ present::Table path_ahead(const LifeOptions& options, Models models,
 
 void print(const UnitLife& life, const Moved& moved, bool trusted) {
   const std::string unit = printable(unit_in_words(life.unit, Script::terminal));
+  const int digits = digits_within(life.numerical_error.value_or(0));
   const auto shown = [&](double value) {
-    return std::isfinite(value) ? plain_number(value) : std::string("never");
+    return std::isfinite(value) ? plain_number(value, digits) : std::string("never");
   };
   if (!trusted)
     fmt::print(
@@ -195,6 +198,9 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
              shown(life.quantile(0.05)), shown(life.quantile(0.95)), unit);
   fmt::print("  B1 {}   B10 {}   B50 {}\n", shown(life.quantile(0.01)), shown(life.quantile(0.1)),
              shown(life.quantile(0.5)));
+  if (life.numerical_error.value_or(0) > least_numerical_error)
+    fmt::print("  numerical error of these lives: {} %\n",
+               plain_number(100 * *life.numerical_error, 2));
   if (life.horizon)
     fmt::print("  within {} {} the end is reached with a probability of {}\n",
                plain_given(*life.horizon), unit, probability_in_words(*life.reached));
@@ -290,7 +296,11 @@ void add_life_command(CLI::App& app, Models models, int& exit_code) {
       "  wearwell life study-results --unit J7 --survived \"1e4 cycles\" --horizon \"500 cycles\"\n"
       "  wearwell life study-results --unit J7 --readings today.csv --risk \"1 %\" --json\n"
       "  wearwell life bearing-results --unit B --path path.csv\n"
-      "  wearwell life sn-results --unit shaft --survived \"2e5 cycles\"\n\n"
+      "  wearwell life sn-results --unit shaft --survived \"2e5 cycles\"\n"
+      "  wearwell life fluid-results --horizon \"100 h\"      (does the next one fail within 100 "
+      "h?)\n"
+      "  wearwell life fluid-results --survived \"100 h\"     (does it before, and what remains "
+      "then?)\n\n"
       "Exit codes: 0 done; 1 done, but a check of the fit had failed; 2 the request is wrong; 3 "
       "the machine failed.");
   life->callback([options, models, &exit_code] { exit_code = run_life(*options, models); });

@@ -18,6 +18,7 @@
 #include "wearwell/input/duckdb_closing.h"
 #include "wearwell/input/duckdb_message.h"
 #include "wearwell/input/duckdb_session.h"
+#include "wearwell/input/equal_names.h"
 
 namespace wearwell::fleet {
 namespace {
@@ -213,7 +214,7 @@ void DuckdbEngine::refuse_repeated_headings(const std::string& file) {
   std::vector<std::string> names;
   const auto text = [&](idx_t column, idx_t row) {
     char* const value = duckdb_value_varchar(&answer.result, column, row);
-    names.emplace_back(value ? value : "");
+    names.push_back(printable(value ? value : ""));
     duckdb_free(value);
   };
   if (csv_) {
@@ -231,13 +232,7 @@ void DuckdbEngine::refuse_repeated_headings(const std::string& file) {
             answer);
     for (idx_t r = 0; r < duckdb_row_count(&answer.result); ++r) text(0, r);
   }
-  for (std::size_t b = 1; b < names.size(); ++b) {
-    for (std::size_t a = 0; a < b; ++a) {
-      if (names[b].empty() || !boost::algorithm::iequals(names[a], names[b])) continue;
-      throw InputError(fmt::format("{}: columns {} and {} have one name, '{}': rename one of them",
-                                   printable(file), a + 1, b + 1, printable(names[b])));
-    }
-  }
+  refuse_equal_names(names, printable(file));
 }
 
 std::vector<EngineColumn> DuckdbEngine::columns() {

@@ -16,6 +16,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/input/duckdb_closing.h"
 #include "wearwell/input/duckdb_message.h"
+#include "wearwell/input/equal_names.h"
 #include "wearwell/input/text_lines.h"
 #include "wearwell/input/text_rewrite.h"
 #include "wearwell/input/workbook.h"
@@ -181,6 +182,7 @@ DuckdbSession::DuckdbSession(const TableFile& file, const TableSettings& setting
                            "memory_limit = '{}MiB'; set enable_external_access = false; set "
                            "lock_configuration = true",
                            quoted(read().path(), '\''), memory_limit()));
+    if (file.format() == TableFormat::parquet) refuse_equal_columns();
     DuckdbResult(*this, "create view data as select * from " + reader());
   } catch (...) {
     close();
@@ -233,6 +235,28 @@ const TextColumn* DuckdbSession::column(const std::string& name) const {
   const auto found = std::find_if(layout_->columns.begin(), layout_->columns.end(),
                                   [&](const TextColumn& each) { return each.name == name; });
   return found == layout_->columns.end() ? nullptr : &*found;
+}
+
+// DuckDB gives the second of two columns of one name another name. The schema is a tree, its root first; what lies within a
+// column is no column.
+void DuckdbSession::refuse_equal_columns() const {
+  DuckdbResult schema(*this, fmt::format("select cast(name as varchar), "
+                                         "cast(coalesce(num_children, 0) as double) "
+                                         "from parquet_schema({})",
+                                         quoted(read().path(), '\'')));
+  std::vector<std::string> all, names;
+  std::vector<double> children;
+  for (duckdb_data_chunk chunk = schema.next(); chunk; chunk = schema.next()) {
+    const idx_t count = duckdb_data_chunk_get_size(chunk);
+    append_text(duckdb_data_chunk_get_vector(chunk, 0), count, all);
+    append_numbers(duckdb_data_chunk_get_vector(chunk, 1), count, children);
+    duckdb_destroy_data_chunk(&chunk);
+  }
+  for (std::size_t i = 1; i < all.size();) {
+    names.push_back(all[i]);
+    for (double within = 1; within > 0 && i < all.size(); ++i) within += children[i] - 1;
+  }
+  refuse_equal_names(names, file_.source());
 }
 
 /// The text that makes DuckDB read the file. Nothing is left to guessing that could drop or join

@@ -40,6 +40,7 @@ class DuckdbSession {
 
  private:
   void close();
+  void refuse_equal_columns() const;
   std::string reader() const;
   const TableFile& read() const { return rewritten_ ? *rewritten_ : sheet_ ? *sheet_ : file_; }
 

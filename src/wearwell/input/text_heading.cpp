@@ -10,6 +10,7 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
+#include "wearwell/input/equal_names.h"
 #include "wearwell/input/number_text.h"
 #include "wearwell/input/text_records.h"
 
@@ -151,23 +152,6 @@ Cut find_cut(const TableFile& file, const TableSettings& settings, Encoding enco
         file.source(), delimiter_name(candidates[0].delimiter),
         delimiter_name(candidates[1].delimiter), delimiter_name(candidates[0].delimiter)));
   return std::move(candidates.front());
-}
-
-void refuse_equal_names(const std::vector<std::string>& names, const std::string& source) {
-  std::map<std::string, std::size_t> seen;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string& name = names[i];
-    if (name.empty()) continue;
-    const auto [other, fresh] = seen.emplace(boost::algorithm::to_lower_copy(name), i);
-    if (fresh) continue;
-    if (names[other->second] == name)
-      throw InputError(fmt::format("{} has two columns named '{}': columns {} and {}; rename one",
-                                   source, name, other->second + 1, i + 1));
-    throw InputError(
-        fmt::format("{} has two columns, '{}' and '{}', that differ by capital "
-                    "letters only; rename one",
-                    source, names[other->second], name));
-  }
 }
 
 }  // namespace

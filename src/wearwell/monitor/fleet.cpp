@@ -191,6 +191,7 @@ void Fleet::forecast(Unit& unit) {
   constexpr double tenth = 0.1;
   view.b10 =
       forecast.remaining.points().empty() ? 0 : told_.along(forecast.remaining.quantile(tenth));
+  view.numerical_error = relative_error(forecast.remaining, tracker_.probability_error());
   view.risk = risk;
   if (known) view.passed = forecast.passed;
   view.quality.readings = record.readings;

@@ -72,6 +72,7 @@ Json json_of(const UnitView& unit) {
           {"level", json_of_known(unit, unit.level)},
           {"remaining", json_of_known(unit, unit.remaining)},
           {"b10", json_of_known(unit, unit.b10)},
+          {"numerical_error", json_of_known(unit, unit.numerical_error)},
           {"risk", json_of_known(unit, unit.risk)},
           {"passed", json_of_known(unit, unit.passed)},
           {"quality",

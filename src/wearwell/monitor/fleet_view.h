@@ -33,8 +33,9 @@ struct UnitView {
   Interval level;                    ///< wear, now
   Interval remaining;                ///< life, from now on
   double b10 = 0;                    ///< remaining useful life that 90 % exceed
-  double risk = 0;                   ///< probability that the limit is reached within the horizon
-  double passed = 0;                 ///< probability that it is reached already
+  double numerical_error = 0;  ///< of both, relative, the largest (Tracker::probability_error)
+  double risk = 0;             ///< probability that the limit is reached within the horizon
+  double passed = 0;           ///< probability that it is reached already
   Quality quality;
 };
 

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/math/constants.h"
+
 namespace wearwell {
 namespace {
 
 using Eigen::Index;
 
 constexpr Index most_axes = 4;
-// Relative, of what the polynomials miss: a quantile of a unit's mixture of cells has noise of its own (0.7 to 2.4 % far out), which a
-// fit to thousands of points averages out.
-constexpr double tolerance = 0.03;
+constexpr double tolerance = 0.01;  // relative, of what the polynomials miss
 
 // Products of Hermite polynomials of the whitened parameters, normalized under the normal distribution.
 class Basis {
@@ -94,11 +94,12 @@ struct Scaled {
   }
 };
 
-// The numbers whose polynomials say what was left for judging.
-std::vector<Index> well_fitted(const FewPoints& few, const Points& at_few, const Scaled& scaled,
-                               const Points& terms, const Eigen::MatrixXd& coefficients,
-                               const std::vector<Index>& judging) {
-  std::vector<Index> good;
+// Of each number what its polynomial misses of what was left for judging, relative, root mean square; infinite where it is not
+// finite.
+std::vector<double> misfits(const FewPoints& few, const Points& at_few, const Scaled& scaled,
+                            const Points& terms, const Eigen::MatrixXd& coefficients,
+                            const std::vector<Index>& judging) {
+  std::vector<double> found;
   for (Index j = 0; j < at_few.cols(); ++j) {
     double missed = 0, weights = 0, middle = 0;
     for (const Index i : judging) {
@@ -110,16 +111,16 @@ std::vector<Index> well_fitted(const FewPoints& few, const Points& at_few, const
     }
     const auto at = static_cast<std::size_t>(j);
     const double scale = scaled.logarithm[at] ? 1 : middle / weights;
-    if (scaled.finite[at] && std::sqrt(missed / weights) <= tolerance * scale) good.push_back(j);
+    found.push_back(scaled.finite[at] ? std::sqrt(missed / weights) / scale : infinity);
   }
-  return good;
+  return found;
 }
 
 }  // namespace
 
-std::vector<std::optional<Distribution>> interpolated(const WeightedDraws& draws,
+std::vector<std::optional<Interpolated>> interpolated(const WeightedDraws& draws,
                                                       const FewPoints& few, const Points& at_few) {
-  std::vector<std::optional<Distribution>> found(static_cast<std::size_t>(at_few.cols()));
+  std::vector<std::optional<Interpolated>> found(static_cast<std::size_t>(at_few.cols()));
   const Index n = at_few.rows();
   if (draws.lower.empty() || draws.values.cols() > most_axes) return found;
   const Basis basis(few);
@@ -139,7 +140,10 @@ std::vector<std::optional<Distribution>> interpolated(const WeightedDraws& draws
     right.row(k) = root * scaled.values.row(i);
   }
   const Eigen::MatrixXd coefficients = left.colPivHouseholderQr().solve(right);
-  const std::vector<Index> good = well_fitted(few, at_few, scaled, all, coefficients, judging);
+  const std::vector<double> missed = misfits(few, at_few, scaled, all, coefficients, judging);
+  std::vector<Index> good;
+  for (Index j = 0; j < at_few.cols(); ++j)
+    if (missed[static_cast<std::size_t>(j)] <= tolerance) good.push_back(j);
   if (good.empty()) return found;
   const auto count = static_cast<Index>(good.size());
   Eigen::MatrixXd chosen(basis.size(), count);
@@ -165,9 +169,10 @@ std::vector<std::optional<Distribution>> interpolated(const WeightedDraws& draws
   WeightedDraws whole{everywhere(draws.values), draws.weights.head(cells), {}, {}, draws.cells};
   for (const Points& ends : draws.lower) whole.lower.push_back(everywhere(ends));
   for (const Points& ends : draws.upper) whole.upper.push_back(everywhere(ends));
-  for (Index k = 0; k < count; ++k)
-    found[static_cast<std::size_t>(good[static_cast<std::size_t>(k)])].emplace(
-        whole, [k](const double* x) { return x[k]; });
+  for (Index k = 0; k < count; ++k) {
+    const auto j = static_cast<std::size_t>(good[static_cast<std::size_t>(k)]);
+    found[j] = Interpolated{Distribution(whole, [k](const double* x) { return x[k]; }), missed[j]};
+  }
   return found;
 }
 

@@ -157,6 +157,11 @@ std::string given_in_words(double x, Script script) {
   return spaced(digits, script) + times_power(exponent, script);
 }
 
+int digits_within(double relative_error, int most) {
+  if (!(relative_error > 0)) return most;
+  return std::clamp(static_cast<int>(std::floor(-std::log10(relative_error))) + 1, 2, most);
+}
+
 std::string fixed_in_words(double x, int decimals, Script script) {
   return std::isfinite(x) ? spaced(fmt::format("{:.{}f}", x, decimals), script)
                           : not_finite(x, script);

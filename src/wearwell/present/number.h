@@ -15,6 +15,9 @@ std::string number_in_words(double x, int digits, Script script);
 /// A number that was given, not estimated: all its digits, "20 585", "10⁸".
 std::string given_in_words(double x, Script script);
 
+/// How many significant digits a number with this relative error has to show, 2 to `most`: the error is less than one of the last.
+int digits_within(double relative_error, int most = 4);
+
 /// With so many decimals: "3 673.0".
 std::string fixed_in_words(double x, int decimals, Script script);
 

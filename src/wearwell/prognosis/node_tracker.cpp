@@ -296,6 +296,7 @@ class NodeTracker final : public Tracker {
   bool rising() const override { return true; }
   const std::string& noun() const override { return model_->noun; }
   std::span<const std::string> seen() const override { return model_->seen; }
+  double probability_error() const override { return 0.012; }
 
   std::string refusal(const std::string& unit) const override { return model_->refusal(unit); }
 

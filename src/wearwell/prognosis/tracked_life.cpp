@@ -65,6 +65,7 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
   if (std::isnan(forecast.passed))
     throw InputError(fmt::format("nothing is known of the life of {}", printable(life.of)));
   life.from = from_si(told, forecast.now);
+  life.numerical_error = relative_error(forecast.remaining, tracker.probability_error());
   for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
     life.share.push_back(percent / 100);
     life.life.push_back(from_si(told, forecast.remaining.quantile(percent / 100)));

@@ -200,6 +200,7 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
                    const LifeQuestion& question, bool from_beginning) {
   UnitLife life{.of = mine.of, .at = mine.at, .unit = mine.unit.text};
   life.name = mine.name;
+  life.numerical_error = known.numerical_error;
   double from = 0, gone = 0;
   if (question.survived && from_beginning) {
     from = along_life("--survived", *question.survived, life.unit);

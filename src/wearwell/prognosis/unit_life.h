@@ -30,6 +30,7 @@ struct UnitLife {
   std::vector<double> share = {}, life = {};
   double risk = 0.01, inspect_within = 0;
   std::optional<double> horizon = {}, reached = {};  ///< the probability of the end within it
+  std::optional<double> numerical_error = {};  ///< of lives, relative (study/numerical_error.h)
 
   double quantile(double p) const;  ///< between the shares a straight line in probits of log life
 };

@@ -167,4 +167,18 @@ WeightedLives WeightedLives::beyond(double x) const {
   return WeightedLives(life, weight);
 }
 
+double relative_error(const WeightedLives& lives, double probability_error) {
+  double largest = 0;
+  if (lives.points().empty()) return largest;
+  for (const double p : {0.05, 0.1, 0.5, 0.95}) {
+    const double life = lives.quantile(p);
+    if (!(life > 0) || !std::isfinite(life)) continue;
+    for (const double off : {p - probability_error, p + probability_error}) {
+      const double other = lives.quantile(off);
+      if (std::isfinite(other)) largest = std::max(largest, std::abs(other / life - 1));
+    }
+  }
+  return largest;
+}
+
 }  // namespace wearwell::prognosis

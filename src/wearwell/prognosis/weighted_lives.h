@@ -28,4 +28,8 @@ class WeightedLives {
   std::vector<double> life_, weight_, cumulated_;
 };
 
+/// By how much the 5, 10, 50 and 95 % quantiles move, relative to each, the largest, where its probability is off by so much; 0 of no
+/// points. Quantiles that are infinite do not count.
+double relative_error(const WeightedLives& lives, double probability_error);
+
 }  // namespace wearwell::prognosis

@@ -80,6 +80,8 @@ struct QuantityRequest {
 struct PredictiveLife {
   LifeLaw law;
   double survival = 1;  ///< the predictive probability that it came so far
+  std::optional<double> numerical_error =
+      {};  ///< QuantityQuantiles::numerical_error, of its quantiles
 };
 
 /// Quantities that have no single driver: all of them at once from the points of a posterior, SI.

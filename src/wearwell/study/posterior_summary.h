@@ -76,6 +76,9 @@ struct QuantityQuantiles {
   /// Of a property of all items, like the life by which 10 % have failed: what it is for the next
   /// item, with all that is unknown averaged in; and what it exceeds with a chosen probability.
   std::optional<double> predictive = {}, bound = {};
+  /// Estimated, relative, the largest of these numbers: by how much they would change were they summed over all of the
+  /// posterior (study/numerical_error.h). None where they are.
+  std::optional<double> numerical_error = {};
 };
 
 struct QuantitySummary {

@@ -8,6 +8,7 @@
 #include "wearwell/present/html.h"
 #include "wearwell/study/answers.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/numerical_error.h"
 #include "wearwell/study/trust_blocks.h"
 
 namespace wearwell {
@@ -119,6 +120,25 @@ Table life_table(const LifeSummary& summary) {
         life.inspect_within, 100 * summary.risk}}};
 }
 
+namespace {
+
+// Where numbers are summed over few points of the posterior: no more digits than are known, and how far each is off.
+void add_numerical_errors(Table& table, const std::vector<QuantitySummary>& quantities,
+                          bool bounds) {
+  const auto largest = largest_numerical_error(quantities, bounds);
+  if (!largest) return;
+  for (Column& column : table.columns) column.format = digits(digits_within(*largest));
+  table.columns.push_back({"Numerical error", "%", digits(2)});
+  auto row = table.rows.begin();
+  for (const QuantitySummary& each : quantities) {
+    if (each.best().predictive.has_value() != bounds) continue;
+    const auto error = each.best().numerical_error;
+    (row++)->push_back(error ? Cell(100 * *error) : Cell());
+  }
+}
+
+}  // namespace
+
 Table quantity_table(const std::vector<QuantitySummary>& quantities) {
   Table table{"quantities",
               results_title(quantities),
@@ -146,6 +166,7 @@ Table quantity_table(const std::vector<QuantitySummary>& quantities) {
          bounds || !each.safe_end ? Cell() : value(*each.safe_end < 0.5 ? q.q05 : q.q95),
          each.is_life ? value(q.b1) : Cell(), each.is_life ? value(q.b10) : Cell()});
   }
+  add_numerical_errors(table, quantities, false);
   return table;
 }
 
@@ -169,6 +190,7 @@ Table bound_table(const std::vector<QuantitySummary>& quantities) {
     table.rows.push_back(
         {each.name, each.unit, each.of, each.at, *q.bound, q.q05, q.q50, q.q95, *q.predictive});
   }
+  add_numerical_errors(table, quantities, true);
   return table;
 }
 

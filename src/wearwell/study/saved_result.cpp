@@ -134,6 +134,7 @@ QuantityQuantiles read_quantiles(const JsonReader& json) {
   if (json.find("b10")) q.b10 = number(json, "b10", never);
   if (json.find("predictive")) q.predictive = number(json, "predictive", never);
   if (json.find("bound")) q.bound = number(json, "bound", never);
+  if (json.find("numerical_error")) q.numerical_error = number(json, "numerical_error");
   return q;
 }
 

@@ -16,6 +16,7 @@
 #include "wearwell/study/answers.h"
 #include "wearwell/study/density_unit.h"
 #include "wearwell/study/long_tables.h"
+#include "wearwell/study/numerical_error.h"
 #include "wearwell/study/posterior_tables.h"
 #include "wearwell/study/terminal_histogram.h"
 #include "wearwell/study/terminal_rows.h"
@@ -128,9 +129,21 @@ std::string prediction_table(const std::vector<PredictionSummary>& predictions) 
   return tables;
 }
 
+int digits_of(const QuantityQuantiles& q) {
+  return digits_within(q.numerical_error.value_or(0));
+}
+
 std::string b_value(const QuantitySummary& each, double x) {
   if (!each.is_life) return "-";
-  return std::isinf(x) ? "never" : plain_number(x);
+  return std::isinf(x) ? "never" : plain_number(x, digits_of(each.best()));
+}
+
+// Where the numbers of a table are summed over few points of the posterior.
+std::string error_line(const std::vector<QuantitySummary>& quantities, bool bounds) {
+  const auto error = largest_numerical_error(quantities, bounds);
+  if (!error) return "";
+  return fmt::format("  Numerical error of these numbers: up to {} %\n",
+                     plain_number(100 * *error, 2));
 }
 
 // Of one item each, a new one where items differ; those of one name and place stand together. Where
@@ -149,17 +162,18 @@ std::string quantity_lines(const std::vector<QuantitySummary>& quantities) {
         printable_heading(shown(each.name), each.unit) + " " + printable(shown(each.at));
     if (heading != above) rows.push_back({heading});
     above = heading;
-    rows.push_back(
-        {"  " + printable(each.of), plain_number(q.q05), plain_number(q.q50), plain_number(q.q95)});
+    const int digits = digits_of(q);
+    rows.push_back({"  " + printable(each.of), plain_number(q.q05, digits),
+                    plain_number(q.q50, digits), plain_number(q.q95, digits)});
     if (!bounds) {
-      rows.back().push_back(!each.safe_end ? "-"
-                                           : plain_number(*each.safe_end < 0.5 ? q.q05 : q.q95));
+      rows.back().push_back(
+          !each.safe_end ? "-" : plain_number(*each.safe_end < 0.5 ? q.q05 : q.q95, digits));
     }
     for (const double b : {q.b1, q.b10}) rows.back().push_back(b_value(each, b));
   }
   if (rows.size() == 1) return "";
   return fmt::format("\n{}\n", bounds ? "Next item (predictive)" : results_title(quantities)) +
-         text_table(rows);
+         text_table(rows) + error_line(quantities, false);
 }
 
 // Properties of all items: of the next one, and how far they can be relied on.
@@ -181,13 +195,15 @@ std::string bound_lines(const std::vector<QuantitySummary>& quantities) {
               : printable(each.of + (each.at.empty() ? "" : " ") + shown(each.at));
     if (heading != above) rows.push_back({heading});
     above = heading;
+    const int digits = digits_of(q);
     rows.push_back({"  " + (alone ? printable(shown(each.at))
                                   : printable_heading(shown(each.name), each.unit)),
-                    plain_number(*q.bound), plain_number(q.q05), plain_number(q.q50),
-                    plain_number(q.q95), plain_number(*q.predictive)});
+                    plain_number(*q.bound, digits), plain_number(q.q05, digits),
+                    plain_number(q.q50, digits), plain_number(q.q95, digits),
+                    plain_number(*q.predictive, digits)});
   }
   if (rows.empty()) return "";
-  return "\nDesign values\n" + text_table(rows) +
+  return "\nDesign values\n" + text_table(rows) + error_line(quantities, true) +
          wrapped(
              fmt::format("at least: the lower bound to design with. With {} confidence (Bayesian: "
                          "credible) the true value, of all such items, lies above it.",

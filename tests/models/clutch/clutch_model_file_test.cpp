@@ -148,6 +148,7 @@ TEST_F(ClutchModelFile, StateLosesNoBit) {
   p.cycles = 1'000'000'007;
   p.last_number = 2'000'000'011;
   p.energy = 1e9 / 3;
+  p.outliers = {3, 1'000'000'005, 2.5e9 / 3, 1e5 / 7};
   p.volume = 1e-6 / 7;
   p.variance = 1e-15 / 11;
   p.outside = {1, 2, 3, 4};
@@ -159,6 +160,7 @@ TEST_F(ClutchModelFile, StateLosesNoBit) {
   ASSERT_EQ(plates.size(), 1u);
   EXPECT_EQ(state_text(plates, "abc"), state_text({p}, "abc"));
   EXPECT_EQ(plates[0].energy, p.energy);
+  EXPECT_EQ(plates[0].outliers.worst_ratio, p.outliers.worst_ratio);
   EXPECT_EQ(plates[0].variance, p.variance);
   EXPECT_TRUE((plates[0].replicates == p.replicates).all());
   EXPECT_THAT(message_of<InputError>([&] { read_state(file, "abd", 2); }),

@@ -9,6 +9,7 @@
 #include "support/scratch.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/rng.h"
+#include "wearwell/models/clutch/cycle_table.h"
 
 namespace wearwell::clutch {
 namespace {
@@ -101,6 +102,31 @@ TEST(CycleSum, ByHand) {
   EXPECT_EQ(p.cycles, 2);
   EXPECT_EQ(p.last_number, 2);
   EXPECT_EQ(p.energy, 3e6);
+}
+
+// One cycle with an energy that no closing has is named, among a thousand, where the sum shows it, and among half a million, where
+// it does not; also by a sum that goes on from a state.
+TEST(CycleSum, ACycleWithAnEnergyThatNoClosingHasIsNamed) {
+  const WearModel model = constant_model(20 * mm3_per_MJ, 100 * mm3_per_MJ, run_in);
+  const double own = closing_energy(middle);
+  for (const auto& [n, balanced] : {std::pair(1000, false), {500'000, true}}) {
+    std::vector<Cycle> cycles;
+    for (int i = 1; i <= n; ++i) cycles.push_back({7, i, middle, i == 500 ? 2.5e9 : own});
+    CycleSum s(model, false);
+    sum(s, cycles);
+    const PlateWear& plate = s.plates().front();
+    EXPECT_EQ(plate.balance().is_plausible(), balanced);
+    EXPECT_EQ(plate.outliers.count, 1);
+    EXPECT_EQ(plate.outliers.worst_cycle, 500);
+    EXPECT_EQ(plate.outliers.worst_ratio, 2.5e9 / own);
+    CycleSum later(model, false);
+    later.restore(s.plates());
+    sum(later, {{7, n + 1, middle, 9.9 * own}});  // a duty of its own
+    const std::vector<std::string> problems = energy_problems(later);
+    ASSERT_EQ(problems.size(), balanced ? 1u : 2u);
+    EXPECT_THAT(problems.back(), testing::HasSubstr("plate 7: 1 cycle with more than 10 times"));
+    EXPECT_THAT(problems.back(), testing::HasSubstr("cycle 500, 2.5e+09 J"));
+  }
 }
 
 // n equal cycles: geometric series of the run-in, n times the variance of one.

@@ -125,7 +125,7 @@ TEST(OwnProcess, TheTableOfFirstPassagesIsTheSame) {
       double mean[ScoreTable::edges];
       table.look_up(distance, 1, mean);
       for (int k = 0; k < ScoreTable::edges; k += 5) {
-        const double p = 0.5 * std::erfc((4 - 0.4 * k) / std::sqrt(2.0));
+        const double p = 0.5 * std::erfc((4.8 - 0.4 * k) / std::sqrt(2.0));
         EXPECT_NEAR(mean[k] / passage_quantile(each, distance, 1, p), 1, 2e-5)
             << distance << " " << k;
       }

@@ -54,9 +54,10 @@ struct Watched {
   WeightedDraws fitted() const { return exact_posterior(rows(), 1e-4).nodes; }
 };
 
-// What a fit says of its units, and of a new one.
+// What a fit says of its units, and of a new one; of `shares` of all units, too.
 inline LimitedLives lives_of_fit(const Watched& watched, const WeightedDraws& posterior,
-                                 bool of_new_unit = false) {
+                                 bool of_new_unit = false, double share_of_points = 1,
+                                 const std::vector<double>& shares = {}) {
   const TomlReader predict = watched.design.root.required_table("predict");
   const auto rows = watched.rows();
   const Asked asked(predict, watched.design.law, rows);
@@ -78,8 +79,10 @@ inline LimitedLives lives_of_fit(const Watched& watched, const WeightedDraws& po
     if (process) path.seen.back().behind.reset();
   }
   if (!of_new_unit) path.next.reset();
-  if (process) return process_lives(*rows, limit, posterior);
-  return limited_lives(*rows, path, posterior);
+  path.shares = shares;
+  path.survived = path.begin;
+  if (process) return process_lives(*rows, limit, posterior, share_of_points);
+  return limited_lives(*rows, path, posterior, share_of_points);
 }
 
 // The path ahead of the same nodes crosses the limit where lives end: of paths that only rise (or fall). Where

@@ -138,6 +138,30 @@ class Inputs {
   Table table_;
   std::vector<DataColumn> read_;
 };
+
+// Depths below the size of an atom are in another unit than the study says. The prior of k is then so far from the data that no
+// quadrature over it ends.
+void require_depths(const BearingData& data, const ColumnChoice& depth, const Table& table) {
+  constexpr double atom = 1e-10;                 // m
+  constexpr double shallow = 1e-7, deep = 1e-2;  // of depths that wear and are measured, m
+  double largest = 0;
+  for (const double each : data.inspections.depth) largest = std::max(largest, std::abs(each));
+  if (largest == 0 || largest >= atom) return;
+  const double number = from_si(data.depth_unit, largest);
+  std::string likely;
+  for (const auto& [name, size] : {std::pair("um", 1e-6), {"mm", 1e-3}, {"m", 1.0}}) {
+    const double meant = number * size;
+    if (meant < shallow || meant > deep) continue;
+    likely = fmt::format("in {} it would be {:.3g} um: is that the unit?", name, meant / 1e-6);
+    break;
+  }
+  if (likely.empty()) likely = "no unit of length makes a wear depth of it: look at these cells";
+  throw InputError(
+      fmt::format("{}: column '{}' (data.columns.depth): the largest depth is {:.4g} {}, less than "
+                  "the size of an atom (1e-10 m); {}",
+                  table.source, depth.column, number, data.depth_unit.text, likely));
+}
+
 }  // namespace
 
 std::optional<Quantity> positive_quantity(const TomlReader& table, const std::string& name,
@@ -196,6 +220,7 @@ BearingData read_bearing_data(const TomlReader& root, const Source& source,
   const ColumnChoice depth = required_column(inputs.columns(), "depth", "m", table);
   data.depth_unit = depth.unit;
   data.inspections.depth = si_numbers(table, depth);
+  require_depths(data, depth, table);
   data.columns = inputs.read();
   data.columns.push_back({"depth", "m", depth.unit, data.inspections.depth});
   for (std::size_t i = 0; i < table.rows; ++i) {

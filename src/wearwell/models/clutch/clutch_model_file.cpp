@@ -146,6 +146,12 @@ PlateWear read_plate(const JsonReader& json, std::size_t replicates) {
   p.last_number = json.at("last_cycle").integer(0);
   p.energy = json.at("energy").number(0);
   p.closings = json.at("closings").number(0);
+  if (const auto far = json.find("energy_outliers")) {  // none in older states
+    p.outliers.count = far->at("count").integer(0, p.cycles);
+    p.outliers.worst_cycle = far->at("cycle").integer(0, p.last_number);
+    p.outliers.worst_energy = far->at("energy").number(0);
+    p.outliers.worst_ratio = far->at("ratio").number(0);
+  }
   p.volume = json.at("volume").number(0);
   p.variance = json.at("variance").number(0);
   const auto outside = json.at("outside").items();
@@ -264,6 +270,11 @@ std::string state_text(const std::vector<PlateWear>& plates, const std::string& 
                     {"last_cycle", p.last_number},
                     {"energy", p.energy},
                     {"closings", p.closings},
+                    {"energy_outliers",
+                     {{"count", p.outliers.count},
+                      {"cycle", p.outliers.worst_cycle},
+                      {"energy", p.outliers.worst_energy},
+                      {"ratio", p.outliers.worst_ratio}}},
                     {"volume", p.volume},
                     {"variance", p.variance},
                     {"outside", p.outside},

@@ -332,6 +332,7 @@ ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Diale
   sql.keep = writer.keep();
   sql.check = writer.check();
   sql.offender = writer.offender();
+  sql.outlier = writer.outlier();
   sql.stream = writer.stream();
   sql.sorted = sql.stream + "\norder by unit, cycle";
   sql.known = writer.known();

@@ -68,10 +68,13 @@ struct ClutchSql {
   /// SELECT: unit, first and last moment (seconds since 1970), rows that have one, mean of `per_day`; what the table does not
   /// have is nothing. Empty where it has neither.
   std::string times;
-  std::string keep;   ///< what is new stays; empty where a transaction does that
-  std::string check;  ///< SELECT: rows, rows without a value that can be, range of each input
+  std::string keep;  ///< what is new stays; empty where a transaction does that
+  /// SELECT: rows, rows without a value that can be, range of each input, largest energy, EnergyOutliers::count.
+  std::string check;
   /// SELECT: of a row that has no value that can be: unit, cycle, the four inputs, energy.
   std::string offender;
+  /// SELECT: of the row with the most energy for its closing: unit, cycle, energy and its ratio to that of the closing.
+  std::string outlier;
   /// For FixedSum. SELECT: unit, cycle and inputs in SI of all rows, in their order; the same by unit
   /// and cycle; of each unit the last cycle that was counted, and its energy so far, halves of
   /// 32 bits each; a temporary table that takes sums, and the statement that adds them to those kept.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/sql_writer.h"
 
 namespace wearwell::clutch {
@@ -219,6 +220,21 @@ std::string SqlWriter::refused() const {
   return fmt::format(fmt::runtime(clickhouse() ? "not ({})" : "not coalesce({}, false)"), valid());
 }
 
+namespace {
+
+/// The energy of a row over that of its closing, 0 where a value lies so far out that the product is no number.
+std::string closing_ratio() {
+  std::string can_be = "raw_energy > 0 and raw_energy < 1e300";
+  for (const char* each : {"slip_speed", "torque", "closing_time"})
+    can_be += fmt::format(" and raw_{0} > 1e-60 and raw_{0} < 1e60", each);
+  return fmt::format(
+      "case when {} then raw_energy / (0.5e0 * raw_torque * raw_slip_speed * raw_closing_time) "
+      "else 0e0 end",
+      can_be);
+}
+
+}  // namespace
+
 std::string SqlWriter::check() const {
   SqlColumns columns;
   columns.keep(fleet::real(dialect_, "count(*)"));
@@ -229,7 +245,19 @@ std::string SqlWriter::check() const {
     columns.keep(fmt::format("max(raw_{})", each));
   }
   columns.keep("max(raw_energy)");
+  columns.keep(fleet::real(
+      dialect_, count_if(fmt::format("({}) > {}", closing_ratio(), number(EnergyOutliers::most)))));
   return fmt::format("select\n  {}\nfrom (\n{}\n) as si", columns.text(), si(false));
+}
+
+std::string SqlWriter::outlier() const {
+  SqlColumns columns;
+  columns.add(fleet::text(dialect_, "unit"), "name");
+  columns.add(fleet::real(dialect_, "cycle"), "number");
+  columns.keep("raw_energy");
+  columns.add(closing_ratio(), "ratio");
+  return fmt::format("select\n  {}\nfrom (\n{}\n) as si order by ratio desc, name, number limit 1",
+                     columns.text(), si(false));
 }
 
 std::string SqlWriter::offender() const {

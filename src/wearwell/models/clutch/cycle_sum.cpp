@@ -165,7 +165,11 @@ bool CycleSum::step(PlateWear& p, const CycleColumns& cycles, const Rates& rates
   p.volume = volume;
   p.variance = variance;
   p.energy += energy;
-  p.closings += closing_energy({cycles.slip_speed[i], cycles.torque[i], 0, cycles.closing_time[i]});
+  const double closing =
+      closing_energy({cycles.slip_speed[i], cycles.torque[i], 0, cycles.closing_time[i]});
+  p.closings += closing;
+  p.outliers.look_at(static_cast<long long>(cycles.number[static_cast<std::size_t>(i)]), energy,
+                     closing);
   return true;
 }
 

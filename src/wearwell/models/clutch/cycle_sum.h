@@ -27,6 +27,7 @@ struct PlateWear {
   double closings = 0;                 ///< J, 1/2 Mz omega0 t2 of the same cycles (EnergyBalance)
   double volume = 0;                   ///< V, m^3
   double variance = 0;                 ///< of V by the scatter of cycles, m^6
+  EnergyOutliers outliers = {};        ///< cycles with an energy that no closing has
   std::array<long long, 4> outside{};  ///< cycles outside the range of validity, by input
   long long outside_any = 0;
   long long clamped = 0;      ///< cycles where the map is negative: taken as no wear

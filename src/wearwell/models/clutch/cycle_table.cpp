@@ -66,9 +66,15 @@ CycleColumns cycle_columns(const Table& table, std::vector<std::string>& names) 
 std::vector<std::string> energy_problems(const CycleSum& sum) {
   std::vector<std::string> problems;
   for (const PlateWear& p : sum.plates()) {
-    if (p.balance().is_plausible()) continue;
-    problems.push_back(fmt::format("the energy of plate {} is {}. {}", printable(p.in_words()),
-                                   p.balance().description(), energy_advice));
+    if (!p.balance().is_plausible())
+      problems.push_back(fmt::format("the energy of plate {} is {}. {}", printable(p.in_words()),
+                                     p.balance().description(), energy_advice));
+    if (const EnergyOutliers& far = p.outliers; far.count > 0)
+      problems.push_back(fmt::format(
+          "plate {}: {} with more than {:g} times the energy of a closing, 1/2 x torque x slip "
+          "speed x closing time; farthest off is cycle {}, {:.4g} J, {:.3g} times that. {}",
+          printable(p.in_words()), far.count == 1 ? "1 cycle" : fmt::format("{} cycles", far.count),
+          EnergyOutliers::most, far.worst_cycle, far.worst_energy, far.worst_ratio, energy_advice));
   }
   return problems;
 }
@@ -82,6 +88,7 @@ nlohmann::ordered_json wear_json(const WearModel& model, const CycleSum& sum, bo
                                    {"last_cycle", p.last_number},
                                    {"energy", p.energy},
                                    {"energy_of_closings", p.closings},
+                                   {"energy_outliers", p.outliers.count},
                                    {"volume", p.volume / mm3},
                                    {"sd_scatter", p.sd() / mm3}};
     if (full) each["sd_full"] = p.full_sd(model.plate_sd) / mm3;

@@ -152,6 +152,9 @@ bool Loop::take_chunk(Batch& batch) {
     }
     UnitPlace& unit = *place(i);
     const auto number = static_cast<std::int64_t>(cycle);
+    found.outliers.look_at(unit.name, number, chunk_.values[5][i],
+                           closing_energy({chunk_.values[1][i], chunk_.values[2][i],
+                                           chunk_.values[3][i], chunk_.values[4][i]}));
     if (number <= unit.after) continue;
     if (number <= unit.last) {
       if (!sorted_) return false;

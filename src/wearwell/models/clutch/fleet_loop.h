@@ -3,6 +3,7 @@
 #include "wearwell/base/monitor.h"
 #include "wearwell/fleet/column_engine.h"
 #include "wearwell/models/clutch/clutch_sql.h"
+#include "wearwell/models/clutch/energy_balance.h"
 
 namespace wearwell::clutch {
 
@@ -10,6 +11,7 @@ namespace wearwell::clutch {
 struct LoopFindings {
   double rows = 0;
   double refused = 0, nameless = 0;  ///< nothing is summed then
+  FleetOutliers outliers;
 };
 
 /// Does what ClutchSql::query does by FixedSum, for an engine within the program: the sums of all cycles that are new,

@@ -257,6 +257,16 @@ std::vector<Check> checks_of(const FleetCounts& counts, const FleetFindings& fou
        fmt::format("the model's wear rate is below 0 in {:.0f} cycles, which count as no wear",
                    counts.negative()),
        ""});
+  if (const EnergyOutliers& far = found.outliers.all; far.count > 0)
+    checks.push_back(
+        {"energy-of-cycles", Verdict::fail,
+         fmt::format(
+             "{} of {:.0f} cycles read now {} more than {:g} times the energy of a closing, "
+             "1/2 x torque x slip speed x closing time; farthest off is cycle {} of unit "
+             "{}, {:.4g} J, {:.3g} times that",
+             far.count, found.rows, far.count == 1 ? "has" : "have", EnergyOutliers::most,
+             far.worst_cycle, printable(found.outliers.unit), far.worst_energy, far.worst_ratio),
+         energy_advice});
   const FleetCounts::Implausible& energy = counts.implausible();
   checks.push_back(
       {"energy", energy.units > 0 ? Verdict::fail : Verdict::pass,

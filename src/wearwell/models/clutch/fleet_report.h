@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/fleet_counts.h"
 #include "wearwell/models/clutch/fleet_days.h"
 #include "wearwell/study/result.h"
@@ -14,7 +15,8 @@ namespace wearwell::clutch {
 struct FleetFindings {
   std::string version, model_id, engine, source;
   std::vector<std::string> files;
-  double rows = 0;  ///< looked at in this run
+  double rows = 0;         ///< looked at in this run
+  FleetOutliers outliers;  ///< among them
   bool replicates = true;
   std::vector<UnitRow> units;  ///< worst first
   FleetDays days;

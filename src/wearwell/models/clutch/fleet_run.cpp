@@ -21,6 +21,7 @@ namespace {
 struct FleetCheck {
   double rows = 0;
   std::string ranges;  ///< least and most of each input, in words
+  FleetOutliers outliers;
 };
 
 /// "unit 7, cycle 4: torque is -1", of one row that no sum can take.
@@ -53,13 +54,26 @@ std::string range_in_words(const char* name, const SqlColumn& column, double low
   return fmt::format("{} {} to {} {}", name, end(low), end(high), column.unit);
 }
 
+/// The cycles whose energy no closing has, by the one that is farthest off.
+FleetOutliers outliers_of(fleet::Engine& engine, const ClutchSql& sql, double count) {
+  FleetOutliers found;
+  if (!(count > 0)) return found;
+  engine.rows(sql.outlier, 1, [&](const fleet::Row& row) {
+    found.unit = row.texts.front();
+    found.all = {static_cast<long long>(count), static_cast<long long>(row.numbers[0]),
+                 row.numbers[1], row.numbers[2]};
+  });
+  return found;
+}
+
 /// Throws InputError for rows that no sum can take.
 FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSource& source) {
   FleetCheck check;
-  double refused = 0;
+  double refused = 0, outliers = 0;
   engine.rows(sql.check, 0, [&](const fleet::Row& row) {
     check.rows = row.numbers[0];
     refused = row.numbers[1];
+    outliers = row.numbers[4 + 2 * inputs.size()];
     const double nameless = row.numbers[2];
     if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
     check.ranges.clear();
@@ -83,6 +97,7 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSour
         "positive "
         "(these are: {})",
         engine.source(), refused, check.rows, offender(engine, sql), check.ranges));
+  check.outliers = outliers_of(engine, sql, outliers);
   return check;
 }
 
@@ -110,6 +125,7 @@ struct Shard {
   SqlSource source = {};
   double rows = 0;
   std::string ranges = {};
+  FleetOutliers outliers = {};
 };
 
 /// Where a summand does not fit its column.
@@ -134,6 +150,7 @@ void sum_shard_by_loop(Shard& shard, fleet::ColumnEngine& columns, const Identif
   const LoopFindings found = sum_by_loop(shard.engine, columns, shard.sql, model.model, full,
                                          request.first, request.units_in_memory, monitor);
   shard.rows = found.rows;
+  shard.outliers = found.outliers;
   if (found.rows == 0 || found.refused + found.nameless > 0) {
     check_rows(shard.engine, shard.sql, shard.source);
     throw InputError(fmt::format("{} changed while it was read", shard.engine.source()));
@@ -173,6 +190,7 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
     const FleetCheck check = check_rows(engine, shard.sql, source);
     shard.rows = check.rows;
     shard.ranges = check.ranges;
+    shard.outliers = check.outliers;
   }
   try {
     // ClickHouse has no transaction that would take the tables away again.
@@ -279,6 +297,7 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
                       .source = "",
                       .files = request.files,
                       .rows = 0,
+                      .outliers = {},
                       .replicates = full,
                       .units = {},
                       .days = {},
@@ -290,6 +309,7 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
   for (const Shard& shard : shards) {
     found.engine += (found.engine.empty() ? "" : ", ") + shard.engine.in_words();
     found.rows += shard.rows;
+    found.outliers.add(shard.outliers);
     if (request.files.empty()) found.files.push_back(shard.engine.source());
   }
   std::vector<double> levels;

@@ -52,6 +52,7 @@ class SqlWriter {
   std::string keep() const;
   std::string check() const;
   std::string offender() const;
+  std::string outlier() const;
   std::string stream() const;
   std::string known() const;
   std::string fresh() const;

@@ -286,6 +286,7 @@ class PartTracker final : public prognosis::Tracker {
   const Quantity& limit() const override { return limit_; }
   bool rising() const override { return true; }
   const std::string& noun() const override { return noun_; }
+  double probability_error() const override { return 0.004; }
   std::vector<double> populations() const override { return parts_->few.weights; }
   std::span<const std::string> seen() const override { return parts_->seen; }
   std::string refusal(const std::string& unit) const override { return parts_->refusal(unit); }

@@ -105,7 +105,7 @@ class Drawing {
     const std::size_t step = (groups_.size() + most_together - 1) / most_together;
     for (std::size_t g = 0; g < groups_.size(); g += step) {
       const std::vector<Numbers> bands = over_places([&](double life) {
-        const Distribution known = groups_[g].life->hazard(draws_, life);
+        const Distribution known = groups_[g].life->hazard(draws_, life).distribution;
         return Numbers{per * known.quantile(0.05), per * known.quantile(0.5),
                        per * known.quantile(0.95)};
       });
@@ -187,7 +187,7 @@ class Drawing {
 
   void add_law(std::size_t g, std::size_t colour, std::vector<plot::Json>& marks) const {
     const std::vector<Numbers> bands = over_places([&](double life) {
-      const Distribution left = groups_[g].life->survival(draws_, life);
+      const Distribution left = groups_[g].life->survival(draws_, life).distribution;
       const auto failed = [&](double q) {
         return height(std::clamp(1 - left.quantile(q), 0.1 * least_, 1 - 0.1 * (1 - most_)));
       };

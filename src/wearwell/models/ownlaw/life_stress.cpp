@@ -119,9 +119,9 @@ html::Figure life_stress_figure(const OwnLaw& law, const LifeStress& stress, con
   };
   std::vector<Row> rows(stress.at.size());
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-    const Distribution median = stress.lives[i]->quantile(draws, 0.5);
+    const Distribution median = stress.lives[i]->quantile(draws, 0.5).distribution;
     rows[i] = {median.quantile(0.05), median.quantile(0.5), median.quantile(0.95),
-               stress.lives[i]->quantile(draws, 0.1).quantile(0.5)};
+               stress.lives[i]->quantile(draws, 0.1).distribution.quantile(0.5)};
   });
   Numbers x, low, middle, high, b10;
   double least = INFINITY, largest = -INFINITY;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wearwell/study/numerical_error.h"
+
 namespace wearwell::ownlaw {
 
 LimitWishes read_limit_wishes(const Asked& asked, LimitedPath& path) {
@@ -110,18 +112,32 @@ std::vector<QuantityQuantiles> LimitGroup::answers(const LimitedLives& lives) co
       found.push_back(
           next ? b_life(Remaining{lives.by_share[k], all[i].survival}, predictive, wishes_.levels)
                : b_life(all[i], predictive, wishes_.levels));
+      if (next && k < lives.share_misfit.size())
+        found.back().numerical_error = lives.share_misfit[k];
     }
   }
   return found;
 }
 
-std::vector<PredictiveLife> LimitGroup::predictive(const LimitedLives& lives) const {
+std::vector<QuantityQuantiles> LimitGroup::answers(
+    const LimitedLives& lives, const std::optional<LimitedLives>& coarse) const {
+  std::vector<QuantityQuantiles> found = answers(lives);
+  if (coarse) estimate_numerical_errors(found, answers(*coarse));
+  return found;
+}
+
+std::vector<PredictiveLife> LimitGroup::predictive(
+    const LimitedLives& lives, const std::optional<LimitedLives>& coarse) const {
+  std::vector<QuantityQuantiles> errors;
+  if (coarse) errors = answers(lives, coarse);
   std::vector<PredictiveLife> all;
   for (Remaining& each : remaining(lives)) {
     const auto one = std::make_shared<const Remaining>(std::move(each));
     all.push_back(
         {{[one](double x) { return one->cdf(x); }, [one](double p) { return one->quantile(p); }},
          one->survival});
+    // Lives are the first of all that is asked.
+    if (coarse) all.back().numerical_error = errors[all.size() - 1].numerical_error;
   }
   return all;
 }

@@ -28,14 +28,17 @@ class LimitGroup {
              std::shared_ptr<const LimitedPath> path, LimitWishes wishes);
 
   const std::vector<QuantityRequest>& requests() const { return requests_; }
-  /// Of each request, SI.
-  std::vector<QuantityQuantiles> answers(const LimitedLives& lives) const;
+  /// Of each request, SI. `coarse`: the same lives over fewer points of the posterior, by which the error is estimated.
+  std::vector<QuantityQuantiles> answers(const LimitedLives& lives,
+                                         const std::optional<LimitedLives>& coarse) const;
   /// Of each life among the requests.
-  std::vector<PredictiveLife> predictive(const LimitedLives& lives) const;
+  std::vector<PredictiveLife> predictive(const LimitedLives& lives,
+                                         const std::optional<LimitedLives>& coarse) const;
 
  private:
   struct Remaining;
   std::vector<Remaining> remaining(const LimitedLives& lives) const;
+  std::vector<QuantityQuantiles> answers(const LimitedLives& lives) const;
   double begin_of(std::size_t u) const;
   void add_life(const std::string& name, const std::string& of, const std::string& at,
                 const Unit& unit);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "wearwell/math/boost_policy.h"
+#include "wearwell/models/ownlaw/own_first_passage.h"
 
 namespace wearwell::ownlaw {
 
@@ -22,10 +23,12 @@ inline double fraction(std::size_t i, double of) {
   return x - std::floor(x);
 }
 
-/// On the logarithms of neighbours in a table of normal scores -4, -3.6 .. 4, by the cubic through four of them.
+/// On the logarithms of neighbours in a ScoreTable, by the cubic through four of them.
 inline double at_score(const double* values, double score) {
-  const double x = std::clamp((score + 4) / 0.4, 0.0, 20.0);
-  const auto i = static_cast<std::size_t>(std::clamp(std::floor(x), 1.0, 18.0));
+  constexpr double last = ScoreTable::edges - 1;
+  const double x =
+      std::clamp((score - ScoreTable::first_score) / ScoreTable::score_step, 0.0, last);
+  const auto i = static_cast<std::size_t>(std::clamp(std::floor(x), 1.0, last - 2));
   const double t = x - static_cast<double>(i);
   const double weight[] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
                            -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};

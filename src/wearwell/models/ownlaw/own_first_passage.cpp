@@ -16,7 +16,7 @@ constexpr double low_log = -9, high_log = 14, step_log = 0.05;  // of distance/s
 constexpr int places = 461;
 
 double score(int edge) {
-  return -4 + 0.4 * edge;
+  return ScoreTable::first_score + ScoreTable::score_step * edge;
 }
 
 // exp(e + x^2/2) Phi(-x), x > 0.

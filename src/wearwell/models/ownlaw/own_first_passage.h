@@ -17,12 +17,13 @@ double passage_quantile(Process process, double distance, double scale, double p
 /// The p-quantile of what a path grows by while its mean grows by `mean` above 0, in the same terms.
 double increment_quantile(Process process, double mean, double scale, double p);
 
-/// Either of them at normal scores -4, -3.6 .. 4 from a table, to a relative 2e-5.
+/// Either of them at normal scores -4.8, -4.4 .. 4.8 from a table, to a relative 2e-5. Beyond lies 2e-6 of the probability.
 class ScoreTable {
  public:
   static const ScoreTable& passages(Process process);
   static const ScoreTable& increments(Process process);
-  static constexpr int edges = 21;
+  static constexpr int edges = 25;
+  static constexpr double first_score = -4.8, score_step = 0.4;
   /// Of the scores: what each has as a node of the trapezoidal rule; they sum to 1.
   static const std::vector<double>& shares();
   /// Of a distance, or of a mean.

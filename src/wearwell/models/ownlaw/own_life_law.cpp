@@ -18,6 +18,10 @@ constexpr double least_survival = 1e-3;
 
 constexpr std::size_t few_points = 2000;
 
+std::size_t some(std::size_t most, double share) {
+  return static_cast<std::size_t>(share * static_cast<double>(most));
+}
+
 double probability(ResponseFamily family, double life, const double* slots) {
   return std::exp(log_cdf(family, life, slots));
 }
@@ -137,12 +141,16 @@ double LifeLaw::Next::quantile(double p, double from) const {
   return quantile(gone + p * (1 - gone)) - from;
 }
 
-LifeLaw::Next LifeLaw::next(const WeightedDraws& draws) const {
+bool LifeLaw::over_all() const {
+  return slots_->law->effects.empty();
+}
+
+LifeLaw::Next LifeLaw::next(const WeightedDraws& draws, double share_of_points) const {
   AtPoint at(*this);
   Next next;
   next.family_ = family_;
   next.positive_ = positive_;
-  const FewPoints few(draws, at.size() == 1 ? 20'000 : 1000);
+  const FewPoints few(draws, at.size() == 1 ? 20'000 : some(1000, share_of_points));
   for (std::size_t i = 0; i < few.weights.size(); ++i) {
     at.move_to(few.values.row(static_cast<Eigen::Index>(i)).data());
     if (i == 0) next.middle_ = at.quantile(0.5);
@@ -157,9 +165,9 @@ LifeLaw::Next LifeLaw::next(const WeightedDraws& draws) const {
 }
 
 // Where every point needs an equation solved there are few.
-WeightedDraws LifeLaw::points(const WeightedDraws& draws) const {
-  if (slots_->law->effects.empty()) return draws;
-  FewPoints few(draws, few_points);
+WeightedDraws LifeLaw::points(const WeightedDraws& draws, double share_of_points) const {
+  if (over_all()) return draws;
+  FewPoints few(draws, some(few_points, share_of_points));
   WeightedDraws result;
   result.values = std::move(few.values);
   result.weights = Eigen::Map<const Eigen::VectorXd>(few.weights.data(),
@@ -169,29 +177,38 @@ WeightedDraws LifeLaw::points(const WeightedDraws& draws) const {
 
 // Of a number that follows from the parameters: where that is expensive it is known at few points.
 template <class Value>
-Distribution LifeLaw::over(const WeightedDraws& draws, const Value& value) const {
-  if (slots_->law->effects.empty()) return {draws, value};
-  const FewPoints few(draws, few_points);
+LifeLaw::Known LifeLaw::over(const WeightedDraws& draws, const Value& value,
+                             double share_of_points) const {
+  if (over_all()) return {{draws, value}};
+  const FewPoints few(draws, some(few_points, share_of_points));
   Points at_few(few.values.rows(), 1);
   for (Eigen::Index i = 0; i < at_few.rows(); ++i) at_few(i, 0) = value(few.values.row(i).data());
-  if (auto whole = interpolated(draws, few, at_few).front()) return std::move(*whole);
+  if (share_of_points == 1) {
+    if (auto whole = interpolated(draws, few, at_few).front())
+      return {std::move(whole->distribution), whole->misfit};
+  }
   WeightedDraws points;
   points.values = at_few;
   points.weights = Eigen::Map<const Eigen::VectorXd>(few.weights.data(), at_few.rows());
-  return {points, [](const double* x) { return x[0]; }};
+  return {{points, [](const double* x) { return x[0]; }}};
 }
 
-Distribution LifeLaw::quantile(const WeightedDraws& draws, double p) const {
+LifeLaw::Known LifeLaw::quantile(const WeightedDraws& draws, double p,
+                                 double share_of_points) const {
   AtPoint at(*this);
-  return over(draws, [&](const double* x) {
-    at.move_to(x);
-    return at.quantile(p);
-  });
+  return over(
+      draws,
+      [&](const double* x) {
+        at.move_to(x);
+        return at.quantile(p);
+      },
+      share_of_points);
 }
 
-Distribution LifeLaw::quantile(const WeightedDraws& draws, double p, double from) const {
+LifeLaw::Known LifeLaw::quantile_beyond(const WeightedDraws& draws, double p, double from,
+                                        double share_of_points) const {
   AtPoint at(*this);
-  WeightedDraws given = points(draws);
+  WeightedDraws given = points(draws, share_of_points);
   std::vector<double> left;
   for (Eigen::Index i = 0; i < given.values.rows(); ++i) {
     at.move_to(given.values.row(i).data());
@@ -206,38 +223,50 @@ Distribution LifeLaw::quantile(const WeightedDraws& draws, double p, double from
     given.cells.mass.array() *= share.head(given.cells.mass.size()).array();
     given.cells.mass /= given.cells.mass.sum();
   }
-  return {given, [&](const double* x) {
-            at.move_to(x);
-            const double gone = at.cdf(from);
-            if (!known) return std::nan("");
-            // Where none is left it does not count; it is to be a number all the same.
-            return gone < 1 ? at.quantile(gone + p * (1 - gone)) - from : 0;
-          }};
+  return {{given, [&](const double* x) {
+             at.move_to(x);
+             const double gone = at.cdf(from);
+             if (!known) return std::nan("");
+             // Where none is left it does not count; it is to be a number all the same.
+             return gone < 1 ? at.quantile(gone + p * (1 - gone)) - from : 0;
+           }}};
 }
 
-Distribution LifeLaw::survival(const WeightedDraws& draws, double life) const {
+LifeLaw::Known LifeLaw::survival(const WeightedDraws& draws, double life,
+                                 double share_of_points) const {
   AtPoint at(*this);
-  return over(draws, [&](const double* x) {
-    at.move_to(x);
-    return 1 - at.cdf(life);
-  });
+  return over(
+      draws,
+      [&](const double* x) {
+        at.move_to(x);
+        return 1 - at.cdf(life);
+      },
+      share_of_points);
 }
 
-Distribution LifeLaw::hazard(const WeightedDraws& draws, double life) const {
+LifeLaw::Known LifeLaw::hazard(const WeightedDraws& draws, double life,
+                               double share_of_points) const {
   AtPoint at(*this);
-  return over(draws, [&](const double* x) {
-    at.move_to(x);
-    return at.hazard(life);
-  });
+  return over(
+      draws,
+      [&](const double* x) {
+        at.move_to(x);
+        return at.hazard(life);
+      },
+      share_of_points);
 }
 
-Distribution LifeLaw::ratio(const WeightedDraws& draws, const LifeLaw& other) const {
+LifeLaw::Known LifeLaw::ratio(const WeightedDraws& draws, const LifeLaw& other,
+                              double share_of_points) const {
   AtPoint here(*this), there(other);
-  return over(draws, [&](const double* x) {
-    here.move_to(x);
-    there.move_to(x);
-    return here.quantile(0.5) / there.quantile(0.5);
-  });
+  return over(
+      draws,
+      [&](const double* x) {
+        here.move_to(x);
+        there.move_to(x);
+        return here.quantile(0.5) / there.quantile(0.5);
+      },
+      share_of_points);
 }
 
 }  // namespace wearwell::ownlaw

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,24 +37,33 @@ class LifeLaw {
     std::vector<Component> components_;
     double middle_ = 1;
   };
-  Next next(const WeightedDraws& draws) const;
+  /// Over all points of a posterior, or of few where items differ: then all functions below take a share of the points that is
+  /// below 1, to see how far what they give depends on these.
+  bool over_all() const;
+  Next next(const WeightedDraws& draws, double share_of_points = 1) const;
 
-  /// The life by which a share p of all has failed, over a posterior.
-  Distribution quantile(const WeightedDraws& draws, double p) const;
+  /// A number over a posterior; where it is interpolated with its relative error (predict/interpolated.h).
+  struct Known {
+    Distribution distribution;
+    std::optional<double> misfit = {};
+  };
+  /// The life by which a share p of all has failed.
+  Known quantile(const WeightedDraws& draws, double p, double share_of_points = 1) const;
   /// The same of those that have come to `from`, from there on, given that one has.
-  Distribution quantile(const WeightedDraws& draws, double p, double from) const;
+  Known quantile_beyond(const WeightedDraws& draws, double p, double from,
+                        double share_of_points = 1) const;
   /// The share of all that outlasts a life.
-  Distribution survival(const WeightedDraws& draws, double life) const;
+  Known survival(const WeightedDraws& draws, double life, double share_of_points = 1) const;
   /// The rate at which those fail that have come so far, per SI unit of life.
-  Distribution hazard(const WeightedDraws& draws, double life) const;
+  Known hazard(const WeightedDraws& draws, double life, double share_of_points = 1) const;
   /// The median life over that of `other`.
-  Distribution ratio(const WeightedDraws& draws, const LifeLaw& other) const;
+  Known ratio(const WeightedDraws& draws, const LifeLaw& other, double share_of_points = 1) const;
 
  private:
   class AtPoint;
-  WeightedDraws points(const WeightedDraws& draws) const;
+  WeightedDraws points(const WeightedDraws& draws, double share_of_points = 1) const;
   template <class Value>
-  Distribution over(const WeightedDraws& draws, const Value& value) const;
+  Known over(const WeightedDraws& draws, const Value& value, double share_of_points = 1) const;
 
   std::shared_ptr<const Path> slots_;
   ResponseFamily family_;

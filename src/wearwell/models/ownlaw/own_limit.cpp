@@ -9,6 +9,7 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/models/ownlaw/limit_group.h"
 #include "wearwell/models/ownlaw/own_process_lives.h"
+#include "wearwell/study/numerical_error.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -65,15 +66,24 @@ void add_units(const Asked& asked, const TomlReader& table, const std::string& n
   if (!told.empty()) path.next.reset();
 }
 
-using Lives = std::function<LimitedLives(const WeightedDraws&)>;
+using Lives = std::function<LimitedLives(const WeightedDraws&, double share_of_points)>;
 
 void request_lives(const Asked& asked, const std::string& name, const Quantity& limit,
                    const std::shared_ptr<const LimitedPath>& path, const LimitWishes& told,
                    const Lives& lives_of, PosteriorStudy& study) {
   const auto rows = std::make_shared<const LimitGroup>(asked, name, limit, path, told);
-  study.quantity_groups.push_back(
-      {rows->requests(), [=](const WeightedDraws& draws) { return rows->answers(lives_of(draws)); },
-       [=](const WeightedDraws& draws) { return rows->predictive(lives_of(draws)); }});
+  const auto coarse = [=](const LimitedLives& lives, const WeightedDraws& draws) {
+    return lives.over_all ? std::nullopt : std::optional(lives_of(draws, fewer_points));
+  };
+  study.quantity_groups.push_back({rows->requests(),
+                                   [=](const WeightedDraws& draws) {
+                                     const LimitedLives lives = lives_of(draws, 1);
+                                     return rows->answers(lives, coarse(lives, draws));
+                                   },
+                                   [=](const WeightedDraws& draws) {
+                                     const LimitedLives lives = lives_of(draws, 1);
+                                     return rows->predictive(lives, coarse(lives, draws));
+                                   }});
 }
 
 // A first passage is known where variances are in proportion to means.
@@ -138,8 +148,8 @@ void read_process_limit(const Asked& asked, const TomlReader& limits, const std:
   const std::shared_ptr<const ProcessLimit> known = asked_for;
   request_lives(
       asked, name, limit, {known, &known->path}, told,
-      [rows = asked.rows, known](const WeightedDraws& draws) {
-        return process_lives(*rows, *known, draws);
+      [rows = asked.rows, known](const WeightedDraws& draws, double share_of_points) {
+        return process_lives(*rows, *known, draws, share_of_points);
       },
       study);
 }
@@ -208,8 +218,8 @@ void read_limit(const Asked& asked, PosteriorStudy& study) {
   const std::shared_ptr<const LimitedPath> known = path;
   request_lives(
       asked, name, limit, known, told,
-      [rows = asked.rows, known](const WeightedDraws& draws) {
-        return limited_lives(*rows, *known, draws);
+      [rows = asked.rows, known](const WeightedDraws& draws, double share_of_points) {
+        return limited_lives(*rows, *known, draws, share_of_points);
       },
       study);
 }

@@ -79,15 +79,17 @@ class Part {
 
   void add_next(const double* x, double weight) {
     CellMixture units;
+    NormalLines along;
     for (std::size_t i = 0; i < new_units_.count(); ++i) {
       add_some(new_units_.at(i, x, rows_.law().parameters.size()), weight * new_units_.share(i),
-               units);
+               units, along);
     }
     found.next.add(units);
-    if (!path_.shares.empty()) found.add_shares(path_, units);
+    if (path_.shares.empty()) return;
+    effects() > 0 ? found.add_shares(path_, along, weight) : found.add_shares(path_, units);
   }
 
-  void add_some(const double* x, double weight, CellMixture& units) {
+  void add_some(const double* x, double weight, CellMixture& units, NormalLines& along) {
     next_->at().move_to(x);
     const EffectLines* lines = &fresh_;
     if (effects() == 2) {
@@ -96,6 +98,17 @@ class Part {
     }
     solve(*next_, lines->z, lines->count(), place_);
     lines->each(place_, [&](auto share, auto place) { units.add_curve(weight, share, place); });
+    if (path_.shares.empty() || effects() == 0) return;
+    // The scores of lines that are turned are those before.
+    std::size_t begin = 0;
+    for (const std::size_t end : fresh_.ends) {
+      double share = 0;
+      for (std::size_t i = begin; i < end; ++i) share += fresh_.share[i];
+      const double first = fresh_.z[begin * effects()];
+      const double step = end - begin > 1 ? fresh_.z[(begin + 1) * effects()] - first : 1;
+      along.add(weight * share, first, step, std::span(place_).subspan(begin, end - begin));
+      begin = end;
+    }
   }
 
   // In which direction of two effects lives of new units change.
@@ -209,6 +222,7 @@ LimitedLives lives_of_points(const OwnRows& rows, const LimitedPath& path,
     return cells;
   };
   LimitedLives lives;
+  lives.over_all = true;
   if (path.next) {
     lives.next = cells_of([](Part& part, const double* x) { return part.life_of_next(x); });
     const bool all = path.survived <= path.begin;
@@ -230,12 +244,14 @@ Most points_of(const Path& any) {
 
 }  // namespace
 
-LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
-                           const WeightedDraws& draws) {
+LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path, const WeightedDraws& draws,
+                           double share_of_points) {
   if (rows.law().effects.empty() && !rows.law().draws_units())
     return lives_of_points(rows, path, draws);
   Most most = points_of(path.next ? *path.next : *path.seen.front().ahead);
   if (rows.law().draws_units()) most.next = std::min<std::size_t>(most.next, 400);
+  for (std::size_t* each : {&most.next, &most.seen})
+    *each = static_cast<std::size_t>(share_of_points * static_cast<double>(*each));
   LimitedLives lives;
   LimitedPath seen = path, next = path;
   seen.next.reset();
@@ -246,9 +262,10 @@ LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
   if (!path.next) return lives;
   const FewPoints few(draws, most.next);
   LimitedLives of_next = sum_over(few, [&] { return Part(rows, next); });
-  of_next.spread_shares(path, draws, few);
+  if (share_of_points == 1) of_next.spread_shares(path, draws, few);
   lives.next = std::move(of_next.next);
   lives.by_share = std::move(of_next.by_share);
+  lives.share_misfit = std::move(of_next.share_misfit);
   return lives;
 }
 
@@ -263,16 +280,31 @@ void LimitedLives::add_shares(const LimitedPath& path, const CellMixture& units)
   }
 }
 
+void LimitedLives::add_shares(const LimitedPath& path, const NormalLines& units, double weight) {
+  const bool all = path.survived <= path.begin;
+  const double gone = all ? 0 : units.cdf(path.survived), mass = weight * (1 - gone);
+  by_share.resize(path.shares.size());
+  for (std::size_t i = 0; i < path.shares.size(); ++i) {
+    const double p = gone + path.shares[i] * (1 - gone);
+    const double life = p < 1 ? units.quantile(p) : std::nan("");
+    at_points.push_back(all ? life : std::max(0.0, life - path.survived));
+    // What hardly any unit comes to counts no more.
+    if (mass > 0 && p < 1) by_share[i].add(mass, at_points.back(), at_points.back());
+  }
+}
+
 void LimitedLives::spread_shares(const LimitedPath& path, const WeightedDraws& draws,
                                  const FewPoints& few) {
   const auto shares = static_cast<Eigen::Index>(path.shares.size());
   if (shares == 0 || path.survived > path.begin) return;
   const Eigen::Map<const Points> lives(at_points.data(), few.values.rows(), shares);
   const auto whole = interpolated(draws, few, lives);
+  share_misfit.assign(whole.size(), {});
   for (std::size_t i = 0; i < whole.size(); ++i) {
     if (!whole[i]) continue;
     by_share[i] = {};
-    by_share[i].add(*whole[i]);
+    by_share[i].add(whole[i]->distribution);
+    share_misfit[i] = whole[i]->misfit;
   }
 }
 

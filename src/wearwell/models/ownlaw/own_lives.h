@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "wearwell/bayes/weighted_draws.h"
@@ -8,6 +9,7 @@
 #include "wearwell/models/ownlaw/own_likelihood.h"
 #include "wearwell/predict/cell_mixture.h"
 #include "wearwell/predict/few_points.h"
+#include "wearwell/predict/normal_lines.h"
 
 namespace wearwell::ownlaw {
 
@@ -42,10 +44,16 @@ struct LimitedLives {
   /// Of each of LimitedPath::shares: the life by which such a share of units has reached the limit,
   /// over the posterior given that a unit has come to `survived`, from there on.
   std::vector<CellMixture> by_share = {};
+  /// Their relative error where they are interpolated (predict/interpolated.h).
+  std::vector<std::optional<double>> share_misfit = {};
   /// The same lives, point after point.
   std::vector<double> at_points = {};
 
-  /// From the lives of all units at one point of the posterior.
+  bool over_all = false;  ///< summed over all cells of the posterior, not over few points
+
+  /// From the lives of all units at one point of the posterior, of this weight.
+  void add_shares(const LimitedPath& path, const NormalLines& units, double weight);
+  /// The same where units have no lines to lie on.
   void add_shares(const LimitedPath& path, const CellMixture& units);
 
   /// After all of `few` points: where lives count from the beginning, `by_share` over the whole posterior.
@@ -53,7 +61,9 @@ struct LimitedLives {
 
   void add(const LimitedLives& other);  ///< of other points
 };
-LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path,
-                           const WeightedDraws& draws);
+/// `share_of_points`: below 1 over so many of the points that lives are summed over, and without interpolation, to see how
+/// far they depend on these.
+LimitedLives limited_lives(const OwnRows& rows, const LimitedPath& path, const WeightedDraws& draws,
+                           double share_of_points = 1);
 
 }  // namespace wearwell::ownlaw

@@ -11,11 +11,12 @@
 #include "wearwell/models/ownlaw/own_process_spread.h"
 #include "wearwell/models/ownlaw/own_spread.h"
 #include "wearwell/models/ownlaw/own_unit_draws.h"
+#include "wearwell/study/numerical_error.h"
 
 namespace wearwell::ownlaw {
 namespace {
 
-constexpr std::size_t most_points = 500;
+constexpr std::size_t most_points = 500, most_points_solved = 200;
 
 // A path for any thread.
 class SharedPath {
@@ -200,18 +201,25 @@ void request_paths(const Asked& asked, const Measured& measured,
     process = std::make_shared<const ProcessLimit>(ProcessLimit{column, axis});
   }
   group.from_draws = [rows = asked.rows, paths, process](const WeightedDraws& draws) {
-    std::vector<QuantityQuantiles> all;
-    const bool dear =
-        paths->front().path.ahead->goes_on() && paths->front().path.ahead->running->running.solved;
-    const std::vector<Spread> known = process
-                                          ? process_spreads(*rows, *process, *paths, draws)
-                                          : spreads(*rows, *paths, draws, dear ? 200 : most_points);
-    for (const Spread& spread : known) {
-      for (const CellMixture& each : spread.ahead) {
-        const double middle = each.quantile(0.5);
-        all.push_back({each.quantile(0.05), middle, each.quantile(0.95), 0, 0, middle});
+    const Path& any = *paths->front().path.ahead;
+    const bool solved = any.goes_on() && any.running->running.solved;
+    const std::size_t most = solved ? most_points_solved : most_points;
+    const auto answers = [&](std::size_t finer) {
+      const std::vector<Spread> known = process
+                                            ? process_spreads(*rows, *process, *paths, draws, finer)
+                                            : spreads(*rows, *paths, draws, finer * most);
+      std::vector<QuantityQuantiles> all;
+      for (const Spread& spread : known) {
+        for (const CellMixture& each : spread.ahead) {
+          const double middle = each.quantile(0.5);
+          all.push_back({each.quantile(0.05), middle, each.quantile(0.95), 0, 0, middle});
+        }
       }
-    }
+      return all;
+    };
+    constexpr auto finer = static_cast<std::size_t>(1 / fewer_points);
+    std::vector<QuantityQuantiles> all = answers(finer);
+    estimate_numerical_errors(all, answers(1));
     return all;
   };
   study.quantity_groups.push_back(std::move(group));

@@ -18,6 +18,7 @@
 #include "wearwell/models/ownlaw/own_path_ahead.h"
 #include "wearwell/models/ownlaw/own_reader.h"
 #include "wearwell/study/life_levels.h"
+#include "wearwell/study/numerical_error.h"
 
 namespace wearwell::ownlaw {
 namespace {
@@ -30,37 +31,47 @@ struct AskedOfLife {
   std::vector<Quantity> survival, hazard;
 
   // Over all of the posterior, none of which waits for another.
-  std::vector<std::function<Distribution()>> known(const WeightedDraws& draws) const {
-    std::vector<std::function<Distribution()>> all;
+  std::vector<std::function<LifeLaw::Known()>> known(const WeightedDraws& draws,
+                                                     double points) const {
+    std::vector<std::function<LifeLaw::Known()>> all;
     for (const double percent : levels.percents) {
-      all.push_back([&, percent] { return life->quantile(draws, percent / 100); });
+      all.push_back([=, &draws, this] { return life->quantile(draws, percent / 100, points); });
     }
     for (std::size_t k = 0; survived && k < levels.percents.size(); ++k) {
-      all.push_back(
-          [&, k] { return life->quantile(draws, levels.percents[k] / 100, survived->si()); });
+      all.push_back([=, &draws, this] {
+        return life->quantile_beyond(draws, levels.percents[k] / 100, survived->si(), points);
+      });
     }
     for (const Quantity& each : survival) {
-      all.push_back([&] { return life->survival(draws, each.si()); });
+      all.push_back([=, &draws, this] { return life->survival(draws, each.si(), points); });
     }
     for (const Quantity& each : hazard) {
-      all.push_back([&] { return life->hazard(draws, each.si()); });
+      all.push_back([=, &draws, this] { return life->hazard(draws, each.si(), points); });
     }
-    if (fast) all.push_back([&] { return life->ratio(draws, *fast); });
+    if (fast) all.push_back([=, &draws, this] { return life->ratio(draws, *fast, points); });
     return all;
   }
 
   std::vector<QuantityQuantiles> answers(const WeightedDraws& draws) const {
-    const auto asked = known(draws);
+    std::vector<QuantityQuantiles> found = answers(draws, 1);
+    if (!life->over_all()) estimate_numerical_errors(found, answers(draws, fewer_points));
+    return found;
+  }
+
+  std::vector<QuantityQuantiles> answers(const WeightedDraws& draws, double points) const {
+    const auto asked = known(draws, points);
     std::vector<QuantityQuantiles> found(asked.size());
     LifeLaw::Next next;
     tbb::parallel_for(std::size_t{0}, asked.size() + 1, [&](std::size_t i) {
       if (i == 0) {
-        next = life->next(draws);
+        next = life->next(draws, points);
         return;
       }
-      const Distribution of = asked[i - 1]();
+      const LifeLaw::Known known = asked[i - 1]();
+      const Distribution& of = known.distribution;
       found[i - 1] = {of.quantile(0.05), of.quantile(0.5), of.quantile(0.95), 0, 0, 0};
       found[i - 1].bound = of.quantile(1 - levels.credible_level);
+      found[i - 1].numerical_error = known.misfit;
     });
     std::vector<QuantityQuantiles> all;
     auto answer = found.begin();
@@ -87,11 +98,16 @@ struct AskedOfLife {
     const auto next = std::make_shared<const LifeLaw::Next>(life->next(draws));
     std::vector<PredictiveLife> all = {{{[next](double x) { return next->cdf(x); },
                                          [next](double p) { return next->quantile(p); }}}};
+    std::vector<QuantityQuantiles> errors;
+    if (!life->over_all()) errors = answers(draws);
+    if (!errors.empty()) all.front().numerical_error = errors.front().numerical_error;
     if (!survived) return all;
     const double from = survived->si(), gone = next->cdf(from);
     all.push_back({{[=](double x) { return (next->cdf(from + x) - gone) / (1 - gone); },
                     [=](double p) { return next->quantile(p, from); }},
                    1 - gone});
+    if (!errors.empty())
+      all.back().numerical_error = errors[1 + levels.percents.size()].numerical_error;
     return all;
   }
 };

@@ -14,7 +14,7 @@ namespace wearwell::ownlaw {
 namespace {
 
 constexpr std::size_t most_points = 400, most_points_of_next = 2000;
-constexpr double least_share = 1e-4;  // of a unit's posterior: nodes with less are left out
+constexpr double least_share = 1e-6;  // of a unit's posterior: nodes with less are left out
 
 // Where a path stands that readings do not tell exactly: nodes of the normal law below `highest`.
 struct Standings {
@@ -65,16 +65,20 @@ class Part {
  private:
   void add_next(const double* x, double weight) {
     CellMixture units;
+    NormalLines along;
     for (std::size_t k = 0; k < new_units_.count(); ++k) {
       next_->at().move_to(new_units_.at(k, x, rows_.law().parameters.size()));
       for (std::size_t i = 0; i < fresh_.count(); ++i) {
         const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
-        add_passage(*next_, z, limit_.path.begin, 0, sign_ * limit_.path.limit,
-                    weight * new_units_.share(k) * fresh_.share[i], false, units);
+        const double share = weight * new_units_.share(k) * fresh_.share[i];
+        add_passage(*next_, z, limit_.path.begin, 0, sign_ * limit_.path.limit, share, false,
+                    units);
+        if (!limit_.path.shares.empty())
+          along.add(share, ScoreTable::first_score, ScoreTable::score_step, place_);
       }
     }
     found.next.add(units);
-    if (!limit_.path.shares.empty()) found.add_shares(limit_.path, units);
+    if (!limit_.path.shares.empty()) found.add_shares(limit_.path, along, weight);
   }
 
   // The scale of a path at z; where its standard deviation is given, by what it is far along.
@@ -91,16 +95,18 @@ class Part {
   void add_passage(Crossing& crossing, const double* z, double from, double mean, double distance,
                    double weight, bool counted_from, CellMixture& to) {
     constexpr int edges = ScoreTable::edges;
-    double level[edges + 1], place[edges + 1], means[edges];
+    double level[edges + 1], means[edges];
+    place_.resize(edges + 1);
     table_.look_up(distance, scale_at(crossing, z, from), means);
     level[edges] = sign_ * mean;
     for (int k = 0; k < edges; ++k) level[k] = sign_ * (mean + means[k]);
     std::vector<double> same(effects_ * (edges + 1));
     for (std::size_t i = 0; i < same.size(); ++i) same[i] = z[i % effects_];
-    crossing.solve(edges + 1, same.empty() ? nullptr : same.data(), level, place);
-    const double start = counted_from ? place[edges] : 0;
-    for (int k = 0; k < edges; ++k) place[k] -= start;
-    to.add_curve(weight, ScoreTable::shares(), {place, edges});
+    crossing.solve(edges + 1, same.empty() ? nullptr : same.data(), level, place_.data());
+    const double start = counted_from ? place_[edges] : 0;
+    place_.pop_back();
+    for (double& each : place_) each -= start;
+    to.add_curve(weight, ScoreTable::shares(), place_);
   }
 
   void add_seen(const double* x, double weight) {
@@ -174,27 +180,32 @@ class Part {
   double sign_ = 1;
   std::optional<Crossing> next_;
   std::vector<Crossing> ahead_;
+  std::vector<double> place_;  // of each edge of the table, of the passage that was added last
 };
 
 }  // namespace
 
 LimitedLives process_lives(const OwnRows& rows, const ProcessLimit& limit,
-                           const WeightedDraws& draws) {
+                           const WeightedDraws& draws, double share_of_points) {
   ProcessLimit seen = limit, next = limit;
   seen.path.next.reset();
   next.path.seen.clear();
+  const auto some = [=](std::size_t most) {
+    return static_cast<std::size_t>(share_of_points * static_cast<double>(most));
+  };
   LimitedLives lives;
   if (!limit.path.seen.empty()) {
-    lives = sum_over(FewPoints(draws, most_points), [&] { return Part(rows, seen); });
+    lives = sum_over(FewPoints(draws, some(most_points)), [&] { return Part(rows, seen); });
   }
   if (!limit.path.next) return lives;
   // Lives of new units hang on the tail of what is known of the population.
   const std::size_t most = rows.law().draws_units() ? most_points : most_points_of_next;
-  const FewPoints few(draws, most);
+  const FewPoints few(draws, some(most));
   LimitedLives of_next = sum_over(few, [&] { return Part(rows, next); });
-  of_next.spread_shares(limit.path, draws, few);
+  if (share_of_points == 1) of_next.spread_shares(limit.path, draws, few);
   lives.next = std::move(of_next.next);
   lives.by_share = std::move(of_next.by_share);
+  lives.share_misfit = std::move(of_next.share_misfit);
   return lives;
 }
 

@@ -12,8 +12,8 @@ struct ProcessLimit {
 };
 
 /// Lives over a posterior: first passages of paths that begin at 0, and of those seen, given where they stand
-/// after their last row (not beyond the limit).
+/// after their last row (not beyond the limit). `share_of_points` as of limited_lives.
 LimitedLives process_lives(const OwnRows& rows, const ProcessLimit& limit,
-                           const WeightedDraws& draws);
+                           const WeightedDraws& draws, double share_of_points = 1);
 
 }  // namespace wearwell::ownlaw

@@ -88,7 +88,8 @@ class Part {
       if (form_.process == Process::wiener) {
         // The path where it stands and its growth are both normal.
         const double sd = std::sqrt(stands.variance + scale * std::abs(grown));
-        for (int e = 0; e < edges; ++e) step[e] = grown + sd * (-4 + 0.4 * e);
+        for (int e = 0; e < edges; ++e)
+          step[e] = grown + sd * (ScoreTable::first_score + ScoreTable::score_step * e);
       } else if (grown > 0) {
         ScoreTable::increments(form_.process).look_up(grown, scale, step);
       }
@@ -118,10 +119,9 @@ class Part {
 
 std::vector<Spread> process_spreads(const OwnRows& rows, const ProcessLimit& mean,
                                     const std::vector<SpreadPath>& paths,
-                                    const WeightedDraws& draws) {
-  return sum_over(FewPoints(draws, rows.law().varies() ? most_points_of_effects : most_points),
-                  [&] { return Part(rows, mean, paths); })
-      .paths;
+                                    const WeightedDraws& draws, std::size_t finer) {
+  const std::size_t most = rows.law().varies() ? most_points_of_effects : most_points;
+  return sum_over(FewPoints(draws, finer * most), [&] { return Part(rows, mean, paths); }).paths;
 }
 
 }  // namespace wearwell::ownlaw

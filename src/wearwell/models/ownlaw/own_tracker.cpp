@@ -31,6 +31,9 @@ class OwnTracker final : public prognosis::Tracker {
   const Quantity& limit() const override { return tracked_->lives.limit(); }
   bool rising() const override { return tracked_->lives.rising(); }
   const std::string& noun() const override { return tracked_->lives.noun(); }
+  double probability_error() const override {
+    return tracked_->law->effects.size() > 1 ? 0.02 : 0.008;
+  }
   std::vector<double> populations() const override {
     std::vector<double> weight;
     normalize(tracked_->population.few.log_weight, weight);
