@@ -76,7 +76,7 @@ def jeffreys(unit, *, lower=None, upper=None):
 
 
 def prior(law, *, unit=None, lower=None, upper=None, **parameters):
-    """Any law of docs/priors.md by name, with its parameters: ``prior("weibull", scale="5 mm", shape=2)``."""
+    """Any law of docs/reference/priors.md by name, with its parameters: ``prior("weibull", scale="5 mm", shape=2)``."""
     return _law(law, lower, upper, unit=unit, **parameters)
 
 

@@ -109,7 +109,7 @@ class Tracker {
   virtual const Quantity& limit() const = 0;
   virtual bool rising() const = 0;              ///< whether the limit is reached from below
   virtual const std::string& noun() const = 0;  ///< what a unit is: "machine"
-  /// How far a probability in the distributions of a forecast may be off: what tests hold them to (docs/tracking.md).
+  /// How far a probability in the distributions of a forecast may be off: what tests hold them to (docs/explanation/tracking.md).
   virtual double probability_error() const = 0;
   /// Weights of the populations that are possible, as the study left them; sum to 1. None: not told apart.
   virtual std::vector<double> populations() const { return {}; }
