@@ -1,12 +1,14 @@
 // How often the checks of fit warn of data that the law itself made, and how often they fail: at
 // most as often as they say, for few observations and many, with known and with fitted scatter,
 // where items differ and where tests were stopped. Prints the shares; docs/reference/checks.md has them.
+// WEARWELL_REPLICATIONS says how many studies of each kind.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
 
+#include "calibration/shares.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/fit_check.h"
 #include "wearwell/infer/prior_checks.h"
@@ -51,8 +53,9 @@ Replication judge(const Posterior& posterior, const FitData& data, int index) {
 }
 
 template <class Replicate>
-Shares simulate(const std::string& what, int replications, int parameters,
+Shares simulate(const std::string& what, int otherwise, int parameters,
                 const Replicate& replicate) {
+  const int replications = wearwell::replications(otherwise);
   std::vector<Replication> all(static_cast<std::size_t>(replications));
   tbb::parallel_for(0, replications, [&](int i) {
     Rng rng(seed, static_cast<std::uint64_t>(i) * 2);
@@ -71,13 +74,14 @@ Shares simulate(const std::string& what, int replications, int parameters,
       "excluded {:.4f}\n",
       what, replications, shares.warned, shares.failed, shares.beyond, shares.far_beyond,
       shares.excluded);
-  // Within three standard errors of what they promise at most.
-  const auto bound = [&](double level) { return level + 3 * std::sqrt(level / replications); };
-  EXPECT_LE(shares.warned, bound(fit_warns_below)) << what;
-  EXPECT_LE(shares.failed, bound(fit_fails_below)) << what;
-  EXPECT_LE(shares.beyond, bound(fit_warns_below)) << what;
-  EXPECT_LE(shares.far_beyond, bound(fit_fails_below)) << what;
-  EXPECT_LE(shares.excluded, bound(2.7e-3 * parameters)) << what;
+  const auto expect = [&](double found, double most) {
+    expect_share(static_cast<int>(std::lround(found * replications)), replications, most, what);
+  };
+  expect(shares.warned, fit_warns_below);
+  expect(shares.failed, 2 * fit_fails_below);
+  expect(shares.beyond, fit_warns_below);
+  expect(shares.far_beyond, fit_fails_below);
+  expect(shares.excluded, 2.7e-3 * parameters);
   return shares;
 }
 

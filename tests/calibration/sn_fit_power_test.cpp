@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <numeric>
 
+#include "calibration/shares.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/fit_check.h"
 #include "wearwell/infer/psis_loo.h"
@@ -27,11 +27,18 @@ constexpr std::uint64_t seed = 20261125;
 constexpr double level = 0.01;
 constexpr int levels = 6, repetitions = 5;
 
-// Decades by which log10 life lies off the line, given that line.
-using Error = std::function<double(double log10_life, Rng& rng)>;
+// log10 of a life, given log10 of stress over 500 MPa and log10 of life on the line.
+using Life = std::function<double(double log10_stress, double line, Rng& rng)>;
+
+struct Kind {
+  std::string name;
+  Life life;
+  double longest = INFINITY;  // tests that last longer are run-outs
+  fatigue::LifeFamily family = fatigue::LifeFamily::log10_normal;
+};
 
 struct Judged {
-  double p = 1, shape = 1, scatter = 1;
+  double p = 1, shape = 1, scatter = 1, order = 1;
   bool classical_shape = false, classical_scatter = false;
 };
 
@@ -61,7 +68,7 @@ void judge_by_least_squares(const Points& points, Judged& judged) {
       two_sided_at_level;
 }
 
-Judged study(const Error& error, double longest, std::uint64_t stream) {
+Judged study(const Kind& kind, std::uint64_t stream) {
   Rng rng(seed, 2 * stream);
   const Law wide = make_law(Normal{9.3, 1}, -INFINITY, INFINITY);
   const Law slope = make_law(Normal{-0.1, 0.1}, -INFINITY, -0.01);
@@ -69,6 +76,7 @@ Judged study(const Error& error, double longest, std::uint64_t stream) {
   const double truth[] = {9.3, -0.1, 0.15};
   fatigue::SnLaw law;
   law.correction = fatigue::MeanStress::none;
+  law.family = kind.family;
   fatigue::LifeTests tests;
   Points points;
   FitData data;
@@ -77,11 +85,11 @@ Judged study(const Error& error, double longest, std::uint64_t stream) {
     const double log10_stress = 8.7 - 0.05 * l;
     for (int i = 0; i < repetitions; ++i) {
       const double line = law.log10_life(truth, log10_stress);
-      const double life = std::pow(10, line + error(line, rng));
-      const bool stopped = life > longest;
+      const double life = std::pow(10, kind.life(log10_stress, line, rng));
+      const bool stopped = life > kind.longest;
       tests.push_back({{std::pow(10, log10_stress), 0},
                        stopped ? fatigue::Outcome::runout : fatigue::Outcome::failure,
-                       std::min(life, longest),
+                       std::min(life, kind.longest),
                        0,
                        1});
       data.drivers[0].value.push_back(log10_stress);
@@ -106,80 +114,104 @@ Judged study(const Error& error, double longest, std::uint64_t stream) {
   for (const FitTest& test : outcome.tests) {
     if (test.name == "distribution of residuals") judged.shape = test.p;
     if (test.name == "scatter along stress") judged.scatter = test.p;
+    if (test.name == "order along stress") judged.order = test.p;
   }
   judge_by_least_squares(points, judged);
   return judged;
 }
 
-struct Shares {
+struct Found {
   int count = 0;
-  double warned = 0, failed = 0, shape = 0, scatter = 0, classical_shape = 0, classical_scatter = 0;
+  std::vector<Judged> all;
+
+  template <class Holds>
+  int of(const Holds& holds) const {
+    return static_cast<int>(std::count_if(all.begin(), all.end(), holds));
+  }
 };
 
-Shares simulate(const std::string& name, const Error& error, int otherwise,
-                double longest = INFINITY) {
-  const char* wanted = std::getenv("WEARWELL_REPLICATIONS");
-  const int count = wanted ? std::max(20, std::atoi(wanted)) : otherwise;
-  std::vector<Judged> all(static_cast<std::size_t>(count));
-  tbb::parallel_for(0, count, [&](int i) {
-    all[static_cast<std::size_t>(i)] = study(error, longest, static_cast<std::uint64_t>(i));
+Found simulate(const Kind& kind, int otherwise) {
+  Found found{replications(otherwise), {}};
+  found.all.resize(static_cast<std::size_t>(found.count));
+  tbb::parallel_for(0, found.count, [&](int i) {
+    found.all[static_cast<std::size_t>(i)] = study(kind, static_cast<std::uint64_t>(i));
   });
-  Shares shares{.count = count};
-  const auto share = [&](const auto& holds) {
-    return static_cast<double>(std::count_if(all.begin(), all.end(), holds)) / count;
-  };
-  shares.warned = share([](const Judged& j) { return j.p < fit_warns_below; });
-  shares.failed = share([](const Judged& j) { return j.p < fit_fails_below; });
-  shares.shape = share([](const Judged& j) { return j.shape < level; });
-  shares.scatter = share([](const Judged& j) { return j.scatter < level; });
-  shares.classical_shape = share([](const Judged& j) { return j.classical_shape; });
-  shares.classical_scatter = share([](const Judged& j) { return j.classical_scatter; });
+  const auto share = [&](const auto& holds) { return 100.0 * found.of(holds) / found.count; };
   fmt::print(
-      "S-N, {}, {} studies: warned {:.4f}, failed {:.4f}; distribution {:.4f} (classical {:.4f}), "
-      "scatter {:.4f} (classical {:.4f})\n",
-      name, count, shares.warned, shares.failed, shares.shape, shares.classical_shape,
-      shares.scatter, shares.classical_scatter);
+      "S-N, {}, {} studies: warned {:.2f} %, failed {:.2f} %; p below 0.01: distribution {:.2f} % "
+      "(classical {:.2f} %), scatter {:.2f} % (classical {:.2f} %), order {:.2f} %\n",
+      kind.name, found.count, share([](const Judged& j) { return j.p < fit_warns_below; }),
+      share([](const Judged& j) { return j.p < fit_fails_below; }),
+      share([](const Judged& j) { return j.shape < level; }),
+      share([](const Judged& j) { return j.classical_shape; }),
+      share([](const Judged& j) { return j.scatter < level; }),
+      share([](const Judged& j) { return j.classical_scatter; }),
+      share([](const Judged& j) { return j.order < level; }));
   std::fflush(stdout);
-  return shares;
+  return found;
 }
 
-double error_of(double share, int count) {
-  return 2 * std::sqrt(share * (1 - share) / count);
-}
-
-const Error right = [](double, Rng& rng) { return 0.15 * rng.normal(); };
+const Life right = [](double, double line, Rng& rng) { return line + 0.15 * rng.normal(); };
+const Life extreme = [](double, double line, Rng& rng) {
+  return line + 0.15 * quantile(StandardLaw::smallest_extreme_value, rng.uniform());
+};
 
 TEST(SnFitPower, RightStudiesAreRarelyWarnedOf) {
-  for (const double longest : {static_cast<double>(INFINITY), 1e6}) {
-    const Shares shares =
-        simulate(longest < INFINITY ? "right, stopped at 1e6" : "right", right, 300, longest);
-    EXPECT_LE(shares.warned, 0.01 + 3 * std::sqrt(0.01 / shares.count));
-    EXPECT_LE(shares.failed, 0.002 + 3 * std::sqrt(0.002 / shares.count));
+  using fatigue::LifeFamily;
+  for (const Kind& kind :
+       {Kind{"right, log10-normal", right}, Kind{"right, log10-normal, stopped at 8e7", right, 8e7},
+        Kind{"right, Weibull", extreme, INFINITY, LifeFamily::weibull},
+        Kind{"right, Weibull, stopped at 8e7", extreme, 8e7, LifeFamily::weibull}}) {
+    const Found found = simulate(kind, 300);
+    expect_share(found.of([](const Judged& j) { return j.p < fit_warns_below; }), found.count, 0.01,
+                 kind.name + ", warned");
+    expect_share(found.of([](const Judged& j) { return j.p < fit_fails_below; }), found.count,
+                 0.002, kind.name + ", failed");
   }
 }
 
 TEST(SnFitPower, SecondModesAndLongTails) {
-  const auto expect = [](const std::string& name, const Error& error) {
-    const Shares shares = simulate(name, error, 150);
-    EXPECT_GE(shares.shape,
-              shares.classical_shape - 0.05 - error_of(shares.classical_shape, shares.count))
-        << name;
+  const auto expect = [](const Kind& kind) {
+    const Found found = simulate(kind, 150);
+    expect_power(found.of([](const Judged& j) { return j.shape < level && !j.classical_shape; }),
+                 found.of([](const Judged& j) { return j.shape >= level && j.classical_shape; }),
+                 found.count, kind.name);
   };
-  expect("30 % by a mode of a tenth of the life",
-         [](double, Rng& rng) { return (rng.uniform() < 0.3 ? -1 : 0) + 0.15 * rng.normal(); });
-  expect("Student's t of 2", [](double, Rng& rng) {
-    const double a = rng.normal(), b = rng.normal();
-    return 0.15 * rng.normal() / std::sqrt(0.5 * (a * a + b * b));
-  });
+  expect({"30 % by a mode of a tenth of the life", [](double, double line, Rng& rng) {
+            return line + (rng.uniform() < 0.3 ? -1 : 0) + 0.15 * rng.normal();
+          }});
+  // Whichever comes first: a second mode with as long a life at 400 MPa, of twice the slope.
+  expect({"a competing mode", [](double log10_stress, double line, Rng& rng) {
+            const double other = line - 10 * (log10_stress - 8.6);
+            return std::min(line + 0.05 * rng.normal(), other + 0.4 * rng.normal());
+          }});
+  expect({"Student's t of 2", [](double, double line, Rng& rng) {
+            const double a = rng.normal(), b = rng.normal();
+            return line + 0.15 * rng.normal() / std::sqrt(0.5 * (a * a + b * b));
+          }});
 }
 
 TEST(SnFitPower, ScatterThatGrowsWithLife) {
-  const Shares shares = simulate(
-      "scatter that grows",
-      [](double line, Rng& rng) { return 0.1 * std::pow(10, 0.25 * (line - 6)) * rng.normal(); },
-      150);
-  EXPECT_GE(shares.scatter,
-            shares.classical_scatter - 0.05 - error_of(shares.classical_scatter, shares.count));
+  const Kind kind{"scatter that grows with life", [](double, double line, Rng& rng) {
+                    return line + 0.1 * std::pow(10, 0.25 * (line - 6)) * rng.normal();
+                  }};
+  const Found found = simulate(kind, 150);
+  expect_power(found.of([](const Judged& j) { return j.scatter < level && !j.classical_scatter; }),
+               found.of([](const Judged& j) { return j.scatter >= level && j.classical_scatter; }),
+               found.count, kind.name);
+}
+
+// A knee that only run-outs tell of: lives beyond it are thirty times those on the line. No classical test is beside it.
+TEST(SnFitPower, KneeSeenWithRunOuts) {
+  const Found found =
+      simulate({"a knee below 400 MPa, stopped at 1.5e8",
+                [](double log10_stress, double line, Rng& rng) {
+                  return line + (log10_stress < 8.6 ? 1.5 : 0) + 0.15 * rng.normal();
+                },
+                1.5e8},
+               150);
+  const int missed = found.of([](const Judged& j) { return j.p >= fit_warns_below; });
+  expect_share(missed, found.count, 0.5, "knees that are missed");
 }
 
 }  // namespace

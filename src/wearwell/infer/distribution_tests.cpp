@@ -11,26 +11,26 @@
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/residual_shape.h"
 #include "wearwell/infer/score_tests.h"
+#include "wearwell/infer/studentized_scores.h"
 
 namespace wearwell {
 namespace {
 
 // Of the level of the check; the tests of location, trend and order have their own.
 constexpr double shape_share = 0.25, scatter_share = 0.15, offset_share = 0.05;
-// Of the variance between draws; all of it would make tests of scatter of few rows accuse twice as often as they say.
-constexpr double credited_scatter = 0.6;
+// Beyond, a test is not asked how residuals that depend on each other change it: its p value grows by that.
+constexpr double in_question = 0.02;
 // More observations are judged by so many of them, drawn.
 constexpr std::size_t most_observations = 20'000;
 constexpr std::uint64_t seed = 20261124;
 
 using ScoreTest = std::function<double(std::span<const double>)>;
 
-// The score of each draw.
-std::vector<double> each_draw(std::size_t draws, const std::function<double(std::size_t)>& score) {
-  std::vector<double> all(draws);
-  tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t s) { all[s] = score(s); });
-  return all;
-}
+// A test of all draws together.
+struct OverDraws {
+  double p = 1;
+  double mean = 0;  ///< of the scores of the draws
+};
 
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -59,6 +59,20 @@ std::vector<Value> taken(const std::vector<Value>& values, const std::vector<std
   return some;
 }
 
+// Tests of residuals that depend on each other through the parameters they share scatter more than the score says.
+OverDraws over_draws(const StudentizedScores& residuals, const ScoreTest& test, bool two_sided) {
+  std::vector<double> each(residuals.scores.size());
+  tbb::parallel_for(std::size_t{0}, each.size(),
+                    [&](std::size_t s) { each[s] = test(residuals.scores[s]); });
+  OverDraws all{combined_p(each, two_sided), mean(each)};
+  if (!(all.p < in_question)) return all;
+  const double size = null_size(residuals, test);
+  if (!(size > 1)) return all;
+  for (double& score : each) score /= size;
+  all.p = combined_p(each, two_sided);
+  return all;
+}
+
 std::vector<double> middles(const std::vector<std::vector<double>>& scores) {
   std::vector<double> middle(scores.front().size());
   for (const auto& z : scores) {
@@ -68,15 +82,13 @@ std::vector<double> middles(const std::vector<std::vector<double>>& scores) {
   return middle;
 }
 
-FitTest shape_test(const std::string& of, const std::vector<std::vector<double>>& scores,
+FitTest shape_test(const std::string& of, const StudentizedScores& residuals,
                    const Remedies& remedies, double share) {
-  const std::vector<double> each =
-      each_draw(scores.size(), [&](std::size_t s) { return shape_score(scores[s]); });
-  FitTest test{"distribution of " + of, combined_p(each, false), "", "", share};
+  FitTest test{"distribution of " + of, over_draws(residuals, shape_score, false).p, "", "", share};
   if (!(test.judged() < 1)) return test;
-  const ResidualShapeFound found = shape_of(middles(scores));
+  const ResidualShapeFound found = shape_of(middles(residuals.scores));
   test.finding = fmt::format("{} do not follow their distribution: {}", of,
-                             in_words(found, scores.front().size()));
+                             in_words(found, residuals.scores.front().size()));
   test.advice = advice_on(found.shape, remedies);
   return test;
 }
@@ -127,26 +139,24 @@ std::vector<Along> what_scatter_may_follow(const FitData& data, const ScoreSampl
 }
 
 void add_scatter_tests(const FitData& data, const ScoreSample& sample,
-                       const std::vector<std::size_t>& row,
-                       const std::vector<std::vector<double>>& scores,
+                       const std::vector<std::size_t>& row, const StudentizedScores& residuals,
                        std::vector<FitTest>& tests) {
-  const std::size_t draws = scores.size(), first = tests.size();
-  std::vector<std::vector<double>> size(draws);
-  tbb::parallel_for(std::size_t{0}, draws, [&](std::size_t s) { size[s] = sizes(scores[s]); });
+  const std::size_t first = tests.size();
   for (const Along& along : what_scatter_may_follow(data, sample, row)) {
-    const std::vector<double> each =
-        each_draw(draws, [&](std::size_t s) { return scatter_trend_score(size[s], along.rank); });
-    tests.push_back({"scatter along " + along.name, combined_p(each, true, credited_scatter),
+    const OverDraws trend = over_draws(
+        residuals,
+        [&](std::span<const double> z) { return scatter_trend_score(sizes(z), along.rank); }, true);
+    tests.push_back({"scatter along " + along.name, trend.p,
                      fmt::format("residuals scatter more the {} {} is",
-                                 mean(each) > 0 ? "larger" : "smaller", along.name),
+                                 trend.mean > 0 ? "larger" : "smaller", along.name),
                      advice_on_scatter(data)});
   }
   for (const Label& label : data.labels) {
     const std::vector<std::size_t> level = taken(label.level, row);
-    const std::vector<double> each =
-        each_draw(draws, [&](std::size_t s) { return scatter_between_score(size[s], level); });
-    tests.push_back({"scatter between levels of " + label.name,
-                     combined_p(each, false, credited_scatter),
+    const OverDraws between = over_draws(
+        residuals,
+        [&](std::span<const double> z) { return scatter_between_score(sizes(z), level); }, false);
+    tests.push_back({"scatter between levels of " + label.name, between.p,
                      fmt::format("residuals scatter differently between levels of {}", label.name),
                      fmt::format("Look at the levels of {} one by one; give them standard "
                                  "deviations of their own, or fit them apart.",
@@ -163,13 +173,16 @@ std::vector<FitTest> distribution_tests(const FitData& data, const ScoreSample& 
   const std::size_t draws = sample.scores.size();
   const std::vector<std::size_t> which = judged(sample.row.size());
   const std::vector<std::size_t> row = taken(sample.row, which);
+  std::vector<bool> exact;
+  for (const std::size_t i : row) exact.push_back(sample.exact[i]);
   std::vector<std::vector<double>> scores(draws);
   tbb::parallel_for(std::size_t{0}, draws,
                     [&](std::size_t s) { scores[s] = taken(sample.scores[s], which); });
+  const StudentizedScores residuals = studentized_scores(std::move(scores), exact);
 
   std::vector<FitTest> tests;
   const double shares = data.effects.empty() ? 1 : 2;
-  tests.push_back(shape_test("residuals", scores, data.remedies, shape_share / shares));
+  tests.push_back(shape_test("residuals", residuals, data.remedies, shape_share / shares));
   std::size_t begin = 0;
   for (const UnitEffect& effect : data.effects) {
     const auto end = static_cast<std::ptrdiff_t>(begin + effect.of.size());
@@ -179,18 +192,20 @@ std::vector<FitTest> distribution_tests(const FitData& data, const ScoreSample& 
       own[s].assign(all + static_cast<std::ptrdiff_t>(begin), all + end);
     }
     begin += effect.of.size();
-    tests.push_back(shape_test(effect.name + " of the units", own, {},
-                               shape_share / shares / static_cast<double>(data.effects.size())));
+    tests.push_back(
+        shape_test(effect.name + " of the units",
+                   studentized_scores(std::move(own), std::vector<bool>(effect.of.size(), true)),
+                   {}, shape_share / shares / static_cast<double>(data.effects.size())));
   }
-  add_scatter_tests(data, sample, row, scores, tests);
+  add_scatter_tests(data, sample, row, residuals, tests);
   if (data.rise && data.rise->from_zero) {
     const std::vector<double> driver = taken(data.drivers.front().value, row);
-    const std::vector<double> each =
-        each_draw(draws, [&](std::size_t s) { return offset_score(scores[s], driver); });
+    const OverDraws offset = over_draws(
+        residuals, [&](std::span<const double> z) { return offset_score(z, driver); }, true);
     tests.push_back(
-        {"offset", combined_p(each, true, credited_scatter),
+        {"offset", offset.p,
          fmt::format("the data start {} zero: residuals share an offset",
-                     mean(each) > 0 ? "above" : "below"),
+                     offset.mean > 0 ? "above" : "below"),
          data.remedies.offset.empty()
              ? "Look for an error of the zero point, or for running-in that the law does not know."
              : data.remedies.offset,

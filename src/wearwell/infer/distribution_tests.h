@@ -9,6 +9,7 @@ namespace wearwell {
 struct ScoreSample {
   const std::vector<std::vector<double>>& scores;
   const std::vector<std::size_t>& row;
+  const std::vector<bool>& exact;  ///< of each observation of `FitData`: its score is no interval
   const std::vector<std::vector<double>>&
       effects;  ///< draws x effects of units, as `FitData::effects`
   const WeightedDraws& draws;

@@ -241,7 +241,10 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
   const Eigen::VectorXd first = draws.values.row(0);
   std::size_t of_effects = 0;
   for (const UnitEffect& effect : data.effects) of_effects += effect.of.size();
-  const std::size_t rows = data.scores(first.data()).size() - of_effects;
+  const std::vector<NormalScore> of_first = data.scores(first.data());
+  const std::size_t rows = of_first.size() - of_effects;
+  std::vector<bool> exact;
+  for (std::size_t i = 0; i < rows; ++i) exact.push_back(of_first[i].exact());
   std::vector<std::size_t> row;  // of each single observation
   for (std::size_t i = 0; i < rows; ++i) {
     row.insert(
@@ -293,7 +296,7 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
     }
   }
   for (FitTest& test : outcome.tests) test.share = 1 / static_cast<double>(outcome.tests.size());
-  for (FitTest& test : distribution_tests(data, {scores, row, effects, draws}))
+  for (FitTest& test : distribution_tests(data, {scores, row, exact, effects, draws}))
     outcome.tests.push_back(std::move(test));
   for (const FitTest& test : outcome.tests) outcome.p = std::min(outcome.p, test.judged());
   if (!data.measured.value.empty()) outcome.copies = copies(data, draws, loo);
