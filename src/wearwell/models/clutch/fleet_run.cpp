@@ -291,17 +291,12 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
     sum_shard(shards[static_cast<std::size_t>(i)], model, request, full,
               i == 0 ? monitor : Monitor{.progress = {}, .stop = monitor.stop});
   });
-  FleetFindings found{.version = WEARWELL_VERSION,
-                      .model_id = model.id,
-                      .engine = "",
-                      .source = "",
-                      .files = request.files,
-                      .rows = 0,
-                      .outliers = {},
-                      .replicates = full,
-                      .units = {},
-                      .days = {},
-                      .statements = shards.front().sql.setup + shards.front().sql.query};
+  FleetFindings found;
+  found.version = WEARWELL_VERSION;
+  found.model_id = model.id;
+  found.files = request.files;
+  found.replicates = full;
+  found.statements = shards.front().sql.setup + shards.front().sql.query;
   if (columns_of(*engines.front(), request))
     found.statements =
         fleet::comment("Summed by a loop of the program's own. The statements give the same.") +
