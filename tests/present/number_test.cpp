@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <limits>
 
 namespace wearwell {
@@ -30,6 +31,18 @@ TEST(Number, KeepsTheDigitsOfWhatWasGiven) {
   EXPECT_EQ(given_in_words(1e-6, Script::terminal), "10^-6");
   EXPECT_EQ(given_in_words(2.5e-5, Script::page), "2.5\u00a0×\u00a010⁻⁵");
   EXPECT_EQ(fixed_in_words(1453.26, 1, Script::page), "1\u202f453.3");
+}
+
+// An error below one of the last digit that is shown, whatever the first.
+TEST(Number, ShowsNoMoreDigitsThanItsErrorAllows) {
+  EXPECT_EQ(digits_within(0), 4);
+  EXPECT_EQ(digits_within(NAN), 4);
+  EXPECT_EQ(digits_within(9e-5), 4);
+  EXPECT_EQ(digits_within(9e-4), 4);
+  EXPECT_EQ(digits_within(0.003), 3);
+  EXPECT_EQ(digits_within(0.02), 2);
+  EXPECT_EQ(digits_within(0.4), 2);
+  EXPECT_EQ(digits_within(1e-7, 6), 6);
 }
 
 TEST(Number, OneUnitAndOnePowerOfARange) {

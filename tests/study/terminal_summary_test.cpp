@@ -6,10 +6,12 @@
 #include <sstream>
 
 #include "study/sample.h"
+#include "wearwell/study/posterior_tables.h"
 
 namespace wearwell {
 namespace {
 
+using testing::AllOf;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
@@ -197,6 +199,25 @@ TEST(TerminalSummary, TheDesignNumberIsTheLowerBound) {
                               "304\u202f000\u00a0cycles (90\u00a0% confidence).\n"));
   EXPECT_THAT(text, HasSubstr("at least, 90 %"));
   EXPECT_THAT(text, HasSubstr("confidence (Bayesian: credible)"));
+}
+
+// Numbers that are summed over few points of the posterior show no more digits than are known, and how far they are off.
+TEST(TerminalSummary, SaysHowFarLivesAreOff) {
+  PosteriorSummary result = sample_result();
+  QuantityQuantiles life{1234.4, 2345.6, 3456.7, 1111.2, 1222.3, 2345.6};
+  result.quantities = {{"life", "new machine", "to wear = 100 um", "h", true, life, {}}};
+  const auto shown = [&](double error) {
+    result.quantities.front().drawn.numerical_error = error;
+    return terminal_summary(result, TerminalStyle());
+  };
+  EXPECT_THAT(shown(2e-5), AllOf(HasSubstr("2\u202f346"), Not(HasSubstr("Numerical error"))));
+  const std::string rough = shown(0.0031);
+  EXPECT_THAT(rough, HasSubstr("Numerical error of these numbers: up to 0.31 %"));
+  EXPECT_THAT(rough, AllOf(HasSubstr("2\u202f350"), Not(HasSubstr("2\u202f346"))));
+  // So do the table of the report and of its file.
+  const present::Table table = quantity_table(result.quantities);
+  EXPECT_EQ(table.columns.back().name, "Numerical error");
+  EXPECT_EQ(present::in_words(table.rows[0][5], table.columns[5]), "2\u202f350");
 }
 
 TEST(TerminalSummary, DefaultPriorsAreNamed) {
