@@ -99,12 +99,12 @@ TEST_F(TableTest, NamesRowColumnAndValue) {
     const Table table = read_table(write("a.csv", content));
     return message_of<InputError>([&] { si_numbers(table, "v", Unit{}); });
   };
-  EXPECT_THAT(refusal("n,v\n1,2.5\n2,abc\n"),
+  EXPECT_THAT(message("n,v\n1,2.5\n2,abc\n"),
               HasSubstr("row 2, column 'v': 'abc' is not a number"));
-  EXPECT_THAT(refusal("n,v\n1,2.5\n2,\n3,1\n"), HasSubstr("row 2, column 'v': no value"));
-  EXPECT_THAT(refusal("n,v\n1,nan\n2,3\n"), HasSubstr("row 1, column 'v': no value"));
-  EXPECT_THAT(refusal("n,v\n1,inf\n2,3\n"), HasSubstr("row 1, column 'v': the value is infinite"));
-  EXPECT_THAT(refusal("n,w\n1,2\n"), HasSubstr("has no column 'v' (nearest: 'n')"));
+  EXPECT_THAT(message("n,v\n1,2.5\n2,\n3,1\n"), HasSubstr("row 2, column 'v': no value"));
+  EXPECT_THAT(message("n,v\n1,nan\n2,3\n"), HasSubstr("row 1, column 'v': no value"));
+  EXPECT_THAT(message("n,v\n1,inf\n2,3\n"), HasSubstr("row 1, column 'v': the value is infinite"));
+  EXPECT_THAT(message("n,w\n1,2\n"), HasSubstr("has no column 'v' (nearest: 'n')"));
 }
 
 TEST_F(TableTest, ManyRows) {
