@@ -1,4 +1,4 @@
-"""docs/reference/python.md: every block of Python, in its order, in one namespace, where the examples are."""
+"""README.md and docs/reference/python.md: every block of Python, in its order, in one namespace, where the examples are."""
 
 import os
 import re
@@ -8,20 +8,31 @@ import wearwell as ww
 from conftest import source
 
 
-def test_every_block_runs(tmp_path, monkeypatch):
-    with open(os.path.join(source, "docs", "reference", "python.md")) as file:
+def run_blocks(tmp_path, monkeypatch, *page):
+    with open(os.path.join(source, *page)) as file:
         text = file.read()
     blocks = [(text[:m.start()].count("\n") + 2, m[1]) for m in re.finditer(r"```python\n(.*?)```", text, re.S)]
-    assert len(blocks) >= 8
     os.symlink(os.path.join(source, "examples"), tmp_path / "examples")
     monkeypatch.chdir(tmp_path)
     space = {}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
         for line, block in blocks:
-            exec(compile("\n" * (line - 1) + block, "docs/reference/python.md", "exec"), space)
+            exec(compile("\n" * (line - 1) + block, "/".join(page), "exec"), space)
+    return blocks, space
+
+
+def test_every_block_runs(tmp_path, monkeypatch):
+    blocks, space = run_blocks(tmp_path, monkeypatch, "docs", "reference", "python.md")
+    assert len(blocks) >= 8
     assert sorted(os.listdir("joint-results"))[:2] == ["draws_1.csv", "draws_2.csv"]
     assert space["joint"].trusted and space["left"].loc[0, "of"] == "joint J5"
+
+
+def test_block_of_the_readme_runs(tmp_path, monkeypatch):
+    blocks, space = run_blocks(tmp_path, monkeypatch, "README.md")
+    assert len(blocks) == 1
+    assert space["fit"].trusted
 
 
 def test_readme_of_the_wheel():
