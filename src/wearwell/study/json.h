@@ -11,7 +11,7 @@ namespace wearwell {
 nlohmann::ordered_json to_json(const std::vector<ParameterSummary>& parameters);
 nlohmann::ordered_json to_json(const LooSummary& summary);
 
-/// What summary.json of a posterior holds after the header (keys: docs/explanation/architecture.md). A number
+/// What summary.json of a posterior holds after the header (keys: docs/ARCHITECTURE.md). A number
 /// that is not finite becomes null.
 nlohmann::ordered_json posterior_json(const PosteriorSummary& result);
 
