@@ -292,8 +292,9 @@ TEST_F(DuckdbFleet, AnEnergyThatNoClosingHasIsNotTrusted) {
         const std::string detail = check["detail"];
         if (check["name"] == "energy") {
           EXPECT_EQ(check["verdict"] == "fail", by_sum) << how;
-          if (by_sum)
+          if (by_sum) {
             EXPECT_THAT(detail, AllOf(HasSubstr("of 1 of 4 units"), HasSubstr(cycles[50].unit)));
+          }
           continue;
         }
         EXPECT_EQ(check["verdict"] == "fail", check["name"] == "energy-of-cycles") << how;
