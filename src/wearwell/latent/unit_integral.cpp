@@ -444,6 +444,27 @@ double UnitIntegrals::sum() const {
   return total;
 }
 
+void UnitIntegrals::restart(std::size_t units, std::size_t effects) {
+  units_ = units;
+  effects_ = effects;
+  used_ = 0;
+  settled = true;
+  unsettled = 0;
+  log_likelihood.assign(units, -infinity);
+}
+
+void UnitIntegrals::put(std::size_t unit, std::size_t place, const double* z,
+                        double weight_of_node) {
+  if (place >= sweeps.size()) sweeps.resize(place + 1);
+  for (; used_ <= place; ++used_) {
+    sweeps[used_].z.assign(units_ * effects_, 0);
+    sweeps[used_].log_f.assign(units_, -infinity);
+    sweeps[used_].weight.assign(units_, 0);
+  }
+  std::copy_n(z, effects_, &sweeps[place].z[unit * effects_]);
+  sweeps[place].weight[unit] = weight_of_node;
+}
+
 void integrate(UnitTerms& terms, UnitIntegrals& result) {
   std::vector<Bell> bells = Search(terms).bells();
   Lattice(terms, bells, result).run();

@@ -47,6 +47,15 @@ struct UnitIntegrals {
   double unsettled = 0;
 
   double sum() const;
+
+  /// For rules that lay the nodes of one unit after the other: nothing yet; then nodes, of which those at one `place` are
+  /// one sweep (`log_f` is not filled); then no sweep without nodes.
+  void restart(std::size_t units, std::size_t effects);
+  void put(std::size_t unit, std::size_t place, const double* z, double weight_of_node);
+  void finish() { sweeps.resize(used_); }
+
+ private:
+  std::size_t units_ = 0, effects_ = 0, used_ = 0;
 };
 
 /// Fills `result`, whose memory is used again.

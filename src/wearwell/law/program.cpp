@@ -45,6 +45,9 @@ bool Program::uses_column(std::size_t i) const {
 bool Program::uses_label(std::size_t i) const {
   return body_->labels[i];
 }
+ByRowDegree Program::by_row_degree(std::size_t output) const {
+  return law::by_row_degree(body_->graph, body_->roots[output]);
+}
 bool Program::has_paths() const {
   return body_->tape.has_paths;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/law/by_row_degree.h"
 #include "wearwell/law/symbols.h"
 
 namespace wearwell::law {
@@ -132,6 +133,9 @@ class Program {
   bool uses_parameter(std::size_t i) const;
   bool uses_column(std::size_t i) const;
   bool uses_label(std::size_t i) const;
+
+  /// How output i depends on parameters by row, as far as its form says.
+  ByRowDegree by_row_degree(std::size_t output) const;
 
   /// Whether any output depends on rows before its own. Then a call takes whole paths.
   bool has_paths() const;

@@ -15,7 +15,7 @@ namespace {
 
 class OwnSteps : public ScratchTest {
  protected:
-  // Steps that are alike (unit a) and not (unit b).
+  // Steps that are alike (unit a) and not (unit b). Readings have errors `e` where the slots say so.
   std::shared_ptr<OwnLaw> read(const std::string& family, const std::string& slots,
                                const std::string& mean, bool lognormal) const {
     write("d.csv", "m,t,y\na,1,1.1\na,2,1.9\na,3,3.3\na,4,4.2\nb,0.5,0.8\nb,2,1.7\nb,2.7,2.1\n");
@@ -36,8 +36,8 @@ k = { law = "lognormal", median = 1, log_sd = 1 }
 p = { law = "lognormal", median = 1, log_sd = 0.5 }
 u = { law = "half-normal", scale = 1 }
 s = { law = "half-normal", scale = 1 }
-[varies.m]
-)" +
+)" + (slots.find("noise") < slots.size() ? "e = { law = \"half-normal\", scale = 1 }\n" : "") +
+                                "[varies.m]\n" +
                                 (lognormal ? "k = { law = \"lognormal\", log_sd = \"s\" }\n"
                                            : "k = { law = \"normal\", sd = \"s\" }\n") +
                                 "[predict]\nalong = \"t\"\n"));
@@ -88,9 +88,13 @@ TEST_F(OwnSteps, AreWhatTheRowsSay) {
       {"gamma-process", "scale = \"u\"\n"},
       {"inverse-gaussian-process", "scale = \"u\"\n"},
       {"wiener-process", "scale = \"u\"\n"},
-      {"wiener-process", "sd = \"u*t^p\"\n"}};
-  const std::vector<double> x = {1.2, 1.1, 0.13, 0.4};
+      {"wiener-process", "sd = \"u*t^p\"\n"},
+      {"wiener-process", "scale = \"u\"\nnoise = \"e\"\n"},
+      {"wiener-process", "scale = \"u\"\nnoise = \"e*t\"\n"},
+      {"wiener-process", "sd = \"u*t^p\"\nnoise = \"e\"\n"}};
   for (const auto& [family, slots] : processes) {
+    std::vector<double> x = {1.2, 1.1, 0.13, 0.4};
+    if (slots.find("noise") < slots.size()) x.push_back(0.2);
     for (const bool lognormal : {true, false}) {
       const auto law = read(family, slots, "k*t^p", lognormal);
       const auto columns = bind_columns(*law, law->data.table.rows);
@@ -113,9 +117,22 @@ TEST_F(OwnSteps, AreWhatTheRowsSay) {
         }
       }
       const auto likelihood = own_likelihood(std::make_shared<const OwnRows>(law, 7));
-      std::vector<double> gradient(4), moved = x;
-      likelihood->value_and_gradient(x, gradient);
-      for (std::size_t i = 0; i < 4; ++i) {
+      std::vector<double> gradient(x.size()), expected(x.size()), moved = x;
+      const double sum = likelihood->value_and_gradient(x, gradient);
+      // By the rows of every node.
+      rows.move_to(x.data());
+      latent::UnitIntegrals whole;
+      latent::integrate(rows, whole);
+      for (const latent::Sweep& sweep : whole.sweeps) {
+        rows.add_gradient(sweep.z, sweep.weight, expected);
+      }
+      EXPECT_NEAR(sum, whole.sum(), 1e-6) << family << slots << lognormal;
+      const OwnRows own(law, 7);
+      const latent::UnitIntegrals& nodes = own.integrate(x.data());
+      EXPECT_NEAR(nodes.sum(), whole.sum(), 1e-6) << family << slots << lognormal;
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        EXPECT_NEAR(gradient[i], expected[i], 2e-6 * (1 + std::abs(expected[i])))
+            << family << slots << lognormal << i;
         const double h = 1e-4 * x[i];
         moved[i] = x[i] + h;
         const double above = likelihood->value(moved);
@@ -132,6 +149,10 @@ TEST_F(OwnSteps, AreWhatTheRowsSay) {
 TEST_F(OwnSteps, AreNoneWhereTheMeanIsNotInProportion) {
   const auto law = read("wiener-process", "scale = \"u\"\n", "k^2*t^p", true);
   EXPECT_FALSE(is_proportional(*law, bind_columns(*law, law->data.table.rows)));
+  const auto noise = read("wiener-process", "scale = \"u\"\nnoise = \"e*k\"\n", "k*t^p", true);
+  EXPECT_FALSE(is_proportional(*noise, bind_columns(*noise, noise->data.table.rows)));
+  const auto hidden = read("gamma-process", "scale = \"u\"\nnoise = \"e\"\n", "k*t^p", true);
+  EXPECT_FALSE(is_proportional(*hidden, bind_columns(*hidden, hidden->data.table.rows)));
   const auto other = read("wiener-process", "sd = \"u*k*t^p\"\n", "k*t^p", true);
   EXPECT_FALSE(is_proportional(*other, bind_columns(*other, other->data.table.rows)));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "wearwell/math/constants.h"
+#include "wearwell/models/ownlaw/linear_form.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_hidden_path.h"
 
@@ -381,7 +382,7 @@ void UnitRows::add_gradient(std::span<const double> z, std::span<const double> w
 }
 
 void UnitRows::means_at(const double* effects, std::size_t c, std::span<double> mean,
-                        std::span<double> sd) {
+                        std::span<double> sd, std::span<double> noise) {
   held_ = effects;
   visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
     if (chunk.index != c) return;
@@ -389,6 +390,7 @@ void UnitRows::means_at(const double* effects, std::size_t c, std::span<double> 
     for (std::size_t i = chunk.begin; i < chunk.end; ++i) {
       mean[i] = slots_[0][i - chunk.begin];
       sd[i] = slots_[1][i - chunk.begin];
+      if (!noise.empty()) noise[i] = slots_[2][i - chunk.begin];
     }
   });
   held_ = nullptr;
@@ -409,7 +411,7 @@ void UnitRows::means_of_units(std::span<const double> effects, std::size_t c,
 
 void UnitRows::add_mean_gradient(const double* effects, std::size_t c,
                                  std::span<const double> by_mean, std::span<const double> by_sd,
-                                 std::span<double> gradient) {
+                                 std::span<double> gradient, std::span<const double> by_noise) {
   held_ = effects;
   std::fill(inner_gradient_.begin(), inner_gradient_.end(), 0.0);
   visit(std::vector<std::uint8_t>(law_.units.size(), 1), [&](const Chunk& chunk) {
@@ -417,10 +419,13 @@ void UnitRows::add_mean_gradient(const double* effects, std::size_t c,
     run(chunk, {});
     const std::size_t n = chunk.end - chunk.begin;
     std::fill_n(slope_.begin(), most_response_slots * n, 0.0);
-    std::copy_n(by_mean.begin() + static_cast<std::ptrdiff_t>(chunk.begin), n, slope_.begin());
-    if (!by_sd.empty()) {
-      std::copy_n(by_sd.begin() + static_cast<std::ptrdiff_t>(chunk.begin), n,
-                  slope_.begin() + static_cast<std::ptrdiff_t>(n));
+    std::size_t slot = 0;
+    for (const std::span<const double> by : {by_mean, by_sd, by_noise}) {
+      if (!by.empty()) {
+        std::copy_n(by.begin() + static_cast<std::ptrdiff_t>(chunk.begin), n,
+                    slope_.begin() + static_cast<std::ptrdiff_t>(slot * n));
+      }
+      ++slot;
     }
     fill_adjoints(chunk, nullptr);
     chunk.column->measured->program.reverse(
@@ -639,12 +644,14 @@ const latent::UnitIntegrals& OwnRows::integrate(const double* x) const {
   scratch.rows.move_to(x);
   if (scratch.linear) {
     scratch.linear->move();
-    if (!scratch.linear->integrate_one(scratch.integrals)) {
+    if (!scratch.linear->integrate(scratch.integrals)) {
       latent::integrate(*scratch.linear, scratch.integrals);
     }
   } else if (scratch.steps) {
     scratch.steps->move();
-    latent::integrate(*scratch.steps, scratch.integrals);
+    if (!scratch.steps->integrate(scratch.integrals)) {
+      latent::integrate(*scratch.steps, scratch.integrals);
+    }
   } else if (scratch.tabled) {
     scratch.tabled->move();
     latent::integrate(*scratch.tabled, scratch.integrals);

@@ -56,14 +56,17 @@ class UnitRows final : public latent::UnitTerms {
                     std::span<double> gradient);
 
   /// Outputs of all rows of column c with every unit's effects at `effects`: the mean and the standard
-  /// deviation of a normal law, row by row.
-  void means_at(const double* effects, std::size_t c, std::span<double> mean, std::span<double> sd);
+  /// deviation of a normal law, row by row; of a process its mean, scale or standard deviation, and the errors of
+  /// readings.
+  void means_at(const double* effects, std::size_t c, std::span<double> mean, std::span<double> sd,
+                std::span<double> noise = {});
   /// Means of column c alone, with the one effect of each unit at its own of `effects`.
   void means_of_units(std::span<const double> effects, std::size_t c, std::span<double> mean);
   /// Adds to `gradient` the sum over the rows of column c of adjoint times derivative, of what
   /// `means_at` gives, with the effects held.
   void add_mean_gradient(const double* effects, std::size_t c, std::span<const double> by_mean,
-                         std::span<const double> by_sd, std::span<double> gradient);
+                         std::span<const double> by_sd, std::span<double> gradient,
+                         std::span<const double> by_noise = {});
   const std::vector<BoundColumn>& columns() const { return columns_; }
   const OwnLaw& law() const { return law_; }
   /// Adds what derivatives by middles, scatters and the correlation come to.

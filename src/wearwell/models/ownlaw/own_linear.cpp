@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
 #include "wearwell/math/constants.h"
 #include "wearwell/models/ownlaw/lognormal_unit.h"
@@ -11,91 +10,9 @@
 
 // Longer than others: one special case of the likelihood, whose sums are all of one kind.
 namespace wearwell::ownlaw {
-namespace {
 
 using Matrix2 = Eigen::Matrix2d;
 using Vector2 = Eigen::Vector2d;
-
-// Means of the rows at three places on a line through the effects: the middle one halfway?
-bool straight(UnitRows& rows, std::size_t c, const double* from, const double* to,
-              std::size_t effects) {
-  constexpr double shares[] = {0, 0.25, 0.5, 1, 1e-3};
-  const std::size_t n = rows.columns()[c].unit.size();
-  std::vector<double> mean[5], sd[5];
-  for (int k = 0; k < 5; ++k) {
-    double at[2] = {};
-    for (std::size_t e = 0; e < effects; ++e) at[e] = from[e] + shares[k] * (to[e] - from[e]);
-    mean[k].resize(n);
-    sd[k].resize(n);
-    rows.means_at(at, c, mean[k], sd[k]);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (int k = 1; k < 5; ++k) {
-      const double expected = mean[0][i] + shares[k] * (mean[3][i] - mean[0][i]);
-      const double size = std::max(std::abs(mean[0][i]), std::abs(mean[3][i]));
-      if (!(std::abs(mean[k][i] - expected) <= 1e-12 * size) || sd[k][i] != sd[0][i]) return false;
-    }
-  }
-  return true;
-}
-
-}  // namespace
-
-bool has_cases(const OwnLaw& law) {
-  static const std::regex cases(R"(\b(where|min|max|abs)\b|[<>=])");
-  const auto found = [&](const std::string& text) { return std::regex_search(text, cases); };
-  return std::any_of(law.measured.begin(), law.measured.end(), [&](const Measured& measured) {
-    for (std::size_t o = 0; o < measured.program.outputs().size(); ++o) {
-      if (found(measured.program.text(o))) return true;
-    }
-    return measured.program.has_paths();
-  });
-}
-
-std::vector<std::vector<double>> trial_points(const OwnLaw& law) {
-  std::vector<std::vector<double>> points;
-  for (const double factor : {1.0, 1.7, 0.3}) {
-    std::vector<double>& x = points.emplace_back();
-    for (const Parameter& each : law.parameters) {
-      const double moved = each.start * factor;
-      const bool inside = each.prior.lower < moved && moved < each.prior.upper;
-      x.push_back(inside ? moved : each.start);
-    }
-  }
-  return points;
-}
-
-bool is_linear(const OwnLaw& law, const std::vector<BoundColumn>& columns) {
-  if (!law.varies() || has_cases(law)) return false;
-  for (const BoundColumn& column : columns) {
-    const bool normal = column.measured->form->family == ResponseFamily::normal;
-    if (!normal || column.measured->process || !column.responses.plain) return false;
-  }
-  UnitRows rows(law, columns);
-  const std::size_t d = law.effects.size();
-  for (const std::vector<double>& x : trial_points(law)) {
-    rows.move_to(x.data());
-    const Population& population = rows.population();
-    for (const double away : {0.5, 3.0, 200.0}) {
-      double from[2] = {}, to[2] = {}, other[2] = {};
-      for (std::size_t e = 0; e < d; ++e) {
-        const double middle = population.middle[e];
-        const double size = middle != 0 ? std::abs(middle) : std::abs(population.scatter[e]);
-        from[e] = middle;
-        to[e] = middle + away * size;
-        other[e] = middle - (law.effects[e].lognormal ? 0.999 : away) * size;
-      }
-      for (std::size_t c = 0; c < columns.size(); ++c) {
-        if (!straight(rows, c, from, to, d) || !straight(rows, c, from, other, d)) return false;
-        const double one[2] = {to[0], from[1]}, two[2] = {other[0], to[1]};
-        if (d > 1 && (!straight(rows, c, from, one, d) || !straight(rows, c, one, two, d))) {
-          return false;
-        }
-      }
-    }
-  }
-  return true;
-}
 
 LinearUnits::LinearUnits(UnitRows& rows)
     : rows_(rows),
@@ -235,63 +152,98 @@ Matrix2 LinearUnits::Parabola::H() const {
   return H;
 }
 
-bool LinearUnits::each(std::vector<double>& log_likelihood) const {
-  const bool closed = in_closed_form();
-  if (!closed && effects_ != 1) return false;
-  const Matrix2 A = steps_of_z();
+EffectPair LinearUnits::pair(const Parabola& p) const {
+  const Population& population = rows_.population();
+  EffectPair pair{{p.best[0], p.best[1]}, {p.bend[0], p.bend[1], p.bend[2]}, {}, {}};
+  for (std::size_t e = 0; e < 2; ++e) {
+    pair.lognormal[e] = law_.effects[e].lognormal;
+    pair.scatter[e] = population.scatter[e] / (pair.lognormal[e] ? 1 : width_[e]);
+  }
+  pair.correlation = population.correlation;
+  return pair;
+}
+
+// Of exp(log likelihood - top) over the effects.
+std::optional<double> LinearUnits::log_integral(const Parabola& p) {
+  if (in_closed_form()) return NormalUnit(p.at(), p.H(), steps_of_z()).log_integral;
+  if (effects_ == 2) return pair(p).log_integral(pair_nodes_);
+  const LognormalUnit unit{p.best[0], p.bend[0], rows_.population().scatter[0]};
+  auto integral = unit.log_integral(nullptr);
+  if (integral) *integral -= half_log_two_pi;
+  return integral;
+}
+
+bool LinearUnits::each(std::vector<double>& log_likelihood) {
   log_likelihood.assign(parabola_.size(), -infinity);
   for (std::size_t u = 0; u < parabola_.size(); ++u) {
     const Parabola& p = parabola_[u];
     if (!(p.top > -infinity)) continue;
-    if (closed) {
-      log_likelihood[u] = p.top + NormalUnit(p.at(), p.H(), A).log_integral;
-      continue;
-    }
-    const double s = rows_.population().scatter[0];
-    const auto integral = LognormalUnit{p.best[0], p.bend[0], s}.log_integral(nullptr);
+    const auto integral = log_integral(p);
     if (!integral) return false;
-    log_likelihood[u] = p.top + *integral - half_log_two_pi;
+    log_likelihood[u] = p.top + *integral;
   }
   return true;
 }
 
-bool LinearUnits::integrate_one(latent::UnitIntegrals& result) const {
-  if (effects_ != 1 || !law_.effects[0].lognormal) return false;
-  const double s = rows_.population().scatter[0];
-  const std::size_t units = parabola_.size();
-  result.settled = true;
-  result.unsettled = 0;
-  result.log_likelihood.assign(units, -infinity);
-  std::size_t used = 0;
+bool LinearUnits::integrate(latent::UnitIntegrals& result) {
+  if (effects_ == 1 && !law_.effects[0].lognormal) return false;
+  result.restart(parabola_.size(), effects_);
   static thread_local std::vector<LognormalUnit::Node> nodes;
-  for (std::size_t u = 0; u < units; ++u) {
+  for (std::size_t u = 0; u < parabola_.size(); ++u) {
     const Parabola& p = parabola_[u];
     if (!(p.top > -infinity)) continue;
-    const LognormalUnit unit{p.best[0], p.bend[0], s};
-    const auto integral = unit.log_integral(&nodes, LognormalUnit::fine);
+    if (effects_ == 1) {
+      const LognormalUnit unit{p.best[0], p.bend[0], rows_.population().scatter[0]};
+      const auto integral = unit.log_integral(&nodes, LognormalUnit::fine);
+      if (!integral) return false;
+      result.log_likelihood[u] = p.top + *integral - half_log_two_pi;
+      for (const auto& node : nodes) result.put(u, node.place, &node.z, node.weight);
+      continue;
+    }
+    double open = 0;
+    const auto integral = pair(p).log_integral(pair_nodes_, EffectPair::fine, &open);
     if (!integral) return false;
-    result.log_likelihood[u] = p.top + *integral - half_log_two_pi;
-    for (const auto& node : nodes) {
-      if (node.place >= result.sweeps.size()) result.sweeps.resize(node.place + 1);
-      for (; used <= node.place; ++used) {
-        result.sweeps[used].z.assign(units, 0);
-        result.sweeps[used].log_f.assign(units, -infinity);
-        result.sweeps[used].weight.assign(units, 0);
+    if (open > 0) result.settled = false;
+    result.unsettled += open;
+    result.log_likelihood[u] = p.top + *integral;
+    for (std::size_t l = 0; l < pair_nodes_.lines.size(); ++l) {
+      const EffectPair::Nodes::Line& line = pair_nodes_.lines[l];
+      for (std::size_t i = line.begin; i < pair_nodes_.end(l); ++i) {
+        const double z[2] = {line.z0, pair_nodes_.z1[i]};
+        result.put(u, i, z, pair_nodes_.share[i]);
       }
-      latent::Sweep& sweep = result.sweeps[node.place];
-      sweep.weight[u] = node.weight;
-      sweep.z[u] = node.z;
-      sweep.log_f[u] = p.top + unit.at(node.z, node.step) - half_log_two_pi;
     }
   }
-  result.sweeps.resize(used);
+  result.finish();
   return true;
 }
 
 std::optional<double> LinearUnits::sum(std::span<double> gradient) {
   if (in_closed_form()) return sum_of_normal(gradient);
-  if (effects_ == 1) return sum_of_lognormal(gradient);
-  return {};
+  return effects_ == 1 ? sum_of_lognormal(gradient) : sum_of_pairs(gradient);
+}
+
+std::optional<double> LinearUnits::sum_of_pairs(std::span<double> gradient) {
+  double sum = 0;
+  Population by;
+  for (std::size_t u = 0; u < parabola_.size(); ++u) {
+    const Parabola& p = parabola_[u];
+    if (!(p.top > -infinity)) return -infinity;
+    const EffectPair unit = pair(p);
+    const auto integral = unit.log_integral(pair_nodes_);
+    if (!integral) return {};
+    sum += p.top + *integral;
+    if (gradient.empty()) continue;
+    const EffectPair::Moments m = unit.moments(pair_nodes_);
+    moments_[u] = {{m.first[0], m.first[1]}, {m.second[0], m.second[1], m.second[2]}};
+    for (std::size_t e = 0; e < 2; ++e) {
+      by.middle[e] += m.slope[e] / width_[e];
+      by.scatter[e] += m.slope_v[e] / (unit.lognormal[e] ? 1 : width_[e]);
+    }
+    if (law_.correlated) by.correlation += m.by_correlation;
+  }
+  if (!gradient.empty() && std::isfinite(sum)) add_gradient_of_moments(by, gradient);
+  return sum;
 }
 
 double LinearUnits::sum_of_normal(std::span<double> gradient) {

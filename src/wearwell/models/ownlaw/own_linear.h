@@ -7,23 +7,13 @@
 #include <vector>
 
 #include "wearwell/latent/unit_integral.h"
+#include "wearwell/models/ownlaw/effect_pair.h"
 #include "wearwell/models/ownlaw/own_law.h"
 
 namespace wearwell::ownlaw {
 
 class UnitRows;
 struct BoundColumn;
-
-/// Whether an expression of the rows has cases (where, min, max, abs, <), or they depend on rows before.
-bool has_cases(const OwnLaw& law);
-
-/// Parameters at which the form of a law is tried.
-std::vector<std::vector<double>> trial_points(const OwnLaw& law);
-
-/// Whether every column is normal and exact, its mean a straight line in what differs from unit to
-/// unit, and its standard deviation without it: depth = k work, y = a + b t. Tried with numbers, at
-/// several parameters and effects; laws with cases (where, min, max, abs, <) never are.
-bool is_linear(const OwnLaw& law, const std::vector<BoundColumn>& columns);
 
 /// The same likelihood as that of `UnitRows`, from one look at the rows for each effect and one more:
 /// the log likelihood of a unit is a parabola in its effects then, whatever the number of its rows.
@@ -39,14 +29,14 @@ class LinearUnits final : public latent::UnitTerms {
   void evaluate(std::span<const double> z, std::span<const std::uint8_t> wanted,
                 std::span<double> value, std::span<double> slope) override;
 
-  /// The sum of the units' log likelihoods: in closed form where all effects are normal; of one
-  /// lognormal effect by the same rule as latent::integrate with all that a parabola spares. Nothing
-  /// elsewhere, or where that does not settle. With `gradient` that is added as well.
+  /// The sum of the units' log likelihoods: in closed form where all effects are normal, else by rules that a
+  /// parabola spares the rows (lognormal_unit.h, effect_pair.h). Nothing where these do not settle. With
+  /// `gradient` that is added as well.
   std::optional<double> sum(std::span<double> gradient = {});
   /// Each unit's instead; false where `sum` gives nothing.
-  bool each(std::vector<double>& log_likelihood) const;
-  /// With the nodes, where the one effect is lognormal; false elsewhere.
-  bool integrate_one(latent::UnitIntegrals& result) const;
+  bool each(std::vector<double>& log_likelihood);
+  /// With the nodes; false where the rules do not settle, and of one normal effect.
+  bool integrate(latent::UnitIntegrals& result);
 
   /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
   void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);
@@ -66,6 +56,9 @@ class LinearUnits final : public latent::UnitTerms {
   Eigen::Matrix2d steps_of_z() const;
   double sum_of_normal(std::span<double> gradient);
   std::optional<double> sum_of_lognormal(std::span<double> gradient);
+  std::optional<double> sum_of_pairs(std::span<double> gradient);
+  EffectPair pair(const Parabola& p) const;
+  std::optional<double> log_integral(const Parabola& p);
   void fill(std::size_t c);
   void steps(const double* z, double* step, double* effect) const;
   void add_gradient_of_moments(const Population& by, std::span<double> gradient);
@@ -76,6 +69,7 @@ class LinearUnits final : public latent::UnitTerms {
   double base_[2] = {}, width_[2] = {};
   std::vector<Parabola> parabola_;
   std::vector<Moments> moments_;
+  EffectPair::Nodes pair_nodes_;
   std::vector<std::vector<double>> mean_[3], sd_;  // by column, then row
   std::vector<double> by_mean_[3], by_sd_;
 };

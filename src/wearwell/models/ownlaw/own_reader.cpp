@@ -14,9 +14,9 @@
 #include "wearwell/base/nearest.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/models/ownlaw/fail_at_place.h"
+#include "wearwell/models/ownlaw/linear_form.h"
 #include "wearwell/models/ownlaw/own_drawn.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
-#include "wearwell/models/ownlaw/own_linear.h"
 #include "wearwell/models/ownlaw/own_order.h"
 
 // Longer than others: the sections of one study file, each of which needs the names of those before.

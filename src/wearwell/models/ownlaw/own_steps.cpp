@@ -5,6 +5,7 @@
 
 #include "wearwell/math/boost_policy.h"
 #include "wearwell/math/constants.h"
+#include "wearwell/models/ownlaw/linear_form.h"
 #include "wearwell/models/ownlaw/own_likelihood.h"
 
 namespace wearwell::ownlaw {
@@ -13,21 +14,26 @@ namespace {
 // No smaller factor of the mean has a slope that a double holds.
 constexpr double least_factor = 1e-290;
 
+bool has_noise(const Measured& measured) {
+  return std::count(measured.slot.begin(), measured.slot.end(), 2) > 0;
+}
+
 bool in_proportion(UnitRows& rows, double middle) {
   constexpr double factors[] = {1, 2, 0.3, 40};
   const std::size_t n = rows.columns()[0].unit.size();
-  std::vector<double> mean[4], spread[4];
+  std::vector<double> mean[4], spread[4], noise[4];
   for (int k = 0; k < 4; ++k) {
     mean[k].resize(n);
     spread[k].resize(n);
+    noise[k].resize(n);
     const double at = factors[k] * middle;
-    rows.means_at(&at, 0, mean[k], spread[k]);
+    rows.means_at(&at, 0, mean[k], spread[k], noise[k]);
   }
   for (std::size_t i = 0; i < n; ++i) {
     for (int k = 1; k < 4; ++k) {
       const double expected = factors[k] * mean[0][i];
       if (!(std::abs(mean[k][i] - expected) <= 1e-13 * std::abs(expected))) return false;
-      if (spread[k][i] != spread[0][i]) return false;
+      if (spread[k][i] != spread[0][i] || noise[k][i] != noise[0][i]) return false;
     }
   }
   return true;
@@ -39,7 +45,7 @@ bool is_proportional(const OwnLaw& law, const std::vector<BoundColumn>& columns)
   if (law.effects.size() != 1 || columns.size() != 1 || has_cases(law)) return false;
   const Measured& measured = *columns[0].measured;
   if (!measured.process) return false;
-  if (std::count(measured.slot.begin(), measured.slot.end(), 2) > 0) return false;  // noise
+  if (has_noise(measured) && measured.process->process != Process::wiener) return false;
   for (const double count : columns[0].count) {
     if (count != 0 && count != 1) return false;
   }
@@ -56,10 +62,14 @@ StepUnits::StepUnits(UnitRows& rows)
     : rows_(rows),
       law_(rows.law()),
       column_(rows.columns()[0]),
+      noisy_(has_noise(*column_.measured)),
+      scaled_(noisy_ && !column_.measured->process->by_sd),
       mean_(column_.unit.size()),
       spread_(mean_.size()),
+      noise_(mean_.size()),
       by_mean_(mean_.size()),
       by_spread_(mean_.size()),
+      by_noise_(mean_.size()),
       alike_of_(mean_.size()),
       unit_(law_.units.size()) {}
 
@@ -70,11 +80,15 @@ std::size_t StepUnits::units() const {
 void StepUnits::move() {
   base_ = rows_.population().middle[0];
   if (base_ == 0) base_ = 1;
-  rows_.means_at(&base_, 0, mean_, spread_);
+  rows_.means_at(&base_, 0, mean_, spread_, noise_);
   for (std::size_t u = 0; u < unit_.size(); ++u) {
     Unit& unit = unit_[u];
     unit.constant = unit.by_log = unit.by_inverse = unit.by_one = unit.by_square = 0;
     unit.alike.clear();
+    if (noisy_) {
+      add_noisy_steps(u);
+      continue;
+    }
     double mean = 0, reading = 0, spread = 0;
     for (std::size_t i = column_.begin[u]; i < column_.begin[u + 1]; ++i) {
       if (!(column_.count[i] > 0)) continue;
@@ -85,6 +99,30 @@ void StepUnits::move() {
       spread = spread_[i];
     }
   }
+}
+
+void StepUnits::add_noisy_steps(std::size_t u) {
+  Unit& unit = unit_[u];
+  unit.noisy.clear(scaled_);
+  double mean = 0, spread = 0;
+  for (std::size_t i = column_.begin[u]; i < column_.begin[u + 1]; ++i) {
+    if (!(column_.count[i] > 0)) continue;
+    const double w = mean_[i] - mean, s = spread_[i], error = noise_[i] * noise_[i];
+    const double v = scaled_ ? s * w : s * s - spread * spread;
+    if (!(v >= 0 && v + error > 0 && std::isfinite(w) && std::isfinite(v + error))) {
+      unit.constant = -infinity;
+      return;
+    }
+    unit.noisy.add(w, v, error, column_.responses.rows[i].at);
+    mean = mean_[i];
+    spread = s;
+  }
+  if (scaled_) return;
+  const NoisySteps::Quadratic all = unit.noisy.quadratic();
+  const bool finite = std::isfinite(all.constant + all.by_one + all.by_square);
+  unit.constant = finite ? all.constant : -infinity;
+  unit.by_one = all.by_one;
+  unit.by_square = all.by_square;
 }
 
 // What a step says, dy where its mean is q w.
@@ -140,6 +178,7 @@ void StepUnits::add_step(std::size_t row, double w, double dy, double spread, do
 }
 
 double StepUnits::slope_of(const Unit& unit, double q) const {
+  if (scaled_) return unit.noisy.at(q).slope;
   double slope = unit.by_log / q - unit.by_inverse / (q * q) + unit.by_one + 2 * unit.by_square * q;
   for (const Alike& each : unit.alike) {
     slope -= each.count * each.shape * digamma(q * each.shape);
@@ -161,7 +200,9 @@ void StepUnits::evaluate(std::span<const double> z, std::span<const std::uint8_t
     if ((positive && !(q > least_factor)) || !std::isfinite(q) || !(unit.constant > -infinity))
       continue;
     double at = unit.constant + unit.by_one * q + unit.by_square * q * q;
-    if (positive) {
+    if (scaled_) {
+      at = unit.noisy.at(q).value;
+    } else if (positive) {
       const double log_q =
           lognormal && base_ == population.middle[0] ? population.scatter[0] * z[u] : std::log(q);
       at += unit.by_log * log_q + unit.by_inverse / q;
@@ -200,6 +241,7 @@ void StepUnits::take(Unit& unit, double z, double weight, Moments& m, Population
 
 // To the means and spreads of the unit's rows.
 void StepUnits::give(std::size_t u, const Moments& m) {
+  if (noisy_) return give_noisy(u, m);
   const Unit& unit = unit_[u];
   const ProcessForm& form = *column_.measured->process;
   std::size_t last = column_.unit.size();  // the row before
@@ -238,19 +280,44 @@ void StepUnits::give(std::size_t u, const Moments& m) {
 }
 
 void StepUnits::add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient) {
+  begin_gradient();
+  Population by;
+  std::vector<double> z, weight;
+  for (std::size_t u = 0; u < unit_.size(); ++u) {
+    z.clear();
+    weight.clear();
+    for (const latent::Sweep& sweep : integrals.sweeps) {
+      if (!(sweep.weight[u] > 1e-14)) continue;
+      z.push_back(sweep.z[u]);
+      weight.push_back(sweep.weight[u]);
+    }
+    take_nodes(u, z, weight, by);
+  }
+  end_gradient(by, gradient);
+}
+
+void StepUnits::begin_gradient() {
   std::fill(by_mean_.begin(), by_mean_.end(), 0.0);
   std::fill(by_spread_.begin(), by_spread_.end(), 0.0);
-  Population by;
-  for (std::size_t u = 0; u < unit_.size(); ++u) {
-    Moments m;
-    for (Alike& each : unit_[u].alike) each.slope = 0;
-    for (const latent::Sweep& sweep : integrals.sweeps) {
-      if (sweep.weight[u] > 1e-14) take(unit_[u], sweep.z[u], sweep.weight[u], m, by);
-    }
-    give(u, m);
+  std::fill(by_noise_.begin(), by_noise_.end(), 0.0);
+}
+
+void StepUnits::take_nodes(std::size_t u, std::span<const double> z, std::span<const double> weight,
+                           Population& by) {
+  Unit& unit = unit_[u];
+  if (scaled_) return take_noisy(u, z, weight, by);
+  Moments m;
+  for (Alike& each : unit.alike) each.slope = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    if (weight[i] > 1e-14) take(unit, z[i], weight[i], m, by);
   }
+  give(u, m);
+}
+
+void StepUnits::end_gradient(const Population& by, std::span<double> gradient) {
   rows_.add_population_gradient(by, gradient);
-  rows_.add_mean_gradient(&base_, 0, by_mean_, by_spread_, gradient);
+  rows_.add_mean_gradient(&base_, 0, by_mean_, by_spread_, gradient,
+                          noisy_ ? std::span<const double>(by_noise_) : std::span<const double>());
 }
 
 }  // namespace wearwell::ownlaw

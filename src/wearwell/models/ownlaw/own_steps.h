@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wearwell/latent/unit_integral.h"
+#include "wearwell/models/ownlaw/noisy_steps.h"
 #include "wearwell/models/ownlaw/own_law.h"
 
 namespace wearwell::ownlaw {
@@ -13,15 +14,16 @@ namespace wearwell::ownlaw {
 class UnitRows;
 struct BoundColumn;
 
-/// Whether the one column is a process without noise of its readings, its mean in proportion to the one effect of a
-/// unit, and its scale or standard deviation without it. Tried with numbers, as `is_linear` does.
+/// Whether the one column is a process, its mean in proportion to the one effect of a unit, and its scale or standard
+/// deviation without it; errors of readings, of a Wiener process alone, too. Tried with numbers, as `is_linear` does.
 bool is_proportional(const OwnLaw& law, const std::vector<BoundColumn>& columns);
 
 /// The same likelihood as that of `UnitRows`, from one look at the rows: with q the unit's effect over the middle,
 ///
 ///   log L(q) = constant + powers of q + a logarithm of q - log Gamma(q alpha) of steps that are alike,
 ///
-/// whatever the number of its rows.
+/// whatever the number of its rows. Where readings have errors and the variance of steps is in proportion to q as well (a
+/// Wiener process by `scale`), Kalman's recursion over the rows at several q together (noisy_steps.h).
 class StepUnits final : public latent::UnitTerms {
  public:
   explicit StepUnits(UnitRows& rows);
@@ -38,6 +40,8 @@ class StepUnits final : public latent::UnitTerms {
   std::optional<double> sum(std::span<double> gradient = {});
   /// Each unit's instead; false where `sum` gives nothing.
   bool each(std::vector<double>& log_likelihood);
+  /// With the nodes, closer to each other; false where `sum` gives nothing.
+  bool integrate(latent::UnitIntegrals& result);
   /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
   void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);
 
@@ -50,6 +54,7 @@ class StepUnits final : public latent::UnitTerms {
   struct Unit {
     double constant = 0, by_log = 0, by_inverse = 0, by_one = 0, by_square = 0;
     std::vector<Alike> alike;
+    NoisySteps noisy;
   };
   struct Moments {
     double one = 0, square = 0, inverse = 0;  // of q
@@ -64,20 +69,31 @@ class StepUnits final : public latent::UnitTerms {
     std::array<bool, most> odd;
   };
   void add_step(std::size_t row, double w, double dy, double spread, double before, Unit& unit);
+  void add_noisy_steps(std::size_t u);
+  void take_noisy(std::size_t u, std::span<const double> z, std::span<const double> weight,
+                  Population& by);
+  void give_noisy(std::size_t u, const Moments& moments);
+  void give_slopes(std::size_t u);
+  void begin_gradient();
+  void take_nodes(std::size_t u, std::span<const double> z, std::span<const double> weight,
+                  Population& by);
+  void end_gradient(const Population& by, std::span<double> gradient);
   double slope_of(const Unit& unit, double q) const;
   double slope_by_z(const Unit& unit, double z) const;
   std::optional<Bell> bell(const Unit& unit) const;
   void log_densities(const Unit& unit, const double* z, double* log_f) const;
   bool lay(const Unit& unit, const Bell& about, double width);
-  std::optional<double> integral(const Unit& unit);
+  std::optional<double> integral(const Unit& unit, std::span<const double> gaps);
   void take(Unit& unit, double z, double weight, Moments& moments, Population& by) const;
   void give(std::size_t u, const Moments& moments);
 
   UnitRows& rows_;
   const OwnLaw& law_;
   const BoundColumn& column_;
+  bool noisy_, scaled_;  // readings have errors; and the variance of steps is in proportion to q
   double base_ = 1;
-  std::vector<double> mean_, spread_, by_mean_, by_spread_;
+  std::vector<double> mean_, spread_, noise_, by_mean_, by_spread_, by_noise_;
+  NoisySteps::Slopes slopes_;
   std::vector<std::size_t> alike_of_;  // of each row
   std::vector<Unit> unit_;
   Nodes nodes_;

@@ -9,6 +9,8 @@ namespace wearwell::ownlaw {
 
 /// exp of a whole array, in vectors; `y` may be `x`.
 void exp_all(const double* x, double* y, std::size_t n);
+/// log likewise.
+void log_all(const double* x, double* y, std::size_t n);
 
 // A trapezoidal rule about the mode of a unit's integrand, which judges itself: its error is about the square of what
 // every second node of it is off.
