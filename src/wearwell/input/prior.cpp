@@ -78,7 +78,11 @@ class PriorReader {
  private:
   // That of its parameter forms whose parameters are given; else that of which the most are, which then says what is missing.
   const ResponseForm& stated_form(const std::string& law) const {
-    const auto has = [&](std::string_view key) { return table_.has(std::string(key)); };
+    // Not by table_.has, after which a key that the form does not have counts as one that was asked for.
+    const std::vector<std::string> keys = table_.keys();
+    const auto has = [&](std::string_view key) {
+      return std::find(keys.begin(), keys.end(), key) != keys.end();
+    };
     if (const ResponseForm* form = given_form(prior_forms(), law, has)) return *form;
     const ResponseForm* nearest = nullptr;
     std::ptrdiff_t most = -1;

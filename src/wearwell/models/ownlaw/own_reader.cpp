@@ -153,7 +153,11 @@ class Reader {
     }
     const auto family = table.choice("family", names);
     if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
-    const auto has = [&](std::string_view name) { return table.has(std::string(name)); };
+    // Not by table.has, after which a key that the form does not have counts as one that was asked for.
+    const std::vector<std::string> keys = table.keys();
+    const auto has = [&](std::string_view name) {
+      return std::find(keys.begin(), keys.end(), name) != keys.end();
+    };
     const ResponseForm* form = given_form(response_forms(), *family, has);
     const ProcessForm* process = nullptr;
     for (const ProcessForm& each : process_forms()) {
