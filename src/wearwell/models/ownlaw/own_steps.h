@@ -40,7 +40,7 @@ class StepUnits final : public latent::UnitTerms {
   std::optional<double> sum(std::span<double> gradient = {});
   /// Each unit's instead; false where `sum` gives nothing.
   bool each(std::vector<double>& log_likelihood);
-  /// With the nodes, closer to each other; false where `sum` gives nothing.
+  /// With the nodes, closer to each other; false where `sum` gives nothing, and without errors of readings.
   bool integrate(latent::UnitIntegrals& result);
   /// Adds the gradient of the sum of log likelihoods; `integrals` are those of the last `move`.
   void add_gradient(const latent::UnitIntegrals& integrals, std::span<double> gradient);

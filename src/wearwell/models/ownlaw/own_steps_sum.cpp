@@ -198,6 +198,7 @@ bool StepUnits::each(std::vector<double>& log_likelihood) {
 // Lives are mixed over the nodes: these lie closer than sums need.
 bool StepUnits::integrate(latent::UnitIntegrals& result) {
   constexpr double gaps[] = {0.25, 0.125};
+  if (!noisy_) return false;
   result.restart(unit_.size(), 1);
   for (std::size_t u = 0; u < unit_.size(); ++u) {
     if (!(unit_[u].constant > -infinity)) continue;
