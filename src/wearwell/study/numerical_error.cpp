@@ -13,11 +13,12 @@ double relative_difference(double value, double other, double size) {
 
 void estimate_numerical_errors(std::vector<QuantityQuantiles>& answers,
                                const std::vector<QuantityQuantiles>& coarse) {
+  constexpr double margin = 2;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     QuantityQuantiles& q = answers[i];
     const QuantityQuantiles& c = coarse[i];
     const auto differ = [&](double value, double other) {
-      return relative_difference(value, other, q.q50);
+      return margin * relative_difference(value, other, q.q50);
     };
     double error = q.numerical_error.value_or(0);
     if (!q.numerical_error) {

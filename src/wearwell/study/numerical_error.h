@@ -17,8 +17,9 @@ inline constexpr double least_numerical_error = 1e-4;
 /// of the two alone is finite.
 double relative_difference(double value, double other, double size);
 
-/// Sets QuantityQuantiles::numerical_error of each answer: the largest relative difference of its numbers from those of `coarse`, the same
-/// over fewer_points, whose error is larger. Where an error of the quantiles is set it stays, and the predictive value alone is compared.
+/// Sets QuantityQuantiles::numerical_error of each answer: twice the largest relative difference of its numbers from those of `coarse`, the
+/// same over fewer_points. Where the error falls with the number of points that is far more than it is; twice, since now and then one of
+/// few does not. Where an error of the quantiles is set it stays, and the predictive value alone is compared.
 void estimate_numerical_errors(std::vector<QuantityQuantiles>& answers,
                                const std::vector<QuantityQuantiles>& coarse);
 

@@ -131,21 +131,22 @@ void expect_bounded(const std::string& study, const std::vector<Column>& columns
     const double off = largest_difference(told[i], fine[i]);
     EXPECT_LE(off, std::max(*told[i].numerical_error, least_numerical_error)) << i;
     EXPECT_LE(*told[i].numerical_error, most) << i;  // a bound that says anything
-    ::testing::Test::RecordProperty("answer " + std::to_string(i),
-                   fmt::format("off {:.2g}, estimated {:.2g}", off, *told[i].numerical_error));
+    ::testing::Test::RecordProperty(
+        "answer " + std::to_string(i),
+        fmt::format("off {:.2g}, estimated {:.2g}", off, *told[i].numerical_error));
   }
 }
 
 TEST(OwnNumericalError, OfUnitsThatDiffer) {
-  expect_bounded(straight, lines({0, 0, 0, 0, 0}, 0.3), 20, 0.02);
+  expect_bounded(straight, lines({0, 0, 0, 0, 0}, 0.3), 10, 0.05);
 }
 
 TEST(OwnNumericalError, OfUnitsThatDifferTwofold) {
-  expect_bounded(two_effects, lines({1.2, 0.7, 1.0, 1.5, 0.9}, 0.2), 4, 0.03);
+  expect_bounded(two_effects, lines({1.2, 0.7, 1.0, 1.5, 0.9}, 0.2), 2, 0.1);
 }
 
 TEST(OwnNumericalError, OfProcesses) {
-  expect_bounded(process, steps(), 8, 0.03);
+  expect_bounded(process, steps(), 3, 0.1);
 }
 
 }  // namespace
