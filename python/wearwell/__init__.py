@@ -25,6 +25,7 @@ from ._priors import (
     jeffreys,
     lognormal,
     normal,
+    prior,
     student_t,
     uniform,
 )
@@ -36,5 +37,5 @@ __version__ = _core.version
 __all__ = [
     "ArrowTable", "Check", "CheckWarning", "Comparison", "Fit", "InputError", "MachineError", "NotTrusted", "Selection", "Study",
     "arrow", "bearing", "beta", "clutch", "compare", "default", "exponential", "fit", "flat", "gamma", "half_cauchy", "half_normal",
-    "inverse_gamma", "jeffreys", "lognormal", "normal", "rainflow", "select", "student_t", "table", "uniform",
+    "inverse_gamma", "jeffreys", "lognormal", "normal", "prior", "rainflow", "select", "student_t", "table", "uniform",
 ]

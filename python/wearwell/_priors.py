@@ -75,6 +75,11 @@ def jeffreys(unit, *, lower=None, upper=None):
     return _law("jeffreys", lower, upper, unit=unit)
 
 
+def prior(law, *, unit=None, lower=None, upper=None, **parameters):
+    """Any law of docs/priors.md by name, with its parameters: ``prior("weibull", scale="5 mm", shape=2)``."""
+    return _law(law, lower, upper, unit=unit, **parameters)
+
+
 def default():
     """What holds where nothing is said (docs/priors.md)."""
     return {"law": "default"}

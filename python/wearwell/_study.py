@@ -21,12 +21,14 @@ _slots = {
     "weibull": ("scale", "shape", "shape"),
     "loglogistic": ("scale", "shape", "shape"),
     "inverse-gaussian": ("mean", "shape", "shape"),
+    "birnbaum-saunders": ("scale", "shape", "shape"),
     "smallest-extreme-value": ("location", "scale", "sigma"),
     "largest-extreme-value": ("location", "scale", "sigma"),
     "exponential": ("mean", None, None),
     "poisson": ("mean", None, None),
 }
-_positive = ("lognormal", "half-normal", "half-cauchy", "exponential", "gamma", "inverse-gamma", "jeffreys")
+# Laws of priors that say nothing of a sign, or of a fraction; under all others a parameter is positive.
+_of_any_sign = ("flat", "uniform", "normal", "student-t", "smallest-extreme-value", "largest-extreme-value", "beta", "default", None)
 
 
 def _names_in(*texts):
@@ -99,7 +101,7 @@ def _varies(varies, unit, texts, priors):
     if isinstance(varies, str):
         varies = [varies]
     if not isinstance(varies, dict):
-        varies = {p: "lognormal" if priors.get(p, {}).get("law") in _positive else "normal" for p in varies}
+        varies = {p: "normal" if priors.get(p, {}).get("law") in _of_any_sign else "lognormal" for p in varies}
     entries, added = {}, {}
     for parameter, how in varies.items():
         if not isinstance(how, str) or parameter == "correlation":

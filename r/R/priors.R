@@ -39,4 +39,6 @@ ww_beta <- function(alpha, beta, lower = NULL, upper = NULL) prior("beta", alpha
 
 ww_jeffreys <- function(unit, lower = NULL, upper = NULL) prior("jeffreys", lower = lower, upper = upper, unit = unit)
 
+ww_prior <- function(law, ..., lower = NULL, upper = NULL, unit = NULL) prior(law, ..., lower = lower, upper = upper, unit = unit)
+
 ww_default <- function() list(law = "default")

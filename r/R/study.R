@@ -9,11 +9,13 @@ slots <- list(
   weibull = c("scale", "shape", "shape"),
   loglogistic = c("scale", "shape", "shape"),
   `inverse-gaussian` = c("mean", "shape", "shape"),
+  `birnbaum-saunders` = c("scale", "shape", "shape"),
   `smallest-extreme-value` = c("location", "scale", "sigma"),
   `largest-extreme-value` = c("location", "scale", "sigma"),
   exponential = "mean",
   poisson = "mean")
-positive <- c("lognormal", "half-normal", "half-cauchy", "exponential", "gamma", "inverse-gamma", "jeffreys")
+# Laws of priors that say nothing of a sign, or of a fraction; under all others a parameter is positive.
+of_any_sign <- c("flat", "uniform", "normal", "student-t", "smallest-extreme-value", "largest-extreme-value", "beta", "default")
 scatters <- c("family", "sd", "log_sd", "log10_sd", "shape", "df", "trials")
 
 # Names in expressions; texts and units are none.
@@ -72,7 +74,7 @@ varies_of <- function(varies, unit, lines, likelihood, priors) {
     varies <- in_law
   }
   if (is.null(names(varies))) {
-    law <- function(p) if (isTRUE(priors[[p]]$law %in% positive)) "lognormal" else "normal"
+    law <- function(p) if (is.null(priors[[p]]$law) || priors[[p]]$law %in% of_any_sign) "normal" else "lognormal"
     varies <- stats::setNames(lapply(varies, law), varies)
   }
   entries <- added <- list()

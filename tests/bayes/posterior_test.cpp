@@ -59,7 +59,7 @@ Parameter parameter(const std::string& name, const Law& prior, double start) {
 const std::vector<Law>& rates() {
   static const std::vector<Law> laws = {
       make_law(Flat{}, 0, infinity),       make_law(Normal{1, 0.5}, 0, infinity),
-      make_law(Lognormal{0, 1}, 0, 7),     make_law(Gamma{2, 0.6}, 0, infinity),
+      make_law(Lognormal{1, 1}, 0, 7),     make_law(Gamma{2, 0.6}, 0, infinity),
       make_law(StudentT{3, 1, 2}, 0.1, 4), make_law(Normal{1, 2}, 0, infinity),
       make_law(Jeffreys{}, 0.01, infinity)};
   return laws;
@@ -142,7 +142,7 @@ double integral(const std::function<double(double)>& f, double lower, double upp
 TEST(Posterior, MassInOneDimension) {
   const std::vector<Law> laws = {
       make_law(Normal{0, 2}, -infinity, infinity), make_law(Gamma{2.5, 1}, 0, infinity),
-      make_law(Lognormal{0, 1}, 0.5, infinity), make_law(StudentT{3, 0, 1}, -infinity, 1.5),
+      make_law(Lognormal{1, 1}, 0.5, infinity), make_law(StudentT{3, 0, 1}, -infinity, 1.5),
       make_law(Uniform{}, -1, 3)};
   for (std::size_t i = 0; i < laws.size(); ++i) {
     const Posterior posterior({parameter("rate", laws[i], 1)}, line(1));
@@ -161,7 +161,7 @@ TEST(Posterior, MassInOneDimension) {
 }
 
 TEST(Posterior, MassInTwoDimensions) {
-  const Law rate = make_law(Lognormal{0, 0.5}, 0, infinity), sigma = make_law(Uniform{}, 0.2, 3);
+  const Law rate = make_law(Lognormal{1, 0.5}, 0, infinity), sigma = make_law(Uniform{}, 0.2, 3);
   const Posterior posterior({parameter("rate", rate, 1), parameter("sigma", sigma, 1)}, line(2));
   using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
   const auto nested = [](const auto& f, double a, double b, double c, double d) {

@@ -21,7 +21,7 @@ constexpr double median_k = 2e-15, log_sd_k = 0.5, sd_scatter = 0.4, depth_error
 std::vector<Parameter> parameters() {
   const Unit si{"1", 1, 0};
   Parameter k{"k", "m^3/(N m)", si, "lognormal",
-              make_law(Lognormal{std::log(median_k), log_sd_k}, 0, INFINITY)};
+              make_law(Lognormal{median_k, log_sd_k}, 0, INFINITY)};
   k.start = median_k;
   k.scale = median_k;
   Parameter scatter{"k_scatter", "1", si, "half-normal",

@@ -124,7 +124,7 @@ Replication bearing_study(Rng& rng, int index, std::size_t bearings, bool scatte
   bearing::WearModel model;
   if (known) model.depth_error = 2e-6;
   model.has_scatter = scatter;
-  const Law k_prior = make_law(Lognormal{std::log(2e-15), 0.5}, 0, INFINITY);
+  const Law k_prior = make_law(Lognormal{2e-15, 0.5}, 0, INFINITY);
   const Law sigma_prior = normal(0, 4e-6, 0, INFINITY), scatter_prior = normal(0, 0.5, 0, INFINITY);
   const double k = quantile(k_prior, rng.uniform());
   const double sigma = known ? 2e-6 : quantile(sigma_prior, rng.uniform());

@@ -94,7 +94,8 @@ TEST(JointCalibration, Lognormal) {
 
 TEST(JointCalibration, HalfNormalScatterAndLognormalRate) {
   const LognormalByMoments<double> rate(7e-13, 3e-13);
-  calibrate(ObservationFamily::normal, make_law(Lognormal{rate.eta, rate.zeta}, 0, INFINITY),
+  calibrate(ObservationFamily::normal,
+            make_law(Lognormal{std::exp(rate.eta), rate.zeta}, 0, INFINITY),
             make_law(Normal{0, 6e-9}, 0, INFINITY));
 }
 

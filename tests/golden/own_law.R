@@ -29,3 +29,21 @@ y[7] <- 48.48
 nll <- function(b) -sum(dweibull(y - b[3], exp(b[1]), exp(b[2]), log = TRUE))
 o <- optim(c(log(1.6), log(65), 13), nll, method = "Nelder-Mead", control = list(maxit = 50000, reltol = 1e-16))
 cat(sprintf("%.6f", c(exp(o$par[1:2]), o$par[3], -o$value)), "\n")
+# The ball bearings by the generalized gamma distribution (Lawless 1982, sec. 5.3: 4.230, 0.510, 0.308) and the exponentiated Weibull.
+nll <- function(b) {
+  l <- b[3]; x <- exp(l * (log(y) - b[1]) / exp(b[2])) / l^2
+  -sum(dgamma(x, 1 / l^2, log = TRUE) + log(x * abs(l)) - b[2] - log(y))
+}
+o <- optim(c(4.2, log(0.5), 0.3), nll, method = "Nelder-Mead", control = list(maxit = 50000, reltol = 1e-16))
+cat(sprintf("%.6f", c(exp(o$par[1]), exp(o$par[2]), o$par[3], -o$value)), "\n")
+nll <- function(b) -sum(b[3] + (exp(b[3]) - 1) * pweibull(y, exp(b[2]), exp(b[1]), log.p = TRUE) + dweibull(y, exp(b[2]), exp(b[1]), log = TRUE))
+o <- optim(c(log(40), 0, 1), nll, method = "Nelder-Mead", control = list(maxit = 50000, reltol = 1e-16))
+cat(sprintf("%.6f", c(exp(o$par), -o$value)), "\n")
+# 101 aluminium coupons at 31 ksi (Birnbaum and Saunders 1969; coupons.csv): Ng, Kundu and Balakrishnan (2003) give 0.1704 and 131.8188.
+t <- read.csv("tests/golden/coupons.csv")$kcycles
+nll <- function(b) {
+  r <- sqrt(t / exp(b[1]))
+  -sum(dnorm((r - 1 / r) / exp(b[2]), log = TRUE) + log((r + 1 / r) / (2 * t)) - b[2])
+}
+o <- optim(c(log(130), log(0.2)), nll, method = "Nelder-Mead", control = list(maxit = 50000, reltol = 1e-16))
+cat(sprintf("%.6f", c(exp(o$par), -o$value)), "\n")

@@ -44,4 +44,26 @@ all_ways("smallest-extreme-value", c(-90, -3, 1, 2, 6), c(1, 1.3, 0), function(y
          function(q, l) pweibull(exp((q - 1) / 1.3), 1, 1, l, TRUE))
 all_ways("largest-extreme-value", c(-4, 0, 1, 5, 90), c(1, 1.3, 0), function(y) { z <- -(y - 1) / 1.3; z - exp(z) - log(1.3) },
          function(q, l) pweibull(exp(-(q - 1) / 1.3), 1, 1, !l, TRUE))
+# Generalized gamma (Meeker and Escobar 1998, eq. 5.19): x = exp(lambda omega)/lambda^2 has the gamma law of shape 1/lambda^2.
+generalized_gamma <- function(at, s) {
+  x <- function(y) (y / s[1])^(s[3] / s[2]) / s[3]^2
+  all_ways("generalized-gamma", at, s,
+           function(y) dgamma(x(y), 1 / s[3]^2, log = TRUE) + log(x(y) * abs(s[3]) / (s[2] * y)),
+           function(q, l) pgamma(x(q), 1 / s[3]^2, lower.tail = l == (s[3] > 0), log.p = TRUE))
+}
+for (lambda in c(0.3, 2, -0.7, -3, 0.06, 0.04, -0.04, 0.003)) generalized_gamma(c(0.01, 0.4, 1.9, 3, 8, 40), c(2, 0.6, lambda))
+all_ways("birnbaum-saunders", c(0.004, 0.5, 1.9, 3, 50, 900), c(2, 0.6, 0),
+         function(y) { r <- sqrt(y / 2); dnorm((r - 1 / r) / 0.6, log = TRUE) + log((r + 1 / r) / (2 * 0.6 * y)) },
+         function(q, l) { r <- sqrt(q / 2); pnorm((r - 1 / r) / 0.6, lower.tail = l, log.p = TRUE) })
+# Where F is 1 to the last digit, 1 - F^a is a (1 - F).
+exponentiated_weibull <- function(at, s) {
+  upper <- function(q) pweibull(q, s[2], s[1], FALSE, TRUE)
+  all_ways("exponentiated-weibull", at, s,
+           function(y) log(s[3]) + (s[3] - 1) * pweibull(y, s[2], s[1], log.p = TRUE) + dweibull(y, s[2], s[1], log = TRUE),
+           function(q, l) {
+             below <- s[3] * pweibull(q, s[2], s[1], log.p = TRUE)
+             if (l) below else if (upper(q) < -40) log(s[3]) + upper(q) else log(-expm1(below))
+           })
+}
+for (a in c(0.3, 4)) exponentiated_weibull(c(1e-6, 0.3, 60, 110, 400, 3000), c(82, 2.1, a))
 for (y in c(0, 1, 7, 400)) put("poisson", "exactly", y, 0, c(5.5, 0, 0), dpois(y, 5.5, log = TRUE))

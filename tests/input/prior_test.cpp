@@ -60,6 +60,15 @@ TEST_F(PriorTest, EachLawIsTheOneItNames) {
   expect(R"(law = "inverse-gamma", shape = 2.5, scale = "3 mm")", 0.23127049470565392);
   // dt((2 - 1)/.5, 4)/.5/pt(2, 4)
   expect(R"(law = "student-t", df = 4, location = "1 mm", scale = "0.5 mm")", 0.14075448203408147);
+  // dweibull(2, 1.5, 3)
+  expect(R"(law = "weibull", scale = "3 mm", shape = 1.5)", 0.23687782228285617);
+  // x <- (2/3)^(-.4/.7)/.16; dgamma(x, 1/.16) * x * .4/(.7 * 2)
+  expect(R"(law = "generalized-gamma", scale = "3 mm", sigma = 0.7, lambda = -0.4)",
+         0.23451572025632558);
+  // dweibull(2 - .5, 1.5, 3)/(pweibull(4.5, 1.5, 3) - pweibull(.5, 1.5, 3))
+  expect(
+      R"(law = "weibull", scale = "3 mm", shape = 1.5, threshold = "0.5 mm", lower = "1 mm", upper = "5 mm")",
+      0.3203592973638173);
   // 1/(2 * log(8))
   expect(R"(law = "jeffreys", lower = "1 mm", upper = "8 mm")", 0.24044917348149392);
   // dnorm(2, 3, .5)/(pnorm(4) - pnorm(-3))
@@ -141,13 +150,13 @@ TEST_F(PriorTest, NamesWhatIsWrong) {
   expect(R"(law = "half-normal", scale = "1 mm", upper = "-1 mm")", "x.upper: the lower bound 0");
   expect(R"(law = "uniform", lower = "0 mm")", "x.upper: is missing");
   expect(R"(law = "normal", mean = "3 mm")", "x.sd: is missing");
-  expect(R"(law = "normal", mean = "3 mm", sd = "0 mm")", "sd is 0, it must be positive");
+  expect(R"(law = "normal", mean = "3 mm", sd = "0 mm")", "x.sd: must be positive");
   expect(R"(law = "lognormal", mean = "-3 mm", sd = "1 mm")", "x.mean: must be positive");
   expect(R"(law = "lognormal", median = "-3 mm", log_sd = 1)", "x.median: must be positive");
   expect(R"(law = "lognormal", median = "0 mm", log_sd = 1)", "x.median: must be positive");
-  expect(R"(law = "lognormal", median = "3 mm", log_sd = -1)", "log_sd is -1");
+  expect(R"(law = "lognormal", median = "3 mm", log_sd = -1)", "x.log_sd: must be positive");
   expect(R"(law = "lognormal", median = "3 mm", mean = "3 mm", log_sd = 1)", "x.mean: unknown key");
-  expect(R"(law = "gamma", shape = -1, scale = "1 mm")", "shape is -1");
+  expect(R"(law = "gamma", shape = -1, scale = "1 mm")", "x.shape: must be positive");
   expect(R"(law = "gamma", shape = "2 mm", scale = "1 mm")", "x.shape: unit 'mm' has the wrong");
   expect(R"(law = "normal", mean = "3 mm", sd = "1 mm", lower = "1 m")", "no probability");
   expect(R"(law = "normal", mean = "3 mm", sd = "1 mm", upper = "-1 mm")", "0 is not below");
@@ -174,7 +183,7 @@ TEST_F(PriorTest, RefusesUnitsWithAnOffset) {
 // Where the study says nothing, or "default", it is the model's own, and says so.
 TEST_F(PriorTest, ADefaultStandsInAndIsCalledOne) {
   ParameterSpec spec = positive;
-  spec.fallback = DefaultPrior{"half-normal", Normal{0, 2e-3}, "mm", 0};
+  spec.fallback = DefaultPrior{"half-normal", HalfNormal{2e-3}, "mm"};
   const auto root = TomlReader::parse_file(write("c.toml", "y = 1\n[prior]\nz = 1\n"));
   const Parameter none = read_prior(root, root.table("prior"), spec);
   EXPECT_TRUE(none.is_default);

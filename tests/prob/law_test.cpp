@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <fstream>
@@ -13,13 +14,14 @@
 #include "support/between.h"
 #include "wearwell/base/error.h"
 #include "wearwell/math/constants.h"
+#include "wearwell/prob/response.h"
 
 namespace wearwell {
 namespace {
 
 Family family_of(const std::string& name, double a, double b, double c) {
   if (name == "normal") return Normal{a, b};
-  if (name == "lognormal") return Lognormal{a, b};
+  if (name == "lognormal") return Lognormal{std::exp(a), b};
   if (name == "gamma") return Gamma{a, b};
   if (name == "inverse-gamma") return InverseGamma{a, b};
   if (name == "student-t") return StudentT{a, b, c};
@@ -70,6 +72,17 @@ TEST(Law, FlatUniformAndJeffreys) {
   EXPECT_FALSE(make_law(Jeffreys{}, 1, infinity).proper);
 }
 
+// By name, with as many parameters as it has.
+Family of(const std::string& name, const std::vector<double>& parameters) {
+  for (const ResponseForm& form : prior_forms()) {
+    if (form.name != name || form.slots.size() != parameters.size()) continue;
+    Family family{form.family};
+    std::copy(parameters.begin(), parameters.end(), family.parameter.begin());
+    return family;
+  }
+  throw std::logic_error("no family " + name);
+}
+
 Law any_law() {
   static const std::vector<Family> families = {Normal{1, 2},
                                                Lognormal{0.2, 0.6},
@@ -80,6 +93,20 @@ Law any_law() {
                                                StudentT{1, 0, 1},
                                                Beta{2, 1.5},
                                                Beta{1, 1},
+                                               HalfNormal{2},
+                                               of("half-cauchy", {0.7}),
+                                               of("exponential", {1.5}),
+                                               of("weibull", {1.2, 2.5}),
+                                               of("weibull", {1.2, 2.5, -0.5}),
+                                               of("loglogistic", {0.8, 3}),
+                                               of("inverse-gaussian", {1, 2}),
+                                               of("smallest-extreme-value", {1, 0.5}),
+                                               of("largest-extreme-value", {1, 0.5}),
+                                               of("log10-normal", {1, 0.3}),
+                                               of("generalized-gamma", {1, 0.6, -0.5}),
+                                               of("generalized-gamma", {1, 0.6, 0.02}),
+                                               of("birnbaum-saunders", {1, 0.8}),
+                                               of("exponentiated-weibull", {1, 1.5, 2}),
                                                Flat{},
                                                Uniform{},
                                                Jeffreys{}};
@@ -159,6 +186,49 @@ TEST(Law, RefusesBounds) {
   EXPECT_THROW(make_law(Beta{1, 1}, 1, 2), InputError);
   EXPECT_THROW(make_law(Uniform{}, 0, infinity), InputError);
   EXPECT_THROW(make_law(Normal{0, 1}, 100, 101), InputError);  // e^-5000
+}
+
+// Each family of a likelihood, as a prior: the same density over the probability between its bounds, whose
+// quantiles are the probability's inverse, far in either tail as well.
+TEST(Law, EveryFamilyIsAPrior) {
+  int tried = 0;
+  for (const ResponseForm& form : prior_forms()) {
+    if (form.prior_only) continue;
+    Family family{form.family};
+    for (std::size_t i = 0; i < form.slots.size(); ++i)
+      family.parameter[i] = form.slots[i].name == "threshold" ? 0.1 : 1.3 - 0.4 * double(i);
+    const double* s = family.parameter.data();
+    const double at[] = {quantile(form.family, 1e-9, s), quantile(form.family, 0.3, s),
+                         quantile(form.family, 0.6, s), quantile(form.family, 1 - 1e-6, s)};
+    for (const auto& [lower, upper] :
+         {std::pair{-infinity, infinity}, {-infinity, at[1]}, {at[1], at[2]}, {at[3], infinity}}) {
+      SCOPED_TRACE(testing::Message()
+                   << form.name << " " << form.slots.size() << ": " << lower << " to " << upper);
+      const Law law = make_law(family, lower, upper);
+      const auto mass = [&](double x) {
+        const Response y{Seen::between, std::max(lower, -1e300), x};
+        return log_response_value(
+            form.family,
+            lower > law.lower - 1 && std::isfinite(lower) ? y : Response{Seen::below, x}, s);
+      };
+      const double all = upper == infinity && lower == -infinity ? 0
+                         : upper == infinity ? log_survival(form.family, lower, s)
+                                             : mass(upper);
+      for (const double p : {0.02, 0.5, 0.97}) {
+        const double x = quantile(law, p);
+        EXPECT_NEAR(std::exp(mass(x) - all), p, 1e-7) << x;
+        EXPECT_NEAR(log_density(law, x).value,
+                    log_response_value(form.family, {Seen::exactly, x}, s) - all, 1e-8);
+        const double step = 1e-6 * std::min(std::abs(x), x - law.lower);
+        EXPECT_NEAR(
+            log_density(law, x).slope,
+            (log_density(law, x + step).value - log_density(law, x - step).value) / (2 * step),
+            1e-5 * (1 + std::abs(log_density(law, x).slope)));
+      }
+    }
+    ++tried;
+  }
+  EXPECT_GE(tried, 25);
 }
 
 }  // namespace

@@ -14,16 +14,17 @@ namespace wearwell {
 namespace {
 
 // Of the lognormal family the first, by median.
-ResponseFamily family_of(const std::string& name) {
+ResponseFamily family_of(const std::string& name, bool beyond_threshold = false) {
   for (const ResponseForm& form : response_forms()) {
-    if (form.name == name) return form.family;
+    const bool shifted = form.slots.back().name == "threshold";
+    if (form.name == name && shifted == beyond_threshold) return form.family;
   }
   throw std::logic_error("no family " + name);
 }
 
 struct Case {
   ResponseFamily family;
-  double slots[3];
+  double slots[4];
   double at[3];  // low, middle, high
 };
 
@@ -36,7 +37,17 @@ const std::vector<Case>& cases() {
       {log10_normal, {2, 0.3, 0}, {0.3, 2.1, 9}},
       {student_t, {4.5, 1, 0.5}, {-2, 1.2, 4}},
       {weibull, {82, 2.1, 0}, {10, 70, 200}},
-      {weibull, {82, 2.1, 6}, {10, 70, 200}},
+      {family_of("weibull", true), {82, 2.1, 6}, {10, 70, 200}},
+      {family_of("lognormal", true), {2, 0.6, 0.1}, {0.3, 2.1, 9}},
+      {family_of("gamma", true), {2.5, 1.7, -0.4}, {0.3, 4, 20}},
+      {family_of("generalized-gamma"), {2, 0.6, 0.4}, {0.5, 2.1, 6}},
+      {family_of("generalized-gamma"), {2, 0.6, -1.3}, {0.8, 2.1, 12}},
+      {family_of("generalized-gamma"), {2, 0.6, 0.02}, {0.5, 2.1, 7}},
+      {family_of("generalized-gamma", true), {2, 0.6, 1.5, 0.1}, {0.3, 2.1, 6}},
+      {family_of("birnbaum-saunders"), {2, 0.6}, {0.5, 2.1, 9}},
+      {family_of("birnbaum-saunders", true), {2, 0.6, 0.2}, {0.5, 2.1, 9}},
+      {family_of("exponentiated-weibull"), {82, 2.1, 3}, {40, 90, 200}},
+      {family_of("exponentiated-weibull"), {82, 2.1, 0.4}, {5, 60, 200}},
       {smallest_extreme_value, {1, 1.3, 0}, {-5, 1, 3}},
       {largest_extreme_value, {1, 1.3, 0}, {-1, 1, 9}},
       {exponential, {7, 0, 0}, {0.2, 6, 40}},
@@ -68,10 +79,10 @@ TEST(Response, MatchesR) {
     if (seen == "above") y.seen = Seen::above;
     if (seen == "below") y.seen = Seen::below;
     if (seen == "between") y.seen = Seen::between;
-    const double value = log_response_value(family_of(name), y, v + 2);
+    const ResponseFamily family = family_of(name, name == "weibull" && v[4] != 0);
+    const double value = log_response_value(family, y, v + 2);
     EXPECT_NEAR(value, v[5], 2e-12 * std::abs(v[5]) + 1e-14);
-    EXPECT_NEAR(log_response(family_of(name), y, v + 2).value, value,
-                1e-12 * std::abs(value) + 1e-15);
+    EXPECT_NEAR(log_response(family, y, v + 2).value, value, 1e-12 * std::abs(value) + 1e-15);
   }
   EXPECT_GT(rows, 200);
 }
@@ -93,10 +104,10 @@ TEST(Response, SlopesAreTheDerivatives) {
     for (const Response& y : all) {
       const ResponseTerm term = log_response(each.family, y, each.slots);
       ASSERT_TRUE(std::isfinite(term.value));
-      for (int s = 0; s < 3; ++s) {
+      for (int s = 0; s < 4; ++s) {
         if (each.slots[s] == 0) continue;
-        double moved[3];
-        std::copy(each.slots, each.slots + 3, moved);
+        double moved[4];
+        std::copy(each.slots, each.slots + 4, moved);
         const double step = 1e-5 * std::abs(each.slots[s]);
         moved[s] = each.slots[s] + step;
         const double above = log_response_value(each.family, y, moved);
@@ -131,8 +142,9 @@ TEST(Response, DistributionFunctionsBelongTogether) {
 
 TEST(Response, OutsideItsSupportHasNoDensity) {
   const double weibull[] = {82, 2.1, 15};
-  EXPECT_EQ(log_response_value(ResponseFamily::weibull, {Seen::exactly, 15}, weibull), -infinity);
-  EXPECT_EQ(log_response_value(ResponseFamily::weibull, {Seen::above, 3}, weibull), 0);
+  const ResponseFamily shifted = family_of("weibull", true);
+  EXPECT_EQ(log_response_value(shifted, {Seen::exactly, 15}, weibull), -infinity);
+  EXPECT_EQ(log_response_value(shifted, {Seen::above, 3}, weibull), 0);
   const double negative[] = {1, -1, 0};
   for (const Seen seen : {Seen::exactly, Seen::above, Seen::below}) {
     EXPECT_EQ(log_response_value(ResponseFamily::normal, {seen, 2}, negative), -infinity);
@@ -148,7 +160,7 @@ TEST(Response, ExtremeParametersAreNoExceptions) {
   for (const Case& each : cases()) {
     for (const double a : extremes) {
       for (const double b : extremes) {
-        const double slots[] = {a, b, each.slots[2]};
+        const double slots[] = {a, b, each.slots[2], each.slots[3]};
         for (const double y : {1e-300, each.at[1], 1e300}) {
           for (const Seen seen : {Seen::exactly, Seen::above, Seen::below}) {
             ASSERT_NO_THROW(log_response(each.family, {seen, y}, slots))
@@ -182,8 +194,8 @@ TEST(ResponseBlock, AgreesWithSingleRows) {
       EXPECT_EQ(column.plain, !censored);
       const double first[] = {each.slots[0], each.slots[0]};
       const std::vector<SlotValues> slots = {
-          {first, false}, {&each.slots[1], true}, {&each.slots[2], true}};
-      double value[2], slope[6];
+          {first, false}, {&each.slots[1], true}, {&each.slots[2], true}, {&each.slots[3], true}};
+      double value[2], slope[8];
       log_responses(each.family, column, 1, slots, value, slope);
       for (std::size_t i = 0; i < 2; ++i) {
         const ResponseTerm term = log_response(each.family, rows[i + 1], each.slots);

@@ -330,6 +330,12 @@ family = "{}"
       {"archard-joint",
        with_law("{ law = \"lognormal\", median = \"1e-3 mm^3/(N m)\", log_sd = 1 }")},
       {"archard-joint", with_law("{ law = \"gamma\", shape = 2, scale = \"1e-3 mm^3/(N m)\" }")},
+      {"archard-joint", with_law("{ law = \"log10-normal\", median = \"1e-3 mm^3/(N m)\", "
+                                 "log10_sd = 0.4, threshold = \"1e-5 mm^3/(N m)\" }")},
+      {"archard-joint", with_law("{ law = \"generalized-gamma\", scale = \"1e-3 mm^3/(N m)\", "
+                                 "sigma = 1, lambda = 0.5 }")},
+      {"archard-joint", with_law("{ law = \"exponentiated-weibull\", scale = \"1e-3 mm^3/(N m)\", "
+                                 "shape = 1, exponent = 2 }")},
       {"archard-joint", with_law("{ law = \"student-t\", df = 4, location = \"1e-3 mm^3/(N m)\", "
                                  "scale = \"1e-3 mm^3/(N m)\" }")},
       {"archard-joint", with_law("{ law = \"uniform\", lower = \"0 mm^3/(N m)\", upper = \"1 "
@@ -366,6 +372,10 @@ rate = { value = "b", unit = "um/h" }
       {"law", own_law("student-t", "df = 4\nlocation = \"a + b * time\"\nscale = \"c\"", "")},
       {"law", own_law("wiener-process", "mean = \"a + b * time\"\nscale = \"c\"\nnoise = \"r\"",
                       "[predict]\nalong = \"time\"\n")},
+      {"law",
+       own_law("generalized-gamma", "scale = \"a + b * time\"\nsigma = \"q\"\nlambda = \"u\"", "")},
+      {"law", own_law("exponentiated-weibull",
+                      "scale = \"a + b * time\"\nshape = \"q\"\nexponent = 2", "")},
       {"law", own_law("weibull", "scale = \"a + b * time\"\nshape = \"q\"\nthreshold = \"1 [um]\"",
                       "[predict]\ngiven = { time = \"2 h\" }\nhazard_at = \"9 um\"\n")},
       {"law", R"toml(model = "law"

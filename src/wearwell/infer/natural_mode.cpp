@@ -125,8 +125,7 @@ NaturalMode natural_mode(const Posterior& posterior, const Fit& fit) {
   std::vector<Eigen::Index> inside;
   for (Eigen::Index i = 0; i < width.size(); ++i) {
     const Law& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
-    mode.maximum &=
-        std::holds_alternative<Flat>(prior.family) || std::holds_alternative<Uniform>(prior.family);
+    mode.maximum &= is_flat(prior);
     const bool lower = best->x[i] <= box.lower[i], upper = best->x[i] >= box.upper[i];
     mode.place.push_back(lower ? Place::lower_bound : upper ? Place::upper_bound : Place::inside);
     if (lower) mode.position[i] = prior.lower;

@@ -35,7 +35,7 @@ std::string prior_line(const Parameter& parameter) {
 }
 
 Verdict dependence_on(const Parameter& parameter) {
-  return std::holds_alternative<Flat>(parameter.prior.family) ? Verdict::fail : Verdict::warn;
+  return parameter.prior.family.id == ResponseFamily::flat ? Verdict::fail : Verdict::warn;
 }
 
 }  // namespace
@@ -127,8 +127,7 @@ std::vector<Mode> maxima_of(const Posterior& wider, const Posterior& posterior, 
 
 bool has_cut(const Parameter& parameter) {
   const Law& prior = parameter.prior;
-  const bool flat =
-      std::holds_alternative<Flat>(prior.family) || std::holds_alternative<Uniform>(prior.family);
+  const bool flat = is_flat(prior);
   return flat && ((std::isfinite(prior.lower) && prior.lower != parameter.natural_lower) ||
                   (std::isfinite(prior.upper) && prior.upper != parameter.natural_upper));
 }

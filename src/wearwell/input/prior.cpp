@@ -1,19 +1,39 @@
 #include "wearwell/input/prior.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 #include "wearwell/base/error.h"
 
 namespace wearwell {
 namespace {
 
-const std::vector<std::string> laws = {
-    "flat",  "uniform",       "normal",    "lognormal", "half-normal", "half-cauchy", "exponential",
-    "gamma", "inverse-gamma", "student-t", "beta",      "jeffreys",    "default"};
+// Each once, in the order of the list.
+const std::vector<std::string>& names() {
+  static const auto all = [] {
+    std::vector<std::string> found;
+    for (const ResponseForm& form : prior_forms()) {
+      if (found.empty() || found.back() != form.name) found.emplace_back(form.name);
+    }
+    found.emplace_back("default");
+    return found;
+  }();
+  return all;
+}
+
+// Families on the whole line; flat and uniform among them.
+std::vector<std::string> names_of_logarithms() {
+  std::vector<std::string> found;
+  for (const ResponseForm& form : prior_forms()) {
+    if (!form.positive) found.emplace_back(form.name);
+  }
+  return found;
+}
 
 // Reads one prior, and remembers the unit it was written in.
 class PriorReader {
@@ -29,44 +49,21 @@ class PriorReader {
     }
   }
 
-  double dimensional(const char* key) { return keep(key, table_.required_quantity(key, spec_.si)); }
-  // Standard deviations and scales: of a logarithm they are plain numbers.
-  double size(const char* key) { return is_logarithm(spec_.si) ? plain(key) : dimensional(key); }
-  double plain(const char* key) { return table_.required_quantity(key, "1").si(); }
   double bound(const char* key, double none) {
     const auto value = table_.quantity(key, spec_.si);
     return value ? keep(key, *value) : none;
   }
 
   Family family(const std::string& law) {
-    if (law == "flat") return Flat{};
-    if (law == "uniform") {
-      for (const char* end : {"lower", "upper"}) {
-        if (!table_.has(end)) table_.fail(end, "is missing: a uniform law has both bounds");
-      }
-      return Uniform{};
+    const ResponseForm& form = stated_form(law);
+    refuse_form(form);
+    Family family{form.family};
+    for (std::size_t i = 0; i < form.slots.size(); ++i) {
+      const std::string key(form.slots[i].name);
+      if (form.slots[i].optional && !table_.has(key)) continue;
+      family.parameter[i] = parameter(key.c_str(), form.slots[i].kind);
     }
-    if (is_logarithm(spec_.si) && law != "normal" && law != "student-t") {
-      table_.fail("law",
-                  fmt::format("of a logarithm must be flat, uniform, normal or student-t, not "
-                              "{}",
-                              law));
-    }
-    if (law == "normal") return Normal{dimensional("mean"), size("sd")};
-    if (law == "lognormal") return lognormal();
-    if (law == "half-normal") return Normal{0, dimensional("scale")};
-    if (law == "half-cauchy") return StudentT{1, 0, dimensional("scale")};
-    if (law == "exponential") return Gamma{1, dimensional("mean")};
-    if (law == "gamma") return Gamma{plain("shape"), dimensional("scale")};
-    if (law == "inverse-gamma") return InverseGamma{plain("shape"), dimensional("scale")};
-    if (law == "student-t") {
-      return StudentT{plain("df"), dimensional("location"), size("scale")};
-    }
-    if (law == "beta" && spec_.si != "1") {
-      table_.fail("law", "a beta law lies between 0 and 1: it is only for a plain number");
-    }
-    if (law == "beta") return Beta{plain("alpha"), plain("beta")};
-    return Jeffreys{};
+    return family;
   }
 
   Unit unit() const {
@@ -79,17 +76,51 @@ class PriorReader {
   }
 
  private:
-  Family lognormal() {
-    if (table_.has("median") || table_.has("log_sd")) {
-      const double median = dimensional("median");
-      if (!(median > 0)) table_.fail("median", "must be positive for a lognormal law");
-      return Lognormal{std::log(median), plain("log_sd")};
+  // That of its parameter forms whose parameters are given; else that of which the most are, which then says what is missing.
+  const ResponseForm& stated_form(const std::string& law) const {
+    // Not by table_.has, after which a key that the form does not have counts as one that was asked for.
+    const std::vector<std::string> keys = table_.keys();
+    const auto has = [&](std::string_view key) {
+      return std::find(keys.begin(), keys.end(), key) != keys.end();
+    };
+    if (const ResponseForm* form = given_form(prior_forms(), law, has)) return *form;
+    const ResponseForm* nearest = nullptr;
+    std::ptrdiff_t most = -1;
+    for (const ResponseForm& form : prior_forms()) {
+      if (form.name != law) continue;
+      const std::ptrdiff_t given =
+          std::count_if(form.slots.begin(), form.slots.end(),
+                        [&](const SlotForm& slot) { return has(slot.name); });
+      if (given >= most) nearest = &form;
+      most = std::max(most, given);
     }
-    const double mean = dimensional("mean"), sd = dimensional("sd");
-    if (!(mean > 0)) table_.fail("mean", "must be positive for a lognormal law");
-    if (!(sd > 0)) table_.fail("sd", "must be positive");
-    const LognormalByMoments<double> law(mean, sd);
-    return Lognormal{law.eta, law.zeta};
+    return *nearest;
+  }
+
+  void refuse_form(const ResponseForm& form) const {
+    if (form.family == ResponseFamily::uniform) {
+      for (const char* end : {"lower", "upper"}) {
+        if (!table_.has(end)) table_.fail(end, "is missing: a uniform law has both bounds");
+      }
+    }
+    if (is_logarithm(spec_.si) && form.positive) {
+      table_.fail("law", fmt::format("of a logarithm must be {}, not {}",
+                                     fmt::join(names_of_logarithms(), ", "), form.name));
+    }
+    if (form.family == ResponseFamily::beta && spec_.si != "1") {
+      table_.fail("law", "a beta law lies between 0 and 1: it is only for a plain number");
+    }
+  }
+
+  // Of a logarithm sizes are plain numbers.
+  double parameter(const char* key, SlotKind kind) {
+    const bool dimensional =
+        kind == SlotKind::place || (kind == SlotKind::size && !is_logarithm(spec_.si));
+    const double value = dimensional ? keep(key, table_.required_quantity(key, spec_.si))
+                                     : table_.required_quantity(key, "1").si();
+    const bool positive = kind == SlotKind::size || kind == SlotKind::number;
+    if (positive && !(value > 0)) table_.fail(key, "must be positive");
+    return value;
   }
 
   void refuse_offset(const Unit& unit) const {
@@ -214,7 +245,7 @@ Parameter read_prior(const TomlReader& root, const std::optional<TomlReader>& pr
 Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
   const auto table = priors.table(spec.name);
   if (!table) return default_parameter(priors, "", spec);
-  const auto law = table->choice("law", laws);
+  const auto law = table->choice("law", names());
   if (!law) table->fail("law", "is missing");
   if (*law == "default") {
     if (!spec.fallback) table->fail("law", fmt::format("{} has no default prior", spec.name));
@@ -222,7 +253,9 @@ Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
   }
   PriorReader reader(*table, spec);
   const Family family = reader.family(*law);
-  const double least = law->starts_with("half-") ? 0 : -std::numeric_limits<double>::infinity();
+  const ResponseForm& form = form_of(family.id);
+  const bool shifted = form.slots.size() > 0 && form.slots.back().name == "threshold";
+  const double least = form.positive && !shifted ? 0 : -std::numeric_limits<double>::infinity();
   const double lower = std::max(least, reader.bound("lower", least));
   const double upper = reader.bound("upper", std::numeric_limits<double>::infinity());
   return make_parameter(

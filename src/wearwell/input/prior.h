@@ -34,18 +34,10 @@ double rounded_up(double x);
 /// Reads [prior] NAME = { law = ..., ... } and makes the parameter. The parameter's unit is the one
 /// its prior is written in.
 ///
-///   flat           lower, upper (both optional)
-///   uniform        lower, upper
-///   normal         mean, sd
-///   lognormal      mean, sd of the quantity itself; or median, log_sd
-///   half-normal    scale
-///   half-cauchy    scale
-///   exponential    mean
-///   gamma          shape, scale
-///   inverse-gamma  shape, scale
-///   student-t      df, location, scale
-///   beta           alpha, beta
-///   jeffreys       (1/x)
+///   flat       lower, upper (both optional)
+///   uniform    lower, upper
+///   any family of prior_forms() (prob/family_form.h) with its parameters, a place or a size as a
+///              quantity of the parameter's dimension, all else as plain numbers
 ///
 /// each truncated by lower and upper; `unit` where no quantity names one. Where nothing stands there,
 /// or law = "default", it is the model's default; without one that is refused.

@@ -274,38 +274,6 @@ StudyKeys layout_keys(const std::string& table) {
           {table + ".range", "\"B4:G22\"", "of that sheet"}};
 }
 
-StudyKeys prior_keys() {
-  return {
-      needed_key("prior.*.law", "\"normal\"", "law: see [priors.md](priors.md)"),
-      {"prior.*.unit", "\"mm^3\"", "unit to report in; needed where no quantity has one"},
-      needed_key("prior.*.lower", "\"0 mm^3\"", "lower bound; needed by uniform", {},
-                 {".law=uniform"}),
-      needed_key("prior.*.upper", "\"15 mm^3\"", "upper bound; needed by uniform", {},
-                 {".law=uniform"}),
-      needed_key("prior.*.mean", "\"5 mm^3\"",
-                 "mean, of normal, exponential and lognormal (of the parameter itself)",
-                 {".median", ".log_sd"}, {".law=normal", ".law=exponential", ".law=lognormal"}),
-      needed_key("prior.*.sd", "\"2 mm^3\"", "standard deviation, of normal and lognormal",
-                 {".median", ".log_sd"}, {".law=normal", ".law=lognormal"}),
-      needed_key("prior.*.median", "\"5 mm^3\"", "median, of lognormal, beside log_sd", {},
-                 {".log_sd"}),
-      needed_key("prior.*.log_sd", "0.5",
-                 "standard deviation of the natural logarithm, of lognormal, beside median", {},
-                 {".median"}),
-      needed_key("prior.*.scale", "\"5 mm^3\"",
-                 "scale, of half-normal, half-cauchy, gamma, inverse-gamma and student-t", {},
-                 {".law=half-normal", ".law=half-cauchy", ".law=gamma", ".law=inverse-gamma",
-                  ".law=student-t"}),
-      needed_key("prior.*.shape", "2", "shape, of gamma and inverse-gamma", {},
-                 {".law=gamma", ".law=inverse-gamma"}),
-      needed_key("prior.*.df", "4", "degrees of freedom, of student-t", {}, {".law=student-t"}),
-      needed_key("prior.*.location", "\"5 mm^3\"", "location, of student-t", {},
-                 {".law=student-t"}),
-      needed_key("prior.*.alpha", "2", "first shape, of beta", {}, {".law=beta"}),
-      needed_key("prior.*.beta", "2", "second shape, of beta", {}, {".law=beta"}),
-  };
-}
-
 bool matches_key(std::string_view pattern, std::string_view path) {
   while (true) {
     const std::size_t dot = pattern.find('.'), end = path.find('.');

@@ -1,20 +1,33 @@
 #pragma once
 
-#include <cmath>
+#include <boost/math/distributions/beta.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 
-namespace wearwell {
+#include "wearwell/math/boost_policy.h"
+#include "wearwell/prob/family.h"
+#include "wearwell/prob/tails.h"
+
+namespace wearwell::families {
 
 /// Density proportional to x^(alpha-1) (1-x)^(beta-1) on 0 < x < 1.
-struct Beta {
-  double alpha;  ///< > 0
-  double beta;   ///< > 0
+struct Beta : OnPositive {
+  static constexpr bool prior_only = true;
+  static constexpr std::string_view name = "beta";
+  static constexpr auto slots = std::to_array<SlotForm>({{"alpha", number}, {"beta", number}});
+  static constexpr double upper = 1;
+
+  template <class X>
+  static X log_kernel(const X& x, const double* s) {
+    return (s[0] - 1) * log(x) + (s[1] - 1) * log1p(-x);
+  }
+  // Of gammas: the beta function itself underflows from alpha = beta = 515 on.
+  static double log_integral(const double* s) {
+    return boost::math::lgamma(s[0], Quiet()) + boost::math::lgamma(s[1], Quiet()) -
+           boost::math::lgamma(s[0] + s[1], Quiet());
+  }
+  static auto tails(const double* s) {
+    return Tails{boost::math::beta_distribution<double, Quiet>(s[0], s[1]), 0, 1};
+  }
 };
 
-template <class T>
-T log_kernel(const Beta& law, const T& x) {
-  using std::log;
-  using std::log1p;
-  return (law.alpha - 1) * log(x) + (law.beta - 1) * log1p(-x);
-}
-
-}  // namespace wearwell
+}  // namespace wearwell::families

@@ -1,21 +1,51 @@
 #pragma once
 
-#include <cmath>
+#include <boost/math/distributions/gamma.hpp>
 
-namespace wearwell {
+#include "wearwell/math/boost_policy.h"
+#include "wearwell/prob/family.h"
+#include "wearwell/prob/gamma_tail.h"
+#include "wearwell/prob/quantile_root.h"
+#include "wearwell/prob/tails.h"
 
-/// Density proportional to x^(shape-1) exp(-x/scale) on x > 0; shape 1 is the exponential law of
-/// mean `scale`.
-struct Gamma {
-  double shape;  ///< > 0
-  double scale;  ///< > 0
+namespace wearwell::families {
+
+/// Density proportional to y^(shape-1) exp(-y/scale).
+struct Gamma : OnPositive {
+  static constexpr std::string_view name = "gamma";
+  static constexpr auto slots = std::to_array<SlotForm>({{"shape", number}, {"scale", size}});
+
+  template <class Y, class T>
+  static auto log_density(const Y& y, const T* s) {
+    using R = Result<Y, T>;
+    return detail::log_gamma_kernel(R(s[0]), R(y / s[1])) - log(y);
+  }
+  template <class Y, class T>
+  static auto log_survival(const Y& y, const T* s) {
+    using R = Result<Y, T>;
+    return log_gamma_upper(R(s[0]), R(y / s[1]));
+  }
+  template <class Y, class T>
+  static auto log_cdf(const Y& y, const T* s) {
+    using R = Result<Y, T>;
+    return log_gamma_lower(R(s[0]), R(y / s[1]));
+  }
+  static double quantile(double p, const double* s) {
+    return positive_quantile<Gamma>(p, s, mean(s));
+  }
+  static double mean(const double* s) { return s[0] * s[1]; }
+
+  template <class X>
+  static X log_kernel(const X& x, const double* s) {
+    if (s[0] == 1) return -x / s[1];
+    return (s[0] - 1) * log(x) - x / s[1];
+  }
+  static double log_integral(const double* s) {
+    return boost::math::lgamma(s[0], Quiet()) + s[0] * std::log(s[1]);
+  }
+  static auto tails(const double* s) {
+    return Tails{boost::math::gamma_distribution<double, Quiet>(s[0], 1), 0, s[1]};
+  }
 };
 
-template <class T>
-T log_kernel(const Gamma& law, const T& x) {
-  using std::log;
-  if (law.shape == 1) return -x / law.scale;
-  return (law.shape - 1) * log(x) - x / law.scale;
-}
-
-}  // namespace wearwell
+}  // namespace wearwell::families

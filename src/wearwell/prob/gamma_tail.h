@@ -5,6 +5,7 @@
 
 #include "wearwell/math/boost_policy.h"
 #include "wearwell/math/dual.h"
+#include "wearwell/prob/log_sums.h"
 
 namespace wearwell {
 
@@ -36,7 +37,7 @@ T log_gamma_kernel(const T& a, const T& x) {
 
 // log P(a, x) by its series, for x < a + 1 (Abramowitz and Stegun 6.5.29).
 template <class T>
-T log_lower_by_series(const T& a, const T& x) {
+T log_lower_by_series(const T& a, const T& x, const T& log_kernel) {
   using std::log;
   T term = 1.0 / a, sum = term;
   for (int n = 1; n < most_gamma_terms; ++n) {
@@ -44,13 +45,13 @@ T log_lower_by_series(const T& a, const T& x) {
     sum = sum + term;
     if (settled(term, sum)) break;
   }
-  return log_gamma_kernel(a, x) + log(sum);
+  return log_kernel + log(sum);
 }
 
 // log Q(a, x) by its continued fraction, for x >= a + 1 (Abramowitz and Stegun 6.5.31, by Lentz's
 // method).
 template <class T>
-T log_upper_by_fraction(const T& a, const T& x) {
+T log_upper_by_fraction(const T& a, const T& x, const T& log_kernel) {
   using std::log;
   constexpr double tiny = 1e-300;
   T b = x + 1.0 - a, c = T(1 / tiny), d = 1.0 / b, h = d;
@@ -66,30 +67,31 @@ T log_upper_by_fraction(const T& a, const T& x) {
     h = h * (d * c);
     if (settled(T(h - before), T(10.0 * h))) break;
   }
-  return log_gamma_kernel(a, x) + log(h);
-}
-
-template <class T>
-T log_rest(const T& log_p) {  // log(1 - exp(log_p))
-  const double p = std::exp(scalar(log_p));
-  return chained(log_p,
-                 scalar(log_p) > -0.7 ? std::log(-std::expm1(scalar(log_p))) : std::log1p(-p),
-                 -p / -std::expm1(scalar(log_p)));
+  return log_kernel + log(h);
 }
 
 }  // namespace detail
 
 /// Logarithms of the regularized incomplete gamma functions P(a, x) and Q(a, x), a > 0, x > 0: each
-/// keeps all digits where it is small, however small.
+/// keeps all digits where it is small, however small. `log_kernel` is log(x^a e^-x / Gamma(a)) for
+/// callers that have it to more digits.
+template <class T>
+T log_gamma_lower(const T& a, const T& x, const T& log_kernel) {
+  return scalar(x) < scalar(a) + 1 ? detail::log_lower_by_series(a, x, log_kernel)
+                                   : log_rest(detail::log_upper_by_fraction(a, x, log_kernel));
+}
+template <class T>
+T log_gamma_upper(const T& a, const T& x, const T& log_kernel) {
+  return scalar(x) < scalar(a) + 1 ? log_rest(detail::log_lower_by_series(a, x, log_kernel))
+                                   : detail::log_upper_by_fraction(a, x, log_kernel);
+}
 template <class T>
 T log_gamma_lower(const T& a, const T& x) {
-  return scalar(x) < scalar(a) + 1 ? detail::log_lower_by_series(a, x)
-                                   : detail::log_rest(detail::log_upper_by_fraction(a, x));
+  return log_gamma_lower(a, x, detail::log_gamma_kernel(a, x));
 }
 template <class T>
 T log_gamma_upper(const T& a, const T& x) {
-  return scalar(x) < scalar(a) + 1 ? detail::log_rest(detail::log_lower_by_series(a, x))
-                                   : detail::log_upper_by_fraction(a, x);
+  return log_gamma_upper(a, x, detail::log_gamma_kernel(a, x));
 }
 
 }  // namespace wearwell

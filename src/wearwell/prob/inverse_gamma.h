@@ -1,19 +1,31 @@
 #pragma once
 
-#include <cmath>
+#include <boost/math/distributions/inverse_gamma.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 
-namespace wearwell {
+#include "wearwell/math/boost_policy.h"
+#include "wearwell/prob/family.h"
+#include "wearwell/prob/tails.h"
 
-/// 1/x has the gamma law: density proportional to x^(-shape-1) exp(-scale/x) on x > 0.
-struct InverseGamma {
-  double shape;  ///< > 0
-  double scale;  ///< > 0
+namespace wearwell::families {
+
+/// 1/x has the gamma law: density proportional to x^(-shape-1) exp(-scale/x).
+struct InverseGamma : OnPositive {
+  static constexpr bool prior_only = true;
+  static constexpr std::string_view name = "inverse-gamma";
+  static constexpr std::string_view title = "inverse gamma";
+  static constexpr auto slots = std::to_array<SlotForm>({{"shape", number}, {"scale", size}});
+
+  template <class X>
+  static X log_kernel(const X& x, const double* s) {
+    return -(s[0] + 1) * log(x) - s[1] / x;
+  }
+  static double log_integral(const double* s) {
+    return boost::math::lgamma(s[0], Quiet()) - s[0] * std::log(s[1]);
+  }
+  static auto tails(const double* s) {
+    return Tails{boost::math::inverse_gamma_distribution<double, Quiet>(s[0], 1), 0, s[1]};
+  }
 };
 
-template <class T>
-T log_kernel(const InverseGamma& law, const T& x) {
-  using std::log;
-  return -(law.shape + 1) * log(x) - law.scale / x;
-}
-
-}  // namespace wearwell
+}  // namespace wearwell::families

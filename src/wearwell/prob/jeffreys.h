@@ -1,17 +1,27 @@
 #pragma once
 
-#include <cmath>
+#include "wearwell/prob/family.h"
 
-namespace wearwell {
+namespace wearwell::families {
 
 /// Jeffreys' law for a scale: density proportional to 1/x on x > 0. Improper unless bounded away
 /// from 0 and infinity.
-struct Jeffreys {};
+struct Jeffreys : OnPositive {
+  static constexpr bool prior_only = true;
+  static constexpr std::string_view name = "jeffreys";
+  static constexpr std::string_view title = "1/x: its order of magnitude is unknown";
+  static constexpr std::array<SlotForm, 0> slots = {};
 
-template <class T>
-T log_kernel(const Jeffreys&, const T& x) {
-  using std::log;
-  return -log(x);
-}
+  template <class X>
+  static X log_kernel(const X& x, const double*) {
+    return -log(x);
+  }
+  static double log_integral_between(double lower, double upper) {
+    return lower > 0 ? std::log(std::log(upper / lower)) : infinity;
+  }
+  static double quantile_between(double p, double lower, double upper) {
+    return lower * std::pow(upper / lower, p);
+  }
+};
 
-}  // namespace wearwell
+}  // namespace wearwell::families

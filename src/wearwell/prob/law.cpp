@@ -2,239 +2,183 @@
 
 #include <fmt/format.h>
 
-#include <boost/math/distributions/beta.hpp>
-#include <boost/math/distributions/gamma.hpp>
-#include <boost/math/distributions/inverse_gamma.hpp>
-#include <boost/math/distributions/lognormal.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
-#include <boost/math/special_functions/beta.hpp>
-#include <boost/math/special_functions/gamma.hpp>
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "wearwell/base/error.h"
-#include "wearwell/math/boost_policy.h"
-#include "wearwell/math/constants.h"
-#include "wearwell/math/dual.h"
+#include "wearwell/prob/families.h"
+#include "wearwell/prob/log_between.h"
 
 namespace wearwell {
 namespace {
 
-struct Support {
-  double lower;
-  double upper;
+using Parameters = std::array<double, most_response_slots>;
+
+// A family whose kernel has an integral between two bounds alone.
+template <class F>
+concept BetweenBounds = requires {
+  &F::log_integral_between;
+};
+// One whose kernel lacks a constant.
+template <class F>
+concept WithTails = requires(const double* c) {
+  F::tails(c);
 };
 
-void require_positive(const char* law, const char* parameter, double value) {
-  if (!(value > 0) || !std::isfinite(value)) {
-    throw InputError(fmt::format("{} law: {} is {}, it must be positive", law, parameter, value));
-  }
-}
-
-void require_finite(const char* law, const char* parameter, double value) {
-  if (!std::isfinite(value)) {
-    throw InputError(fmt::format("{} law: {} is {}, it must be finite", law, parameter, value));
-  }
-}
-
-// What a proper family is beside its kernel: its natural support, the logarithm of the kernel's
-// integral over all of it, and Boost's distribution for probabilities and quantiles. Location and
-// scale are taken out of Boost's hands where SI values as small as 1e-13 would meet its argument
-// checks or underflow.
-struct Properties {
-  Support support;
-  double log_integral;
-};
-
-Properties properties(const Normal& law) {
-  require_finite("normal", "mean", law.mean);
-  require_positive("normal", "sd", law.sd);
-  return {{-infinity, infinity}, 0.5 * log_two_pi + std::log(law.sd)};
-}
-Properties properties(const Lognormal& law) {
-  require_finite("lognormal", "log of the median", law.eta);
-  require_positive("lognormal", "log_sd", law.zeta);
-  return {{0, infinity}, 0.5 * log_two_pi + std::log(law.zeta)};
-}
-Properties properties(const Gamma& law) {
-  require_positive("gamma", "shape", law.shape);
-  require_positive("gamma", "scale", law.scale);
-  return {{0, infinity}, boost::math::lgamma(law.shape, Quiet()) + law.shape * std::log(law.scale)};
-}
-Properties properties(const InverseGamma& law) {
-  require_positive("inverse-gamma", "shape", law.shape);
-  require_positive("inverse-gamma", "scale", law.scale);
-  return {{0, infinity}, boost::math::lgamma(law.shape, Quiet()) - law.shape * std::log(law.scale)};
-}
-Properties properties(const StudentT& law) {
-  require_positive("student-t", "df", law.df);
-  require_finite("student-t", "location", law.location);
-  require_positive("student-t", "scale", law.scale);
-  return {{-infinity, infinity},
-          std::log(boost::math::beta(0.5, 0.5 * law.df, Quiet())) + 0.5 * std::log(law.df) +
-              std::log(law.scale)};
-}
-Properties properties(const Beta& law) {
-  require_positive("beta", "alpha", law.alpha);
-  require_positive("beta", "beta", law.beta);
-  // Of gammas: the beta function itself underflows from alpha = beta = 515 on.
-  return {{0, 1},
-          boost::math::lgamma(law.alpha, Quiet()) + boost::math::lgamma(law.beta, Quiet()) -
-              boost::math::lgamma(law.alpha + law.beta, Quiet())};
-}
-Properties properties(const Flat&) {
-  return {{-infinity, infinity}, 0};
-}
-Properties properties(const Uniform&) {
-  return {{-infinity, infinity}, 0};
-}
-Properties properties(const Jeffreys&) {
-  return {{0, infinity}, 0};
-}
-
-// P(X <= x), P(X > x) and their inverses for each proper family, on the family's natural support.
-template <class Distribution>
-struct Standardized {
-  Distribution distribution;
-  double location = 0;
-  double scale = 1;
-
-  double below(double x) const {
-    return at(x, 0, 1, [&](double z) { return cdf(distribution, z); });
-  }
-  double above(double x) const {
-    return at(x, 1, 0, [&](double z) { return cdf(complement(distribution, z)); });
-  }
-  double from_below(double p) const { return location + scale * quantile(distribution, p); }
-  double from_above(double q) const {
-    return location + scale * quantile(complement(distribution, q));
-  }
-
- private:
-  template <class F>
-  double at(double x, double at_lowest, double at_highest, const F& f) const {
-    const auto [lowest, highest] = boost::math::support(distribution);
-    const double z = (x - location) / scale;
-    if (z <= lowest) return at_lowest;
-    if (z >= highest) return at_highest;
-    return f(z);
-  }
-};
-
-template <class Distribution>
-Standardized<Distribution> standardized(const Distribution& distribution, double location,
-                                        double scale) {
-  return {distribution, location, scale};
-}
-
-auto standardized(const Normal& law) {
-  return standardized(boost::math::normal_distribution<double, Quiet>(), law.mean, law.sd);
-}
-auto standardized(const Lognormal& law) {
-  return standardized(boost::math::lognormal_distribution<double, Quiet>(0, law.zeta), 0.0,
-                      std::exp(law.eta));
-}
-auto standardized(const Gamma& law) {
-  return standardized(boost::math::gamma_distribution<double, Quiet>(law.shape, 1), 0.0, law.scale);
-}
-auto standardized(const InverseGamma& law) {
-  return standardized(boost::math::inverse_gamma_distribution<double, Quiet>(law.shape, 1), 0.0,
-                      law.scale);
-}
-auto standardized(const StudentT& law) {
-  return standardized(boost::math::students_t_distribution<double, Quiet>(law.df), law.location,
-                      law.scale);
-}
-auto standardized(const Beta& law) {
-  return standardized(boost::math::beta_distribution<double, Quiet>(law.alpha, law.beta), 0.0, 1.0);
+void require(const ResponseForm& form, std::size_t i, double value) {
+  const SlotForm& slot = form.slots[i];
+  if (families::holds(slot.kind, value)) return;
+  const bool positive = slot.kind == SlotKind::size || slot.kind == SlotKind::number;
+  throw InputError(fmt::format("{} law: {} is {}, it must be {}", form.name, slot.name, value,
+                               positive ? "positive" : "finite"));
 }
 
 // P(lower < X < upper), by whichever tail does not cancel.
-template <class S>
-double probability(const S& law, double lower, double upper) {
+template <class Tails>
+double probability(const Tails& law, double lower, double upper) {
   return law.below(lower) < 0.5 ? law.below(upper) - law.below(lower)
                                 : law.above(lower) - law.above(upper);
 }
 
-bool finite(const Law& law) {
-  return std::isfinite(law.lower) && std::isfinite(law.upper);
+// The same in logarithms, of any family.
+template <class F>
+double log_probability(const double* s, double lower, double upper) {
+  return families::log_between<F>(lower, upper, s);
 }
 
-struct Normalize {
-  Law& law;
-  double log_integral;
-
-  template <class F>
-  void operator()(const F& family) const {
-    const double mass = probability(standardized(family), law.lower, law.upper);
-    if (!(mass > 0)) {
-      throw InputError(fmt::format("the law has no probability between its bounds {} and {} (SI)",
-                                   law.lower, law.upper));
+// What a prior takes of a family, each with one signature.
+template <class F>
+struct Of {
+  static Parameters prepared(const Parameters& s) {
+    if constexpr (requires { F::prepared(s.data()); }) {
+      return F::prepared(s.data());
+    } else {
+      return s;
     }
-    law.log_normalizer = log_integral + std::log(mass);
   }
-  void operator()(const Flat&) const {
-    law.proper = finite(law);
-    if (law.proper) law.log_normalizer = std::log(law.upper - law.lower);
+  static double lower(const Parameters& s) { return families::lower_end<F>(s.data()); }
+  static double upper() {
+    if constexpr (requires { F::upper; }) {
+      return F::upper;
+    } else {
+      return infinity;
+    }
   }
-  void operator()(const Uniform&) const {
-    if (!finite(law)) throw InputError("uniform law: needs both 'lower' and 'upper'");
-    law.log_normalizer = std::log(law.upper - law.lower);
+
+  // log of the kernel's integral between the bounds; what is not finite has none.
+  static double log_integral(const Law& law) {
+    const double* c = law.prepared.data();
+    if constexpr (BetweenBounds<F>) {
+      return F::log_integral_between(law.lower, law.upper);
+    } else if constexpr (WithTails<F>) {
+      const double whole = F::log_integral(c);
+      if (!std::isfinite(whole)) {
+        throw InputError(
+            "the law's parameters are too extreme: its normalizing constant overflows");
+      }
+      return whole + std::log(probability(F::tails(c), law.lower, law.upper));
+    } else {
+      return log_probability<F>(c, law.lower, law.upper);
+    }
   }
-  void operator()(const Jeffreys&) const {
-    law.proper = finite(law) && law.lower > 0;
-    if (law.proper) law.log_normalizer = std::log(std::log(law.upper / law.lower));
+
+  static LogDensityAndSlope log_kernel(const Law& law, double x) {
+    const Dual<1> at(x, 0);
+    const double* c = law.prepared.data();
+    if constexpr (requires { F::log_kernel(at, c); }) {
+      const Dual<1> y = F::log_kernel(at, c);
+      return {y.a, y.v[0]};
+    } else {
+      const Dual<1> y = families::log_density<F>(at, c);
+      return {y.a, y.v[0]};
+    }
+  }
+
+  static double quantile(const Law& law, double p) {
+    const double* c = law.prepared.data();
+    if constexpr (BetweenBounds<F>) {
+      return F::quantile_between(p, law.lower, law.upper);
+    } else if constexpr (WithTails<F>) {
+      const auto whole = F::tails(c);
+      const double below = whole.below(law.lower);
+      return below < 0.5
+                 ? whole.from_below(below * (1 - p) + whole.below(law.upper) * p)
+                 : whole.from_above(whole.above(law.lower) * (1 - p) + whole.above(law.upper) * p);
+    } else {
+      const auto below = [&](double x) { return std::exp(log_probability<F>(c, -infinity, x)); };
+      const auto above = [&](double x) { return std::exp(log_probability<F>(c, x, infinity)); };
+      return below(law.lower) < 0.5
+                 ? families::quantile<F>(below(law.lower) * (1 - p) + below(law.upper) * p, c)
+                 : families::upper_quantile<F>(above(law.lower) * (1 - p) + above(law.upper) * p,
+                                               c);
+    }
   }
 };
 
-struct Quantile {
-  const Law& law;
-  double p;
-
-  template <class F>
-  double operator()(const F& family) const {
-    const auto whole = standardized(family);
-    const double x =
-        whole.below(law.lower) < 0.5
-            ? whole.from_below(whole.below(law.lower) * (1 - p) + whole.below(law.upper) * p)
-            : whole.from_above(whole.above(law.lower) * (1 - p) + whole.above(law.upper) * p);
-    return std::clamp(x, law.lower, law.upper);
-  }
-  double operator()(const Flat&) const { return law.lower + p * (law.upper - law.lower); }
-  double operator()(const Uniform&) const { return law.lower + p * (law.upper - law.lower); }
-  double operator()(const Jeffreys&) const {
-    return law.lower * std::pow(law.upper / law.lower, p);
-  }
+struct Functions {
+  Parameters (*prepared)(const Parameters&);
+  double (*lower)(const Parameters&);
+  double (*upper)();
+  double (*log_integral)(const Law&);
+  LogDensityAndSlope (*log_kernel)(const Law&, double);
+  double (*quantile)(const Law&, double);
+  bool may_be_improper;
 };
+
+constexpr families::FamilyTable<Functions> table = [] {
+  families::FamilyTable<Functions> all{};
+  families::for_each_family([&all]<class F>(std::size_t i) {
+    if constexpr (!families::Base<F>::counted) {
+      all[i] = {Of<F>::prepared,   Of<F>::lower,    Of<F>::upper,    Of<F>::log_integral,
+                Of<F>::log_kernel, Of<F>::quantile, BetweenBounds<F>};
+    }
+  });
+  return all;
+}();
+
+const Functions& functions(const Law& law) {
+  return table[static_cast<std::size_t>(law.family.id)];
+}
 
 }  // namespace
 
 Law make_law(const Family& family, double lower, double upper) {
-  const Properties natural = std::visit([](const auto& f) { return properties(f); }, family);
+  const ResponseForm& form = form_of(family.id);
+  for (std::size_t i = 0; i < form.slots.size(); ++i) require(form, i, family.parameter[i]);
   if (!(lower < upper)) {
     throw InputError(fmt::format("lower bound {} is not below upper bound {} (SI)", lower, upper));
   }
-  if (!std::isfinite(natural.log_integral)) {
-    throw InputError("the law's parameters are too extreme: its normalizing constant overflows");
-  }
-  Law law{family, std::max(lower, natural.support.lower), std::min(upper, natural.support.upper)};
+  Law law{family};
+  const Functions& of = functions(law);
+  law.lower = std::max(lower, of.lower(family.parameter));
+  law.upper = std::min(upper, of.upper());
+  law.prepared = of.prepared(family.parameter);
   if (!(law.lower < law.upper)) {
     throw InputError(
         fmt::format("bounds {} to {} (SI) lie outside the law's support", lower, upper));
   }
-  std::visit(Normalize{law, natural.log_integral}, family);
+  const double log_integral = of.log_integral(law);
+  law.proper = std::isfinite(log_integral) || !of.may_be_improper;
+  if (!law.proper && family.id == ResponseFamily::uniform) {
+    throw InputError("uniform law: needs both 'lower' and 'upper'");
+  }
+  if (law.proper && !std::isfinite(log_integral)) {
+    throw InputError(fmt::format("the law has no probability between its bounds {} and {} (SI)",
+                                 law.lower, law.upper));
+  }
+  if (law.proper) law.log_normalizer = log_integral;
   return law;
 }
 
 LogDensityAndSlope log_density(const Law& law, double x) {
-  const Dual<1> y =
-      std::visit([x](const auto& f) { return log_kernel(f, Dual<1>(x, 0)); }, law.family);
-  return {y.a - law.log_normalizer, y.v[0]};
+  const LogDensityAndSlope y = functions(law).log_kernel(law, x);
+  return {y.value - law.log_normalizer, y.slope};
 }
 
 double quantile(const Law& law, double p) {
   if (!law.proper) throw std::logic_error("quantile of an improper law");
-  return std::visit(Quantile{law, p}, law.family);
+  return std::clamp(functions(law).quantile(law, p), law.lower, law.upper);
 }
 
 }  // namespace wearwell

@@ -1,37 +1,76 @@
 #pragma once
 
+#include <array>
 #include <limits>
-#include <string>
-#include <variant>
 
-#include "wearwell/prob/beta.h"
-#include "wearwell/prob/flat.h"
-#include "wearwell/prob/gamma.h"
-#include "wearwell/prob/inverse_gamma.h"
-#include "wearwell/prob/jeffreys.h"
-#include "wearwell/prob/lognormal.h"
-#include "wearwell/prob/normal.h"
-#include "wearwell/prob/student_t.h"
+#include "wearwell/prob/family_form.h"
 
 namespace wearwell {
 
-using Family =
-    std::variant<Flat, Uniform, Normal, Lognormal, Gamma, InverseGamma, StudentT, Beta, Jeffreys>;
+/// A family of the list with its parameters, in the order of its slots, in SI.
+struct Family {
+  ResponseFamily id;
+  std::array<double, most_response_slots> parameter = {};
+};
 
-/// A law of one quantity in SI: a family, truncated to [lower, upper]. Half-normal and half-Cauchy
-/// are the normal and Student laws truncated at 0; the exponential is the gamma of shape 1.
+// By name, for those that are written in code.
+struct Flat {
+  operator Family() const { return {ResponseFamily::flat}; }
+};
+struct Uniform {
+  operator Family() const { return {ResponseFamily::uniform}; }
+};
+struct Jeffreys {
+  operator Family() const { return {ResponseFamily::jeffreys}; }
+};
+struct Normal {
+  double mean, sd;
+  operator Family() const { return {ResponseFamily::normal, {mean, sd}}; }
+};
+struct HalfNormal {
+  double scale;
+  operator Family() const { return {ResponseFamily::half_normal, {scale}}; }
+};
+struct Lognormal {
+  double median, log_sd;
+  operator Family() const { return {ResponseFamily::lognormal, {median, log_sd}}; }
+};
+struct Gamma {
+  double shape, scale;
+  operator Family() const { return {ResponseFamily::gamma, {shape, scale}}; }
+};
+struct InverseGamma {
+  double shape, scale;
+  operator Family() const { return {ResponseFamily::inverse_gamma, {shape, scale}}; }
+};
+struct StudentT {
+  double df, location, scale;
+  operator Family() const { return {ResponseFamily::student_t, {df, location, scale}}; }
+};
+struct Beta {
+  double alpha, beta;
+  operator Family() const { return {ResponseFamily::beta, {alpha, beta}}; }
+};
+
+/// A distribution of one quantity in SI, as a prior: a family, truncated to [lower, upper].
 struct Law {
-  Family family;
+  Family family = Flat{};
   double lower = -std::numeric_limits<double>::infinity();  ///< of the support, after truncation
   double upper = std::numeric_limits<double>::infinity();
   bool proper = true;         ///< has a finite integral over the support
   double log_normalizer = 0;  ///< log of the kernel's integral over the support; 0 when improper
+  std::array<double, most_response_slots> prepared = {};  ///< what the kernel takes
 };
 
 /// Truncates `family` to [lower, upper] and normalizes. Throws InputError when lower >= upper, when
 /// a parameter of the family is out of range, or when the family has no probability between the
 /// bounds.
 Law make_law(const Family& family, double lower, double upper);
+
+/// Whether its density is the same everywhere between its bounds.
+inline bool is_flat(const Law& law) {
+  return law.family.id == ResponseFamily::flat || law.family.id == ResponseFamily::uniform;
+}
 
 struct LogDensityAndSlope {
   double value;

@@ -1,20 +1,16 @@
 #pragma once
 
-#include <cmath>
+#include <boost/math/distributions/lognormal.hpp>
 
-#include "wearwell/math/constants.h"
+#include "wearwell/math/boost_policy.h"
+#include "wearwell/prob/family.h"
+#include "wearwell/prob/tails.h"
 
 namespace wearwell {
 
-/// log x is normal with mean `eta` and standard deviation `zeta` (An et al. 2011, eq. 8).
-struct Lognormal {
-  double eta;
-  double zeta;  ///< > 0
-};
-
 /// The lognormal law whose quantity itself has mean `mean` > 0 and standard deviation `sd` > 0:
-/// zeta^2 = log(1 + sd^2/mean^2), eta = log mean - zeta^2/2. (Eq. 8 of the paper prints the last
-/// sign as +, which does not reproduce its own tables.)
+/// zeta^2 = log(1 + sd^2/mean^2), eta = log mean - zeta^2/2, of the normal law of the logarithm.
+/// (An et al. 2011, eq. 8, prints the last sign as +, which does not reproduce its own tables.)
 template <class T>
 struct LognormalByMoments {
   T eta;
@@ -31,14 +27,6 @@ struct LognormalByMoments {
   }
 };
 
-template <class T>
-T log_kernel(const Lognormal& law, const T& x) {
-  using std::log;
-  const T log_x = log(x);
-  const T z = (log_x - law.eta) / law.zeta;
-  return -0.5 * z * z - log_x;
-}
-
 /// log of the density at x = exp(log_x) of the lognormal law with the given mean and standard
 /// deviation.
 template <class T>
@@ -49,4 +37,116 @@ T lognormal_log_density(double log_x, const T& mean, const T& sd) {
   return -0.5 * z * z - log(law.zeta) - half_log_two_pi - log_x;
 }
 
+namespace families {
+
+/// log x is normal; `prepared` are its mean and standard deviation.
+struct OfNormalLogarithm : OnPositive {
+  static constexpr std::string_view name = "lognormal";
+  static constexpr StandardLaw standard = StandardLaw::normal;
+  static constexpr Paper paper = {"lognormal", StandardLaw::normal};
+
+  template <class X>
+  static X log_kernel(const X& x, const double* c) {
+    const X log_x = log(x);
+    const X z = (log_x - c[0]) / c[1];
+    return -0.5 * z * z - log_x;
+  }
+  static double log_integral(const double* c) { return 0.5 * log_two_pi + std::log(c[1]); }
+  static auto tails(const double* c) {
+    return Tails{boost::math::lognormal_distribution<double, Quiet>(0, c[1]), 0, std::exp(c[0])};
+  }
+};
+
+struct Lognormal : OfNormalLogarithm {
+  static constexpr auto slots = std::to_array<SlotForm>(
+      {{"median", size}, {"log_sd", number, false, "sd of the logarithm {}"}});
+  static constexpr const char* c_density =
+      "    const double z = (log(y) - log(a)) / b;\n"
+      "    value = a > 0 && b > 0 && y > 0\n"
+      "                ? -0.5 * z * z - log(b) - log(y) - 0.91893853320467274178\n"
+      "                : -INFINITY;\n";
+
+  template <class U, class T>
+  static auto z(const U& log_y, const T* s) {
+    return (log_y - log(s[0])) / s[1];
+  }
+  template <class U, class T>
+  static auto log_rate(const U& log_y, const T* s) {
+    return -log(s[1]) - log_y;
+  }
+  static double inverse(double z, const double* s) { return s[0] * std::exp(s[1] * z); }
+  static double mean(const double* s) { return s[0] * std::exp(0.5 * s[1] * s[1]); }
+
+  template <bool sloped>
+  static Row row(double log_y, const double* s) {
+    const Row row = normal_row(log_y, std::log(s[0]), s[1]);
+    return {row.value - log_y, {row.slope[0] / s[0], row.slope[1]}};
+  }
+  static std::array<double, most_response_slots> prepared(const double* s) {
+    return {std::log(s[0]), s[1]};
+  }
+};
+
+/// By mean and standard deviation of the quantity itself.
+struct LognormalOfMoments : OfNormalLogarithm {
+  static constexpr auto slots = std::to_array<SlotForm>({{"mean", size}, {"sd", size}});
+  static constexpr const char* c_density =
+      "    const double s2 = log1p((b / a) * (b / a)), s = sqrt(s2);\n"
+      "    const double z = (log(y) - log(a) + 0.5 * s2) / s;\n"
+      "    value = a > 0 && b > 0 && y > 0\n"
+      "                ? -0.5 * z * z - log(s) - log(y) - 0.91893853320467274178\n"
+      "                : -INFINITY;\n";
+
+  template <class U, class T>
+  static auto z(const U& log_y, const T* s) {
+    const LognormalByMoments<T> law(s[0], s[1]);
+    return (log_y - law.eta) / law.zeta;
+  }
+  template <class Y, class T>
+  static auto log_density(const Y& y, const T* s) {
+    const LognormalByMoments<T> law(s[0], s[1]);
+    const auto log_y = log(y);
+    const auto z = (log_y - law.eta) / law.zeta;
+    return wearwell::log_density(standard, z) + (-log(law.zeta) - log_y);
+  }
+  static double inverse(double z, const double* s) {
+    const double variance = std::log1p(s[1] / s[0] * (s[1] / s[0]));
+    return s[0] * std::exp(std::sqrt(variance) * z - 0.5 * variance);
+  }
+  static double mean(const double* s) { return s[0]; }
+
+  static std::array<double, most_response_slots> prepared(const double* s) {
+    const LognormalByMoments<double> law(s[0], s[1]);
+    return {law.eta, law.zeta};
+  }
+};
+
+/// By the median and the standard deviation of the decadic logarithm.
+struct Log10Normal : OfNormalLogarithm {
+  static constexpr std::string_view name = "log10-normal";
+  static constexpr auto slots = std::to_array<SlotForm>(
+      {{"median", size}, {"log10_sd", number, false, "sd of the decadic logarithm {}"}});
+
+  template <class U, class T>
+  static auto z(const U& log_y, const T* s) {
+    return (log_y - log(s[0])) / (ln10 * s[1]);
+  }
+  template <class U, class T>
+  static auto log_rate(const U& log_y, const T* s) {
+    return -log(ln10 * s[1]) - log_y;
+  }
+  static double inverse(double z, const double* s) { return s[0] * std::exp(ln10 * s[1] * z); }
+  static double mean(const double* s) { return s[0] * std::exp(0.5 * ln10 * ln10 * s[1] * s[1]); }
+
+  template <bool sloped>
+  static Row row(double log_y, const double* s) {
+    const Row row = normal_row(log_y, std::log(s[0]), ln10 * s[1]);
+    return {row.value - log_y, {row.slope[0] / s[0], ln10 * row.slope[1]}};
+  }
+  static std::array<double, most_response_slots> prepared(const double* s) {
+    return {std::log(s[0]), ln10 * s[1]};
+  }
+};
+
+}  // namespace families
 }  // namespace wearwell

@@ -1,21 +1,12 @@
 #pragma once
 
-#include <cmath>
+#include <boost/math/distributions/normal.hpp>
 
-#include "wearwell/math/constants.h"
+#include "wearwell/math/boost_policy.h"
+#include "wearwell/prob/family.h"
+#include "wearwell/prob/tails.h"
 
 namespace wearwell {
-
-struct Normal {
-  double mean;
-  double sd;  ///< > 0
-};
-
-template <class T>
-T log_kernel(const Normal& law, const T& x) {
-  const T z = (x - law.mean) / law.sd;
-  return -0.5 * z * z;
-}
 
 /// log of the normal density of `x` with mean `mean` and standard deviation exp(log_sd) = 1 /
 /// inverse_sd: the logarithm and the division are shared by all observations of one likelihood.
@@ -25,4 +16,43 @@ T normal_log_density(double x, const T& mean, const T& inverse_sd, const T& log_
   return -0.5 * z * z - log_sd - half_log_two_pi;
 }
 
+namespace families {
+
+struct Normal : OnLine {
+  static constexpr std::string_view name = "normal";
+  static constexpr auto slots = std::to_array<SlotForm>({{"mean", place}, {"sd", size}});
+  static constexpr StandardLaw standard = StandardLaw::normal;
+  static constexpr Paper paper = {"normal", StandardLaw::normal};
+  static constexpr const char* c_density =
+      "    const double z = (y - a) / b;\n"
+      "    value = b > 0 ? -0.5 * z * z - (log(b) + 0.91893853320467274178) : -INFINITY;\n";
+
+  template <class Y, class T>
+  static auto z(const Y& y, const T* s) {
+    return (y - s[0]) / s[1];
+  }
+  template <class Y, class T>
+  static auto log_rate(const Y&, const T* s) {
+    return -log(s[1]);
+  }
+  static double inverse(double z, const double* s) { return s[0] + s[1] * z; }
+  static double mean(const double* s) { return s[0]; }
+
+  template <bool sloped>
+  static Row row(double y, const double* s) {
+    return normal_row(y, s[0], s[1]);
+  }
+
+  template <class X>
+  static X log_kernel(const X& x, const double* s) {
+    const X z = (x - s[0]) / s[1];
+    return -0.5 * z * z;
+  }
+  static double log_integral(const double* s) { return 0.5 * log_two_pi + std::log(s[1]); }
+  static auto tails(const double* s) {
+    return Tails{boost::math::normal_distribution<double, Quiet>(), s[0], s[1]};
+  }
+};
+
+}  // namespace families
 }  // namespace wearwell

@@ -2,46 +2,55 @@
 
 #include <cmath>
 
-#include "wearwell/math/constants.h"
+#include "wearwell/prob/families.h"
 
 namespace wearwell {
 namespace {
 
-// The normal law of y, or of its logarithm, row by row: `location` and `scale` are of that.
-struct NormalRow {
-  double value, by_location, by_scale;
-};
+using Rows = void (*)(const ResponseColumn&, std::size_t begin, std::span<const SlotValues> slots,
+                      std::span<double> value, std::span<double> slope);
 
-NormalRow normal_row(double y, double location, double scale) {
-  const double inverse = 1 / scale, z = (y - location) * inverse;
-  return {-0.5 * z * z - std::log(scale) - half_log_two_pi, z * inverse, (z * z - 1) * inverse};
-}
-
-bool positive(double x) {
-  return x > 0 && x < infinity;
-}
-
-// Of two parameters, its logarithms at hand.
-void weibull_responses(const ResponseColumn& column, std::size_t begin,
-                       std::span<const SlotValues> slots, std::span<double> value,
-                       std::span<double> slope, const auto& refuse) {
+// Of a row whose slots lie outside their kind.
+void refuse(std::size_t i, std::size_t slots, std::span<double> value, std::span<double> slope) {
   const std::size_t n = value.size();
+  value[i] = -infinity;
+  for (std::size_t s = 0; s < (slope.empty() ? 0 : slots); ++s) slope[s * n + i] = 0;
+}
+
+// Exact observations of a family of two slots, by its formula of a row.
+template <class F, bool sloped>
+void exact_rows(const ResponseColumn& column, std::size_t begin, std::span<const SlotValues> slots,
+                std::span<double> value, std::span<double> slope) {
+  const std::size_t n = value.size();
+  const double* at = (F::positive ? column.log_at : column.at).data() + begin;
   for (std::size_t i = 0; i < n; ++i) {
-    const double scale = slots[0][i], shape = slots[1][i];
-    if (!(positive(scale) && positive(shape))) {
-      refuse(i);
+    const double s[] = {slots[0][i], slots[1][i]};
+    if (!families::allowed<F>(s)) {
+      refuse(i, slots.size(), value, slope);
       continue;
     }
-    const double log_y = column.log_at[begin + i], off = log_y - std::log(scale);
-    const double z = shape * off, e = std::exp(z);
-    value[i] = z - e + std::log(shape) - log_y;
-    if (!slope.empty()) {
-      slope[i] = (e - 1) * shape / scale;
-      slope[n + i] = (1 - e) * off + 1 / shape;
-      slope[2 * n + i] = shape / std::exp(log_y) * (e - 1 + 1 / shape);
+    const families::Row row = F::template row<sloped>(at[i], s);
+    value[i] = row.value;
+    if constexpr (sloped) {
+      slope[i] = row.slope[0];
+      slope[n + i] = row.slope[1];
     }
   }
 }
+
+struct Exact {
+  Rows value, sloped;
+};
+
+constexpr families::FamilyTable<Exact> table = [] {
+  families::FamilyTable<Exact> all{};
+  families::for_each_family([&all]<class F>(std::size_t i) {
+    if constexpr (requires { &F::template row<true>; }) {
+      all[i] = {exact_rows<F, false>, exact_rows<F, true>};
+    }
+  });
+  return all;
+}();
 
 }  // namespace
 
@@ -63,49 +72,10 @@ void log_responses(ResponseFamily family, const ResponseColumn& column, std::siz
                    std::span<double> slope) {
   const std::size_t n = value.size();
   const bool sloped = !slope.empty();
-  const auto refuse = [&](std::size_t i) {
-    value[i] = -infinity;
-    if (!sloped) return;
-    for (std::size_t s = 0; s < slots.size(); ++s) slope[s * n + i] = 0;
-  };
-  if (column.plain && family == ResponseFamily::normal) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const double mean = slots[0][i], sd = slots[1][i];
-      if (!(positive(sd) && std::isfinite(mean))) {
-        refuse(i);
-        continue;
-      }
-      const NormalRow row = normal_row(column.at[begin + i], mean, sd);
-      value[i] = row.value;
-      if (sloped) {
-        slope[i] = row.by_location;
-        slope[n + i] = row.by_scale;
-      }
-    }
-    return;
-  }
+  const Exact& exact = table[static_cast<std::size_t>(family)];
   const bool logs = column.log_at.size() == column.rows.size();
-  if (logs && (family == ResponseFamily::lognormal || family == ResponseFamily::log10_normal)) {
-    const double unit = family == ResponseFamily::lognormal ? 1 : ln10;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double median = slots[0][i], sd = unit * slots[1][i];
-      if (!(positive(median) && positive(sd))) {
-        refuse(i);
-        continue;
-      }
-      const double log_y = column.log_at[begin + i];
-      const NormalRow row = normal_row(log_y, std::log(median), sd);
-      value[i] = row.value - log_y;
-      if (sloped) {
-        slope[i] = row.by_location / median;
-        slope[n + i] = unit * row.by_scale;
-      }
-    }
-    return;
-  }
-  if (logs && family == ResponseFamily::weibull && slots[2].uniform && *slots[2].at == 0) {
-    weibull_responses(column, begin, slots, value, slope, refuse);
-    return;
+  if (exact.value && column.plain && (logs || !form_of(family).positive)) {
+    return (sloped ? exact.sloped : exact.value)(column, begin, slots, value, slope);
   }
   double s[most_response_slots] = {};
   for (std::size_t i = 0; i < n; ++i) {
@@ -116,7 +86,7 @@ void log_responses(ResponseFamily family, const ResponseColumn& column, std::siz
     }
     const ResponseTerm term = log_response(family, column.rows[begin + i], s);
     if (!(term.value > -infinity)) {
-      refuse(i);
+      refuse(i, slots.size(), value, slope);
       continue;
     }
     value[i] = term.value;

@@ -26,8 +26,8 @@ struct ResponseColumn {
 };
 
 /// `log_response` of rows begin .. begin + value.size() - 1 under the slots of these rows; with
-/// `slope` its derivatives, `slope[s * value.size() + i]` of slot s. The first three slots count;
-/// one that is not given is 0.
+/// `slope` its derivatives, `slope[s * value.size() + i]` of slot s. `slots` has at least those of the
+/// family; what is beyond them has no meaning.
 void log_responses(ResponseFamily family, const ResponseColumn& column, std::size_t begin,
                    std::span<const SlotValues> slots, std::span<double> value,
                    std::span<double> slope);

@@ -220,4 +220,17 @@ double quantile(StandardLaw law, double p) {
   return -M_SQRT2 * boost::math::erfc_inv(2 * p, Quiet());
 }
 
+double upper_quantile(StandardLaw law, double q) {
+  switch (law) {
+    case StandardLaw::smallest_extreme_value:
+      return std::log(-std::log(q));
+    case StandardLaw::largest_extreme_value:
+      return -std::log(-std::log1p(-q));
+    case StandardLaw::logistic:
+    case StandardLaw::normal:
+      break;
+  }
+  return -quantile(law, q);
+}
+
 }  // namespace wearwell

@@ -36,6 +36,8 @@ double cdf(StandardLaw law, double z);
 
 /// The z with P(Z <= z) = p, 0 < p < 1.
 double quantile(StandardLaw law, double p);
+/// The z with P(Z > z) = q.
+double upper_quantile(StandardLaw law, double q);
 
 /// The same for a formula's scalar: double or Dual.
 template <class T>

@@ -16,40 +16,24 @@
 namespace wearwell {
 namespace {
 
-// The parameters of a family in the unit of the parameter.
-struct FamilyInWords {
-  const Parameter& parameter;
-
-  std::string value(double si) const { return fmt::format("{:.6g}", from_si(parameter.unit, si)); }
-  std::string width(double si) const { return fmt::format("{:.6g}", si / parameter.unit.scale); }
-
-  std::string operator()(const Flat&) const { return "flat: nothing is known"; }
-  std::string operator()(const Uniform&) const { return "uniform"; }
-  std::string operator()(const Jeffreys&) const { return "1/x: its order of magnitude is unknown"; }
-  std::string operator()(const Normal& law) const {
-    if (parameter.law == "half-normal") return "half-normal, scale " + width(law.sd);
-    return fmt::format("normal, mean {}, sd {}", value(law.mean), width(law.sd));
+// A family with its parameters in the unit of the parameter: "lognormal, median 3, sd of the logarithm 0.5".
+std::string family_in_words(const Parameter& parameter) {
+  const Family& family = parameter.prior.family;
+  const ResponseForm& form = form_of(family.id);
+  std::string words(form.title);
+  for (std::size_t i = 0; i < form.slots.size(); ++i) {
+    const SlotForm& slot = form.slots[i];
+    const double si = family.parameter[i];
+    const std::string number =
+        slot.kind == SlotKind::place  ? fmt::format("{:.6g}", from_si(parameter.unit, si))
+        : slot.kind == SlotKind::size ? fmt::format("{:.6g}", si / parameter.unit.scale)
+                                      : fmt::format("{:.4g}", si);
+    words += ", ";
+    words += slot.phrase.empty() ? fmt::format("{} {}", slot.name, number)
+                                 : fmt::format(fmt::runtime(slot.phrase), number);
   }
-  std::string operator()(const Lognormal& law) const {
-    return fmt::format("lognormal, median {}, sd of the logarithm {:.4g}", value(std::exp(law.eta)),
-                       law.zeta);
-  }
-  std::string operator()(const Gamma& law) const {
-    if (parameter.law == "exponential") return "exponential, mean " + width(law.scale);
-    return fmt::format("gamma, shape {:.6g}, scale {}", law.shape, width(law.scale));
-  }
-  std::string operator()(const InverseGamma& law) const {
-    return fmt::format("inverse gamma, shape {:.6g}, scale {}", law.shape, width(law.scale));
-  }
-  std::string operator()(const StudentT& law) const {
-    if (parameter.law == "half-cauchy") return "half-Cauchy, scale " + width(law.scale);
-    return fmt::format("Student t, {:.6g} degrees of freedom, location {}, scale {}", law.df,
-                       value(law.location), width(law.scale));
-  }
-  std::string operator()(const Beta& law) const {
-    return fmt::format("beta, alpha {:.6g}, beta {:.6g}", law.alpha, law.beta);
-  }
-};
+  return words;
+}
 
 std::string rows_in_words(const PosteriorStudy& study) {
   return plain_given(static_cast<double>(study.data_rows));
@@ -59,7 +43,7 @@ std::string rows_in_words(const PosteriorStudy& study) {
 
 std::string prior_in_words(const Parameter& parameter) {
   const Law& law = parameter.prior;
-  std::string words = std::visit(FamilyInWords{parameter}, law.family);
+  std::string words = family_in_words(parameter);
   const auto value = [&](double si) { return fmt::format("{:.6g}", from_si(parameter.unit, si)); };
   if (std::isfinite(law.lower) && std::isfinite(law.upper)) {
     words += fmt::format(", between {} and {}", value(law.lower), value(law.upper));

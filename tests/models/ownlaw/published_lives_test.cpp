@@ -103,5 +103,56 @@ gamma = { law = "flat" }
   EXPECT_NEAR(found.value, -112.850189, 2e-6);
 }
 
+std::string lives(const std::string& column, const std::string& family,
+                  const std::vector<std::pair<std::string, std::string>>& slots) {
+  std::string text = "[data.columns]\nlife = \"" + column + "\"\n[likelihood.life]\nfamily = \"" +
+                     family + "\"\n",
+              priors = "[prior]\n";
+  for (const auto& [slot, name] : slots) {
+    text += slot + " = \"" + name + "\"\n";
+    priors += name + " = { law = \"flat\" }\n";
+  }
+  return text + priors;
+}
+
+// The ball bearings, Lawless (1982), sec. 5.3: exp(4.230), 0.510, 0.308.
+TEST_F(PublishedLives, GeneralizedGamma) {
+  const auto density =
+      likelihood("examples/life/bearings.csv",
+                 lives("million_revolutions", "generalized-gamma",
+                       {{"scale", "eta"}, {"sigma", "sigma"}, {"lambda", "lambda"}}));
+  const Maximum found = climb(*density, {70, 0.6, 0.6}, {10, 0.1, 0.3});
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 68.731340, 1e-3);
+  EXPECT_NEAR(found.x[1], 0.509923, 5e-6);
+  EXPECT_NEAR(found.x[2], 0.307934, 5e-5);
+  EXPECT_NEAR(found.value, -112.968895, 2e-6);
+}
+
+TEST_F(PublishedLives, ExponentiatedWeibull) {
+  const auto density =
+      likelihood("examples/life/bearings.csv",
+                 lives("million_revolutions", "exponentiated-weibull",
+                       {{"scale", "eta"}, {"shape", "beta"}, {"exponent", "power"}}));
+  const Maximum found = climb(*density, {40, 1.2, 3}, {10, 0.2, 1}, 1e-3);
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 33.519650, 2e-2);
+  EXPECT_NEAR(found.x[1], 1.043001, 5e-4);
+  EXPECT_NEAR(found.x[2], 4.756926, 5e-3);
+  EXPECT_NEAR(found.value, -112.975410, 2e-6);
+}
+
+// 101 aluminium coupons of Birnbaum and Saunders (1969): 131.8188 and 0.1704 (Ng, Kundu and Balakrishnan 2003).
+TEST_F(PublishedLives, BirnbaumSaunders) {
+  const auto density =
+      likelihood("tests/golden/coupons.csv",
+                 lives("kcycles", "birnbaum-saunders", {{"scale", "median"}, {"shape", "alpha"}}));
+  const Maximum found = climb(*density, {120, 0.3}, {10, 0.05});
+  ASSERT_TRUE(found.converged);
+  EXPECT_NEAR(found.x[0], 131.818792, 1e-4);
+  EXPECT_NEAR(found.x[1], 0.170385, 1e-6);
+  EXPECT_NEAR(found.value, -457.270528, 2e-6);
+}
+
 }  // namespace
 }  // namespace wearwell::ownlaw

@@ -38,7 +38,7 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData
   };
   std::vector<Parameter> parameters;
   parameters.push_back(read({"k", "m^3/(N m)", 0, INFINITY, guess.k},
-                            {"lognormal", Lognormal{std::log(1e-14), 4.2}, "mm^3/(N m)"}));
+                            {"lognormal", Lognormal{1e-14, 4.2}, "mm^3/(N m)"}));
   if (model.depth_error) {
     if (priors && priors->has("sigma")) {
       priors->fail("sigma", "is given, but likelihood.depth_error says that it is known; keep one");
@@ -56,11 +56,11 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData
     const double sigma = std::max((model.has_scatter ? 0.5 : 1) * guess.sigma, 1e-3 * largest);
     parameters.push_back(
         read({"sigma", "m", 0, INFINITY, sigma},
-             {"half-normal", Normal{0, rounded_up(largest)}, data.depth_unit.text, 0}));
+             {"half-normal", HalfNormal{rounded_up(largest)}, data.depth_unit.text}));
   }
   if (model.has_scatter) {
     parameters.push_back(read({"k_scatter", "1", 0, INFINITY, std::max(guess.scatter, 0.05)},
-                              {"half-normal", Normal{0, 1}, "1", 0}));
+                              {"half-normal", HalfNormal{1}, "1"}));
   }
   return parameters;
 }

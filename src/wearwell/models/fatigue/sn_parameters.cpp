@@ -68,13 +68,13 @@ class Defaults {
   DefaultPrior growth() const { return {"normal", Normal{0, 0.15}, "1"}; }
   DefaultPrior gamma() const { return {"beta", Beta{4, 3}, "1"}; }
   DefaultPrior sigma(bool logarithmic) const {
-    return {"half-normal", Normal{0, logarithmic ? 0.5 : rounded_up(longest_)},
-            logarithmic ? "1" : data_.life_unit.text, 0};
+    return {"half-normal", HalfNormal{logarithmic ? 0.5 : rounded_up(longest_)},
+            logarithmic ? "1" : data_.life_unit.text};
   }
   // Tests run at about half of the strength.
   DefaultPrior log_strength() const { return logarithm(2 * largest_, 0.2); }
   DefaultPrior log_limit() const { return logarithm(lowest_, 0.3); }
-  DefaultPrior sigma_limit() const { return {"half-normal", Normal{0, 0.1}, "1", 0}; }
+  DefaultPrior sigma_limit() const { return {"half-normal", HalfNormal{0.1}, "1"}; }
 
  private:
   DefaultPrior logarithm(double stress, double sd) const {

@@ -303,7 +303,7 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
             INFINITY, mean},
            {"normal", Normal{mean, 0.3}, plain ? "1" : fmt::format("log10({})", data.unit.text)}));
   study.parameters.push_back(
-      read({"sigma_limit", "1", 0, INFINITY, 0.03}, {"half-normal", Normal{0, 0.1}, "1", 0}));
+      read({"sigma_limit", "1", 0, INFINITY, 0.03}, {"half-normal", HalfNormal{0.1}, "1"}));
   study.meanings = {"logarithm of the median fatigue limit",
                     "scatter of the logarithm of the fatigue limit"};
   study.equation =

@@ -38,16 +38,16 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const JointData& 
   };
   std::vector<Parameter> parameters;
   parameters.push_back(read({"k", "m^3/(N m)", 0, INFINITY, k},
-                            {"lognormal", Lognormal{std::log(1e-14), 4.2}, unit + "/(N m)"}));
+                            {"lognormal", Lognormal{1e-14, 4.2}, unit + "/(N m)"}));
   parameters.push_back(
-      read({"sigma", "m^3", 0, INFINITY, sigma}, {"half-normal", Normal{0, size}, unit, 0}));
+      read({"sigma", "m^3", 0, INFINITY, sigma}, {"half-normal", HalfNormal{size}, unit}));
   if (law.has_constant) {
     parameters.push_back(
         read({"V0", "m^3", -INFINITY, INFINITY, 0.1 * sigma}, {"normal", Normal{0, size}, unit}));
   }
   if (law.has_exponent) {
     parameters.push_back(
-        read({"exponent", "1", 0, INFINITY, 1}, {"lognormal", Lognormal{0, 0.5}, "1"}));
+        read({"exponent", "1", 0, INFINITY, 1}, {"lognormal", Lognormal{1, 0.5}, "1"}));
   }
   return parameters;
 }

@@ -8,32 +8,6 @@
 #include "wearwell/law/c_text.h"
 
 namespace wearwell::ownlaw {
-namespace {
-
-// `y` and the slots a, b are there; sets `value`.
-const char* density_of(ResponseFamily family) {
-  switch (family) {
-    case ResponseFamily::normal:
-      return "    const double z = (y - a) / b;\n"
-             "    value = b > 0 ? -0.5 * z * z - (log(b) + 0.91893853320467274178) : -INFINITY;\n";
-    case ResponseFamily::lognormal:
-      return "    const double z = (log(y) - log(a)) / b;\n"
-             "    value = a > 0 && b > 0 && y > 0\n"
-             "                ? -0.5 * z * z - log(b) - log(y) - 0.91893853320467274178\n"
-             "                : -INFINITY;\n";
-    case ResponseFamily::lognormal_by_moments:
-      return "    const double s2 = log1p((b / a) * (b / a)), s = sqrt(s2);\n"
-             "    const double z = (log(y) - log(a) + 0.5 * s2) / s;\n"
-             "    value = a > 0 && b > 0 && y > 0\n"
-             "                ? -0.5 * z * z - log(s) - log(y) - 0.91893853320467274178\n"
-             "                : -INFINITY;\n";
-    default:
-      return nullptr;
-  }
-}
-
-}  // namespace
-
 std::size_t measured_column(const OwnLaw& law, std::size_t m) {
   const auto at = std::find_if(law.data.numbers.begin(), law.data.numbers.end(),
                                [&](const auto& c) { return c.name == law.measured[m].column; });
@@ -52,7 +26,7 @@ void refuse_law(const OwnLaw& law) {
       throw InputError(
           fmt::format("'{}' grows in random steps ({}): such a process is not exported to C",
                       each.column, each.form->name));
-    if (each.trials || !density_of(each.form->family))
+    if (each.trials || !each.form->c_density)
       throw InputError(
           fmt::format("'{}' is of the {} family, which is not exported to C; normal and lognormal "
                       "are",
@@ -76,7 +50,7 @@ void add_likelihood(const OwnLaw& law, std::string& functions, std::string& sum,
         "  if (!isnan(number[{}])) {{ /* {} */\n    const double y = number[{}];\n"
         "    const double a = {};\n    const double b = {};\n    double value;\n    {{\n{}    }}\n"
         "    sum += isfinite(value) ? value : -INFINITY;\n  }}\n",
-        column, each.column, column, slot[0], slot[1], density_of(each.form->family));
+        column, each.column, column, slot[0], slot[1], each.form->c_density);
     measured += fmt::format("{}!isnan(at->number[{}])", m == 0 ? "" : " || ", column);
   }
 }

@@ -25,40 +25,6 @@ constexpr std::size_t most_together = 6, most_drawn = 24, most_conditions = 2000
 constexpr std::size_t curve_points = 40;
 constexpr Eigen::Index few_draws = 1000;
 
-// On which a law of the family is a straight line.
-struct Paper {
-  const char* name;
-  StandardLaw law;
-  bool straight = true;  // false: this family bends on it
-
-  double height(double p) const { return quantile(law, p); }
-};
-
-Paper paper_of(ResponseFamily family) {
-  switch (family) {
-    case ResponseFamily::weibull:
-    case ResponseFamily::exponential:
-      return {"Weibull", StandardLaw::smallest_extreme_value};
-    case ResponseFamily::smallest_extreme_value:
-      return {"smallest-extreme-value", StandardLaw::smallest_extreme_value};
-    case ResponseFamily::largest_extreme_value:
-      return {"largest-extreme-value", StandardLaw::largest_extreme_value};
-    case ResponseFamily::loglogistic:
-      return {"loglogistic", StandardLaw::logistic};
-    case ResponseFamily::lognormal:
-    case ResponseFamily::lognormal_by_moments:
-    case ResponseFamily::log10_normal:
-      return {"lognormal", StandardLaw::normal};
-    case ResponseFamily::gamma:
-    case ResponseFamily::inverse_gaussian:
-      return {"lognormal", StandardLaw::normal, false};
-    case ResponseFamily::student_t:
-      return {"normal", StandardLaw::normal, false};
-    default:
-      return {"normal", StandardLaw::normal};
-  }
-}
-
 // The observations by condition with the law of each; of many conditions those with the most failures, in the
 // order of their numbers.
 std::vector<LifeGroup> drawn_groups(const TomlReader& root,
@@ -95,7 +61,7 @@ class Drawing {
         varies_(law.varies()),
         groups_(groups),
         left_out_(left_out),
-        paper_(paper_of(measured_.form->family)),
+        paper_(measured_.form->paper),
         draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled, few_draws)) {
     for (const LifeGroup& group : groups) {
       for (const Response& each : group.responses) {
@@ -177,13 +143,12 @@ class Drawing {
     std::vector<plot::Json> marks;
     for (std::size_t g = first; g < end; ++g) add_law(g, g - first, marks);
     for (std::size_t g = first; g < end; ++g) add_points(g, g - first, marks);
-    plot::Axis shares{"Share that has failed [%]", false, paper_.height(least_),
-                      paper_.height(most_)};
+    plot::Axis shares{"Share that has failed [%]", false, height(least_), height(most_)};
     // As a paper has them.
     for (const double percent : {0.01, 0.1, 1., 5., 10., 20., 50., 90., 99., 99.9}) {
       const double p = percent / 100;
       if (p >= least_ && p <= most_)
-        shares.ticks.emplace_back(paper_.height(p), fmt::format("{:g}", percent));
+        shares.ticks.emplace_back(height(p), fmt::format("{:g}", percent));
     }
     std::string id = "probability-paper",
                 title = fmt::format("Probability plot on {} paper", paper_.name);
@@ -195,6 +160,7 @@ class Drawing {
                        axis(), shares, marks, 340, true)};
   }
 
+  double height(double p) const { return quantile(paper_.law, p); }
   bool positive() const { return measured_.form->positive; }
   void cover(double y) {
     if (!std::isfinite(y) || (positive() && !(y > 0))) return;
@@ -223,7 +189,7 @@ class Drawing {
     const std::vector<Numbers> bands = over_places([&](double life) {
       const Distribution left = groups_[g].life->survival(draws_, life);
       const auto failed = [&](double q) {
-        return paper_.height(std::clamp(1 - left.quantile(q), 0.1 * least_, 1 - 0.1 * (1 - most_)));
+        return height(std::clamp(1 - left.quantile(q), 0.1 * least_, 1 - 0.1 * (1 - most_)));
       };
       return Numbers{failed(0.95), failed(0.5), failed(0.05)};
     });
@@ -245,7 +211,7 @@ class Drawing {
     Numbers x, y, percent;
     for (const PlottingPosition& each : positions_[g]) {
       x.push_back(shown(each.at));
-      y.push_back(paper_.height(each.p));
+      y.push_back(height(each.p));
       percent.push_back(100 * each.p);
     }
     if (x.empty()) return;

@@ -49,6 +49,43 @@ struct WrittenLikelihood {
   std::vector<std::pair<std::size_t, std::string>> slots;  // of the form, and the expression
 };
 
+// Keys of a prior whose values have the dimension of its parameter, whatever its law.
+const std::vector<std::string>& dimensional_keys() {
+  static const auto all = [] {
+    std::map<std::string, bool> slots;
+    for (const ResponseForm& form : prior_forms()) {
+      for (const SlotForm& slot : form.slots) {
+        const bool dimensional = slot.kind == SlotKind::place || slot.kind == SlotKind::size;
+        bool& always = slots.try_emplace(std::string(slot.name), true).first->second;
+        always = always && dimensional;
+      }
+    }
+    std::vector<std::string> keys = {"unit"};
+    for (const auto& [name, always] : slots)
+      if (always) keys.push_back(name);
+    keys.insert(keys.end(), {"lower", "upper"});
+    return keys;
+  }();
+  return all;
+}
+
+// "mean and sd", of each parameter form of a name.
+std::vector<std::string> needed_slots(const std::string& family) {
+  std::vector<std::string> ways;
+  const auto add = [&](const ResponseForm& form) {
+    if (form.name != family) return;
+    std::vector<std::string_view> needed;
+    for (const SlotForm& slot : form.slots) {
+      if (!slot.optional) needed.push_back(slot.name);
+    }
+    std::string way = fmt::format("{}", fmt::join(needed, " and "));
+    if (ways.empty() || ways.back() != way) ways.push_back(std::move(way));
+  };
+  for (const ResponseForm& each : response_forms()) add(each);
+  for (const ProcessForm& each : process_forms()) add(each.form);
+  return ways;
+}
+
 class Reader {
  public:
   // Of more than two effects of the units, `integrated` are integrated out.
@@ -116,26 +153,21 @@ class Reader {
     }
     const auto family = table.choice("family", names);
     if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
-    const ResponseForm* form = nullptr;
-    const ProcessForm* process = nullptr;
-    std::vector<std::string> ways;
-    const auto look_at = [&](const ResponseForm& each, const ProcessForm* of_process) {
-      if (each.name != *family) return;
-      std::vector<std::string> needed;
-      for (const SlotForm& slot : each.slots) {
-        if (!slot.optional) needed.emplace_back(slot.name);
-      }
-      ways.push_back(fmt::format("{}", fmt::join(needed, " and ")));
-      const bool given = std::all_of(needed.begin(), needed.end(),
-                                     [&](const std::string& name) { return table.has(name); });
-      if (!given || form) return;
-      form = &each;
-      process = of_process;
+    // Not by table.has, after which a key that the form does not have counts as one that was asked for.
+    const std::vector<std::string> keys = table.keys();
+    const auto has = [&](std::string_view name) {
+      return std::find(keys.begin(), keys.end(), name) != keys.end();
     };
-    for (const ResponseForm& each : response_forms()) look_at(each, nullptr);
-    for (const ProcessForm& each : process_forms()) look_at(each.form, &each);
+    const ResponseForm* form = given_form(response_forms(), *family, has);
+    const ProcessForm* process = nullptr;
+    for (const ProcessForm& each : process_forms()) {
+      if (process || form || !given_form({&each.form, 1}, *family, has)) continue;
+      process = &each;
+    }
+    if (process) form = &process->form;
     if (!form) {
-      table.fail("family", fmt::format("{} needs {}", *family, fmt::join(ways, ", or ")));
+      table.fail("family",
+                 fmt::format("{} needs {}", *family, fmt::join(needed_slots(*family), ", or ")));
     }
     WrittenLikelihood result{column, form, process, {}, {}};
     for (std::size_t s = 0; s < form->slots.size(); ++s) {
@@ -349,13 +381,11 @@ class Reader {
 
   law::Powers powers_of_prior(const TomlReader& priors, const std::string& key) const {
     const TomlReader table = priors.required_table(key);
-    for (const char* each :
-         {"unit", "median", "mean", "location", "scale", "sd", "lower", "upper"}) {
+    for (const std::string& each : dimensional_keys()) {
       if (!table.has(each) || !table.is_text(each)) continue;
       try {
-        return each == std::string("unit")
-                   ? law::read_any_unit(table.required_text(each)).powers
-                   : law::read_any_quantity(table.required_text(each)).powers;
+        return each == "unit" ? law::read_any_unit(table.required_text(each)).powers
+                              : law::read_any_quantity(table.required_text(each)).powers;
       } catch (const InputError& error) {
         table.fail(each, error.what());
       }

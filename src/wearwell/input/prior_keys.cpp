@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "wearwell/input/study_keys.h"
+#include "wearwell/prob/family_form.h"
+
+namespace wearwell {
+namespace {
+
+// Forms of priors by name without those with a threshold, which is never needed.
+std::vector<const ResponseForm*> forms_of(std::string_view name) {
+  std::vector<const ResponseForm*> found;
+  for (const ResponseForm& form : prior_forms()) {
+    const bool shifted = !form.slots.empty() && form.slots.back().optional;
+    if (form.name == name && !shifted) found.push_back(&form);
+  }
+  return found;
+}
+
+bool has_slot(const ResponseForm& form, std::string_view slot) {
+  return std::any_of(form.slots.begin(), form.slots.end(),
+                     [&](const SlotForm& each) { return each.name == slot; });
+}
+
+void add_new(std::vector<std::string>& conditions, const std::string& each) {
+  if (std::find(conditions.begin(), conditions.end(), each) == conditions.end())
+    conditions.push_back(each);
+}
+
+// When a law needs the slot: of two parameter forms the first where another of its slots is given, else the last.
+void add_conditions(std::string_view law, const SlotForm& slot, StudyKey& key) {
+  const std::vector<const ResponseForm*> forms = forms_of(law);
+  const ResponseForm &first = *forms.front(), &last = *forms.back();
+  if (has_slot(last, slot.name)) {
+    add_new(key.when, fmt::format(".law={}", law));
+    if (forms.size() == 1) return;
+    for (const SlotForm& each : first.slots) add_new(key.unless, fmt::format(".{}", each.name));
+    return;
+  }
+  for (const SlotForm& each : first.slots) {
+    if (each.name != slot.name) add_new(key.when, fmt::format(".{}", each.name));
+  }
+}
+
+StudyKey key_of(const SlotForm& slot) {
+  static const std::map<std::string_view, const char*> examples = {{"sd", "\"2 mm^3\""},
+                                                                   {"threshold", "\"1 mm^3\""},
+                                                                   {"log_sd", "0.5"},
+                                                                   {"log10_sd", "0.2"},
+                                                                   {"df", "4"}};
+  static const std::map<std::string_view, const char*> meanings = {
+      {"sd", "standard deviation"},
+      {"log_sd", "standard deviation of the natural logarithm"},
+      {"log10_sd", "standard deviation of the decadic logarithm"},
+      {"df", "degrees of freedom"},
+      {"alpha", "first shape"},
+      {"beta", "second shape"},
+      {"threshold", "value at which the distribution begins"}};
+  const auto given = examples.find(slot.name);
+  const bool dimensional = slot.kind == SlotKind::place || slot.kind == SlotKind::size;
+  const auto meaning = meanings.find(slot.name);
+  std::vector<std::string> laws;
+  StudyKey key;
+  for (const ResponseForm& form : prior_forms()) {
+    if (!has_slot(form, slot.name)) continue;
+    add_new(laws, std::string(form.name));
+    if (!slot.optional) add_conditions(form.name, slot, key);
+  }
+  key.path = fmt::format("prior.*.{}", slot.name);
+  key.example = given != examples.end() ? given->second : dimensional ? "\"5 mm^3\"" : "2";
+  key.meaning = fmt::format(
+      "{}, of {}", meaning != meanings.end() ? std::string_view(meaning->second) : slot.name,
+      fmt::join(laws, ", "));
+  key.needed = !slot.optional;
+  return key;
+}
+
+}  // namespace
+
+StudyKeys prior_keys() {
+  StudyKeys keys = {
+      needed_key("prior.*.law", "\"normal\"", "law: see [priors.md](priors.md)"),
+      {"prior.*.unit", "\"mm^3\"", "unit to report in; needed where no quantity has one"},
+      needed_key("prior.*.lower", "\"0 mm^3\"", "lower bound; needed by uniform", {},
+                 {".law=uniform"}),
+      needed_key("prior.*.upper", "\"15 mm^3\"", "upper bound; needed by uniform", {},
+                 {".law=uniform"})};
+  std::set<std::string_view> done;
+  for (const ResponseForm& form : prior_forms()) {
+    for (const SlotForm& slot : form.slots) {
+      if (done.insert(slot.name).second) keys.push_back(key_of(slot));
+    }
+  }
+  return keys;
+}
+
+}  // namespace wearwell

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "wearwell/prob/gamma.h"
+
+namespace wearwell::families {
+
+/// The Weibull law of shape 1, and the gamma law.
+struct Exponential : OnPositive {
+  static constexpr std::string_view name = "exponential";
+  static constexpr auto slots = std::to_array<SlotForm>({{"mean", size}});
+  static constexpr StandardLaw standard = StandardLaw::smallest_extreme_value;
+  static constexpr Paper paper = {"Weibull", StandardLaw::smallest_extreme_value};
+
+  template <class U, class T>
+  static auto z(const U& log_y, const T* s) {
+    return log_y - log(s[0]);
+  }
+  template <class U, class T>
+  static auto log_rate(const U& log_y, const T*) {
+    return -log_y;
+  }
+  static double inverse(double z, const double* s) { return s[0] * std::exp(z); }
+  static double mean(const double* s) { return s[0]; }
+
+  static std::array<double, most_response_slots> prepared(const double* s) { return {1, s[0]}; }
+  template <class X>
+  static X log_kernel(const X& x, const double* c) {
+    return Gamma::log_kernel(x, c);
+  }
+  static double log_integral(const double* c) { return Gamma::log_integral(c); }
+  static auto tails(const double* c) { return Gamma::tails(c); }
+};
+
+}  // namespace wearwell::families

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "wearwell/prob/student_t.h"
+
+namespace wearwell::families {
+
+/// Student's t with one degree of freedom about 0, its positive half; the scale is its median.
+struct HalfCauchy : OnPositive {
+  static constexpr bool prior_only = true;
+  static constexpr std::string_view name = "half-cauchy";
+  static constexpr std::string_view title = "half-Cauchy";
+  static constexpr auto slots = std::to_array<SlotForm>({{"scale", size}});
+
+  static std::array<double, most_response_slots> prepared(const double* s) { return {1, 0, s[0]}; }
+  template <class X>
+  static X log_kernel(const X& x, const double* c) {
+    return StudentT::log_kernel(x, c);
+  }
+  static double log_integral(const double* c) { return StudentT::log_integral(c); }
+  static auto tails(const double* c) { return StudentT::tails(c); }
+};
+
+}  // namespace wearwell::families

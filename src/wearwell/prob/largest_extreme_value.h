@@ -1,0 +1,17 @@
+#pragma once
+
+#include "wearwell/prob/smallest_extreme_value.h"
+
+namespace wearwell::families {
+
+/// The mirror of the smallest (Gumbel).
+struct LargestExtremeValue : SmallestExtremeValue {
+  static constexpr std::string_view name = "largest-extreme-value";
+  static constexpr std::string_view title = "largest extreme value";
+  static constexpr StandardLaw standard = StandardLaw::largest_extreme_value;
+  static constexpr Paper paper = {"largest-extreme-value", StandardLaw::largest_extreme_value};
+
+  static double mean(const double* s) { return s[0] + s[1] * 0.57721566490153286; }
+};
+
+}  // namespace wearwell::families

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <boost/math/special_functions/gamma.hpp>
+
+#include "wearwell/math/boost_policy.h"
+#include "wearwell/prob/family.h"
+
+namespace wearwell::families {
+
+struct Poisson : OnLine {
+  static constexpr bool counted = true;
+  static constexpr std::string_view name = "poisson";
+  static constexpr auto slots = std::to_array<SlotForm>({{"mean", size}});
+
+  static bool allows(double mean) { return mean >= 0 && std::isfinite(mean); }
+  template <class T>
+  static T log_density(double y, const T* s, double /*trials*/) {
+    if (scalar(s[0]) == 0) return y == 0 ? T(-s[0]) : T(-infinity);
+    return y * log(s[0]) - s[0] - boost::math::lgamma(y + 1, Quiet());
+  }
+  static double mean(const double* s) { return s[0]; }
+};
+
+}  // namespace wearwell::families

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "wearwell/prob/family.h"
+
+namespace wearwell::families {
+
+/// The logarithm of a Weibull variable.
+struct SmallestExtremeValue : OnLine {
+  static constexpr std::string_view name = "smallest-extreme-value";
+  static constexpr std::string_view title = "smallest extreme value";
+  static constexpr auto slots = std::to_array<SlotForm>({{"location", place}, {"scale", size}});
+  static constexpr StandardLaw standard = StandardLaw::smallest_extreme_value;
+  static constexpr Paper paper = {"smallest-extreme-value", StandardLaw::smallest_extreme_value};
+
+  template <class Y, class T>
+  static auto z(const Y& y, const T* s) {
+    return (y - s[0]) / s[1];
+  }
+  template <class Y, class T>
+  static auto log_rate(const Y&, const T* s) {
+    return -log(s[1]);
+  }
+  static double inverse(double z, const double* s) { return s[0] + s[1] * z; }
+  static double mean(const double* s) {
+    return s[0] - s[1] * 0.57721566490153286;
+  }  // Euler's constant
+};
+
+}  // namespace wearwell::families

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "wearwell/prob/family.h"
+
+namespace wearwell::families {
+
+/// P(Y > y) = exp(-(y/scale)^shape): the logarithm has the smallest extreme value law.
+struct Weibull : OnPositive {
+  static constexpr std::string_view name = "weibull";
+  static constexpr auto slots = std::to_array<SlotForm>({{"scale", size}, {"shape", number}});
+  static constexpr StandardLaw standard = StandardLaw::smallest_extreme_value;
+  static constexpr Paper paper = {"Weibull", StandardLaw::smallest_extreme_value};
+
+  template <class U, class T>
+  static auto z(const U& log_y, const T* s) {
+    return (log_y - log(s[0])) * s[1];
+  }
+  template <class U, class T>
+  static auto log_rate(const U& log_y, const T* s) {
+    return log(s[1]) - log_y;
+  }
+  static double inverse(double z, const double* s) { return s[0] * std::exp(z / s[1]); }
+  static double mean(const double* s) { return s[0] * std::tgamma(1 + 1 / s[1]); }
+
+  template <bool sloped>
+  static Row row(double log_y, const double* s) {
+    const double off = log_y - std::log(s[0]), z = s[1] * off, e = std::exp(z);
+    Row row{z - e + std::log(s[1]) - log_y, {}};
+    if constexpr (sloped) {
+      row.slope[0] = (e - 1) * s[1] / s[0];
+      row.slope[1] = (1 - e) * off + 1 / s[1];
+    }
+    return row;
+  }
+};
+
+}  // namespace wearwell::families

@@ -1,0 +1,247 @@
+// What each family of the list is, by identities: special cases of one another, what a threshold does, means as integrals.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "wearwell/math/constants.h"
+#include "wearwell/prob/response.h"
+
+namespace wearwell {
+namespace {
+
+// The form of so many parameters.
+const ResponseForm& form(const std::string& name, std::size_t slots) {
+  for (const ResponseForm& each : response_forms()) {
+    if (each.name == name && each.slots.size() == slots) return each;
+  }
+  throw std::logic_error("no family " + name);
+}
+
+using Slots = std::vector<double>;
+
+struct Member {
+  ResponseFamily family;
+  Slots slots;
+
+  Member(const std::string& name, const Slots& values)
+      : family(form(name, values.size()).family), slots(values) {}
+  double term(Seen seen, double y, double until = 0) const {
+    return log_response_value(family, {seen, y, until}, slots.data());
+  }
+};
+
+// Densities and probabilities of a and, at `other(y)` with the factor `rate` of densities, of b.
+void expect_same(const Member& a, const Member& b, double tolerance = 1e-11) {
+  for (const double y : {0.02, 0.3, 1.0, 1.7, 4.0, 9.0}) {
+    for (const Seen seen : {Seen::exactly, Seen::above, Seen::below}) {
+      const double of_a = a.term(seen, y), of_b = b.term(seen, y);
+      EXPECT_NEAR(of_a, of_b, tolerance * (1 + std::abs(of_b)))
+          << y << " seen " << static_cast<int>(seen);
+    }
+    EXPECT_NEAR(a.term(Seen::between, y, 1.4 * y), b.term(Seen::between, y, 1.4 * y),
+                tolerance * (1 + std::abs(b.term(Seen::between, y, 1.4 * y))));
+  }
+  EXPECT_NEAR(center(a.family, a.slots.data()) / center(b.family, b.slots.data()), 1, 1e-9);
+  for (const double p : {1e-6, 0.1, 0.5, 0.99}) {
+    EXPECT_NEAR(quantile(a.family, p, a.slots.data()) / quantile(b.family, p, b.slots.data()), 1,
+                1e-9);
+  }
+}
+
+// Meeker and Escobar (1998), sec. 5.4.2.
+TEST(Family, GeneralizedGammaHoldsTheOthers) {
+  for (const double sigma : {0.4, 1.0, 1.6}) {
+    expect_same({"generalized-gamma", {1.5, sigma, 1}}, {"weibull", {1.5, 1 / sigma}});
+    expect_same({"generalized-gamma", {1.5, sigma, 0}}, {"lognormal", {1.5, sigma}});
+    expect_same({"generalized-gamma", {1.5, sigma, sigma}},
+                {"gamma", {1 / (sigma * sigma), 1.5 * sigma * sigma}});
+  }
+  expect_same({"generalized-gamma", {1.5, 1, 1}}, {"exponential", {1.5}});
+}
+
+// Where lambda goes through 0, and from the expansion to the series: no step.
+TEST(Family, GeneralizedGammaIsSmoothInLambda) {
+  constexpr double near = 1e-9;
+  for (const double at : {-0.05, 0.0, 0.05}) {
+    for (const double y : {0.2, 0.9, 1.6, 2.5, 7.0}) {
+      for (const Seen seen : {Seen::exactly, Seen::above, Seen::below}) {
+        const double slots[][3] = {{1.5, 0.5, at - near}, {1.5, 0.5, at}, {1.5, 0.5, at + near}};
+        const ResponseFamily family = form("generalized-gamma", 3).family;
+        const ResponseTerm below = log_response(family, {seen, y}, slots[0]),
+                           here = log_response(family, {seen, y}, slots[1]),
+                           above = log_response(family, {seen, y}, slots[2]);
+        const double size = 1 + std::abs(here.value);
+        EXPECT_NEAR(above.value - below.value, 2 * near * here.slope[2], 2e-12 * size) << at << y;
+        for (int s = 0; s < 3; ++s)
+          EXPECT_NEAR(above.slope[s], below.slope[s], 1e-7 * (size + std::abs(here.slope[s])));
+      }
+    }
+  }
+}
+
+// 1/Y has the distribution of 1/scale and -lambda; of Birnbaum and Saunders that of 1/scale.
+TEST(Family, ReciprocalsStayInTheFamily) {
+  for (const double lambda : {0.3, 1.0, 2.2}) {
+    const Member y("generalized-gamma", {1.5, 0.6, lambda}),
+        reciprocal("generalized-gamma", {1 / 1.5, 0.6, -lambda});
+    for (const double at : {0.2, 1.0, 4.0}) {
+      const double below = y.term(Seen::below, at);
+      EXPECT_NEAR(below, reciprocal.term(Seen::above, 1 / at), 1e-11 * (1 + std::abs(below)));
+    }
+  }
+  const Member y("birnbaum-saunders", {3, 0.7}), reciprocal("birnbaum-saunders", {1. / 3, 0.7});
+  for (const double at : {0.1, 1.0, 3.0, 20.0}) {
+    EXPECT_NEAR(y.term(Seen::below, at), reciprocal.term(Seen::above, 1 / at), 1e-12);
+    const double z = (std::sqrt(at / 3) - std::sqrt(3 / at)) / 0.7;
+    EXPECT_NEAR(std::exp(y.term(Seen::below, at)), 0.5 * std::erfc(-z / std::sqrt(2.0)), 1e-14);
+  }
+  EXPECT_DOUBLE_EQ(quantile(y.family, 0.5, y.slots.data()), 3);
+  EXPECT_DOUBLE_EQ(center(y.family, y.slots.data()), 3 * (1 + 0.5 * 0.7 * 0.7));
+}
+
+// The last of so many Weibull lives; the first keeps the shape.
+TEST(Family, ExponentiatedWeibullIsTheLastOfSeveral) {
+  expect_same({"exponentiated-weibull", {1.5, 2.2, 1}}, {"weibull", {1.5, 2.2}});
+  const Member last("exponentiated-weibull", {1.5, 2.2, 3}), one("weibull", {1.5, 2.2});
+  for (const double y : {0.01, 0.4, 1.5, 3.0, 12.0}) {
+    const double below = one.term(Seen::below, y), above = one.term(Seen::above, y);
+    EXPECT_NEAR(last.term(Seen::below, y), 3 * below, 1e-13 * (1 + std::abs(3 * below)));
+    // 1 - (1 - S)^3 = S (3 - 3 S + S^2)
+    const double s = std::exp(above), expected = above + std::log(3 - 3 * s + s * s);
+    EXPECT_NEAR(last.term(Seen::above, y), expected, 1e-12 * (1 + std::abs(expected)));
+  }
+}
+
+// Parameters of each kind that suit every family.
+Slots plausible(const ResponseForm& form) {
+  Slots slots;
+  for (const SlotForm& slot : form.slots) {
+    if (slot.name == "threshold") {
+      slots.push_back(0.3);
+    } else {
+      slots.push_back(slot.kind == SlotKind::real   ? 0.4
+                      : slot.kind == SlotKind::size ? 1.4
+                      : slot.name == "log10_sd"     ? 0.3
+                                                    : 2.6 - 0.7 * double(slots.size()));
+    }
+  }
+  return slots;
+}
+
+TEST(Family, AThresholdMovesIt) {
+  int tried = 0;
+  for (const ResponseForm& each : response_forms()) {
+    if (each.slots.back().name != "threshold") continue;
+    ++tried;
+    SCOPED_TRACE(each.name);
+    EXPECT_TRUE(each.slots.back().optional);
+    const Slots slots = plausible(each);
+    Slots without = slots;
+    without.pop_back();
+    std::vector<ResponseFamily> plain;
+    for (const ResponseForm& other : response_forms()) {
+      if (other.name == each.name && other.slots.size() == without.size() &&
+          other.slots.front().name == each.slots.front().name)
+        plain.push_back(other.family);
+    }
+    ASSERT_EQ(plain.size(), 1u);
+    const double moved = slots.back();
+    for (const double y : {0.2, 1.0, 2.5}) {
+      for (const Seen seen : {Seen::exactly, Seen::above, Seen::below, Seen::between}) {
+        const Response at{seen, y + moved, 1.3 * y + moved}, less{seen, y, 1.3 * y};
+        const ResponseTerm here = log_response(each.family, at, slots.data()),
+                           there = log_response(plain[0], less, without.data());
+        EXPECT_NEAR(here.value, there.value, 1e-12 * (1 + std::abs(there.value)));
+        for (std::size_t s = 0; s < without.size(); ++s)
+          EXPECT_NEAR(here.slope[s], there.slope[s], 1e-9 * (1 + std::abs(there.slope[s])));
+      }
+    }
+    EXPECT_EQ(log_response_value(each.family, {Seen::exactly, 0.5 * moved}, slots.data()),
+              -infinity);
+    EXPECT_EQ(log_response_value(each.family, {Seen::above, 0.5 * moved}, slots.data()), 0);
+    EXPECT_NEAR(quantile(each.family, 0.3, slots.data()),
+                moved + quantile(plain[0], 0.3, without.data()), 1e-11);
+  }
+  EXPECT_EQ(tried, 11);
+}
+
+// By the integral of y times its density; of the loglogistic law `center` is the median.
+TEST(Family, CentersAreMeans) {
+  using boost::math::quadrature::gauss_kronrod;
+  const auto expect_mean = [](const ResponseForm& of, const Slots& slots) {
+    SCOPED_TRACE(testing::Message() << of.name << " " << slots.size());
+    const double from = of.slots.back().name == "threshold" ? slots.back() : 0;
+    const double low = quantile(of.family, 1e-15, slots.data()),
+                 high = quantile(of.family, 1 - 1e-13, slots.data());
+    const auto moment = [&](double y) {
+      return y * std::exp(log_response_value(of.family, {Seen::exactly, y}, slots.data()));
+    };
+    const double mean =
+        of.positive ? gauss_kronrod<double, 61>::integrate(
+                          [&](double u) { return moment(from + std::exp(u)) * std::exp(u); },
+                          std::log(low - from), std::log(high - from), 15, 1e-10)
+                    : gauss_kronrod<double, 61>::integrate(moment, low, high, 15, 1e-10);
+    EXPECT_NEAR(center(of.family, slots.data()), mean, 1e-7 * mean);
+  };
+  for (const ResponseForm& each : response_forms()) {
+    if (!each.counted && each.name != "loglogistic") expect_mean(each, plausible(each));
+  }
+  const ResponseForm& generalized = form("generalized-gamma", 3);
+  for (const double lambda : {-1.2, -0.1, 1e-7, 3.0}) expect_mean(generalized, {1.4, 0.2, lambda});
+  const double without_mean[] = {1.4, 0.8, -1.3};
+  EXPECT_DOUBLE_EQ(center(generalized.family, without_mean),
+                   quantile(generalized.family, 0.5, without_mean));
+}
+
+TEST(Family, TheListIsWhatCodeNames) {
+  using enum ResponseFamily;
+  const std::pair<ResponseFamily, const char*> named[] = {
+      {normal, "normal"},
+      {lognormal, "lognormal"},
+      {lognormal_by_moments, "lognormal"},
+      {log10_normal, "log10-normal"},
+      {student_t, "student-t"},
+      {weibull, "weibull"},
+      {smallest_extreme_value, "smallest-extreme-value"},
+      {largest_extreme_value, "largest-extreme-value"},
+      {exponential, "exponential"},
+      {gamma, "gamma"},
+      {loglogistic, "loglogistic"},
+      {inverse_gaussian, "inverse-gaussian"},
+      {poisson, "poisson"},
+      {binomial, "binomial"},
+      {flat, "flat"},
+      {uniform, "uniform"},
+      {half_normal, "half-normal"},
+      {half_cauchy, "half-cauchy"},
+      {inverse_gamma, "inverse-gamma"},
+      {beta, "beta"},
+      {jeffreys, "jeffreys"}};
+  for (const auto& [family, name] : named) {
+    EXPECT_EQ(form_of(family).name, name);
+    EXPECT_EQ(form_of(family).family, family);
+  }
+  EXPECT_EQ(form_of(lognormal).slots[0].name, "median");
+  EXPECT_EQ(form_of(lognormal_by_moments).slots[0].name, "mean");
+}
+
+TEST(Family, TheFormIsThatWhoseParametersAreGiven) {
+  const auto chosen = [](const std::string& name, const std::vector<std::string>& given) {
+    const ResponseForm* found = given_form(response_forms(), name, [&](std::string_view slot) {
+      return std::find(given.begin(), given.end(), slot) != given.end();
+    });
+    return found ? found->slots.size() : 0;
+  };
+  EXPECT_EQ(chosen("weibull", {"scale", "shape"}), 2u);
+  EXPECT_EQ(chosen("weibull", {"scale", "shape", "threshold"}), 3u);
+  EXPECT_EQ(chosen("weibull", {"scale"}), 0u);
+  EXPECT_EQ(chosen("generalized-gamma", {"scale", "sigma", "lambda", "threshold"}), 4u);
+  EXPECT_EQ(chosen("normal", {"mean", "sd", "threshold"}), 2u);
+}
+
+}  // namespace
+}  // namespace wearwell
