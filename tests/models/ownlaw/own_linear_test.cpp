@@ -115,12 +115,12 @@ mean = ")" + mean + R"("
     latent::integrate(rows, whole);
     const OwnRows own(law, law->data.table.rows);
     const auto moment = [&](const latent::UnitIntegrals& of, std::size_t u, int power) {
-      double sum = 0;
+      double total = 0;
       for (const latent::Sweep& sweep : of.sweeps) {
         if (sweep.weight[u] > 0)
-          sum += sweep.weight[u] * std::pow(sweep.z[u * law->effects.size()], power);
+          total += sweep.weight[u] * std::pow(sweep.z[u * law->effects.size()], power);
       }
-      return sum;
+      return total;
     };
     for (std::size_t u = 0; u < law->units.size(); ++u) {
       for (const int power : {0, 1, 2}) {
