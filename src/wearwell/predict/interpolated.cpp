@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 
 constexpr Index most_axes = 4;
-constexpr double tolerance = 0.01;  // relative, of what the polynomials miss
+constexpr double tolerance = 0.03;  // relative, of what the polynomials miss
 
 // Products of Hermite polynomials of the whitened parameters, normalized under the normal distribution.
 class Basis {
