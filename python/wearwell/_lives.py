@@ -8,7 +8,7 @@ from ._errors import InputError
 
 _inf, _nan = float("inf"), float("nan")
 _least = 0.1  # percent: of items that survive more rarely nothing is known from then on
-_b_life = re.compile(r"B(\S+) (?:remaining )?life\Z")
+_b_life = re.compile(r"B(\S+) (?:remaining useful )?life\Z")
 # What each other model's [predict] has that a life needs.
 _kept = {"archard-joint": ("limit", "risk", "work_per_cycle"),
          "bearing-wear": ("limit", "risk", "pressure", "speed", "contact", "radius", "clearance"),

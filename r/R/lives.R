@@ -97,7 +97,7 @@ ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NU
     if (!as.character(unit) %in% seen) stop_input("the study has no item '", unit, "' (items: ", words(seen), ")")
     if (!is.null(survived)) require_after(rows, wanted, mine, is_new, unit, survived)
   }
-  of_all <- grepl("^B[^ ]+ (remaining )?life$", rows$name) & endsWith(rows$name, paste0(" ", wanted)) &
+  of_all <- grepl("^B[^ ]+ (remaining useful )?life$", rows$name) & endsWith(rows$name, paste0(" ", wanted)) &
     grepl("remaining", rows$name) == (wanted != "life")
   keep <- mine & (rows$name == wanted | startsWith(rows$name, "survival to ") | of_all)
   rows <- rows[keep, ]

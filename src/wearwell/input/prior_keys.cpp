@@ -42,7 +42,12 @@ void add_conditions(std::string_view law, const SlotForm& slot, StudyKey& key) {
     return;
   }
   for (const SlotForm& each : first.slots) {
-    if (each.name != slot.name) add_new(key.when, fmt::format(".{}", each.name));
+    if (each.name == slot.name) continue;
+    add_new(key.when, fmt::format(".{}", each.name));
+    for (const ResponseForm& other : prior_forms()) {
+      if (other.name != law && has_slot(other, each.name) && !has_slot(other, slot.name))
+        add_new(key.unless, fmt::format(".law={}", other.name));
+    }
   }
 }
 
