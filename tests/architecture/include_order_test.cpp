@@ -30,8 +30,8 @@ const std::vector<std::set<std::string>> order = {
     {"predict"},
     {"input"},
     {"present"},
-    {"study", "selection"},
-    {"prognosis", "fleet"},
+    {"study"},
+    {"selection", "prognosis", "fleet"},
     {"joint", "bearing", "clutch", "fatigue", "ownlaw"},
     {"models", "monitor"},
     {"cli"},
@@ -58,10 +58,11 @@ const std::map<std::string, fs::path>& folders() {
   return found;
 }
 
-// "wearwell/models/joint/archard.h" is of "joint", "wearwell/models/registry.h" of "models".
+// "wearwell/models/joint/archard.h" is of "joint", "wearwell/models/registry.h" of "models", and "wearwell/cli/clutch/..." of "cli".
 std::string folder_of(const std::string& included) {
   const fs::path folder = fs::path(included).parent_path();
-  return folder.filename().string();
+  const bool in_cli = included.starts_with("wearwell/cli/");
+  return in_cli ? "cli" : folder.filename().string();
 }
 
 // What a folder's CMakeLists.txt names under USES, and what those use.
@@ -93,9 +94,11 @@ const std::set<std::string>& uses(const std::string& folder) {
 std::vector<std::pair<fs::path, std::string>> includes(const fs::path& folder) {
   constexpr std::string_view start = "#include \"";
   std::vector<std::pair<fs::path, std::string>> found;
-  for (const auto& entry : fs::directory_iterator(folder)) {
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const fs::path& file = entry.path();
     if (file.extension() != ".h" && file.extension() != ".cpp") continue;
+    // Applications stand in folders of models, and are rooms of their own.
+    if (folder.filename() == "models" && file.parent_path() != folder) continue;
     std::ifstream stream(file);
     for (std::string line; std::getline(stream, line);) {
       if (!line.starts_with(start)) continue;

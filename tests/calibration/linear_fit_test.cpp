@@ -1,6 +1,6 @@
 // How often the check of fit accuses a right linear model, whatever the number of its parameters, and how often it sees
 // that errors are not normal or scatter more and more, beside the classical tests of studentized residuals. Draws are those
-// of the posterior for the prior 1/sigma, which is known exactly. Prints the shares; docs/checks.md has them.
+// of the posterior for the prior 1/sigma, which is known exactly. Prints the shares; docs/reference/checks.md has them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>

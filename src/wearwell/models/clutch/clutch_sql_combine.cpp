@@ -4,6 +4,7 @@
 #include "wearwell/models/clutch/energy_balance.h"
 #include "wearwell/models/clutch/sql_writer.h"
 
+// Longer than others: the parts of one statement, one after the other as they are written.
 namespace wearwell::clutch {
 
 using fleet::number;

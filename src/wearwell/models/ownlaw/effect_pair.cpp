@@ -7,6 +7,7 @@
 #include "wearwell/models/ownlaw/lognormal_unit.h"
 #include "wearwell/models/ownlaw/unit_rule.h"
 
+// Longer than others: one integral over two effects, the rules that may take it, and the derivatives of each.
 namespace wearwell::ownlaw {
 namespace {
 
