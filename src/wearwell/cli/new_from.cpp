@@ -96,8 +96,10 @@ void ask(NewOptions& options, const TableQuestion& question) {
 std::optional<Table> read_from(NewOptions& options) {
   options.wide.reset();
   try {
+    const std::string text = settings_text(options);
     const TableSettings settings =
-        read_table_settings(TomlReader::parse({"options of the table", settings_text(options)}));
+        text.empty() ? TableSettings()
+                     : read_table_settings(TomlReader::parse({"options of the table", text}));
     const Table table = read_table(options.from, {}, {}, settings);
     options.wide = options.columns.empty() ? wide_table(table) : std::nullopt;
     return options.wide ? read_table(options.from, options.wide->sql, {}, settings) : table;

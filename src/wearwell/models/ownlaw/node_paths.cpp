@@ -55,8 +55,9 @@ struct RandomStep {
     for (double& each : values) each = std::max(each, 1e-300);
     // Of steps that are short beside their scale most are next to nothing: there a cubic swings.
     const double score = normal_quantile(p);
+    const double place = (score - ScoreTable::first_score) / ScoreTable::score_step;
     const auto edge =
-        static_cast<std::size_t>(std::clamp(std::floor((score + 4) / 0.4), 0.0, 19.0));
+        static_cast<std::size_t>(std::clamp(std::floor(place), 0.0, ScoreTable::edges - 2.0));
     return at + std::clamp(at_score(values, score), values[edge], values[edge + 1]);
   }
 };
