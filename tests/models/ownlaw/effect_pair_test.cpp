@@ -103,7 +103,7 @@ TEST(EffectPair, IsTheFormulaOfNormalEffects) {
   const auto nothing =
       EffectPair{{0, 0}, {0, 0, 0}, {true, true}, {0.4, 0.3}, 0.2}.log_integral(nodes);
   ASSERT_TRUE(nothing);
-  EXPECT_NEAR(*nothing, 0, 1e-9);
+  EXPECT_NEAR(*nothing, 0, 5e-9);
 }
 
 // Moments are the integral's derivatives.
