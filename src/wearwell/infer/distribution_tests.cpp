@@ -34,6 +34,14 @@ struct OverDraws {
   double mean = 0;  ///< of the scores of the draws
 };
 
+// The score of each draw.
+std::vector<double> each_draw(const std::vector<std::vector<double>>& scores,
+                              const ScoreTest& test) {
+  std::vector<double> each(scores.size());
+  tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t s) { each[s] = test(scores[s]); });
+  return each;
+}
+
 double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -63,9 +71,7 @@ std::vector<Value> taken(const std::vector<Value>& values, const std::vector<std
 
 // Tests of residuals that depend on each other through the parameters they share scatter more than the score says.
 OverDraws over_draws(const StudentizedScores& residuals, const ScoreTest& test, bool two_sided) {
-  std::vector<double> each(residuals.scores.size());
-  tbb::parallel_for(std::size_t{0}, each.size(),
-                    [&](std::size_t s) { each[s] = test(residuals.scores[s]); });
+  std::vector<double> each = each_draw(residuals.scores, test);
   OverDraws all{combined_p(each, two_sided), mean(each)};
   if (!(all.p < in_question)) return all;
   const double size = null_size(residuals, test);
@@ -203,9 +209,8 @@ std::vector<FitTest> distribution_tests(const FitData& data, const ScoreSample& 
   if (data.rise && data.rise->from_zero) {
     const std::vector<double> driver = taken(data.drivers.front().value, row);
     // Draw by draw, as the test is exact of the scores of one draw: of means over draws a few rows have too much to say.
-    std::vector<double> each(draws);
-    tbb::parallel_for(std::size_t{0}, draws,
-                      [&](std::size_t s) { each[s] = offset_score(scores[s], driver); });
+    const std::vector<double> each =
+        each_draw(scores, [&](std::span<const double> z) { return offset_score(z, driver); });
     tests.push_back(
         {"offset", combined_p(each, true, credited_offset),
          fmt::format("the data start {} zero: residuals share an offset",

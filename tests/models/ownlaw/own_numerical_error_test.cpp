@@ -116,7 +116,7 @@ double largest_difference(const QuantityQuantiles& a, const QuantityQuantiles& b
   return largest;
 }
 
-// `many`: times as many points as lives are told from.
+// `many`: times as many points as lives are summed over.
 void expect_bounded(const std::string& study, const std::vector<Column>& columns, double many,
                     double most) {
   const Watched watched(study, columns);
@@ -124,16 +124,16 @@ void expect_bounded(const std::string& study, const std::vector<Column>& columns
   const auto lives = [&](double share) {
     return answers_of(lives_of_fit(watched, posterior, true, share, shares));
   };
-  std::vector<QuantityQuantiles> told = lives(1);
-  estimate_numerical_errors(told, lives(fewer_points));
+  std::vector<QuantityQuantiles> answers = lives(1);
+  estimate_numerical_errors(answers, lives(fewer_points));
   const std::vector<QuantityQuantiles> fine = lives(many);
-  for (std::size_t i = 0; i < told.size(); ++i) {
-    const double off = largest_difference(told[i], fine[i]);
-    EXPECT_LE(off, std::max(*told[i].numerical_error, least_numerical_error)) << i;
-    EXPECT_LE(*told[i].numerical_error, most) << i;  // a bound that says anything
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    const double off = largest_difference(answers[i], fine[i]);
+    EXPECT_LE(off, std::max(*answers[i].numerical_error, least_numerical_error)) << i;
+    EXPECT_LE(*answers[i].numerical_error, most) << i;  // a bound that says anything
     ::testing::Test::RecordProperty(
         "answer " + std::to_string(i),
-        fmt::format("off {:.2g}, estimated {:.2g}", off, *told[i].numerical_error));
+        fmt::format("off {:.2g}, estimated {:.2g}", off, *answers[i].numerical_error));
   }
 }
 

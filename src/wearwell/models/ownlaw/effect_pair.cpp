@@ -28,6 +28,12 @@ Step step_of(const EffectPair& pair, int e, double v) {
   return {factor - 1, s * factor, s * s * factor};
 }
 
+// log p - top - z'z/2 at steps that are d0 and d1 from the best.
+double log_f_at(const EffectPair& pair, double d0, double d1, double z0, double z1) {
+  const auto& H = pair.H;
+  return -0.5 * ((H[0] * d0 + 2 * H[1] * d1) * d0 + H[2] * d1 * d1 + z0 * z0 + z1 * z1);
+}
+
 class Rule {
  public:
   Rule(const EffectPair& pair, EffectPair::Nodes& nodes)
@@ -47,10 +53,6 @@ class Rule {
   };
   Step step(int e, double v) const { return step_of(pair_, e, v); }
   double log_f(double z0, double z1) const { return pair_.log_f(z0, z1); }
-  double log_f_of(double d0, double d1, double z0, double z1) const {
-    const auto& H = pair_.H;
-    return -0.5 * ((H[0] * d0 + 2 * H[1] * d1) * d0 + H[2] * d1 * d1 + z0 * z0 + z1 * z1);
-  }
   void start(double& z0, double& z1) const;
   Place place(double d0, double z0, double z1) const;
   bool go_to_mode(double d0, double z0, double& z1, Place& at) const;
@@ -135,7 +137,7 @@ Rule::Place Rule::place(double d0, double z0, double z1) const {
   const Step b = step(1, r_ * z0 + rest_ * z1);
   const double d1 = b.value - pair_.best[1], by = pair_.H[1] * d0 + pair_.H[2] * d1;
   const double j = rest_ * b.slope, known = 1 + pair_.H[2] * j * j;
-  return {log_f_of(d0, d1, z0, z1), -by * j - z1,
+  return {log_f_at(pair_, d0, d1, z0, z1), -by * j - z1,
           std::max(known + by * rest_ * rest_ * b.bend, 0.5 * known)};
 }
 
@@ -331,7 +333,7 @@ double EffectPair::log_f(double z0, double z1) const {
   const double r = correlation, v1 = r * z0 + std::sqrt(1 - r * r) * z1;
   const double d0 = step_of(*this, 0, z0).value - best[0];
   const double d1 = step_of(*this, 1, v1).value - best[1];
-  return -0.5 * ((H[0] * d0 + 2 * H[1] * d1) * d0 + H[2] * d1 * d1 + z0 * z0 + z1 * z1);
+  return log_f_at(*this, d0, d1, z0, z1);
 }
 
 std::optional<double> EffectPair::log_integral(Nodes& nodes, double gap, double* open) const {
