@@ -114,11 +114,6 @@ bool is_number(duckdb_type type) {
   }
 }
 
-std::string quoted(const std::string& name, char quote) {
-  const std::string one(1, quote);
-  return one + boost::algorithm::replace_all_copy(name, one, one + one) + one;
-}
-
 void append_numbers(duckdb_vector vector, idx_t count, std::vector<double>& out) {
   const auto* data = static_cast<const double*>(duckdb_vector_get_data(vector));
   uint64_t* valid = duckdb_vector_get_validity(vector);

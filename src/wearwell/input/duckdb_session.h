@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "wearwell/input/quoted.h"
 #include "wearwell/input/table.h"
 #include "wearwell/input/table_file.h"
 #include "wearwell/input/text_layout.h"
@@ -73,7 +74,6 @@ class DuckdbResult {
 };
 
 bool is_number(duckdb_type type);
-std::string quoted(const std::string& name, char quote);
 /// NaN where there is no value.
 void append_numbers(duckdb_vector vector, idx_t count, std::vector<double>& out);
 /// Empty where there is no value.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "wearwell/input/quoted.h"
 #include "wearwell/study/heading_words.h"
 #include "wearwell/study/role_words.h"
 
@@ -63,12 +64,6 @@ bool is_along(const Column& column) {
   return false;
 }
 
-std::string quoted_name(const std::string& name) {
-  std::string text = "\"";
-  for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + "\"";
-}
-
 // Under its own heading, with the unit that stands elsewhere.
 std::string with_unit(const std::string& name, const std::string& unit) {
   return unit.empty() ? name : fmt::format("{} [{}]", name, unit);
@@ -104,13 +99,13 @@ std::optional<WideTable> wide_table(const Table& table) {
   std::vector<std::string> names;
   for (const Column* each : units) {
     wide.units.push_back(each->name);
-    names.push_back(quoted_name(each->name));
+    names.push_back(quoted(each->name, '"'));
   }
-  const std::string value = quoted_name(with_unit("value", unit));
+  const std::string value = quoted(with_unit("value", unit), '"');
   wide.sql = fmt::format(
       "select {0} as {1}, unit, {2} from data unpivot ({2} for unit in ({3}))",
-      quoted_name(along->name),
-      quoted_name(along->unit.empty() ? along->name : with_unit(along->name, along->unit)), value,
+      quoted(along->name, '"'),
+      quoted(along->unit.empty() ? along->name : with_unit(along->name, along->unit), '"'), value,
       fmt::join(names, ", "));
   return wide;
 }

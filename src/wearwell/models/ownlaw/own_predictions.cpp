@@ -52,6 +52,17 @@ struct AskedOfLife {
     return all;
   }
 
+  // The life of the next one, and what remains to it where it has survived.
+  std::vector<QuantityQuantiles> of_next(const LifeLaw::Next& next) const {
+    const auto quantiles = [](const auto& q) {
+      return QuantityQuantiles{q(0.05), q(0.5), q(0.95), q(0.01), q(0.1), q(0.5)};
+    };
+    std::vector<QuantityQuantiles> all = {quantiles([&](double p) { return next.quantile(p); })};
+    if (survived)
+      all.push_back(quantiles([&](double p) { return next.quantile(p, survived->si()); }));
+    return all;
+  }
+
   std::vector<QuantityQuantiles> answers(const WeightedDraws& draws) const {
     std::vector<QuantityQuantiles> found = answers(draws, 1);
     if (!life->over_all()) estimate_numerical_errors(found, answers(draws, fewer_points));
@@ -80,14 +91,13 @@ struct AskedOfLife {
       all.back().predictive = predictive;
       if (!predictive) all.back().bound = {};
     };
-    const double middle = next.quantile(0.5);
-    all.push_back({next.quantile(0.05), middle, next.quantile(0.95), next.quantile(0.01),
-                   next.quantile(0.1), middle});
+    const std::vector<QuantityQuantiles> lives = of_next(next);
+    all.push_back(lives.front());
     for (const double percent : levels.percents) add(next.quantile(percent / 100));
     if (survived) {
-      const auto q = [&](double p) { return next.quantile(p, survived->si()); };
-      all.push_back({q(0.05), q(0.5), q(0.95), q(0.01), q(0.1), q(0.5)});
-      for (const double percent : levels.percents) add(q(percent / 100));
+      all.push_back(lives.back());
+      for (const double percent : levels.percents)
+        add(next.quantile(percent / 100, survived->si()));
     }
     for (const Quantity& each : survival) add(1 - next.cdf(each.si()));
     while (answer != found.end()) add({});
@@ -99,15 +109,17 @@ struct AskedOfLife {
     std::vector<PredictiveLife> all = {{{[next](double x) { return next->cdf(x); },
                                          [next](double p) { return next->quantile(p); }}}};
     std::vector<QuantityQuantiles> errors;
-    if (!life->over_all()) errors = answers(draws);
+    if (!life->over_all()) {
+      errors = of_next(*next);
+      estimate_numerical_errors(errors, of_next(life->next(draws, fewer_points)));
+    }
     if (!errors.empty()) all.front().numerical_error = errors.front().numerical_error;
     if (!survived) return all;
     const double from = survived->si(), gone = next->cdf(from);
     all.push_back({{[=](double x) { return (next->cdf(from + x) - gone) / (1 - gone); },
                     [=](double p) { return next->quantile(p, from); }},
                    1 - gone});
-    if (!errors.empty())
-      all.back().numerical_error = errors[1 + levels.percents.size()].numerical_error;
+    if (!errors.empty()) all.back().numerical_error = errors.back().numerical_error;
     return all;
   }
 };

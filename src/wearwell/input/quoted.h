@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace wearwell {
+
+/// A name or a text of SQL between quotes, those within it doubled.
+inline std::string quoted(const std::string& text, char quote) {
+  std::string out(1, quote);
+  for (const char c : text) out += c == quote ? std::string(2, c) : std::string(1, c);
+  return out + quote;
+}
+
+}  // namespace wearwell
