@@ -3,7 +3,7 @@
 //
 //   build/release/bin/monitor_load RESULT [UNITS 1000] [A_SECOND 10] [SECONDS 60] [STORE load.sqlite]
 //
-// RESULT: wearwell fit examples/law/study.toml -o RESULT
+// RESULT: wearwell fit examples/formula/study.toml -o RESULT
 #include <fmt/format.h>
 #include <sys/resource.h>
 

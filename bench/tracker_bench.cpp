@@ -1,26 +1,27 @@
 // One unit on line: a reading taken, beside the fit that would be done instead; a forecast; a state saved and read.
-// The law is that of examples/law: depth = k * work / area, k of each machine lognormal, readings normal.
+// The law is that of examples/formula: depth = k * work / area, k of each machine lognormal, readings normal.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
 
-#include "calibration/own_design.h"
+#include "calibration/formula_design.h"
 #include "wearwell/base/rng.h"
-#include "wearwell/models/ownlaw/own_tracker.h"
+#include "wearwell/models/formula_model/formula_tracker.h"
 
-namespace wearwell::ownlaw {
+namespace wearwell::formula_model {
 namespace {
 
 constexpr double um = 1e-6, km = 1000;
 
 prognosis::CarriedState state_of_example() {
   prognosis::CarriedState state;
-  state.source = source_of(PROJECT_SOURCE_DIR "/examples/law/study.toml");
+  state.source = source_of(PROJECT_SOURCE_DIR "/examples/formula/study.toml");
   const TomlReader root = TomlReader::parse(state.source.study);
-  const auto law = read_own_law(root, state.source);
-  for (const Parameter& each : law->parameters) state.parameters.push_back(each.name);
+  const auto model = read_formula_model(root, state.source);
+  for (const Parameter& each : model->parameters) state.parameters.push_back(each.name);
   state.posterior =
-      exact_posterior(std::make_shared<const OwnRows>(law, law->data.table.rows), 1e-5).nodes;
+      exact_posterior(std::make_shared<const BearingRows>(model, model->data.table.rows), 1e-5)
+          .nodes;
   return state;
 }
 
@@ -123,4 +124,4 @@ void refit(benchmark::State& state) {
 BENCHMARK(refit)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell::formula_model

@@ -85,7 +85,7 @@ endfunction()
 
 # One test program per folder under tests/, linked to the folder it tests.
 #
-#   wearwell_test(prob SOURCES law_test.cpp USES prob)
+#   wearwell_test(prob SOURCES distribution_test.cpp USES prob)
 function(wearwell_test name)
   cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;USES;LIBRARIES;ALONE" ${ARGN})
   list(TRANSFORM ARG_USES PREPEND wearwell_)

@@ -1,4 +1,4 @@
-# Gradients per second by rstan of the two likelihoods of bench/law_bench.cpp: a Weibull regression of 1000 rows, and 50 machines x 20
+# Gradients per second by rstan of the two likelihoods of bench/formula_bench.cpp: a Weibull regression of 1000 rows, and 50 machines x 20
 # readings, in processor time. Debian: r-cran-rstan, r-cran-bh. The time of a call of R alone is that of the same model with two rows; it is told beside.
 suppressMessages(library(rstan))
 rstan_options(boost_lib = "/usr/include")

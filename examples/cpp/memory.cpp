@@ -18,8 +18,8 @@ work_per_cycle = "5.966 N m"
 [likelihood]
 family = "normal"
 [prior]
-k = { law = "flat", unit = "mm^3/(N m)" }
-sigma = { law = "uniform", lower = "0 mm^3", upper = "15 mm^3" }
+k = { distribution = "flat", unit = "mm^3/(N m)" }
+sigma = { distribution = "uniform", lower = "0 mm^3", upper = "15 mm^3" }
 [predict]
 cycles = [20585]
 )toml";
@@ -35,7 +35,7 @@ int main() {
                    {"volume", true, {4.44, 7.1, 12.2, 24.6, 45.31}, {}}};
   const Source source{{"memory", study_text}, {{"inspections", table}}};
   const auto study = read_study(source, all_models());
-  std::printf("%s\n", study->in_words().c_str());
+  std::printf("%s\n", study->description().c_str());
 
   std::stop_source stop;  // another thread may call stop.request_stop()
   const Monitor monitor{

@@ -44,8 +44,8 @@ int main() {
     parameter.name = name;
     parameter.si = "1";
     parameter.unit = read_unit("1", "1");
-    parameter.law = "flat";
-    parameter.prior = make_law(Flat{}, 0, INFINITY);
+    parameter.distribution = "flat";
+    parameter.prior = make_distribution(Flat{}, 0, INFINITY);
     parameter.start = start;
     parameter.scale = start;
     parameter.natural_lower = 0;

@@ -12,10 +12,12 @@ namespace wearwell::python {
 /// `progress` (a function of what, done, total and seconds, or None) how far it is.
 template <class Work>
 void attended(const py::object& progress, const Work& work) {
-  embed::attended<py::gil_scoped_release>(work, [&](const std::optional<embed::Told>& told) {
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    if (told && !progress.is_none()) progress(told->what, told->done, told->total, told->seconds);
-  });
+  embed::attended<py::gil_scoped_release>(
+      work, [&](const std::optional<embed::ProgressSnapshot>& reported) {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (reported && !progress.is_none())
+          progress(reported->what, reported->done, reported->total, reported->seconds);
+      });
 }
 
 }  // namespace wearwell::python

@@ -99,11 +99,11 @@ void add_studies(py::module_& module) {
   using unlocked = py::call_guard<py::gil_scoped_release>;
   py::class_<ReadStudy>(module, "ReadStudy")
       .def_readonly("text", &ReadStudy::text)
-      .def("in_words",
+      .def("description",
            [](const ReadStudy& read) {
              const py::gil_scoped_release release;
              const embed::ForkGuard guard;
-             return read.study->in_words();
+             return read.study->description();
            })
       .def("run", &run, py::arg("method"), py::arg("chains"), py::arg("warmup"), py::arg("draws"),
            py::arg("seed"), py::arg("threads"), py::arg("report"), py::arg("progress"));

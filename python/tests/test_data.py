@@ -22,7 +22,7 @@ priors = {"k": ww.lognormal("1e-7 mm^3/(N m)", log_sd=3), "sigma": ww.half_norma
 
 
 def study(data, **options):
-    return ww.Study(**{**dict(law="V = k*F*s", data=data, units=units, priors=priors, unit="joint"), **options})
+    return ww.Study(**{**dict(formula="V = k*F*s", data=data, units=units, priors=priors, unit="joint"), **options})
 
 
 def fitted(data, **options):
@@ -165,19 +165,19 @@ def test_what_is_no_table_is_refused_in_words(change, message):
 
 
 @pytest.mark.parametrize("options, message", [
-    ({"law": "V k*F*s"}, "is no equation"),
-    ({"law": ""}, "the law is empty"),
-    ({"law": "W = k*F*s"}, "no left side of the law is a column"),
-    ({"law": "V = k*F*s\nV = k"}, "gives 'V' twice"),
-    ({"law": "V = k*F"}, "m"),  # the dimensions, in the library's words
+    ({"formula": "V k*F*s"}, "is no equation"),
+    ({"formula": ""}, "the formula is empty"),
+    ({"formula": "W = k*F*s"}, "no left side of the formula is a column"),
+    ({"formula": "V = k*F*s\nV = k"}, "gives 'V' twice"),
+    ({"formula": "V = k*F"}, "m"),  # the dimensions, in the library's words
     ({"units": {"G": "N"}}, "no column 'G'"),
     ({"units": {"F": "Nn"}}, "Nn"),
     ({"unit": "joints"}, "no column 'joints'"),
     ({"priors": {"k": 1}}, "k is int"),
     ({"priors": {"k": ww.lognormal("1e-7 mm^3/(N m)", log_sd=3)}}, "sigma"),
     ({"priors": {**priors, "k": ww.lognormal("1e-7 mm^2/(N m)", log_sd=3)}}, "'k\\*F\\*s' is m\\^2, and must be m\\^3"),
-    ({"law": "V = (k + b)*F*s", "priors": {**priors, "b": ww.half_normal("1e-7 mm^3/(N m)")}}, "which of k, b differ"),
-    ({"unit": None, "varies": ["k"]}, "varies needs unit"),
+    ({"formula": "V = (k + b)*F*s", "priors": {**priors, "b": ww.half_normal("1e-7 mm^3/(N m)")}}, "which of k, b differ"),
+    ({"unit": None, "random_effects": ["k"]}, "random_effects needs unit"),
     ({"family": "gamma"}, "no one slot"),
 ])
 def test_studies_that_are_none_are_refused_in_words(options, message):
@@ -186,12 +186,12 @@ def test_studies_that_are_none_are_refused_in_words(options, message):
 
 
 def test_law_of_several_lines_and_two_that_vary():
-    found = study(frame, law={"work": "F*s", "V": "k*work + b"},
+    found = study(frame, formula={"work": "F*s", "V": "k*work + b"},
                   priors={**priors, "b": ww.normal("0 mm^3", "1 mm^3"), "b_scatter": ww.half_normal("0.1 mm^3")},
-                  varies=["k", "b"])
+                  random_effects=["k", "b"])
     assert "k of each of 6 joints is lognormal about k with log_sd k_scatter; b of each of 6 joints is normal about b" in (
-        found.in_words())
-    assert '[varies.joint]\nk = { law = "lognormal", log_sd = "k_scatter" }\nb = { law = "normal", sd = "b_scatter" }' in (
+        found.description())
+    assert '[random_effects.joint]\nk = { distribution = "lognormal", log_sd = "k_scatter" }\nb = { distribution = "normal", sd = "b_scatter" }' in (
         found.toml)
 
 
@@ -236,10 +236,10 @@ def test_lives_that_are_measured(examples):
 
 def test_text_with_tables_in_memory(examples, usual):
     quick = dict(seed=1, method="exact", draws=100, report=False)
-    text = open(os.path.join(examples, "law", "study.toml")).read()
-    table = pd.read_csv(os.path.join(examples, "law", "wear.csv"), float_precision="round_trip")
+    text = open(os.path.join(examples, "formula", "study.toml")).read()
+    table = pd.read_csv(os.path.join(examples, "formula", "wear.csv"), float_precision="round_trip")
     one = ww.Study.from_toml(text, {"wear.csv": table}).fit(**quick)
-    two = ww.fit(os.path.join(examples, "law", "study.toml"), **quick)
+    two = ww.fit(os.path.join(examples, "formula", "study.toml"), **quick)
     assert one.summary == two.summary
     bare = re.sub(r'\{ column = "F", unit = "N" \}', '"F"', text)
     three = ww.Study.from_toml(bare, {"wear.csv": table}, units={"wear.csv": {"F": "N"}}).fit(**quick)

@@ -109,7 +109,7 @@ def test_measurements_of_a_joint_that_was_seen(fit, of_unit):
     # Under another force beyond its last row the path goes on from where it stands: 75 km at 200 N.
     on = fit.predict({"joint": ["J5"], "F": [200.0], "s": [6e4]}, kind="unit", along="s")
     assert on.loc[0, "mean"] == pytest.approx(mean / work * 200 * 85e3, rel=2e-3)
-    # And before it the law is that of the data.
+    # And before it the formula is that of the data.
     past = fit.predict({"joint": ["J5"], "F": [100.0], "s": [3e4]}, kind="unit", along="s")
     assert past.loc[0, "mean"] == pytest.approx(mean / work * 100 * 3e4, rel=2e-3)
 
@@ -161,7 +161,7 @@ def test_several_measured_columns_and_places():
     data = frame.assign(h=frame["V"] / 40)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
-        two = ww.Study(law={"worn": "k*F*s"}, data=data, units={**units, "h": "mm"}, constants={"A": "40 mm^2"}, priors={
+        two = ww.Study(formula={"worn": "k*F*s"}, data=data, units={**units, "h": "mm"}, constants={"A": "40 mm^2"}, priors={
             "k": ww.lognormal("1e-7 mm^3/(N m)", log_sd=3), "sigma": ww.half_normal("5 mm^3"), "delta": ww.half_normal("1 mm")},
             likelihood={"V": {"family": "normal", "mean": "worn", "sd": "sigma"},
                         "h": {"family": "normal", "mean": "worn/A", "sd": "delta"}}).fit(seed=1, method="exact", draws=100, report=False)

@@ -96,9 +96,9 @@ def test_the_program_writes_the_same(written, joint, wearwell, tmp_path):
 def test_observations_that_were_seen_alike_stand_as_often(wearwell):
     """Sum over observations: the log-likelihood of the whole table, however its rows are counted."""
     table = {"V": [1.0, 2.0, 3.0], "x": [1.5, 2.5, 3.5], "count": [1, 3, 2]}
-    text = ww.Study(law="V = a*x", data=table, priors={"a": ww.half_normal(10), "sigma": ww.half_normal(1)})
+    text = ww.Study(formula="V = a*x", data=table, priors={"a": ww.half_normal(10), "sigma": ww.half_normal(1)})
     alike = {k: np.repeat(v, table["count"]) for k, v in table.items() if k != "count"}
-    spread = ww.Study(law="V = a*x", data=alike, priors={"a": ww.half_normal(10), "sigma": ww.half_normal(1)})
+    spread = ww.Study(formula="V = a*x", data=alike, priors={"a": ww.half_normal(10), "sigma": ww.half_normal(1)})
     sums = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ww.CheckWarning)
@@ -111,7 +111,7 @@ def test_observations_that_were_seen_alike_stand_as_often(wearwell):
 
 
 def test_every_kind_of_study_is_written(examples, tmp_path):
-    for study in ("bearing/study.toml", "fatigue/study.toml", "law/study.toml", "life/study.toml", "accelerated/study.toml"):
+    for study in ("bearing/study.toml", "fatigue/study.toml", "formula/study.toml", "life/study.toml", "accelerated/study.toml"):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", ww.CheckWarning)
             fit = ww.fit(os.path.join(examples, study), seed=1, chains=2, draws=50, warmup=100, report=False)

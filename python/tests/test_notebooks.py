@@ -16,7 +16,7 @@ notebooks = sorted(glob.glob(os.path.join(source, "examples", "notebooks", "*.ip
 
 
 def test_there_is_one_a_trade():
-    assert [os.path.basename(n)[:-6] for n in notebooks] == ["bearing", "clutch", "fatigue", "joint", "law"]
+    assert [os.path.basename(n)[:-6] for n in notebooks] == ["bearing", "clutch", "fatigue", "joint", "formula"]
 
 
 @pytest.mark.parametrize("notebook", notebooks, ids=lambda n: os.path.basename(n)[:-6])

@@ -90,13 +90,13 @@ class Study:
     toml: str
     def __init__(
         self,
-        law: str | Mapping[str, str],
+        formula: str | Mapping[str, str],
         data: Any,
         *,
         priors: Mapping[str, _Prior],
         units: Mapping[str, Any] | None = ...,
         unit: str | None = ...,
-        varies: str | Sequence[str] | Mapping[str, Any] | None = ...,
+        random_effects: str | Sequence[str] | Mapping[str, Any] | None = ...,
         family: str = ...,
         scatter: str | float | Mapping[str, Any] | None = ...,
         likelihood: Mapping[str, Mapping[str, Any]] | None = ...,
@@ -119,7 +119,7 @@ class Study:
     ) -> Study: ...
     @classmethod
     def from_file(cls, path: _Path) -> Study: ...
-    def in_words(self) -> str: ...
+    def description(self) -> str: ...
     def fit(
         self,
         seed: int | None = ...,
@@ -198,6 +198,6 @@ def student_t(
 def beta(alpha: float, beta: float, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
 def jeffreys(unit: Any, *, lower: _Quantity | None = ..., upper: _Quantity | None = ...) -> _Prior: ...
 def prior(
-    law: str, *, unit: Any = ..., lower: _Quantity | None = ..., upper: _Quantity | None = ..., **parameters: _Quantity
+    formula: str, *, unit: Any = ..., lower: _Quantity | None = ..., upper: _Quantity | None = ..., **parameters: _Quantity
 ) -> _Prior: ...
 def default() -> _Prior: ...

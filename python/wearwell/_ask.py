@@ -8,7 +8,7 @@ from ._data import headings_of
 from ._errors import InputError
 
 
-def tables_of(fit, models=("law",)):
+def tables_of(fit, models=("formula",)):
     """The study's tables as dicts; of a study of these models alone."""
     try:
         import tomllib
@@ -37,7 +37,7 @@ def columns_of(study):
 
 def conditions_of(study, columns):
     """Columns that are neither measured nor name the items."""
-    skip = set(study["likelihood"]) | set(study.get("varies", {})) | {"status", "lower", "upper", "entry", "count"}
+    skip = set(study["likelihood"]) | set(study.get("random_effects", {})) | {"status", "lower", "upper", "entry", "count"}
     return [name for name in columns if name not in skip]
 
 
@@ -48,10 +48,10 @@ def axis_of(study, columns, along):
         if known not in columns:
             raise InputError(f"along: the study has no column '{known}' (columns: {', '.join(columns)})")
         return known
-    rates = [line for line in study.get("law", {}) if line.startswith("d(")]
-    text = json.dumps(study.get("law", {})) + json.dumps(study["likelihood"])
+    rates = [line for line in study.get("formula", {}) if line.startswith("d(")]
+    text = json.dumps(study.get("formula", {})) + json.dumps(study["likelihood"])
     if rates or "cum(" in text:
-        raise InputError("along is missing: this law is a rate or a running sum along a column")
+        raise InputError("along is missing: this formula is a rate or a running sum along a column")
     return None
 
 
@@ -133,9 +133,9 @@ def predict(fit, new, level, kind, along):
     unknown = [c for c in frame.columns if c not in columns]
     if unknown:
         raise InputError(f"new: the study has no column {unknown[0]!r} (columns: {', '.join(conditions)})")
-    label = next(iter(study.get("varies", {})), None)
+    label = next(iter(study.get("random_effects", {})), None)
     if kind == "unit" and label is None:
-        raise InputError("kind='unit' is of studies whose parameters differ from item to item (varies), and nothing differs "
+        raise InputError("kind='unit' is of studies whose parameters differ from item to item (random_effects), and nothing differs "
                          "here: kind='next' is a measurement to come")
     whose = _whose(frame, label) if kind == "unit" else [None] * len(frame)
     asked = [c for c in frame.columns if c in conditions]

@@ -208,20 +208,20 @@ class Fit:
         return {k: answers[k] for k in ("predictions", "quantities", "life") if k in answers}
 
     def predict(self, new, level=0.9, kind="mean", *, along=None):
-        """Measurements under new conditions, of a study of a law (model "law"): a frame with mean, lower and upper for each row
+        """Measurements under new conditions, of a study of a formula model (model "formula"): a frame with mean, lower and upper for each row
         of ``new`` (a data frame or a dict of columns in the study's units).
 
         kind: "mean", the true mean of the median item; "next", a measurement of an item not seen yet; "unit", a measurement of
         the item that the label column of ``new`` names, by its own effects given its data (empty: of a new one). Up to the
-        item's last row the law holds as in the data; beyond, where conditions change, its path goes on from where it stands.
-        along: the column that is the axis; it matters where the law is a rate or a running sum alone.
+        item's last row the formula holds as in the data; beyond, where conditions change, its path goes on from where it stands.
+        along: the column that is the axis; it matters where the formula is a rate or a running sum alone.
         """
         from ._ask import predict
 
         return predict(self, new, level, kind, along)
 
     def life(self, limit=None, b=(1, 10), confidence=0.9, unit=None, survived=None, *, along=None, given=None):
-        """Lives. Of a study of a law: until what is measured reaches ``limit`` (a text with its unit, or a dict by name), of a
+        """Lives. Of a study of a formula model: until what is measured reaches ``limit`` (a text with its unit, or a dict by name), of a
         new item or what remains to the item ``unit``; or, without a limit, those of which the likelihood is. Of a joint, a
         bearing, or S-N tests those of its own [predict].
 

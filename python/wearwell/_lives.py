@@ -28,7 +28,7 @@ def _levels(b, confidence):
 
 
 def _of_law(study, limit, unit, survived, along):
-    """The keys of [predict] that ask it of a study of a law."""
+    """The keys of [predict] that ask it of a study of a formula model."""
     table = {} if survived is None else {"survived": _toml.quantity(survived, "survived")}
     if limit is None:
         if unit is not None:
@@ -50,7 +50,7 @@ def _of_law(study, limit, unit, survived, along):
     if axis is None:
         raise InputError(f"along is missing: the column along which it wears ({', '.join(conditions_of(study, columns))})")
 
-    def named(key):  # what is measured is no name in expressions, but of a process; its law is
+    def named(key):  # what is measured is no name in expressions, but of a process; its formula is
         slots = study["likelihood"].get(key, {})
         return key if "family" in slots and slots["family"].endswith("process") else slots.get("mean", slots.get("median", key))
 
@@ -60,14 +60,14 @@ def _of_law(study, limit, unit, survived, along):
 def _of_trade(study, limit, unit, survived, along):
     model = study["model"]
     if unit is not None:
-        raise InputError(f"unit is of studies of a law whose parameters differ from item to item; one of the model {model} tells of "
+        raise InputError(f"unit is of studies of a formula model whose parameters differ from item to item; one of the model {model} tells of "
                          "the next one: leave unit out")
     if survived is not None:
-        raise InputError(f"survived is of studies of a law; of the model {model} "
+        raise InputError(f"survived is of studies of a formula model; of the model {model} "
                          + ("fit.ask(predict) tells by survival_to how many outlast a life" if model == "sn" else
                             "fit.summary['life'] tells within how much to inspect what has come so far"))
     if along is not None:
-        raise InputError(f"along is of studies of a law; lives of the model {model} have their axis")
+        raise InputError(f"along is of studies of a formula model; lives of the model {model} have their axis")
     table = {k: v for k, v in study.get("predict", {}).items() if k in _kept[model]}
     if model == "sn":
         if limit is not None:
@@ -102,12 +102,12 @@ def _require_survival(rows, what, survived):
 def life(fit, limit, b, confidence, unit, survived, along, given):
     import pandas
 
-    study = tables_of(fit, ("law", *_kept))
+    study = tables_of(fit, ("formula", *_kept))
     b, confidence = _levels(b, confidence)
-    law = study["model"] == "law"
-    table = (_of_law if law else _of_trade)(study, limit, unit, survived, along)
+    formula = study["model"] == "formula"
+    table = (_of_law if formula else _of_trade)(study, limit, unit, survived, along)
     if given:
-        table = {**table, **({"given": given} if law else given)}
+        table = {**table, **({"given": given} if formula else given)}
     answers = fit.ask({**table, "b_lives": b, "credible_level": confidence})
     rows = [_row(each) for each in answers.get("quantities", [])]
     if "life" in answers:
@@ -116,10 +116,10 @@ def life(fit, limit, b, confidence, unit, survived, along, given):
         rows = [{"name": "life", "of": of or "joint", "at": f"to {told['limit']:g} {told['limit_unit']}", "unit": told["unit"],
                  **{q: _number(told[k]) for q, k in (("q05", "q05"), ("q50", "b50"), ("q95", "q95"))}, "predictive": _nan,
                  "bound": _nan}, *rows] if study["model"] == "archard-joint" else rows
-    wanted = "remaining useful life" if unit is not None or (law and survived is not None) else "life"
+    wanted = "remaining useful life" if unit is not None or (formula and survived is not None) else "life"
     if unit is None:
         def mine(row):  # the next one's, and of all
-            return not row["of"].startswith("median ") if not law else row["of"].startswith("new ") or " " not in row["of"]
+            return not row["of"].startswith("median ") if not formula else row["of"].startswith("new ") or " " not in row["of"]
     else:
         def mine(row):
             return row["of"].split(" ", 1)[-1] == str(unit) and not row["of"].startswith("new ")
@@ -137,7 +137,7 @@ def life(fit, limit, b, confidence, unit, survived, along, given):
                                                       and ("remaining" in row["name"]) == (wanted != "life")))]
     _require_survival(rows, unit if unit is not None else "a new one", survived)
     # Of one thing, whose life only the posterior spreads, the bound is that of its life, and B-lives are its quantiles.
-    one = law and limit is not None and (unit is not None or not ("varies" in study or any(
+    one = formula and limit is not None and (unit is not None or not ("random_effects" in study or any(
         slots["family"].endswith("process") for slots in study["likelihood"].values()))) or study["model"] == "archard-joint"
     found = []
     for row in rows:

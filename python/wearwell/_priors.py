@@ -1,14 +1,14 @@
-"""Laws of priors, as ``[prior]`` of a study has them (docs/reference/priors.md).
+"""Distributions of priors, as ``[prior]`` of a study has them (docs/reference/priors.md).
 
-A quantity is a text with its unit, "7e-4 mm^3/(N m)", a plain number, or a pint quantity. Every law may be cut by
-``lower`` and ``upper``. What is wrong with a law is said when the study is read.
+A quantity is a text with its unit, "7e-4 mm^3/(N m)", a plain number, or a pint quantity. Every distribution may be cut by
+``lower`` and ``upper``. What is wrong with a distribution is said when the study is read.
 """
 
 from ._toml import quantity
 
 
-def _law(law, lower, upper, **keys):
-    prior = {"law": law}
+def _law(distribution, lower, upper, **keys):
+    prior = {"distribution": distribution}
     for key, each in {**keys, "lower": lower, "upper": upper}.items():
         if each is not None:
             prior[key] = each if key == "unit" else quantity(each, key)
@@ -75,11 +75,11 @@ def jeffreys(unit, *, lower=None, upper=None):
     return _law("jeffreys", lower, upper, unit=unit)
 
 
-def prior(law, *, unit=None, lower=None, upper=None, **parameters):
-    """Any law of docs/reference/priors.md by name, with its parameters: ``prior("weibull", scale="5 mm", shape=2)``."""
-    return _law(law, lower, upper, unit=unit, **parameters)
+def prior(distribution, *, unit=None, lower=None, upper=None, **parameters):
+    """Any distribution of docs/reference/priors.md by name, with its parameters: ``prior("weibull", scale="5 mm", shape=2)``."""
+    return _law(distribution, lower, upper, unit=unit, **parameters)
 
 
 def default():
     """What holds where nothing is said (docs/reference/priors.md)."""
-    return {"law": "default"}
+    return {"distribution": "default"}

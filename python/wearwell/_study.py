@@ -1,4 +1,4 @@
-"""Studies: from a file, from text with tables in memory, or put together of a law, data and priors."""
+"""Studies: from a file, from text with tables in memory, or put together of a formula model, data and priors."""
 
 import os
 import re
@@ -13,7 +13,7 @@ _name = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _heading = re.compile(r"\s*([A-Za-z][A-Za-z0-9_]*)\s*(?:[\[(].*)?\Z", re.DOTALL)
 _text = re.compile(r'"[^"]*"|\[[^\]]*\]')  # of an expression: texts and units are no names
 _special = ("status", "lower", "upper", "entry", "count")
-# Of a family: the slot that the law gives, the slot of its scatter, and what that is called where nobody says.
+# Of a family: the slot that the formula gives, the slot of its scatter, and what that is called where nobody says.
 _slots = {
     "normal": ("mean", "sd", "sigma"),
     "lognormal": ("median", "log_sd", "sigma"),
@@ -27,7 +27,7 @@ _slots = {
     "exponential": ("mean", None, None),
     "poisson": ("mean", None, None),
 }
-# Laws of priors that say nothing of a sign, or of a fraction; under all others a parameter is positive.
+# Formulas of priors that say nothing of a sign, or of a fraction; under all others a parameter is positive.
 _of_any_sign = ("flat", "uniform", "normal", "student-t", "smallest-extreme-value", "largest-extreme-value", "beta", "default", None)
 
 
@@ -43,25 +43,25 @@ def _names_in(*texts):
     return found
 
 
-def _lines(law):
-    if isinstance(law, dict):
-        return {str(k).strip(): v for k, v in law.items()}
-    if not isinstance(law, str):
-        raise InputError(f"the law is {type(law).__name__}; it is a text like 'V = k*F*s', one line an equation")
+def _lines(formula):
+    if isinstance(formula, dict):
+        return {str(k).strip(): v for k, v in formula.items()}
+    if not isinstance(formula, str):
+        raise InputError(f"the formula is {type(formula).__name__}; it is a text like 'V = k*F*s', one line an equation")
     lines = {}
-    for line in re.split(r"[\n;]", law):
+    for line in re.split(r"[\n;]", formula):
         if not line.strip():
             continue
         # The first = that is no comparison.
         parts = re.split(r"(?<![<>=!])=(?!=)", line, maxsplit=1)
         if len(parts) != 2 or not parts[0].strip() or not parts[1].strip():
-            raise InputError(f"'{line.strip()}' is no equation; a law is written like 'V = k*F*s'")
+            raise InputError(f"'{line.strip()}' is no equation; a formula is written like 'V = k*F*s'")
         name = parts[0].strip()
         if name in lines:
-            raise InputError(f"the law gives '{name}' twice")
+            raise InputError(f"the formula gives '{name}' twice")
         lines[name] = parts[1].strip()
     if not lines:
-        raise InputError("the law is empty; it is written like 'V = k*F*s'")
+        raise InputError("the formula is empty; it is written like 'V = k*F*s'")
     return lines
 
 
@@ -84,51 +84,51 @@ def _in_python(message):
 
 
 def _middles(lines, likelihood):
-    """The law without what says how measurements scatter about it."""
+    """The formula without what says how measurements scatter about it."""
     scatters = ("family", "sd", "log_sd", "log10_sd", "shape", "df", "trials")
     return list(lines.values()) + [text for slots in likelihood.values() for slot, text in slots.items() if slot not in scatters]
 
 
-def _varies(varies, unit, texts, priors):
+def _varies(random_effects, unit, texts, priors):
     in_law = [p for p in priors if p in _names_in(texts)]
-    if varies is None:
+    if random_effects is None:
         if len(in_law) != 1:
             raise InputError(
                 f"which of {', '.join(in_law) or 'its parameters'} differ from {unit} to {unit}? "
-                f"varies=['{in_law[0] if in_law else 'k'}'] says so"
+                f"random_effects=['{in_law[0] if in_law else 'k'}'] says so"
             )
-        varies = in_law
-    if isinstance(varies, str):
-        varies = [varies]
-    if not isinstance(varies, dict):
-        varies = {p: "normal" if priors.get(p, {}).get("law") in _of_any_sign else "lognormal" for p in varies}
+        random_effects = in_law
+    if isinstance(random_effects, str):
+        random_effects = [random_effects]
+    if not isinstance(random_effects, dict):
+        random_effects = {p: "normal" if priors.get(p, {}).get("distribution") in _of_any_sign else "lognormal" for p in random_effects}
     entries, added = {}, {}
-    for parameter, how in varies.items():
+    for parameter, how in random_effects.items():
         if not isinstance(how, str) or parameter == "correlation":
             entries[parameter] = how
             continue
         scatter = f"{parameter}_scatter"
-        entries[parameter] = {"law": how, ("log_sd" if how == "lognormal" else "sd"): scatter}
+        entries[parameter] = {"distribution": how, ("log_sd" if how == "lognormal" else "sd"): scatter}
         if scatter not in priors:
             if how != "lognormal":
                 raise InputError(f"priors has no '{scatter}': by how much {parameter} differs from {unit} to {unit}")
-            added[scatter] = {"law": "half-normal", "scale": 1}
+            added[scatter] = {"distribution": "half-normal", "scale": 1}
     return entries, added
 
 
 class Study:
-    """A study: data, a law, priors, and what to predict.
+    """A study: data, a formula, priors, and what to predict.
 
-    ``Study(law="V = k*F*s", data=df, units={"F": "N", "s": "m", "V": "mm^3"}, priors={...}, unit="joint")``
+    ``Study(formula="V = k*F*s", data=df, units={"F": "N", "s": "m", "V": "mm^3"}, priors={...}, unit="joint")``
 
-    law: equations, one a line (docs/reference/law.md); a line whose left side is a column is what is measured.
+    formula: equations, one a line (docs/reference/formula-language.md); a line whose left side is a column is what is measured.
     data: see ``wearwell.table``. units: of columns, by heading or name; a heading may say it, "F [N]".
     priors: by parameter, as made by ``wearwell.lognormal`` and its like; units are those of the answer.
-    unit: the column that names the items; ``varies`` says which parameters differ between them (one or two; a list,
-    or a dict to "lognormal" or "normal"), by default the only one of the law, lognormal where it is positive. The scatter
+    unit: the column that names the items; ``random_effects`` says which parameters differ between them (one or two; a list,
+    or a dict to "lognormal" or "normal"), by default the only one of the formula, lognormal where it is positive. The scatter
     of k is the parameter k_scatter (half-normal, scale 1, where ``priors`` does not say).
-    family, scatter: how what is measured scatters about the law: "normal" with the parameter sigma, ...; or
-    ``likelihood``: tables as [likelihood.NAME] of docs/reference/law-study.md. constants, predict, sampler: as there.
+    family, scatter: how what is measured scatters about the formula: "normal" with the parameter sigma, ...; or
+    ``likelihood``: tables as [likelihood.NAME] of docs/reference/formula-models.md. constants, predict, sampler: as there.
     status: the column that says how each life ended, "event" or {"column": "event", "failure": 1} where it holds codes and its
     heading does not tell what a failure is written as, or {"column": "end", "failure": "broke", "runout": ["ran", "stopped"]} with
     words of the table; by default the column "status", if there is one. unused: columns that look
@@ -137,7 +137,7 @@ class Study:
     Raises InputError (a ValueError) in the words of the command line. Nothing is fitted yet.
     """
 
-    def __init__(self, law, data, *, priors, units=None, unit=None, varies=None, family="normal", scatter=None,
+    def __init__(self, formula, data, *, priors, units=None, unit=None, random_effects=None, family="normal", scatter=None,
                  likelihood=None, constants=None, predict=None, sampler=None, title=None, status=None, unused=None):
         units = {k: _toml.unit_text(v) for k, v in (units or {}).items()}
         headings = headings_of(data)
@@ -158,16 +158,16 @@ class Study:
         units = {name_of.get(k, k): v for k, v in units.items()}
         if unit is not None and unit not in columns:
             raise InputError(f"unit: data has no column '{unit}' (columns: {', '.join(map(str, headings))})")
-        lines = _lines(law)
+        lines = _lines(formula)
         priors = dict(priors)
         for parameter, prior in priors.items():
             if not isinstance(prior, dict):
                 raise InputError(f"priors: {parameter} is {type(prior).__name__}; wearwell.lognormal(...) and its like make one")
         if likelihood is None:
             likelihood, lines = self._likelihood(lines, columns, family, scatter)
-        entries, added = _varies(varies, unit, _middles(lines, likelihood), priors) if unit is not None else ({}, {})
-        if unit is None and varies is not None:
-            raise InputError("varies needs unit: the column that names what differs")
+        entries, added = _varies(random_effects, unit, _middles(lines, likelihood), priors) if unit is not None else ({}, {})
+        if unit is None and random_effects is not None:
+            raise InputError("random_effects needs unit: the column that names what differs")
         priors.update(added)
         used = _names_in(lines, likelihood, predict or {}, [k for k in likelihood]) | set(_special) | {unit}
         chosen = {n: h for n, h in columns.items() if n in used}
@@ -179,18 +179,18 @@ class Study:
             if key not in name_of and key not in columns and key not in headings:
                 raise InputError(f"unused: data has no column '{key}' (columns: {', '.join(map(str, headings))})")
         unused = [columns.get(key, key) for key in unused]
-        parts = [_toml.table("", {"title": title or "; ".join(f"{k} = {v}" for k, v in _lines(law).items()), "model": "law"})]
+        parts = [_toml.table("", {"title": title or "; ".join(f"{k} = {v}" for k, v in _lines(formula).items()), "model": "formula"})]
         parts.append(_toml.table("data", {"file": "data", **({"unused": unused} if unused else {})}))
         parts.append(_toml.table("data.columns", in_file))
         if constants:
             parts.append(_toml.table("constants", {k: _toml.quantity(v, f"constants.{k}") for k, v in constants.items()}))
         if lines:
-            parts.append(_toml.table("law", lines))
+            parts.append(_toml.table("formula", lines))
         for measured, slots in likelihood.items():
             parts.append(_toml.table(f"likelihood.{measured}", slots))
         parts.append(_toml.table("prior", priors))
         if entries:
-            parts.append(_toml.table(f"varies.{unit}", entries))
+            parts.append(_toml.table(f"random_effects.{unit}", entries))
         if predict:
             parts.append(_toml.table("predict", predict))
         if sampler:
@@ -209,12 +209,12 @@ class Study:
     @staticmethod
     def _likelihood(lines, columns, family, scatter):
         if family not in _slots:
-            raise InputError(f"family '{family}' has no one slot for a law; likelihood={{...}} gives all of them "
+            raise InputError(f"family '{family}' has no single parameter for a formula; likelihood={{...}} gives all of them "
                              f"(families with one: {', '.join(_slots)})")
         middle, spread, usual = _slots[family]
         measured = [name for name in lines if name in columns]
         if not measured:
-            raise InputError(f"no left side of the law is a column of data: {', '.join(lines)} (columns: {', '.join(columns)})")
+            raise InputError(f"no left side of the formula is a column of data: {', '.join(lines)} (columns: {', '.join(columns)})")
         likelihood = {}
         for name in measured:
             slots = {"family": family, middle: lines[name]}
@@ -249,9 +249,9 @@ class Study:
         self._read = _core.read_text(text, path, tables)
         return self
 
-    def in_words(self):
+    def description(self):
         """What will be fitted, in words and units, as ``wearwell check`` prints it."""
-        return self._read.in_words()
+        return self._read.description()
 
     def fit(self, seed=None, *, method=None, chains=None, warmup=None, draws=None, threads=0, report=True, progress=None):
         """Fits, checks and predicts.

@@ -11,7 +11,7 @@ ww_ask <- function(fit, predict, level = 0.9) {
 }
 
 # The study's tables and keys; of a study of these models alone.
-keys_of <- function(fit, models = "law") {
+keys_of <- function(fit, models = "formula") {
   study <- core(C_keys, fit$study$text)
   if (!isTRUE(study$model %in% models)) {
     stop_input("this is asked of studies of the model ", paste(models, collapse = " or "), ", and this one is of the model ", study$model,
@@ -31,7 +31,7 @@ column_units <- function(study) {
 }
 
 # Columns that are neither measured nor name the items.
-conditions_of <- function(study, units) setdiff(names(units), c(names(study$likelihood), names(study$varies), special))
+conditions_of <- function(study, units) setdiff(names(units), c(names(study$likelihood), names(study$random_effects), special))
 
 axis_of <- function(study, units, along) {
   if (is.null(along)) along <- study$predict$along
@@ -41,9 +41,9 @@ axis_of <- function(study, units, along) {
     }
     return(along)
   }
-  texts <- c(unlist(study$law), unlist(study$likelihood))
-  if (any(startsWith(c(names(study$law), ""), "d(")) || any(grepl("cum(", texts, fixed = TRUE))) {
-    stop_input("along is missing: this law is a rate or a running sum along a column")
+  texts <- c(unlist(study$formula), unlist(study$likelihood))
+  if (any(startsWith(c(names(study$formula), ""), "d(")) || any(grepl("cum(", texts, fixed = TRUE))) {
+    stop_input("along is missing: this formula is a rate or a running sum along a column")
   }
   NULL
 }
@@ -104,9 +104,9 @@ predict.ww_fit <- function(object, newdata, level = 0.9, kind = "mean", along = 
   if (nrow(newdata) == 0) stop_input("newdata has no rows")
   unknown <- setdiff(names(newdata), names(units))
   if (length(unknown)) stop_input("newdata: the study has no column '", unknown[1], "' (columns: ", words(conditions), ")")
-  label <- names(study$varies)[1]
+  label <- names(study$random_effects)[1]
   if (kind == "unit" && is.null(label)) {
-    stop_input("kind = 'unit' is of studies whose parameters differ from item to item (varies), and nothing differs here: ",
+    stop_input("kind = 'unit' is of studies whose parameters differ from item to item (random_effects), and nothing differs here: ",
                "kind = 'next' is a measurement to come")
   }
   whose <- if (kind == "unit") whose_of(newdata, label) else rep(NA_character_, nrow(newdata))

@@ -16,7 +16,7 @@ require_levels <- function(b, confidence) {
   }
 }
 
-# The keys of [predict] that ask it of a study of a law.
+# The keys of [predict] that ask it of a study of a formula model.
 asked_of_law <- function(study, limit, unit, survived, along) {
   question <- if (is.null(survived)) list() else list(survived = quantity(survived, "survived"))
   units <- column_units(study)
@@ -42,7 +42,7 @@ asked_of_law <- function(study, limit, unit, survived, along) {
   if (is.null(axis)) {
     stop_input("along is missing: the column along which it wears (", words(conditions_of(study, units)), ")")
   }
-  # What is measured is no name in expressions, but of a process; its law is.
+  # What is measured is no name in expressions, but of a process; its formula is.
   of <- vapply(names(limit), function(name) {
     slots <- study$likelihood[[name]]
     if (is_process(slots)) name else if (!is.null(slots$mean)) slots$mean else if (!is.null(slots$median)) slots$median else name
@@ -56,15 +56,15 @@ is_process <- function(slots) isTRUE(endsWith(as.character(slots$family), "proce
 asked_of_trade <- function(study, limit, unit, survived, along) {
   model <- study$model
   if (!is.null(unit)) {
-    stop_input("unit is of studies of a law whose parameters differ from item to item; one of the model ", model,
+    stop_input("unit is of studies of a formula model whose parameters differ from item to item; one of the model ", model,
                " tells of the next one: leave unit out")
   }
   if (!is.null(survived)) {
-    stop_input("survived is of studies of a law; of the model ", model, if (model == "sn")
+    stop_input("survived is of studies of a formula model; of the model ", model, if (model == "sn")
       " ww_ask(fit, predict) tells by survival_to how many outlast a life" else
       " fit$summary$life tells within how much to inspect what has come so far")
   }
-  if (!is.null(along)) stop_input("along is of studies of a law; lives of the model ", model, " have their axis")
+  if (!is.null(along)) stop_input("along is of studies of a formula model; lives of the model ", model, " have their axis")
   question <- study$predict[intersect(names(study$predict), kept_of[[model]])]
   if (model == "sn") {
     if (!is.null(limit)) stop_input("limit is of wear; a life of an S-N study ends with failure: leave limit out")
@@ -78,19 +78,19 @@ asked_of_trade <- function(study, limit, unit, survived, along) {
 }
 
 ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NULL, survived = NULL, along = NULL, given = NULL) {
-  study <- keys_of(fit, c("law", names(kept_of)))
+  study <- keys_of(fit, c("formula", names(kept_of)))
   require_levels(b, confidence)
   b <- unique(as.double(b))
-  law <- study$model == "law"
-  question <- (if (law) asked_of_law else asked_of_trade)(study, limit, unit, survived, along)
-  if (length(given)) question <- c(question, if (law) list(given = as.list(given)) else as.list(given))
+  formula <- study$model == "formula"
+  question <- (if (formula) asked_of_law else asked_of_trade)(study, limit, unit, survived, along)
+  if (length(given)) question <- c(question, if (formula) list(given = as.list(given)) else as.list(given))
   answers <- ww_ask(fit, c(question, list(b_lives = as.list(b), credible_level = as.double(confidence))))
   rows <- life_rows(answers, study$model)
-  wanted <- if (!is.null(unit) || (law && !is.null(survived))) "remaining useful life" else "life"
+  wanted <- if (!is.null(unit) || (formula && !is.null(survived))) "remaining useful life" else "life"
   item <- sub("^[^ ]* ", "", rows$of)
   is_new <- startsWith(rows$of, "new ")
   if (is.null(unit)) {
-    mine <- if (law) is_new | !grepl(" ", rows$of, fixed = TRUE) else !startsWith(rows$of, "median ")
+    mine <- if (formula) is_new | !grepl(" ", rows$of, fixed = TRUE) else !startsWith(rows$of, "median ")
   } else {
     mine <- item == as.character(unit) & !is_new
     seen <- sort(unique(item[rows$name == wanted & !is_new]))
@@ -104,8 +104,8 @@ ww_life <- function(fit, limit = NULL, b = c(1, 10), confidence = 0.9, unit = NU
   of_all <- of_all[keep]
   require_survival(rows, if (is.null(unit)) "a new one" else unit, survived)
   # Of one thing, whose life only the posterior spreads, the bound is that of its life, and B-lives are its quantiles.
-  spread <- function() !is.null(study$varies) || any(vapply(study$likelihood, is_process, NA))
-  one <- study$model == "archard-joint" || (law && !is.null(limit) && (!is.null(unit) || !spread()))
+  spread <- function() !is.null(study$random_effects) || any(vapply(study$likelihood, is_process, NA))
+  one <- study$model == "archard-joint" || (formula && !is.null(limit) && (!is.null(unit) || !spread()))
   levels <- paste0("b", format(b, trim = TRUE, digits = 6, drop0trailing = TRUE))
   columns <- c("name", "of", "at", "unit", "q05", "q50", "q95", levels, "predictive", "bound")
   rows[levels] <- NA_real_

@@ -1,10 +1,10 @@
-# Laws of priors, as [prior] of a study has them (docs/reference/priors.md). What is wrong with a law is said when the study is read.
+# Distributions of priors, as [prior] of a study has them (docs/reference/priors.md). What is wrong with a distribution is said when the study is read.
 
-prior <- function(law, ..., unit = NULL) {
+prior <- function(distribution, ..., unit = NULL) {
   keys <- list(...)
   keys <- keys[!vapply(keys, is.null, NA)]
   keys <- Map(quantity, keys, names(keys))
-  c(list(law = law), if (!is.null(unit)) list(unit = one_text(unit, "unit")), keys)
+  c(list(distribution = distribution), if (!is.null(unit)) list(unit = one_text(unit, "unit")), keys)
 }
 
 ww_flat <- function(unit, lower = NULL, upper = NULL) prior("flat", lower = lower, upper = upper, unit = unit)
@@ -39,6 +39,6 @@ ww_beta <- function(alpha, beta, lower = NULL, upper = NULL) prior("beta", alpha
 
 ww_jeffreys <- function(unit, lower = NULL, upper = NULL) prior("jeffreys", lower = lower, upper = upper, unit = unit)
 
-ww_prior <- function(law, ..., lower = NULL, upper = NULL, unit = NULL) prior(law, ..., lower = lower, upper = upper, unit = unit)
+ww_prior <- function(distribution, ..., lower = NULL, upper = NULL, unit = NULL) prior(distribution, ..., lower = lower, upper = upper, unit = unit)
 
-ww_default <- function() list(law = "default")
+ww_default <- function() list(distribution = "default")

@@ -1,7 +1,7 @@
-# Studies: from a file, from text with tables in memory, or put together of a law, data and priors.
+# Studies: from a file, from text with tables in memory, or put together of a formula model, data and priors.
 
 special <- c("status", "lower", "upper", "entry", "count")
-# Of a family: the slot that the law gives, the slot of its scatter, and what that is called where nobody says.
+# Of a family: the slot that the formula gives, the slot of its scatter, and what that is called where nobody says.
 slots <- list(
   normal = c("mean", "sd", "sigma"),
   lognormal = c("median", "log_sd", "sigma"),
@@ -14,7 +14,7 @@ slots <- list(
   `largest-extreme-value` = c("location", "scale", "sigma"),
   exponential = "mean",
   poisson = "mean")
-# Laws of priors that say nothing of a sign, or of a fraction; under all others a parameter is positive.
+# Formulas of priors that say nothing of a sign, or of a fraction; under all others a parameter is positive.
 of_any_sign <- c("flat", "uniform", "normal", "student-t", "smallest-extreme-value", "largest-extreme-value", "beta", "default")
 scatters <- c("family", "sd", "log_sd", "log10_sd", "shape", "df", "trials")
 
@@ -25,32 +25,32 @@ names_in <- function(x) {
   unique(unlist(regmatches(texts, gregexpr("[A-Za-z][A-Za-z0-9_]*", texts))))
 }
 
-law_lines <- function(law) {
-  if (!is.null(names(law)) && (is.list(law) || is.character(law))) return(stats::setNames(as.list(law), trimws(names(law))))
-  if (!is.character(law) || anyNA(law)) stop_input("the law is ", kind_of(law), "; it is a text like 'V = k*F*s', one line an equation")
+law_lines <- function(formula) {
+  if (!is.null(names(formula)) && (is.list(formula) || is.character(formula))) return(stats::setNames(as.list(formula), trimws(names(formula))))
+  if (!is.character(formula) || anyNA(formula)) stop_input("the formula is ", kind_of(formula), "; it is a text like 'V = k*F*s', one line an equation")
   lines <- list()
-  for (line in unlist(strsplit(law, "[\n;]"))) {
+  for (line in unlist(strsplit(formula, "[\n;]"))) {
     if (trimws(line) == "") next
     at <- regexpr("(?<![<>=!])=(?!=)", line, perl = TRUE)  # the first = that is no comparison
     name <- trimws(substr(line, 1, at - 1))
     side <- trimws(substr(line, at + 1, nchar(line)))
-    if (at < 0 || name == "" || side == "") stop_input("'", trimws(line), "' is no equation; a law is written like 'V = k*F*s'")
-    if (name %in% names(lines)) stop_input("the law gives '", name, "' twice")
+    if (at < 0 || name == "" || side == "") stop_input("'", trimws(line), "' is no equation; a formula is written like 'V = k*F*s'")
+    if (name %in% names(lines)) stop_input("the formula gives '", name, "' twice")
     lines[[name]] <- side
   }
-  if (!length(lines)) stop_input("the law is empty; it is written like 'V = k*F*s'")
+  if (!length(lines)) stop_input("the formula is empty; it is written like 'V = k*F*s'")
   lines
 }
 
 likelihood_of <- function(lines, columns, family, scatter) {
   if (!is_path(family) || !family %in% names(slots)) {
-    stop_input("family ", shown_value(family), " has no one slot for a law; likelihood = list(...) gives all of them (families with ",
+    stop_input("family ", shown_value(family), " has no single parameter for a formula; likelihood = list(...) gives all of them (families with ",
                "one: ", words(names(slots)), ")")
   }
   slot <- slots[[family]]
   measured <- intersect(names(lines), names(columns))
   if (!length(measured)) {
-    stop_input("no left side of the law is a column of data: ", words(names(lines)), " (columns: ", words(names(columns)), ")")
+    stop_input("no left side of the formula is a column of data: ", words(names(lines)), " (columns: ", words(names(columns)), ")")
   }
   likelihood <- lapply(lines[measured], function(line) stats::setNames(list(family, line), c("family", slot[1])))
   if (length(slot) > 1) {
@@ -62,39 +62,39 @@ likelihood_of <- function(lines, columns, family, scatter) {
   likelihood
 }
 
-# (entries of [varies], priors that they need): which parameters differ from item to item.
-varies_of <- function(varies, unit, lines, likelihood, priors) {
+# (entries of [random_effects], priors that they need): which parameters differ from item to item.
+varies_of <- function(random_effects, unit, lines, likelihood, priors) {
   middles <- c(lines, lapply(likelihood, function(slots) slots[setdiff(names(slots), scatters)]))
-  if (is.null(varies)) {
+  if (is.null(random_effects)) {
     in_law <- intersect(names(priors), names_in(unname(lapply(middles, function(m) unname(unlist(m))))))
     if (length(in_law) != 1) {
       stop_input("which of ", if (length(in_law)) words(in_law) else "its parameters", " differ from ", unit, " to ", unit,
-                 "? varies = '", c(in_law, "k")[1], "' says so")
+                 "? random_effects = '", c(in_law, "k")[1], "' says so")
     }
-    varies <- in_law
+    random_effects <- in_law
   }
-  if (is.null(names(varies))) {
-    law <- function(p) if (is.null(priors[[p]]$law) || priors[[p]]$law %in% of_any_sign) "normal" else "lognormal"
-    varies <- stats::setNames(lapply(varies, law), varies)
+  if (is.null(names(random_effects))) {
+    formula <- function(p) if (is.null(priors[[p]]$formula) || priors[[p]]$formula %in% of_any_sign) "normal" else "lognormal"
+    random_effects <- stats::setNames(lapply(random_effects, formula), random_effects)
   }
   entries <- added <- list()
-  for (parameter in names(varies)) {
-    how <- varies[[parameter]]
+  for (parameter in names(random_effects)) {
+    how <- random_effects[[parameter]]
     if (!is.character(how) || parameter == "correlation") {
       entries[[parameter]] <- how
       next
     }
     scatter <- paste0(parameter, "_scatter")
-    entries[[parameter]] <- stats::setNames(list(how, scatter), c("law", if (how == "lognormal") "log_sd" else "sd"))
+    entries[[parameter]] <- stats::setNames(list(how, scatter), c("distribution", if (how == "lognormal") "log_sd" else "sd"))
     if (!scatter %in% names(priors)) {
       if (how != "lognormal") stop_input("priors has no '", scatter, "': by how much ", parameter, " differs from ", unit, " to ", unit)
-      added[[scatter]] <- list(law = "half-normal", scale = 1)
+      added[[scatter]] <- list(distribution = "half-normal", scale = 1)
     }
   }
   list(entries = entries, added = added)
 }
 
-# Headings by the names that laws have for them: "F [N]" is F.
+# Headings by the names that formulas have for them: "F [N]" is F.
 named_columns <- function(headings) {
   match <- regmatches(headings, regexec("^\\s*([A-Za-z][A-Za-z0-9_]*)\\s*([[(].*)?$", headings))
   known <- lengths(match) > 0
@@ -132,7 +132,7 @@ in_r <- function(message) {
   gsub("unused = \\[([^]]*)\\] under \\[data\\]", "unused = \\1", message)
 }
 
-ww_study <- function(law, data, units = NULL, priors, unit = NULL, varies = NULL, family = "normal", scatter = NULL,
+ww_study <- function(formula, data, units = NULL, priors, unit = NULL, random_effects = NULL, family = "normal", scatter = NULL,
                      likelihood = NULL, constants = NULL, predict = NULL, sampler = NULL, title = NULL, status = NULL,
                      unused = NULL) {
   units <- unit_texts(units, "units")
@@ -148,7 +148,7 @@ ww_study <- function(law, data, units = NULL, priors, unit = NULL, varies = NULL
   if (!is.null(unit) && !isTRUE(unit %in% names(columns))) {
     stop_input("unit: data has no column '", words(unit), "' (columns: ", words(headings), ")")
   }
-  all_lines <- lines <- law_lines(law)
+  all_lines <- lines <- law_lines(formula)
   if (missing(priors)) stop_input("priors is missing: a list like list(k = ww_lognormal(\"1e-7 mm^3/(N m)\", log_sd = 3))")
   for (parameter in names(priors)) {
     if (!is.list(priors[[parameter]])) {
@@ -159,10 +159,10 @@ ww_study <- function(law, data, units = NULL, priors, unit = NULL, varies = NULL
     likelihood <- likelihood_of(lines, columns, family, scatter)
     lines <- lines[setdiff(names(lines), names(likelihood))]
   }
-  if (is.null(unit) && !is.null(varies)) stop_input("varies needs unit: the column that names what differs")
+  if (is.null(unit) && !is.null(random_effects)) stop_input("random_effects needs unit: the column that names what differs")
   entries <- list()
   if (!is.null(unit)) {
-    found <- varies_of(varies, unit, lines, likelihood, priors)
+    found <- varies_of(random_effects, unit, lines, likelihood, priors)
     entries <- found$entries
     priors <- c(priors, found$added)
   }
@@ -179,14 +179,14 @@ ww_study <- function(law, data, units = NULL, priors, unit = NULL, varies = NULL
   if (length(unknown)) stop_input("unused: data has no column '", unknown[1], "' (columns: ", words(headings), ")")
   unused <- unname(ifelse(unused %in% names(columns), columns[unused], unused))
   if (is.null(title)) title <- paste(names(all_lines), all_lines, sep = " = ", collapse = "; ")
-  parts <- c(toml_table("", list(title = title, model = "law")),
+  parts <- c(toml_table("", list(title = title, model = "formula")),
              toml_table("data", c(list(file = "data"), if (length(unused)) list(unused = as.list(unused)))),
              toml_table("data.columns", in_table))
   if (length(constants)) parts <- c(parts, toml_table("constants", Map(quantity, constants, paste0("constants.", names(constants)))))
-  if (length(lines)) parts <- c(parts, toml_table("law", lines))
+  if (length(lines)) parts <- c(parts, toml_table("formula", lines))
   for (measured in names(likelihood)) parts <- c(parts, toml_table(paste0("likelihood.", measured), likelihood[[measured]]))
   parts <- c(parts, toml_table("prior", priors))
-  if (length(entries)) parts <- c(parts, toml_table(paste0("varies.", unit), entries))
+  if (length(entries)) parts <- c(parts, toml_table(paste0("random_effects.", unit), entries))
   if (length(predict)) parts <- c(parts, toml_table("predict", predict))
   if (length(sampler)) parts <- c(parts, toml_table("sampler", sampler))
   # Columns that may say how lives ended go along: the library refuses to pass over them.
@@ -272,7 +272,7 @@ as_study <- function(study, data = NULL, units = NULL) {
   if (length(unknown)) stop_input("study has no '", unknown[1], "' (it has: ", words(names(formals(ww_study))), ")")
   if (!is.null(data)) study["data"] <- list(data)
   if (!is.null(units)) study["units"] <- list(units)
-  if (is.null(study$law)) stop_input("study has no 'law'")
+  if (is.null(study$formula)) stop_input("study has no 'formula'")
   if (is.null(study$data)) stop_input("study has no 'data'")
   do.call(ww_study, study, quote = TRUE)
 }

@@ -13,12 +13,12 @@ struct Nothing {
 /// seconds, or NULL.
 template <class Work>
 void attended(SEXP progress, const Work& work) {
-  embed::attended<Nothing>(work, [&](const std::optional<embed::Told>& told) {
+  embed::attended<Nothing>(work, [&](const std::optional<embed::ProgressSnapshot>& reported) {
     Rcpp::checkUserInterrupt();
-    if (!told || Rf_isNull(progress)) return;
+    if (!reported || Rf_isNull(progress)) return;
     const Rcpp::Function function(progress);
-    function(told->what, static_cast<double>(told->done), static_cast<double>(told->total),
-             told->seconds);
+    function(reported->what, static_cast<double>(reported->done),
+             static_cast<double>(reported->total), reported->seconds);
   });
 }
 

@@ -31,8 +31,8 @@ SEXP read_text(const std::string& text, const std::string& path, const Rcpp::Lis
 SEXP study_text(SEXP study) {
   return text_of(held<ReadStudy>(study).text);
 }
-SEXP in_words(SEXP study) {
-  return text_of(held<ReadStudy>(study).study->in_words());
+SEXP description(SEXP study) {
+  return text_of(held<ReadStudy>(study).study->description());
 }
 
 // The tables and keys of a study, as lists.
@@ -207,7 +207,7 @@ void add_studies(Doors& doors) {
   doors.insert(
       doors.end(),
       {door<&read_file>("read_file"), door<&read_text>("read_text"),
-       door<&study_text>("study_text"), door<&in_words>("in_words"), door<&keys>("keys"),
+       door<&study_text>("study_text"), door<&description>("description"), door<&keys>("keys"),
        door<&written>("written"), door<&run>("run"), door<&summary>("summary"),
        door<&terminal>("terminal"), door<&draws_of>("draws"), door<&sample_stats>("sample_stats"),
        door<&files_of>("files"), door<&page_of>("page_of"), door<&write_folder>("write_folder"),

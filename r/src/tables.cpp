@@ -47,9 +47,9 @@ SEXP table_of_file(const std::string& file, const std::vector<std::string>& head
                    const std::vector<std::string>& units) {
   const embed::ForkGuard guard;
   Table table = read_table(file);
-  std::map<std::string, std::string> told;
-  for (std::size_t i = 0; i < headings.size(); ++i) told[headings[i]] = units[i];
-  embed::add_units(table, told);
+  std::map<std::string, std::string> reported;
+  for (std::size_t i = 0; i < headings.size(); ++i) reported[headings[i]] = units[i];
+  embed::add_units(table, reported);
   return hold(std::move(table));
 }
 

@@ -21,7 +21,7 @@ const fs::path source = PROJECT_SOURCE_DIR "/src/wearwell";
 const std::vector<std::set<std::string>> order = {
     {"base"},
     {"math", "netcdf"},
-    {"law"},
+    {"formula"},
     {"prob"},
     {"bayes"},
     {"latent"},
@@ -32,7 +32,7 @@ const std::vector<std::set<std::string>> order = {
     {"present"},
     {"study"},
     {"selection", "prognosis", "fleet"},
-    {"joint", "bearing", "clutch", "fatigue", "ownlaw"},
+    {"joint", "bearing", "clutch", "fatigue", "formula_model"},
     {"models", "monitor"},
     {"cli"},
     {"embed"}};

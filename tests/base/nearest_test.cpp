@@ -7,7 +7,7 @@ namespace {
 
 TEST(NearestName, PrefersFewestEdits) {
   EXPECT_EQ(nearest_name("volum", {"cycles", "volume", "column"}), "volume");
-  EXPECT_EQ(nearest_name("lowr", {"law", "lower", "upper"}), "lower");
+  EXPECT_EQ(nearest_name("lowr", {"distribution", "lower", "upper"}), "lower");
   EXPECT_EQ(nearest_name("", {"k"}), "k");
 }
 

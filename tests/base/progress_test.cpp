@@ -9,15 +9,15 @@ namespace wearwell {
 namespace {
 
 TEST(Progress, TellsHowFar) {
-  std::vector<Step> told;
-  const Monitor monitor{.progress = [&](const Step& step) { told.push_back(step); }};
+  std::vector<Step> reported;
+  const Monitor monitor{.progress = [&](const Step& step) { reported.push_back(step); }};
   Progress progress(monitor, "iterations");
   progress.expect(400);
   progress.advance(100);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].what, "iterations");
-  EXPECT_EQ(told[0].done, 100);
-  EXPECT_EQ(told[0].total, 400);
+  ASSERT_EQ(reported.size(), 1u);
+  EXPECT_EQ(reported[0].what, "iterations");
+  EXPECT_EQ(reported[0].done, 100);
+  EXPECT_EQ(reported[0].total, 400);
 }
 
 TEST(Progress, CountsTheStepsOfAllThreads) {

@@ -214,7 +214,7 @@ class Killed : public StagedFolderTest {
     write(name, text);
   }
   Tree healed() const {
-    heal_folder(folder());
+    recover_folder(folder());
     return tree(folder());
   }
   const fs::path area = folder() / ".wearwell.unfinished.abcdefghijkl";
@@ -299,7 +299,7 @@ TEST_F(Killed, IsLeftAloneWhileItsOwnerLives) {
   fs::remove_all(area);
   StagedFolder staged(target);
   staged.write("x", "1");
-  heal_folder(folder());
+  recover_folder(folder());
   staged.commit({});
   EXPECT_EQ(tree(folder()), (Tree{{"out/", ""}, {"out/x", "1"}}));
 }

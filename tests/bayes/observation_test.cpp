@@ -26,12 +26,12 @@ TEST(Observations, MatchR) {
 }
 
 double observation_cdf(ObservationFamily family, double y, double mu, double spread) {
-  return ObservationLaw(family, mu, spread)
+  return ObservationDistribution(family, mu, spread)
       .cdf(family == ObservationFamily::normal ? y : std::log(y));
 }
 
 // R: pnorm(8, 5, 2.5); z <- sqrt(log1p(.25)); plnorm(8, log(5) - z^2/2, z)
-TEST(ObservationLaw, MatchesR) {
+TEST(ObservationDistribution, MatchesR) {
   EXPECT_NEAR(observation_cdf(ObservationFamily::normal, 8, 5, 2.5), 0.88493032977829178, 1e-15);
   EXPECT_NEAR(observation_cdf(ObservationFamily::lognormal, 8, 5, 2.5), 0.89086814889446053, 1e-15);
   EXPECT_EQ(observation_cdf(ObservationFamily::lognormal, 0, 5, 2.5), 0);
@@ -46,7 +46,7 @@ TEST(Observations, LognormalMeanMustBePositive) {
 
 // As its mean goes to 0 at a constant standard deviation, a lognormal quantity goes to 0 (its
 // median is mean^2/sqrt(mean^2 + sd^2)).
-TEST(ObservationLaw, VanishingLognormalMean) {
+TEST(ObservationDistribution, VanishingLognormalMean) {
   for (const double mu : {1e-150, 1e-200, 1e-300, 0.0}) {
     EXPECT_GT(observation_cdf(ObservationFamily::lognormal, 1, mu, 2), 1 - 1e-15) << mu;
   }

@@ -49,37 +49,38 @@ std::shared_ptr<const LogDensity> line(int dimension,
   return std::make_shared<Line>(dimension, family);
 }
 
-Parameter parameter(const std::string& name, const Law& prior, double start) {
+Parameter parameter(const std::string& name, const Distribution& prior, double start) {
   Parameter p{name, "1", Unit{"1", 1, 0}, "", prior};
   p.start = start;
   p.scale = 0.7;
   return p;
 }
 
-const std::vector<Law>& rates() {
-  static const std::vector<Law> laws = {
-      make_law(Flat{}, 0, infinity),       make_law(Normal{1, 0.5}, 0, infinity),
-      make_law(Lognormal{1, 1}, 0, 7),     make_law(Gamma{2, 0.6}, 0, infinity),
-      make_law(StudentT{3, 1, 2}, 0.1, 4), make_law(Normal{1, 2}, 0, infinity),
-      make_law(Jeffreys{}, 0.01, infinity)};
-  return laws;
+const std::vector<Distribution>& rates() {
+  static const std::vector<Distribution> distributions = {
+      make_distribution(Flat{}, 0, infinity),       make_distribution(Normal{1, 0.5}, 0, infinity),
+      make_distribution(Lognormal{1, 1}, 0, 7),     make_distribution(Gamma{2, 0.6}, 0, infinity),
+      make_distribution(StudentT{3, 1, 2}, 0.1, 4), make_distribution(Normal{1, 2}, 0, infinity),
+      make_distribution(Jeffreys{}, 0.01, infinity)};
+  return distributions;
 }
-const std::vector<Law>& sigmas() {
-  static const std::vector<Law> laws = {
-      make_law(Uniform{}, 0, 5), make_law(StudentT{1, 0, 1}, 0, infinity),
-      make_law(InverseGamma{2, 1}, 0, infinity), make_law(Jeffreys{}, 0, infinity),
-      make_law(Gamma{1, 2}, 0, infinity)};
-  return laws;
+const std::vector<Distribution>& sigmas() {
+  static const std::vector<Distribution> distributions = {
+      make_distribution(Uniform{}, 0, 5), make_distribution(StudentT{1, 0, 1}, 0, infinity),
+      make_distribution(InverseGamma{2, 1}, 0, infinity),
+      make_distribution(Jeffreys{}, 0, infinity), make_distribution(Gamma{1, 2}, 0, infinity)};
+  return distributions;
 }
-const std::vector<Law>& offsets() {
-  static const std::vector<Law> laws = {
-      make_law(Normal{0, 1}, -infinity, infinity), make_law(StudentT{4, 0, 1}, -infinity, 1),
-      make_law(Beta{2, 3}, 0, 1), make_law(Flat{}, -infinity, infinity)};
-  return laws;
+const std::vector<Distribution>& offsets() {
+  static const std::vector<Distribution> distributions = {
+      make_distribution(Normal{0, 1}, -infinity, infinity),
+      make_distribution(StudentT{4, 0, 1}, -infinity, 1), make_distribution(Beta{2, 3}, 0, 1),
+      make_distribution(Flat{}, -infinity, infinity)};
+  return distributions;
 }
 
-const Law& any(const std::vector<Law>& laws) {
-  return laws[*rc::gen::inRange<std::size_t>(0, laws.size())];
+const Distribution& any(const std::vector<Distribution>& distributions) {
+  return distributions[*rc::gen::inRange<std::size_t>(0, distributions.size())];
 }
 
 RC_GTEST_PROP(Posterior, GradientIsTheDifferenceQuotient, ()) {
@@ -140,12 +141,13 @@ double integral(const std::function<double(double)>& f, double lower, double upp
 
 // The Jacobian keeps the mass: in z and in x the same integral.
 TEST(Posterior, MassInOneDimension) {
-  const std::vector<Law> laws = {
-      make_law(Normal{0, 2}, -infinity, infinity), make_law(Gamma{2.5, 1}, 0, infinity),
-      make_law(Lognormal{1, 1}, 0.5, infinity), make_law(StudentT{3, 0, 1}, -infinity, 1.5),
-      make_law(Uniform{}, -1, 3)};
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    const Posterior posterior({parameter("rate", laws[i], 1)}, line(1));
+  const std::vector<Distribution> distributions = {
+      make_distribution(Normal{0, 2}, -infinity, infinity),
+      make_distribution(Gamma{2.5, 1}, 0, infinity),
+      make_distribution(Lognormal{1, 1}, 0.5, infinity),
+      make_distribution(StudentT{3, 0, 1}, -infinity, 1.5), make_distribution(Uniform{}, -1, 3)};
+  for (std::size_t i = 0; i < distributions.size(); ++i) {
+    const Posterior posterior({parameter("rate", distributions[i], 1)}, line(1));
     const double in_z = integral(
         [&](double z) {
           return std::exp(posterior.value({&z, 1}));
@@ -155,13 +157,14 @@ TEST(Posterior, MassInOneDimension) {
         [&](double x) {
           return std::exp(posterior.natural_value({&x, 1}));
         },
-        laws[i].lower, laws[i].upper);
+        distributions[i].lower, distributions[i].upper);
     EXPECT_NEAR(in_z / in_x, 1, 1e-8) << i;
   }
 }
 
 TEST(Posterior, MassInTwoDimensions) {
-  const Law rate = make_law(Lognormal{1, 0.5}, 0, infinity), sigma = make_law(Uniform{}, 0.2, 3);
+  const Distribution rate = make_distribution(Lognormal{1, 0.5}, 0, infinity),
+                     sigma = make_distribution(Uniform{}, 0.2, 3);
   const Posterior posterior({parameter("rate", rate, 1), parameter("sigma", sigma, 1)}, line(2));
   using Rule = boost::math::quadrature::gauss_kronrod<double, 31>;
   const auto nested = [](const auto& f, double a, double b, double c, double d) {
@@ -187,7 +190,8 @@ TEST(Posterior, MassInTwoDimensions) {
 }
 
 TEST(Posterior, NaturalValueIsPriorTimesLikelihood) {
-  const Law rate = make_law(Normal{1, 0.5}, 0, infinity), sigma = make_law(Uniform{}, 0, 4);
+  const Distribution rate = make_distribution(Normal{1, 0.5}, 0, infinity),
+                     sigma = make_distribution(Uniform{}, 0, 4);
   const Posterior posterior({parameter("rate", rate, 1), parameter("sigma", sigma, 1)}, line(2));
   const std::vector<double> x{1.2, 0.5};
   // R 4.2.2: dnorm(1.2, 1, .5, TRUE) - pnorm(2, log = TRUE) - log(4)
@@ -197,8 +201,8 @@ TEST(Posterior, NaturalValueIsPriorTimesLikelihood) {
 }
 
 TEST(Posterior, OutsideTheSupport) {
-  const Posterior posterior({parameter("rate", make_law(Flat{}, 0, infinity), 1),
-                             parameter("sigma", make_law(Uniform{}, 0, 4), 1)},
+  const Posterior posterior({parameter("rate", make_distribution(Flat{}, 0, infinity), 1),
+                             parameter("sigma", make_distribution(Uniform{}, 0, 4), 1)},
                             line(2));
   const std::vector<std::vector<double>> outside = {{0, 1}, {-1, 1}, {1, 0}, {1, 4}, {1, 5}};
   for (const auto& x : outside) EXPECT_EQ(posterior.natural_value(x), -infinity);
@@ -212,8 +216,8 @@ TEST(Posterior, OutsideTheSupport) {
 }
 
 TEST(Posterior, NaturalAndReal) {
-  const Posterior posterior({parameter("rate", make_law(Flat{}, 0, infinity), 1),
-                             parameter("sigma", make_law(Uniform{}, 0, 4), 1)},
+  const Posterior posterior({parameter("rate", make_distribution(Flat{}, 0, infinity), 1),
+                             parameter("sigma", make_distribution(Uniform{}, 0, 4), 1)},
                             line(2));
   const std::vector<double> x{2.5, 3.5};
   const Eigen::VectorXd z = posterior.to_real(x);
@@ -226,11 +230,11 @@ TEST(Posterior, NaturalAndReal) {
 }
 
 TEST(Posterior, RefusesWhatCannotBeFitted) {
-  const Law positive = make_law(Flat{}, 0, infinity);
+  const Distribution positive = make_distribution(Flat{}, 0, infinity);
   EXPECT_THROW(Posterior({parameter("rate", positive, -1)}, line(1)), InputError);
   EXPECT_THROW(Posterior({parameter("rate", positive, 1)}, line(2)), std::logic_error);
   // A lognormal line that falls below 0 wherever the prior allows.
-  const Law negative = make_law(Flat{}, -infinity, -1);
+  const Distribution negative = make_distribution(Flat{}, -infinity, -1);
   EXPECT_THROW(Posterior({parameter("rate", negative, -2)}, line(1, ObservationFamily::lognormal)),
                InputError);
 }

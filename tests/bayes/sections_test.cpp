@@ -14,7 +14,7 @@ namespace {
 
 // Of so many cells that they stand in sections: against a plain sum over all. Some of them over thirty decades, some at either
 // infinity. Those that together weigh 1e-8 are left out.
-RC_GTEST_PROP(Distribution, OfManyCellsIsTheirSum, ()) {
+RC_GTEST_PROP(QuantityDistribution, OfManyCellsIsTheirSum, ()) {
   constexpr std::size_t n = 3000;
   std::mt19937 random(*rc::gen::arbitrary<unsigned>());
   std::normal_distribution<double> normal;
@@ -36,7 +36,7 @@ RC_GTEST_PROP(Distribution, OfManyCellsIsTheirSum, ()) {
     if (each.node == -infinity) below += each.weight;
     if (each.node == infinity) above += each.weight;
   }
-  const Distribution d(cells_of(cells), itself);
+  const QuantityDistribution d(cells_of(cells), itself);
   for (const double p : {0.003, 0.05, 0.3, 0.5, 0.95, 0.9995}) {
     const double x = d.quantile(p);
     if (p < below || p > 1 - above) {

@@ -24,8 +24,8 @@ WeightedDraws draws_of(const std::vector<double>& x) {
 
 // R 4.2.2: x <- c(1, 2, 4, 8, 16, 32); mean(x); sd(x); quantile(x, c(.05, .3, .95)); ecdf(x)(c(0,
 // 3, 4, 32))
-TEST(Distribution, OfDrawsIsRs) {
-  const Distribution d(draws_of({8, 1, 32, 2, 16, 4}), itself);
+TEST(QuantityDistribution, OfDrawsIsRs) {
+  const QuantityDistribution d(draws_of({8, 1, 32, 2, 16, 4}), itself);
   EXPECT_DOUBLE_EQ(d.mean(), 10.5);
   EXPECT_DOUBLE_EQ(d.sd(), 11.861703081766969);
   EXPECT_DOUBLE_EQ(d.quantile(0.05), 1.25);
@@ -39,22 +39,22 @@ TEST(Distribution, OfDrawsIsRs) {
 
 // Points of few regions of a posterior, or nodes without their cells: of 1, 2 .. 1000, each with its value for a weight, half the
 // weight lies below 1000/sqrt(2). A last one without end holds a thousandth.
-TEST(Distribution, UnevenPointsCountByTheirWeight) {
+TEST(QuantityDistribution, UnevenPointsCountByTheirWeight) {
   constexpr Eigen::Index n = 1001;
   WeightedDraws draws{Points(n, 1), Eigen::VectorXd(n), {}, {}};
   for (Eigen::Index i = 0; i < n; ++i) {
     draws.values(i, 0) = i == n - 1 ? infinity : double(i + 1);
     draws.weights[i] = i == n - 1 ? 0.001 : 0.999 * double(i + 1) / 500500;
   }
-  const Distribution d(draws, itself);
+  const QuantityDistribution d(draws, itself);
   for (const double p : {0.05, 0.5, 0.9})
     EXPECT_NEAR(d.quantile(p), 1000 * std::sqrt(p / 0.999), 1.5) << p;
   EXPECT_NEAR(d.cdf(500), 0.25 * 0.999, 1e-3);
   EXPECT_EQ(d.quantile(0.9999), infinity);
 }
 
-TEST(Distribution, InfiniteDraws) {
-  const Distribution d(draws_of({2, infinity, 1, infinity, 3}), itself);
+TEST(QuantityDistribution, InfiniteDraws) {
+  const QuantityDistribution d(draws_of({2, infinity, 1, infinity, 3}), itself);
   EXPECT_DOUBLE_EQ(d.quantile(0.125), 1.5);
   EXPECT_DOUBLE_EQ(d.quantile(0.5), 3);
   EXPECT_EQ(d.quantile(0.6), infinity);
@@ -65,8 +65,8 @@ TEST(Distribution, InfiniteDraws) {
 }
 
 // By hand: [-1, 0] holds 1/4 and [0, 1] holds 3/4, wherever in them the nodes lie.
-TEST(Distribution, OfCellsIsPiecewiseUniform) {
-  const Distribution d(cells_of({{0, 0.2, 1, 0.75}, {-1, -0.9, 0, 0.25}}), itself);
+TEST(QuantityDistribution, OfCellsIsPiecewiseUniform) {
+  const QuantityDistribution d(cells_of({{0, 0.2, 1, 0.75}, {-1, -0.9, 0, 0.25}}), itself);
   EXPECT_DOUBLE_EQ(d.mean(), 0.25);
   EXPECT_DOUBLE_EQ(d.sd(), std::sqrt(1. / 3 - 1. / 16));
   EXPECT_DOUBLE_EQ(d.cdf(-0.5), 0.125);
@@ -77,14 +77,14 @@ TEST(Distribution, OfCellsIsPiecewiseUniform) {
 }
 
 // Two axes: a node moves by either, and the variances of the two add.
-TEST(Distribution, AxesAddTheirVariances) {
+TEST(QuantityDistribution, AxesAddTheirVariances) {
   WeightedDraws one{Points(1, 2), Eigen::VectorXd::Ones(1), {}, {}};
   one.values << 5, 7;
   for (const auto& [a, b] : {std::pair(3., 0.), std::pair(0., 4.)}) {
     one.lower.push_back(one.values - Eigen::RowVector2d(a, b));
     one.upper.push_back(one.values + Eigen::RowVector2d(a, b));
   }
-  const Distribution d(one, [](const double* x) { return x[0] + x[1]; });
+  const QuantityDistribution d(one, [](const double* x) { return x[0] + x[1]; });
   EXPECT_DOUBLE_EQ(d.mean(), 12);
   EXPECT_DOUBLE_EQ(d.sd(), std::sqrt((3 * 3 + 4 * 4) / 3.));
 }
@@ -103,37 +103,38 @@ std::vector<Cell> any_cells() {
   return cells;
 }
 
-RC_GTEST_PROP(Distribution, QuantileInvertsCdf, ()) {
+RC_GTEST_PROP(QuantityDistribution, QuantileInvertsCdf, ()) {
   const std::vector<Cell> cells = any_cells();
-  const Distribution d(cells_of(cells), itself);
+  const QuantityDistribution d(cells_of(cells), itself);
   const double p = *between(1e-6, 1 - 1e-6);
   RC_ASSERT(std::abs(d.cdf(d.quantile(p)) - p) < 1e-7);
 }
 
-RC_GTEST_PROP(Distribution, QuantileOfOneIsTheUpperEnd, ()) {
+RC_GTEST_PROP(QuantityDistribution, QuantileOfOneIsTheUpperEnd, ()) {
   const std::vector<Cell> cells = any_cells();
   double upper = -infinity;
   for (const Cell& cell : cells) upper = std::max(upper, cell.upper);
-  const Distribution d(cells_of(cells), itself);
+  const QuantityDistribution d(cells_of(cells), itself);
   RC_ASSERT(std::abs(d.quantile(1) - upper) < 1e-7);
 }
 
 // A limit that some nodes have passed already has a life of 0 there: an atom.
-TEST(Distribution, AtomAtZero) {
+TEST(QuantityDistribution, AtomAtZero) {
   const auto life = [](const double* x) { return std::max(0.0, x[0]); };
-  const Distribution d(cells_of({{-2, -1.5, -1, 0.5}, {-1, -0.5, 0, 0.25}, {0, 0.5, 1, 0.25}}),
-                       life);
+  const QuantityDistribution d(
+      cells_of({{-2, -1.5, -1, 0.5}, {-1, -0.5, 0, 0.25}, {0, 0.5, 1, 0.25}}), life);
   EXPECT_NEAR(d.quantile(0.5), 0, 1e-12);
   EXPECT_NEAR(d.quantile(0.7), 0, 1e-12);
   EXPECT_NEAR(d.quantile(0.875), 0.5, 1e-12);
-  const Distribution all(cells_of({{-2, -1.5, -1, 1}}), life);
+  const QuantityDistribution all(cells_of({{-2, -1.5, -1, 1}}), life);
   EXPECT_EQ(all.quantile(0.1), 0);
   EXPECT_EQ(all.quantile(0.99), 0);
 }
 
-TEST(Distribution, CellsThatAreInfinite) {
+TEST(QuantityDistribution, CellsThatAreInfinite) {
   const auto life = [](const double* x) { return x[0] <= 1 ? infinity : x[0]; };
-  const Distribution d(cells_of({{0, 0.5, 1, 0.25}, {2, 3, 4, 0.5}, {4, 5, 6, 0.25}}), life);
+  const QuantityDistribution d(cells_of({{0, 0.5, 1, 0.25}, {2, 3, 4, 0.5}, {4, 5, 6, 0.25}}),
+                               life);
   EXPECT_NEAR(d.quantile(0.25), 3, 1e-11);
   EXPECT_NEAR(d.quantile(0.7499), 6, 1e-2);
   EXPECT_EQ(d.quantile(0.76), infinity);
@@ -142,17 +143,17 @@ TEST(Distribution, CellsThatAreInfinite) {
 }
 
 // The quantity may be infinite at the node alone.
-TEST(Distribution, InfiniteNodeBetweenFiniteEnds) {
+TEST(QuantityDistribution, InfiniteNodeBetweenFiniteEnds) {
   const auto pole = [](const double* x) { return x[0] == 0.5 ? infinity : 1 / (x[0] - 0.5); };
-  const Distribution d(cells_of({{0, 0.5, 1, 0.25}, {2, 3, 4, 0.75}}), pole);
+  const QuantityDistribution d(cells_of({{0, 0.5, 1, 0.25}, {2, 3, 4, 0.75}}), pole);
   EXPECT_EQ(d.quantile(0.9), infinity);
   EXPECT_DOUBLE_EQ(d.cdf(1), 0.75);
 }
 
 // A node without weight does not count, whatever the quantity is there.
-TEST(Distribution, WeightlessNodes) {
+TEST(QuantityDistribution, WeightlessNodes) {
   const auto life = [](const double* x) { return x[0] < 1 ? infinity : x[0]; };
-  const Distribution d(cells_of({{0, 0.5, 1, 0}, {2, 3, 4, 1}}), life);
+  const QuantityDistribution d(cells_of({{0, 0.5, 1, 0}, {2, 3, 4, 1}}), life);
   EXPECT_DOUBLE_EQ(d.mean(), 3);
   EXPECT_DOUBLE_EQ(d.sd(), std::sqrt(1. / 3));
   EXPECT_NEAR(d.quantile(0.75), 3.5, 1e-11);
@@ -218,8 +219,10 @@ TEST(WeightedDraws, CentredCellsBend) {
   draws.upper = {Points(1, 2)};
   draws.lower[0] << -1, 1;
   draws.upper[0] << 1, 1;
-  EXPECT_DOUBLE_EQ(Distribution(draws, [](const double* x) { return x[1]; }).mean(), 1. / 3);
-  EXPECT_DOUBLE_EQ(Distribution(draws, [](const double* x) { return x[0] * x[0]; }).mean(), 1. / 3);
+  EXPECT_DOUBLE_EQ(QuantityDistribution(draws, [](const double* x) { return x[1]; }).mean(),
+                   1. / 3);
+  EXPECT_DOUBLE_EQ(QuantityDistribution(draws, [](const double* x) { return x[0] * x[0]; }).mean(),
+                   1. / 3);
   const WeightedSampler sample(draws);
   Rng rng(1, 0);
   for (int i = 0; i < 100; ++i) {
@@ -230,16 +233,16 @@ TEST(WeightedDraws, CentredCellsBend) {
 }
 
 // Nodes that hold nothing may lie anywhere, as wide as doubles reach, or be no numbers at all.
-TEST(Distribution, NodesWithoutWeightChangeNothing) {
+TEST(QuantityDistribution, NodesWithoutWeightChangeNothing) {
   constexpr double huge = 1e300;
   std::vector<Cell> cells;
   for (int i = 0; i < 100; ++i) cells.push_back({i + 0., i + 0.5, i + 1., 0.01});
-  const Distribution plain(cells_of(cells), itself);
+  const QuantityDistribution plain(cells_of(cells), itself);
   for (const Cell& far : {Cell{1, huge, 1.7e308, 1e-13}, Cell{-1.7e308, 3, 1.7e308, 1e-13},
                           Cell{5, infinity, infinity, 1e-13}, Cell{5, std::nan(""), 6, 1e-13}}) {
     std::vector<Cell> with = cells;
     with.push_back(far);
-    const Distribution d(cells_of(with), itself);
+    const QuantityDistribution d(cells_of(with), itself);
     EXPECT_NEAR(d.mean(), plain.mean(), 1e-6);
     EXPECT_NEAR(d.sd(), plain.sd(), 1e-6);
     for (const double p : {0.01, 0.05, 0.5, 0.95, 0.99}) {
@@ -249,16 +252,16 @@ TEST(Distribution, NodesWithoutWeightChangeNothing) {
 }
 
 // With weight they count: quantiles in the bulk stay, and where a number is none nothing is known.
-TEST(Distribution, WideNodesWithWeightDoNotMoveTheBulk) {
+TEST(QuantityDistribution, WideNodesWithWeightDoNotMoveTheBulk) {
   std::vector<Cell> cells;
   for (int i = 0; i < 100; ++i) cells.push_back({i + 0., i + 0.5, i + 1., 0.0099});
   cells.push_back({1e200, 1.7e308, 1.7e308, 0.01});
-  const Distribution d(cells_of(cells), itself);
+  const QuantityDistribution d(cells_of(cells), itself);
   EXPECT_NEAR(d.quantile(0.5), 50.505, 1e-2);
   EXPECT_NEAR(d.quantile(0.01), 1.0101, 1e-3);
   cells.back().node = std::nan("");
-  EXPECT_TRUE(std::isnan(Distribution(cells_of(cells), itself).quantile(0.5)));
-  EXPECT_TRUE(std::isnan(Distribution(cells_of(cells), itself).mean()));
+  EXPECT_TRUE(std::isnan(QuantityDistribution(cells_of(cells), itself).quantile(0.5)));
+  EXPECT_TRUE(std::isnan(QuantityDistribution(cells_of(cells), itself).mean()));
 }
 
 // A normal density of two axes on a grid, of a number that both move: layers along the first, each wider than their distance.
@@ -283,7 +286,7 @@ TEST(CellShares, LayersFitTogether) {
   std::vector<double> edges;
   for (int i = -60; i <= 60; ++i) edges.push_back(0.05 * i);
   const std::vector<double> shares = cell_shares(draws, number, edges);
-  const Distribution even(draws, number);
+  const QuantityDistribution even(draws, number);
   // Cells without a parabola add their own variance.
   const double sd = std::sqrt((1 + second * second) * (1 + step * step / 12));
   const auto normal = [&](double x) { return 0.5 * std::erfc(-x / sd * M_SQRT1_2); };
@@ -302,7 +305,7 @@ TEST(CellShares, LayersFitTogether) {
 }
 
 // Of many cells of all widths, some of which reach over nearly all others.
-TEST(Distribution, QuantilesInvertTheSharesBelow) {
+TEST(QuantityDistribution, QuantilesInvertTheSharesBelow) {
   constexpr Eigen::Index n = 3000;
   Rng rng(1, 0);
   WeightedDraws draws{Points(n, 1), Eigen::VectorXd(n), {Points(n, 1)}, {Points(n, 1)}};
@@ -315,7 +318,7 @@ TEST(Distribution, QuantilesInvertTheSharesBelow) {
     draws.weights[i] = rng.uniform();
   }
   draws.weights /= draws.weights.sum();
-  const Distribution distribution(draws, itself);
+  const QuantityDistribution distribution(draws, itself);
   for (const double p : {1e-3, 0.05, 0.3, 0.5, 0.9, 0.999}) {
     const double x = distribution.quantile(p);
     EXPECT_LE(distribution.cdf(x - 1e-9), p);

@@ -21,11 +21,11 @@ constexpr double median_k = 2e-15, log_sd_k = 0.5, sd_scatter = 0.4, depth_error
 std::vector<Parameter> parameters() {
   const Unit si{"1", 1, 0};
   Parameter k{"k", "m^3/(N m)", si, "lognormal",
-              make_law(Lognormal{median_k, log_sd_k}, 0, INFINITY)};
+              make_distribution(Lognormal{median_k, log_sd_k}, 0, INFINITY)};
   k.start = median_k;
   k.scale = median_k;
   Parameter scatter{"k_scatter", "1", si, "half-normal",
-                    make_law(Normal{0, sd_scatter}, 0, INFINITY)};
+                    make_distribution(Normal{0, sd_scatter}, 0, INFINITY)};
   scatter.start = scatter.scale = 0.3;
   return {k, scatter};
 }
@@ -63,7 +63,7 @@ TEST(BearingCalibration, RanksAreEven) {
     ASSERT_EQ(exact.failure, "") << run;
     for (std::size_t p = 0; p < 2; ++p) {
       const double below =
-          Distribution(exact.nodes, [p](const double* x) { return x[p]; }).cdf(truth[p]);
+          QuantityDistribution(exact.nodes, [p](const double* x) { return x[p]; }).cdf(truth[p]);
       ++counts[p][static_cast<std::size_t>(std::min(bins - 1.0, bins * below))];
     }
   }

@@ -29,12 +29,12 @@ struct Held {
 
 // The weak priors that a study has by default, of stresses up to 500 MPa.
 std::vector<Parameter> parameters() {
-  const auto one = [](const char* name, const Law& prior) {
+  const auto one = [](const char* name, const Distribution& prior) {
     return Parameter{name, "1", Unit{"1", 1, 0}, "", prior, quantile(prior, 0.5), 0.1};
   };
-  return {one("log10_a", make_law(Normal{std::log10(2000e6), 0.7}, -INFINITY, INFINITY)),
-          one("b", make_law(StudentT{4, -0.12, 0.06}, -INFINITY, 0)),
-          one("sigma", make_law(Normal{0, 0.5}, 0, INFINITY))};
+  return {one("log10_a", make_distribution(Normal{std::log10(2000e6), 0.7}, -INFINITY, INFINITY)),
+          one("b", make_distribution(StudentT{4, -0.12, 0.06}, -INFINITY, 0)),
+          one("sigma", make_distribution(Normal{0, 0.5}, 0, INFINITY))};
 }
 
 Held coverage(int tests, double longest) {
@@ -131,16 +131,18 @@ TEST(DesignCoverage, BiasOfTheStaircasesScatter) {
       const DixonMood estimate = dixon_mood(all);
       crude[at] = !estimate.problem.empty() || estimate.crude_sd;
       dixon[at] = estimate.problem.empty() ? estimate.sd / width : 0;
-      const auto one = [](const char* name, const Law& prior) {
+      const auto one = [](const char* name, const Distribution& prior) {
         return Parameter{name, "1", Unit{"1", 1, 0}, "", prior, quantile(prior, 0.5), 0.1};
       };
-      const Posterior posterior({one("limit", make_law(Normal{location, 0.3}, -INFINITY, INFINITY)),
-                                 one("sigma", make_law(Normal{0, 0.1}, 0, INFINITY))},
-                                staircase_likelihood(StandardLaw::normal, all));
+      const Posterior posterior(
+          {one("limit", make_distribution(Normal{location, 0.3}, -INFINITY, INFINITY)),
+           one("sigma", make_distribution(Normal{0, 0.1}, 0, INFINITY))},
+          staircase_likelihood(StandardDistribution::normal, all));
       const ExactPosterior exact =
           integrate(posterior, whitening_at(find_mode(posterior, posterior.start())));
       ours[at] =
-          Distribution(exact.nodes, [](const double* x) { return x[1]; }).quantile(0.5) / scale;
+          QuantityDistribution(exact.nodes, [](const double* x) { return x[1]; }).quantile(0.5) /
+          scale;
     });
     const auto median = [](std::vector<double> values) {
       std::nth_element(values.begin(), values.begin() + repetitions / 2, values.end());

@@ -32,11 +32,11 @@ struct Shares {
   double warned = 0, failed = 0, beyond = 0, far_beyond = 0, excluded = 0;
 };
 
-Law normal(double mean, double sd, double lower, double upper) {
-  return make_law(Normal{mean, sd}, lower, upper);
+Distribution normal(double mean, double sd, double lower, double upper) {
+  return make_distribution(Normal{mean, sd}, lower, upper);
 }
 
-Parameter parameter(const std::string& name, const Law& prior, double start) {
+Parameter parameter(const std::string& name, const Distribution& prior, double start) {
   return {name, "", Unit{"", 1, 0}, "", prior, start, 0.1 * start, 0, INFINITY};
 }
 
@@ -87,8 +87,8 @@ Shares simulate(const std::string& what, int otherwise, int parameters,
 
 // Volumes after even or early inspections; `outlier` is added to the last, in sigma.
 Replication joint_study(Rng& rng, int index, std::size_t n, double bend) {
-  const Law k_prior = normal(7e-13, 2e-13, 0, INFINITY),
-            sigma_prior = make_law(Uniform{}, 1e-10, 15e-9);
+  const Distribution k_prior = normal(7e-13, 2e-13, 0, INFINITY),
+                     sigma_prior = make_distribution(Uniform{}, 1e-10, 15e-9);
   const double k = quantile(k_prior, rng.uniform()), sigma = quantile(sigma_prior, rng.uniform());
   joint::Inspections inspections;
   for (std::size_t i = 0; i < n; ++i) {
@@ -128,8 +128,9 @@ Replication bearing_study(Rng& rng, int index, std::size_t bearings, bool scatte
   bearing::WearModel model;
   if (known) model.depth_error = 2e-6;
   model.has_scatter = scatter;
-  const Law k_prior = make_law(Lognormal{2e-15, 0.5}, 0, INFINITY);
-  const Law sigma_prior = normal(0, 4e-6, 0, INFINITY), scatter_prior = normal(0, 0.5, 0, INFINITY);
+  const Distribution k_prior = make_distribution(Lognormal{2e-15, 0.5}, 0, INFINITY);
+  const Distribution sigma_prior = normal(0, 4e-6, 0, INFINITY),
+                     scatter_prior = normal(0, 0.5, 0, INFINITY);
   const double k = quantile(k_prior, rng.uniform());
   const double sigma = known ? 2e-6 : quantile(sigma_prior, rng.uniform());
   const double between = scatter ? quantile(scatter_prior, rng.uniform()) : 0;
@@ -142,7 +143,7 @@ Replication bearing_study(Rng& rng, int index, std::size_t bearings, bool scatte
       duty.radius = 10e-3, duty.clearance = 30e-6, duty.pressure = 1e6, duty.revolutions = turns;
       inspections.duty.push_back(duty);
       inspections.bearing.push_back(b);
-      const double depth = bearing::depth_laws({duty}, own).front().depth(std::log(own));
+      const double depth = bearing::depth_functions({duty}, own).front().depth(std::log(own));
       inspections.depth.push_back(depth + sigma * rng.normal());
       loading.push_back(turns * duty.pressure);
     }
@@ -175,11 +176,11 @@ TEST(FitCheckCalibration, Bearing) {
 
 Replication sn_study(Rng& rng, int index, const fatigue::SnLaw& law, int repetitions,
                      double longest) {
-  const std::vector<Law> priors = {normal(9.3, 0.1, -INFINITY, INFINITY),
-                                   normal(-0.1, 0.02, -INFINITY, -0.04),
-                                   normal(0, 0.4, 0.02, INFINITY)};
+  const std::vector<Distribution> priors = {normal(9.3, 0.1, -INFINITY, INFINITY),
+                                            normal(-0.1, 0.02, -INFINITY, -0.04),
+                                            normal(0, 0.4, 0.02, INFINITY)};
   std::vector<double> truth;
-  for (const Law& prior : priors) truth.push_back(quantile(prior, rng.uniform()));
+  for (const Distribution& prior : priors) truth.push_back(quantile(prior, rng.uniform()));
   fatigue::LifeTests tests;
   FitData data;
   data.drivers = {{"stress", {}}};
@@ -188,7 +189,7 @@ Replication sn_study(Rng& rng, int index, const fatigue::SnLaw& law, int repetit
     for (int i = 0; i < repetitions; ++i) {
       const fatigue::Stress stress{amplitude, 0};
       const double z = law.family == fatigue::LifeFamily::weibull
-                           ? quantile(StandardLaw::smallest_extreme_value, rng.uniform())
+                           ? quantile(StandardDistribution::smallest_extreme_value, rng.uniform())
                            : rng.normal();
       const double life =
           std::pow(10, law.log10_life(truth.data(), std::log10(amplitude)) + truth[2] * z);

@@ -12,15 +12,15 @@
 #include <numeric>
 #include <optional>
 
-#include "calibration/own_design.h"
+#include "calibration/formula_design.h"
 #include "calibration/shares.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/loo.h"
 #include "wearwell/infer/score_tests.h"
 #include "wearwell/math/normality.h"
-#include "wearwell/models/ownlaw/own_fit_data.h"
+#include "wearwell/models/formula_model/formula_fit_data.h"
 
-namespace wearwell::ownlaw {
+namespace wearwell::formula_model {
 namespace {
 
 constexpr std::uint64_t seed = 20261124;
@@ -31,8 +31,8 @@ std::string life_study(const std::string& likelihood) {
          likelihood +
          R"(
 [prior]
-size = { law = "lognormal", median = 100, log_sd = 1 }
-shape = { law = "lognormal", median = 1, log_sd = 1 }
+size = { distribution = "lognormal", median = 100, log_sd = 1 }
+shape = { distribution = "lognormal", median = 1, log_sd = 1 }
 [predict]
 b_lives = [10]
 )";
@@ -53,9 +53,9 @@ family = "normal"
 mean = "a + b*x"
 sd = "sigma"
 [prior]
-a = { law = "normal", mean = 2, sd = 10 }
-b = { law = "normal", mean = 1, sd = 10 }
-sigma = { law = "half-normal", scale = 10 }
+a = { distribution = "normal", mean = 2, sd = 10 }
+b = { distribution = "normal", mean = 1, sd = 10 }
+sigma = { distribution = "half-normal", scale = 10 }
 )";
 const std::string level_reading = R"([data.columns]
 y = "y"
@@ -66,8 +66,8 @@ family = "normal"
 mean = "a"
 sd = "sigma"
 [prior]
-a = { law = "normal", mean = 2, sd = 10 }
-sigma = { law = "half-normal", scale = 10 }
+a = { distribution = "normal", mean = 2, sd = 10 }
+sigma = { distribution = "half-normal", scale = 10 }
 )";
 
 const std::string growing = R"([data.columns]
@@ -79,12 +79,12 @@ family = "normal"
 mean = "a"
 sd = "sigma*x^power"
 [prior]
-a = { law = "normal", mean = 2, sd = 10 }
-sigma = { law = "half-normal", scale = 10 }
-power = { law = "normal", mean = 0, sd = 3 }
+a = { distribution = "normal", mean = 2, sd = 10 }
+sigma = { distribution = "half-normal", scale = 10 }
+power = { distribution = "normal", mean = 0, sd = 3 }
 )";
 
-OwnDesign design(const std::string& text, std::size_t n) {
+FormulaDesign design(const std::string& text, std::size_t n) {
   std::vector<double> y, x;
   std::vector<std::string> machine;
   for (std::size_t i = 0; i < n; ++i) {
@@ -95,8 +95,8 @@ OwnDesign design(const std::string& text, std::size_t n) {
   return {text, {numbers("y", y), numbers("x", x), texts("machine", machine)}};
 }
 
-FitOutcome judged(const OwnDesign& own, const std::vector<Response>& responses, Rng& rng) {
-  const auto rows = std::make_shared<const OwnRows>(own.with(responses), responses.size());
+FitOutcome judged(const FormulaDesign& own, const std::vector<Response>& responses, Rng& rng) {
+  const auto rows = std::make_shared<const BearingRows>(own.with(responses), responses.size());
   const ExactPosterior exact = exact_posterior(rows, 3e-3);
   EXPECT_EQ(exact.failure, "");
   if (!exact.failure.empty()) return {};
@@ -133,7 +133,7 @@ struct Kind {
   std::string test = "distribution of residuals";
 };
 
-std::vector<double> values(const Kind& kind, const OwnDesign& own, Rng& rng) {
+std::vector<double> values(const Kind& kind, const FormulaDesign& own, Rng& rng) {
   std::vector<double> y;
   const std::vector<double>& x = own.law->data.number("x")->values;
   for (std::size_t i = 0; i < kind.rows; ++i) y.push_back(kind.draw(x[i], rng));
@@ -145,9 +145,9 @@ std::vector<Response> responses_of(const Kind& kind, const std::vector<double>& 
   for (const double at : y) {
     if (kind.interval) {
       const double step = std::log(*kind.interval), k = std::floor(std::log(at) / step);
-      all.push_back({Seen::between, std::exp(k * step), std::exp((k + 1) * step)});
+      all.push_back({Censoring::interval, std::exp(k * step), std::exp((k + 1) * step)});
     } else if (kind.stopped && at > *kind.stopped) {
-      all.push_back({.seen = Seen::above, .at = *kind.stopped});
+      all.push_back({.seen = Censoring::right, .at = *kind.stopped});
     } else {
       all.push_back({.at = at});
     }
@@ -163,7 +163,7 @@ struct Found {
 Found simulate(const Kind& kind, int otherwise, const Classical& classical = {},
                double critical = 0) {
   const int count = replications(otherwise);
-  const OwnDesign own = design(*kind.study, kind.rows);
+  const FormulaDesign own = design(*kind.study, kind.rows);
   struct One {
     double p = 1, test = 1;
     bool classical = false;
@@ -362,4 +362,4 @@ TEST(FitPower, ScatterThatFollowsTheMean) {
 }
 
 }  // namespace
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell::formula_model

@@ -13,7 +13,7 @@
 #include "wearwell/prognosis/common_population.h"
 #include "wearwell/prognosis/fleet_risk.h"
 
-namespace wearwell::ownlaw {
+namespace wearwell::formula_model {
 namespace {
 
 constexpr double um = 1e-6, h = 3600, limit = 12 * um;
@@ -47,7 +47,7 @@ Place replication(std::uint64_t stream) {
   const auto columns = [&] {
     return std::vector<Column>{numbers("depth", depth), numbers("time", time), texts("unit", unit)};
   };
-  const std::vector<double> x = OwnDesign(straight, columns()).from_priors(rng);
+  const std::vector<double> x = FormulaDesign(straight, columns()).from_priors(rng);
   std::vector<double> rate;
   for (std::size_t u = 0; u < learned + fresh; ++u)
     rate.push_back(x[0] * std::exp(x[1] * rng.normal()));
@@ -109,4 +109,4 @@ TEST(FleetCount, HoldsAsOftenAsItSays) {
 }
 
 }  // namespace
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell::formula_model

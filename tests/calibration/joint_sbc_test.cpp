@@ -28,8 +28,8 @@ double measured(ObservationFamily family, double mean, double sd, Rng& rng) {
 }
 
 // The ranks of k and sigma in one replication.
-std::pair<int, int> replicate(ObservationFamily family, const Law& k_prior, const Law& sigma_prior,
-                              int index) {
+std::pair<int, int> replicate(ObservationFamily family, const Distribution& k_prior,
+                              const Distribution& sigma_prior, int index) {
   Rng rng(20261121, static_cast<std::uint64_t>(index) * 2);
   const Truth truth{quantile(k_prior, rng.uniform()), quantile(sigma_prior, rng.uniform())};
   joint::Inspections inspections;
@@ -69,7 +69,8 @@ void expect_uniform(const std::vector<int>& all, const std::string& what) {
   EXPECT_GT(p, 0.001) << what << ": chi-squared " << chi_squared;
 }
 
-void calibrate(ObservationFamily family, const Law& k_prior, const Law& sigma_prior) {
+void calibrate(ObservationFamily family, const Distribution& k_prior,
+               const Distribution& sigma_prior) {
   std::vector<int> k(replications), sigma(replications);
   tbb::parallel_for(0, replications, [&](int i) {
     std::tie(k[static_cast<std::size_t>(i)], sigma[static_cast<std::size_t>(i)]) =
@@ -83,20 +84,20 @@ void calibrate(ObservationFamily family, const Law& k_prior, const Law& sigma_pr
 static_assert(ranks % bins == 0);
 
 TEST(JointCalibration, Normal) {
-  calibrate(ObservationFamily::normal, make_law(Normal{7e-13, 2e-13}, 0, INFINITY),
-            make_law(Uniform{}, 1e-9, 15e-9));
+  calibrate(ObservationFamily::normal, make_distribution(Normal{7e-13, 2e-13}, 0, INFINITY),
+            make_distribution(Uniform{}, 1e-9, 15e-9));
 }
 
 TEST(JointCalibration, Lognormal) {
-  calibrate(ObservationFamily::lognormal, make_law(Normal{7e-13, 2e-13}, 0, INFINITY),
-            make_law(Uniform{}, 0.2e-9, 7e-9));
+  calibrate(ObservationFamily::lognormal, make_distribution(Normal{7e-13, 2e-13}, 0, INFINITY),
+            make_distribution(Uniform{}, 0.2e-9, 7e-9));
 }
 
 TEST(JointCalibration, HalfNormalScatterAndLognormalRate) {
   const LognormalByMoments<double> rate(7e-13, 3e-13);
   calibrate(ObservationFamily::normal,
-            make_law(Lognormal{std::exp(rate.eta), rate.zeta}, 0, INFINITY),
-            make_law(Normal{0, 6e-9}, 0, INFINITY));
+            make_distribution(Lognormal{std::exp(rate.eta), rate.zeta}, 0, INFINITY),
+            make_distribution(Normal{0, 6e-9}, 0, INFINITY));
 }
 
 // The test itself must be able to fail: ranks of a sampler that is off by a fifth of a standard

@@ -7,7 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "wearwell/base/rng.h"
-#include "wearwell/infer/leaps.h"
+#include "wearwell/infer/independence_sampler.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/models/fatigue/staircase.h"
@@ -22,19 +22,20 @@ constexpr std::uint64_t seed = 20261122;
 using Simulate =
     std::function<std::shared_ptr<const LogDensity>(const std::vector<double>& truth, Rng& rng)>;
 
-Law normal(double mean, double sd, double lower = -INFINITY, double upper = INFINITY) {
-  return make_law(Normal{mean, sd}, lower, upper);
+Distribution normal(double mean, double sd, double lower = -INFINITY, double upper = INFINITY) {
+  return make_distribution(Normal{mean, sd}, lower, upper);
 }
 
 // Draws by the rule that a study follows, leaps where evaluations take long (run_chains.h). A correct sampler fails one time in a thousand for each parameter, and the seed is fixed.
-void calibrate(const std::vector<Law>& priors, int replications, const Simulate& simulate) {
+void calibrate(const std::vector<Distribution>& priors, int replications,
+               const Simulate& simulate) {
   std::vector<std::vector<int>> rank(static_cast<std::size_t>(replications),
                                      std::vector<int>(priors.size(), 0));
   tbb::parallel_for(std::size_t{0}, rank.size(), [&](std::size_t i) {
     Rng rng(seed, 100 * i);
     std::vector<double> truth;
     std::vector<Parameter> parameters;
-    for (const Law& prior : priors) {
+    for (const Distribution& prior : priors) {
       truth.push_back(quantile(prior, rng.uniform()));
       parameters.push_back({std::to_string(truth.size()), "1", Unit{"1", 1, 0}, "", prior,
                             quantile(prior, 0.5), 0.1});
@@ -43,8 +44,8 @@ void calibrate(const std::vector<Law>& priors, int replications, const Simulate&
     NutsSettings careful;
     careful.target_accept = 0.95;
     const Draws drawn =
-        run_nuts_or_leaps(posterior, whitening_at(find_mode(posterior, posterior.start())), careful,
-                          {chains, 1000, draws, seed, 100 * i + 1});
+        run_nuts_or_independence(posterior, whitening_at(find_mode(posterior, posterior.start())),
+                                 careful, {chains, 1000, draws, seed, 100 * i + 1});
     // One less than there are ranks.
     for (int k = thin; k < chains * draws; k += thin) {
       for (std::size_t p = 0; p < priors.size(); ++p) {
@@ -75,13 +76,13 @@ TEST(LimitCalibration, Staircase) {
                 tests.push_back({std::pow(10, stress), failed, 1});
                 stress += failed ? -0.02 : 0.02;
               }
-              return staircase_likelihood(StandardLaw::normal, tests);
+              return staircase_likelihood(StandardDistribution::normal, tests);
             });
 }
 
 // Three tests each at six levels about the limit, stopped after 1e7 cycles.
 Simulate tests_of(const SnLaw& law) {
-  return [law](const std::vector<double>& truth, Rng& rng) {
+  return [formula](const std::vector<double>& truth, Rng& rng) {
     LifeTests tests;
     for (const double mega : {500, 430, 370, 320, 280, 250}) {
       for (int repetition = 0; repetition < 3; ++repetition) {
@@ -102,7 +103,7 @@ SnLaw limited(SnCurve curve) {
   SnLaw law;
   law.correction = MeanStress::none;
   law.curve = curve;
-  law.limit = StandardLaw::normal;
+  law.limit = StandardDistribution::normal;
   if (curve == SnCurve::knee) law.second_slope = SecondSlope::infinite;
   return law;
 }

@@ -70,9 +70,9 @@ void judge_by_least_squares(const Points& points, Judged& judged) {
 
 Judged study(const Kind& kind, std::uint64_t stream) {
   Rng rng(seed, 2 * stream);
-  const Law wide = make_law(Normal{9.3, 1}, -INFINITY, INFINITY);
-  const Law slope = make_law(Normal{-0.1, 0.1}, -INFINITY, -0.01);
-  const Law scatter = make_law(Normal{0, 1}, 0, INFINITY);
+  const Distribution wide = make_distribution(Normal{9.3, 1}, -INFINITY, INFINITY);
+  const Distribution slope = make_distribution(Normal{-0.1, 0.1}, -INFINITY, -0.01);
+  const Distribution scatter = make_distribution(Normal{0, 1}, 0, INFINITY);
   const double truth[] = {9.3, -0.1, 0.15};
   fatigue::SnLaw law;
   law.correction = fatigue::MeanStress::none;
@@ -153,7 +153,7 @@ Found simulate(const Kind& kind, int otherwise) {
 
 const Life right = [](double, double line, Rng& rng) { return line + 0.15 * rng.normal(); };
 const Life extreme = [](double, double line, Rng& rng) {
-  return line + 0.15 * quantile(StandardLaw::smallest_extreme_value, rng.uniform());
+  return line + 0.15 * quantile(StandardDistribution::smallest_extreme_value, rng.uniform());
 };
 
 TEST(SnFitPower, RightStudiesAreRarelyWarnedOf) {

@@ -19,12 +19,12 @@ constexpr int replications = 1000, draws = 1485, thin = 15, ranks = draws / thin
 static_assert(ranks % bins == 0);
 constexpr std::size_t unknowns = 4;
 
-Law normal(double mean, double sd, double lower, double upper) {
-  return make_law(Normal{mean, sd}, lower, upper);
+Distribution normal(double mean, double sd, double lower, double upper) {
+  return make_distribution(Normal{mean, sd}, lower, upper);
 }
 
 // log10 a [Pa], b, log10 S_ut [Pa], sigma.
-std::array<Law, unknowns> priors() {
+std::array<Distribution, unknowns> priors() {
   return {normal(9.3, 0.1, -INFINITY, INFINITY), normal(-0.1, 0.02, -INFINITY, -0.04),
           normal(9.1, 0.05, 8.9, INFINITY), normal(0, 0.4, 0.02, INFINITY)};
 }
@@ -36,7 +36,7 @@ LifeTests simulate(const SnLaw& law, const double* truth, double longest, Rng& r
     for (int repetition = 0; repetition < 3; ++repetition) {
       const double center = law.log10_life(truth, law.log10_reversed(truth, stress));
       const double z = law.family == LifeFamily::weibull
-                           ? quantile(StandardLaw::smallest_extreme_value, rng.uniform())
+                           ? quantile(StandardDistribution::smallest_extreme_value, rng.uniform())
                            : rng.normal();
       const double life = std::pow(10, center + truth[3] * z);
       if (life > longest) {
@@ -60,7 +60,7 @@ Replication replicate(const SnLaw& law, double longest, int index) {
   double truth[unknowns];
   std::vector<Parameter> parameters;
   for (std::size_t i = 0; i < unknowns; ++i) {
-    const Law prior = priors()[i];
+    const Distribution prior = priors()[i];
     truth[i] = quantile(prior, rng.uniform());
     parameters.push_back({names[i], "1", Unit{"1", 1, 0}, "", prior, quantile(prior, 0.5), 0.1});
   }

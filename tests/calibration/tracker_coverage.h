@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "calibration/own_design.h"
+#include "calibration/formula_design.h"
 #include "support/followed_unit.h"
 #include "wearwell/base/rng.h"
-#include "wearwell/models/ownlaw/own_tracker.h"
+#include "wearwell/models/formula_model/formula_tracker.h"
 
-namespace wearwell::ownlaw {
+namespace wearwell::formula_model {
 
 /// How often 90 % intervals of the remaining useful life of units followed on line hold the truth, when a population was
 /// learned from 5 units of 5 readings: straight paths y = b t, read each half hour.
@@ -32,9 +32,9 @@ using TrackedPlaces = std::array<double, 3>;
 
 /// What follows units of the population of `straight` that these rows tell; none where its posterior could not be integrated.
 inline std::unique_ptr<const prognosis::Tracker> tracker_of(const std::vector<Column>& columns) {
-  const OwnDesign design(straight, columns);
+  const FormulaDesign design(straight, columns);
   const ExactPosterior exact = exact_posterior(
-      std::make_shared<const OwnRows>(design.law, design.law->data.table.rows), 3e-3);
+      std::make_shared<const BearingRows>(design.law, design.law->data.table.rows), 3e-3);
   if (!exact.failure.empty()) return nullptr;
   prognosis::CarriedState state;
   state.source = design.source;
@@ -59,8 +59,8 @@ inline std::vector<TrackedPlaces> follow_units(const std::vector<double>& fixed,
     }
   }
   const std::vector<double> x =
-      fixed.empty() ? OwnDesign(straight, {numbers("depth", depth), numbers("time", time),
-                                           texts("unit", unit)})
+      fixed.empty() ? FormulaDesign(straight, {numbers("depth", depth), numbers("time", time),
+                                               texts("unit", unit)})
                           .from_priors(rng)
                     : fixed;
   const auto rate = [&] { return x[0] * std::exp(x[1] * rng.normal()); };
@@ -113,4 +113,4 @@ inline TrackedCoverage tracked_coverage(const std::vector<double>& fixed, int po
   return coverage;
 }
 
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell::formula_model

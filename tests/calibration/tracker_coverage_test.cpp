@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace wearwell::ownlaw {
+namespace wearwell::formula_model {
 namespace {
 
 int populations() {
@@ -49,4 +49,4 @@ TEST(TrackerCoverage, OfOneTruth) {
 }
 
 }  // namespace
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell::formula_model

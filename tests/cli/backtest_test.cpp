@@ -37,15 +37,15 @@ class Backtest : public ScratchTest {
 TEST_F(Backtest, CountsWhatHeldAndSaysSoOnce) {
   const CommandResult run = test("few.jsonl", "fleet/truth.csv", "--json");
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const json told = json::parse(run.out);
-  EXPECT_EQ(told["readings"].get<int>() + told["repeated"].get<int>(), 400);
-  EXPECT_GT(told["repeated"], 0);
-  EXPECT_EQ(told["refused"], 0);
-  const json& all = told["ages"].back();
-  EXPECT_EQ(all["forecasts"], told["readings"]);
+  const json reported = json::parse(run.out);
+  EXPECT_EQ(reported["readings"].get<int>() + reported["repeated"].get<int>(), 400);
+  EXPECT_GT(reported["repeated"], 0);
+  EXPECT_EQ(reported["refused"], 0);
+  const json& all = reported["ages"].back();
+  EXPECT_EQ(all["forecasts"], reported["readings"]);
   EXPECT_GT(all["held"].get<double>(), 0.6 * all["forecasts"].get<double>());
   // The longer a machine was watched, the narrower what is said of it.
-  EXPECT_LT(told["ages"][3]["width"], told["ages"][0]["width"]);
+  EXPECT_LT(reported["ages"][3]["width"], reported["ages"][0]["width"]);
   // Each forecast as a row.
   const std::string file = (folder() / "forecasts.csv").string();
   ASSERT_EQ(test("few.jsonl", "fleet/truth.csv", "-o " + file).exit_code, 0);

@@ -197,7 +197,7 @@ depth = { column = "depth_mm", unit = "mm" }
 family = "lognormal"
 depth_error = "0.1 um"
 [prior]
-k = { law = "lognormal", median = "1e-15 m^3/(N m)", log_sd = 2 }
+k = { distribution = "lognormal", median = "1e-15 m^3/(N m)", log_sd = 2 }
 )toml");
   const json result = fit(study.string());
   EXPECT_NEAR(result["parameters"]["k"]["mean"], 3e-15, 3e-18);
@@ -234,7 +234,7 @@ depth = { column = "d", unit = "um" }
 const std::string conditions = "[conditions]\ncontact = \"stationary\"\nradius = \"10 mm\"\n";
 const std::string likelihood = "[likelihood]\ndepth_error = \"2 um\"\n";
 const std::string prior = R"toml([prior]
-k = { law = "lognormal", median = "1e-15 m^3/(N m)", log_sd = 2 }
+k = { distribution = "lognormal", median = "1e-15 m^3/(N m)", log_sd = 2 }
 )toml";
 const std::string good_data = "b,c,p,n,d\nA,30,1,1e5,15\nB,30,1,1e5,18\n";
 
@@ -305,9 +305,10 @@ TEST_F(BearingStudy, RefusesContradictionsAndGapsByKey) {
   expect(head + columns + "[conditions]\ncontact = \"stationary\"\nradius = \"-1 mm\"\n" + rest,
          "conditions.radius: must be positive");
   expect(head + columns + conditions + likelihood + prior +
-             "sigma = { law = \"half-normal\", scale = \"1 um\" }\n",
+             "sigma = { distribution = \"half-normal\", scale = \"1 um\" }\n",
          "prior.sigma: is given, but likelihood.depth_error says that it is known");
-  expect(head + columns + conditions + rest + "k_scater = { law = \"half-normal\", scale = 1 }\n",
+  expect(head + columns + conditions + rest +
+             "k_scater = { distribution = \"half-normal\", scale = 1 }\n",
          "did you mean 'k_scatter'?");
   expect(head + columns + conditions + rest +
              "[predict]\nlimit = \"50 um\"\nrequired_time = \"10 h\"\n",
@@ -330,7 +331,7 @@ TEST_F(BearingStudy, RefusesContradictionsAndGapsByKey) {
 // Ten decades from the prior of k a quadrature over the scatter of bearings would not end.
 TEST_F(BearingStudy, RefusesDepthsBelowAtomsWithTheLikelyUnit) {
   const std::string study = head + columns + conditions + "[likelihood]\nfamily = \"normal\"\n" +
-                            prior + "k_scatter = { law = \"half-normal\", scale = 1 }\n";
+                            prior + "k_scatter = { distribution = \"half-normal\", scale = 1 }\n";
   write("data.csv", "b,c,p,n,d\nA,30,1,1e5,1e-11\nA,30,1,2e5,1e-11\nB,30,1,1e5,1e-11\n");
   EXPECT_THAT(refusal(study),
               HasSubstr("column 'd' (data.columns.depth): the largest depth is 1e-11 um, less than "
@@ -357,10 +358,10 @@ TEST_F(BearingStudy, RefusesBadRowsByName) {
   expect("b,c,p,n,d\nA,30,1,1e5,15\n,30,1,1e5,18\n",
          "row 2, column 'b': no value; a label must not be empty", study);
   expect("b,c,p,n,d\nA,30,1,1e5,15\nA,30,1,1e5,18\n", "are of one bearing",
-         study + "k_scatter = { law = \"half-normal\", scale = 1 }\n");
+         study + "k_scatter = { distribution = \"half-normal\", scale = 1 }\n");
   expect("b,c,p,n,d\nA,30,1,1e5,15\n", "has 1 inspection",
          head + columns + conditions + prior +
-             "sigma = { law = \"half-normal\", scale = \"1 um\" }\n");
+             "sigma = { distribution = \"half-normal\", scale = \"1 um\" }\n");
   expect("b,c,p,n,d\nA,30,1,1e5,15\nB,30,1,1e5,0\n",
          "row 2, column 'd': 0 must be positive for the lognormal likelihood",
          head + columns + conditions +

@@ -34,17 +34,17 @@ TEST_F(Decide, TellsTheSameAsJsonAndInAFolder) {
       run_wearwell("decide " + lives + costs +
                    " --inspection-cost '0.1 EUR' --month '600 h' --json -o " + results);
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const json told = json::parse(run.out);
+  const json reported = json::parse(run.out);
   std::ifstream file(results + "/decisions.json");
-  EXPECT_EQ(json::parse(file), told);
-  EXPECT_LT(told["age"]["cost"], told["at_failure"]["cost"]);
-  EXPECT_LT(told["inspection"]["cost"], told["age"]["cost"]);
-  EXPECT_LE(told["age"]["from"], told["age"]["at"]);
-  EXPECT_EQ(told["units"].size(), 8);
-  EXPECT_EQ(told["units"][0]["unit"], "P2");  // the one with the least left
-  EXPECT_EQ(told["months"].size(), 12);
+  EXPECT_EQ(json::parse(file), reported);
+  EXPECT_LT(reported["age"]["cost"], reported["at_failure"]["cost"]);
+  EXPECT_LT(reported["inspection"]["cost"], reported["age"]["cost"]);
+  EXPECT_LE(reported["age"]["from"], reported["age"]["at"]);
+  EXPECT_EQ(reported["units"].size(), 8);
+  EXPECT_EQ(reported["units"][0]["unit"], "P2");  // the one with the least left
+  EXPECT_EQ(reported["months"].size(), 12);
   double before = 0;
-  for (const auto& month : told["months"]) {
+  for (const auto& month : reported["months"]) {
     EXPECT_GE(month["expected"], before);
     EXPECT_LE(month["q05"], month["q95"]);
     before = month["expected"];
@@ -108,7 +108,7 @@ TEST_F(Decide, CountsUnitsOverThePopulationsThatTheyShare) {
     shared += fmt::format("5,U{0},early\n6,U{0},early\n200,U{0},late\n300,U{0},late\n", u);
     alone += fmt::format("5,U{0}\n6,U{0}\n200,U{0}\n300,U{0}\n", u);
   }
-  const auto told = [&](const std::string& text) {
+  const auto reported = [&](const std::string& text) {
     const std::string file = (folder() / "lives.csv").string();
     std::ofstream(file) << text;
     const CommandResult run =
@@ -116,7 +116,7 @@ TEST_F(Decide, CountsUnitsOverThePopulationsThatTheyShare) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return json::parse(run.out);
   };
-  const json together = told(shared), apart = told(alone);
+  const json together = reported(shared), apart = reported(alone);
   EXPECT_EQ(together["counting"]["populations"], 2);
   EXPECT_EQ(together["counting"]["independent"], false);
   EXPECT_EQ(together["months"][0]["q05"], 0);

@@ -32,12 +32,12 @@ class Defaults : public ScratchTest {
   }
   std::string example(const std::string& file) { return PROJECT_SOURCE_DIR "/examples/" + file; }
   // A study of examples/ without its [prior], its data named from here.
-  std::string without_priors(const std::string& trade, const std::string& data) {
-    std::string text = content_of(example(trade + "/study.toml"));
+  std::string without_priors(const std::string& preset, const std::string& data) {
+    std::string text = content_of(example(preset + "/study.toml"));
     const std::size_t begin = text.find("[prior]"), end = text.find("\n[", begin);
     text.erase(begin, end - begin);
     const std::size_t file = text.find("\"" + data + "\"");
-    return text.replace(file, data.size() + 2, "\"" + example(trade + "/" + data) + "\"");
+    return text.replace(file, data.size() + 2, "\"" + example(preset + "/" + data) + "\"");
   }
   static std::string content_of(const std::string& file) {
     std::ifstream in(file);
@@ -121,7 +121,7 @@ TEST_F(Defaults, DoNotDependOnTheUnit) {
 
 TEST_F(Defaults, AMisspeltParameterIsRefusedAllTheSame) {
   std::string study = without_priors("joint", "joint_wear.csv") +
-                      "\n[prior]\nsgma = { law = \"flat\", unit = \"mm^3\" }\n";
+                      "\n[prior]\nsgma = { distribution = \"flat\", unit = \"mm^3\" }\n";
   const CommandResult run = run_wearwell(command("check", study));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("sgma"));

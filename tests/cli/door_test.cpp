@@ -68,7 +68,7 @@ TEST_F(Door, SlipsInAStudy) {
       // the model
       {"joint", "archard-joint", "joint",
        "slip.toml:4:9: model: 'joint' is not possible; it is one of archard-joint, bearing-wear, "
-       "clutch-wear, sn, staircase, law (nearest: 'archard-joint')"},
+       "clutch-wear, sn, staircase, formula (nearest: 'archard-joint')"},
       {"joint", "^model", "modle", "slip.toml:4:9: modle: unknown key; did you mean 'model'?"},
       {"joint", "^model.*", "",
        "model: is missing: it is one of archard-joint, bearing-wear, clutch-wear, sn"},
@@ -120,8 +120,8 @@ TEST_F(Door, SlipsInAStudy) {
        "data.coloumns: unknown key; did you mean 'columns'?"},
       {"joint", "^k  ", "K  ",
        "prior.K: unknown key; did you mean 'k'? (possible: V0, exponent, k, sigma)"},
-      {"joint", "law = \"flat\"", "lwa = \"flat\"",
-       "prior.k.lwa: unknown key; did you mean 'law'?"},
+      {"joint", "distribution = \"flat\"", "lwa = \"flat\"",
+       "prior.k.lwa: unknown key; did you mean 'distribution'?"},
       {"joint", "^work_per_cycle", "work_per_cylce",
        "conditions.work_per_cylce: unknown key; did you mean 'work_per_cycle'?"},
       {"bearing", "^contact", "conact", "conditions.conact: unknown key; did you mean 'contact'?"},
@@ -150,7 +150,7 @@ TEST_F(Door, SlipsInAStudy) {
        "prior.log10_Sut: has no effect beside the rest of this study"},
       // missing
       {"joint", "^volume.*", "", "data.columns.volume: is missing"},
-      {"joint", "law = \"uniform\", .* \\}", "law = \"uniform\" }",
+      {"joint", "distribution = \"uniform\", .* \\}", "distribution = \"uniform\" }",
        "2 keys are missing; with values of yours: prior.sigma.lower = \"0 mm^3\"; "
        "prior.sigma.upper = "},
       {"bearing", ", log_sd = 2.5", "", "prior.k.log_sd: is missing (a number)"},
@@ -163,8 +163,8 @@ TEST_F(Door, SlipsInAStudy) {
       {"clutch", "^\\[search\\]", "[data]\n[search]",
        "data: stands beside [simulation]; give one of the two"},
       // values
-      {"joint", "law = \"uniform\"", "law = \"unifrom\"",
-       "prior.sigma.law: 'unifrom' is not possible; it is one of flat, uniform, "},
+      {"joint", "distribution = \"uniform\"", "distribution = \"unifrom\"",
+       "prior.sigma.distribution: 'unifrom' is not possible; it is one of flat, uniform, "},
       {"joint", "family = \"normal\"", "family = \"gaussian\"",
        "likelihood.family: 'gaussian' is not possible; it is one of normal, lognormal (nearest: "
        "'normal')"},
@@ -255,8 +255,9 @@ TEST_F(Door, SlipsInACommandLine) {
        "\"joint_wear.csv\""},
       {"check joint/study.toml --json", "wearwell check has no option --json (options: --help; "},
       {"new jiont x",
-       "TRADE: 'jiont' is not possible; it is one of joint, bearing, clutch, fatigue, spectrum, "
-       "strain-life, staircase, law, life, accelerated, degradation, fleet; did you mean 'joint'?"},
+       "PRESET: 'jiont' is not possible; it is one of joint, bearing, clutch, fatigue, spectrum, "
+       "strain-life, staircase, formula, life, accelerated, degradation, fleet; did you mean "
+       "'joint'?"},
       {"new joint", "wearwell new: DIR is "},
       {"new joint joint", "joint is not empty"},
       {"compare joint", "DIR is given 1 times, and is needed 2 times at least"},

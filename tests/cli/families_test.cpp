@@ -1,4 +1,4 @@
-// Lives of three families with run-outs, from study file to B-lives, against brute force (tests/golden/own_families.R).
+// Lives of three families with run-outs, from study file to B-lives, against brute force (tests/golden/formula_families.R).
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -30,7 +30,7 @@ class Families : public ScratchTest {
     }
     write("data.csv", rows);
     write("study.toml", fmt::format(R"toml(title = "x"
-model = "law"
+model = "formula"
 [data]
 file = "data.csv"
 [data.columns]
@@ -51,7 +51,7 @@ b_lives = [10]
     ASSERT_LE(run.exit_code, 1) << run.err;
     const json found = json::parse(run.out);
     int compared = 0;
-    for (const auto& row : read_golden("own_families.csv")) {
+    for (const auto& row : read_golden("formula_families.csv")) {
       if (row[0] != family) continue;
       const double mean = std::stod(row[2]), sd = std::stod(row[3]), median = std::stod(row[4]);
       ++compared;
@@ -75,24 +75,24 @@ b_lives = [10]
 TEST_F(Families, GeneralizedGammaLives) {
   expect_golden("generalized-gamma", "examples/life/bearings.csv", 100,
                 "scale = \"eta\"\nsigma = \"sigma\"\nlambda = \"lambda\"",
-                "eta = { law = \"lognormal\", median = \"70e3 cycles\", log_sd = 1 }\n"
-                "sigma = { law = \"lognormal\", median = 0.5, log_sd = 0.7 }\n"
-                "lambda = { law = \"normal\", mean = 0, sd = 1 }");
+                "eta = { distribution = \"lognormal\", median = \"70e3 cycles\", log_sd = 1 }\n"
+                "sigma = { distribution = \"lognormal\", median = 0.5, log_sd = 0.7 }\n"
+                "lambda = { distribution = \"normal\", mean = 0, sd = 1 }");
 }
 
 TEST_F(Families, ExponentiatedWeibullLives) {
   expect_golden("exponentiated-weibull", "examples/life/bearings.csv", 100,
                 "scale = \"eta\"\nshape = \"beta\"\nexponent = \"power\"",
-                "eta = { law = \"lognormal\", median = \"50e3 cycles\", log_sd = 0.7 }\n"
-                "beta = { law = \"lognormal\", median = 1.5, log_sd = 0.4 }\n"
-                "power = { law = \"lognormal\", median = 2, log_sd = 1 }");
+                "eta = { distribution = \"lognormal\", median = \"50e3 cycles\", log_sd = 0.7 }\n"
+                "beta = { distribution = \"lognormal\", median = 1.5, log_sd = 0.4 }\n"
+                "power = { distribution = \"lognormal\", median = 2, log_sd = 1 }");
 }
 
 TEST_F(Families, BirnbaumSaundersLives) {
   expect_golden("birnbaum-saunders", "tests/golden/coupons.csv", 160,
                 "scale = \"median\"\nshape = \"alpha\"",
-                "median = { law = \"lognormal\", median = \"130e3 cycles\", log_sd = 1 }\n"
-                "alpha = { law = \"lognormal\", median = 0.2, log_sd = 0.7 }");
+                "median = { distribution = \"lognormal\", median = \"130e3 cycles\", log_sd = 1 }\n"
+                "alpha = { distribution = \"lognormal\", median = 0.2, log_sd = 0.7 }");
 }
 
 }  // namespace

@@ -52,9 +52,9 @@ class FatigueDriver : public ScratchTest {
           fmt::format("model = \"sn\"\n[data]\nfile = \"tests.csv\"\n[data.columns]\n"
                       "alternating_stress = \"amplitude\"\nlife = \"cycles\"\nstatus = \"status\"\n"
                       "[law]\nmean_stress = \"none\"\n[prior]\n"
-                      "log10_a = {{ law = \"normal\", mean = {}, sd = 0.3 }}\n"
-                      "b = {{ law = \"normal\", mean = -0.1, sd = 0.04 }}\n"
-                      "sigma = {{ law = \"half-normal\", scale = 0.3 }}\n",
+                      "log10_a = {{ distribution = \"normal\", mean = {}, sd = 0.3 }}\n"
+                      "b = {{ distribution = \"normal\", mean = -0.1, sd = 0.04 }}\n"
+                      "sigma = {{ distribution = \"half-normal\", scale = 0.3 }}\n",
                       unit == "MPa" ? "\"3.3 log10(MPa)\"" : mean));
     const CommandResult done = run("fit study.toml --method exact --quiet --no-report -o " + name);
     ASSERT_LE(done.exit_code, 1) << done.err;
@@ -170,8 +170,8 @@ TEST_F(FatigueDriver, StaircasesOfAnyDriver) {
           "model = \"staircase\"\n[data]\nfile = \"tests.csv\"\n[data.columns]\n"
           "alternating_stress = \"amplitude\"\nstatus = \"status\"\n" +
               (prior.empty() ? ""
-                             : "[prior]\nlog10_limit = { law = \"normal\", mean = " + prior +
-                                   ", sd = 0.2 }\n"));
+                             : "[prior]\nlog10_limit = { distribution = \"normal\", mean = " +
+                                   prior + ", sd = 0.2 }\n"));
     return "fit study.toml --method exact --no-report";
   };
   const json stress = result(study("MPa", "\"2.5 log10(MPa)\""));

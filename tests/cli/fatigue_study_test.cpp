@@ -127,10 +127,10 @@ TEST_F(FatigueStudy, CasesAgreeWithTheGridOfR) {
         EXPECT_LT(here, width[name]) << name << ": more data narrow it";
       }
       width[name] = here;
-      const auto told = cell(fmt::format("| {} | {} |", name, number), 4);
-      EXPECT_NEAR(told.at(0), exact["q05"], 0.01 * here) << study << " " << name;
-      EXPECT_NEAR(told.at(1), exact["mean"], 0.01 * here) << study << " " << name;
-      EXPECT_NEAR(told.at(2), exact["q95"], 0.01 * here) << study << " " << name;
+      const auto reported = cell(fmt::format("| {} | {} |", name, number), 4);
+      EXPECT_NEAR(reported.at(0), exact["q05"], 0.01 * here) << study << " " << name;
+      EXPECT_NEAR(reported.at(1), exact["mean"], 0.01 * here) << study << " " << name;
+      EXPECT_NEAR(reported.at(2), exact["q95"], 0.01 * here) << study << " " << name;
     }
     for (const std::string type : {"A", "B", "C", "D", "E", "F", "G"}) {
       if (study == "case1" && type == "G") continue;
@@ -179,9 +179,9 @@ life = "n"
 )toml";
 const std::string law = "[law]\nmean_stress = \"none\"\n";
 const std::string prior = R"toml([prior]
-log10_a = { law = "normal", mean = "3.5 log10(MPa)", sd = 0.5 }
-b = { law = "normal", mean = -0.1, sd = 0.03 }
-sigma = { law = "half-normal", scale = 0.3 }
+log10_a = { distribution = "normal", mean = "3.5 log10(MPa)", sd = 0.5 }
+b = { distribution = "normal", mean = -0.1, sd = 0.03 }
+sigma = { distribution = "half-normal", scale = 0.3 }
 )toml";
 const std::string some_data = "s,n,end\n400,31000,F\n350,95000,F\n300,420000,F\n260,1300000,F\n";
 
@@ -225,9 +225,9 @@ TEST_F(FatigueStudy, MoreStressIsNeverMoreLife) {
 // one stress turns the curve, and what must not shorten is the life under that stress.
 TEST_F(FatigueStudy, ARunoutNeverShortensLife) {
   const std::string known = R"toml([prior]
-log10_a = { law = "normal", mean = "3.5 log10(MPa)", sd = 0.5 }
-b = { law = "uniform", lower = -0.1001, upper = -0.0999 }
-sigma = { law = "uniform", lower = 0.1999, upper = 0.2001 }
+log10_a = { distribution = "normal", mean = "3.5 log10(MPa)", sd = 0.5 }
+b = { distribution = "uniform", lower = -0.1001, upper = -0.0999 }
+sigma = { distribution = "uniform", lower = 0.1999, upper = 0.2001 }
 )toml";
   const std::string ask =
       "[predict]\nb_lives = [50]\n[predict.stress]\n"
@@ -268,15 +268,14 @@ TEST_F(FatigueStudy, UnitsDoNotMatter) {
   const double ksi = 6.894757293168361;  // MPa
   write("data.csv", fmt::format("s,n\n{:.12g},31\n{:.12g},95\n{:.12g},420\n{:.12g},1300\n",
                                 400 / ksi, 350 / ksi, 300 / ksi, 260 / ksi));
-  const json other = fit_text(
-      head +
-      "alternating_stress = { column = \"s\", unit = \"ksi\" }\n"
-      "life = { column = \"n\", unit = \"1000 cycles\" }\n" +
-      law +
-      fmt::format(
-          "[prior]\nlog10_a = {{ law = \"normal\", mean = \"{:.12g} log10(ksi)\", sd = 0.5 }}\n",
-          3.5 - std::log10(ksi)) +
-      prior.substr(prior.find("b = ")) + ask);
+  const json other = fit_text(head +
+                              "alternating_stress = { column = \"s\", unit = \"ksi\" }\n"
+                              "life = { column = \"n\", unit = \"1000 cycles\" }\n" +
+                              law +
+                              fmt::format("[prior]\nlog10_a = {{ distribution = \"normal\", mean = "
+                                          "\"{:.12g} log10(ksi)\", sd = 0.5 }}\n",
+                                          3.5 - std::log10(ksi)) +
+                              prior.substr(prior.find("b = ")) + ask);
   const auto mean = [](const json& result, const char* name) -> double {
     return result["parameters"][name]["mean"];
   };
@@ -332,7 +331,7 @@ TEST_F(FatigueStudy, RefusesAScatterOfLifeWithTwoReadings) {
            "alternating_stress = { column = \"s\", unit = \"MPa\" }\n"
            "life = { column = \"n\", unit = \"1e5 cycles\" }\n" +
            law + "[likelihood]\nfamily = \"normal\"\n" + prior.substr(0, prior.find("sigma")) +
-           "sigma = { law = \"half-normal\", " + sigma + " }\n";
+           "sigma = { distribution = \"half-normal\", " + sigma + " }\n";
   };
   EXPECT_THAT(
       refusal(with_sigma("scale = 2, unit = \"1e5 cycles\"")),
@@ -434,7 +433,8 @@ TEST_F(FatigueStudy, RefusesBadRowsByName) {
   const std::string goodman =
       head + columns + "mean_stress = { column = \"m\", unit = \"MPa\" }\nstatus = \"end\"\n" +
       "[law]\nmean_stress = \"goodman\"\n" + prior +
-      "log10_Sut = { law = \"uniform\", lower = \"3 log10(MPa)\", upper = \"3.2 log10(MPa)\" }\n";
+      "log10_Sut = { distribution = \"uniform\", lower = \"3 log10(MPa)\", upper = \"3.2 "
+      "log10(MPa)\" }\n";
   const auto expect = [&](const std::string& rows, const std::string& message) {
     write("data.csv", "s,m,n,end\n400,100,31000,F\n" + rows);
     EXPECT_THAT(refusal(goodman), HasSubstr(message)) << rows;

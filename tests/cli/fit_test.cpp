@@ -177,8 +177,8 @@ TEST_F(FitCommand, ImproperPosteriorsExitWithOneAndSayWhy) {
 
   // With the bound that the advice asks for they are proper.
   std::string text = slurp(examples + "improper_normal.toml");
-  text = std::regex_replace(text, std::regex("law = \"flat\", lower = \"0 mm\\^3\" "),
-                            "law = \"uniform\", lower = \"0 mm^3\", upper = \"15 mm^3\" ");
+  text = std::regex_replace(text, std::regex("distribution = \"flat\", lower = \"0 mm\\^3\" "),
+                            "distribution = \"uniform\", lower = \"0 mm^3\", upper = \"15 mm^3\" ");
   fs::copy(examples + "joint_wear.csv", folder() / "joint_wear.csv");
   EXPECT_TRUE(fit_json(write("bounded.toml", text).string(), 0)["trusted"]);
 }
@@ -230,15 +230,16 @@ TEST_F(FitCommand, OptionalConstantAndExponent) {
   text = std::regex_replace(text, std::regex("\\[update\\][^\\[]*"), "");
   text = std::regex_replace(
       text, std::regex("\\[prior\\]\n"),
-      "[prior]\nV0 = { law = \"normal\", mean = \"0 mm^3\", sd = \"10 mm^3\" }\n");
+      "[prior]\nV0 = { distribution = \"normal\", mean = \"0 mm^3\", sd = \"10 mm^3\" }\n");
   fs::copy(examples + "joint_wear.csv", folder() / "joint_wear.csv");
   const json constant = fit_json(write("constant.toml", text).string(), 0);
   // The reference: a constant term cuts the scatter of the first five sets to 0.43 mm^3 and
   // predicts 87.9 at the sixth.
   EXPECT_NEAR(constant["predictions"][0]["mean"], 87.9, 0.3);
   EXPECT_LT(constant["parameters"]["sigma"]["q05"], 0.6);
-  text = std::regex_replace(text, std::regex("\\[prior\\]\n"),
-                            "[prior]\nexponent = { law = \"normal\", mean = 1, sd = 0.1 }\n");
+  text =
+      std::regex_replace(text, std::regex("\\[prior\\]\n"),
+                         "[prior]\nexponent = { distribution = \"normal\", mean = 1, sd = 0.1 }\n");
   const json both = fit_json(write("both.toml", text).string(), 0);
   EXPECT_EQ(both["parameters"].size(), 4u);
   EXPECT_EQ(both["parameters"]["exponent"]["by"], "quadrature");
@@ -248,8 +249,8 @@ TEST_F(FitCommand, OptionalConstantAndExponent) {
 TEST_F(FitCommand, OtherSourcesOfWorkAndVolume) {
   const std::string head =
       "model = \"archard-joint\"\n[likelihood]\nfamily = \"normal\"\n[prior]\n"
-      "k = { law = \"flat\", unit = \"mm^3/(N m)\" }\n"
-      "sigma = { law = \"half-normal\", scale = \"5 mm^3\" }\n";
+      "k = { distribution = \"flat\", unit = \"mm^3/(N m)\" }\n"
+      "sigma = { distribution = \"half-normal\", scale = \"5 mm^3\" }\n";
   write("a.csv", "cycles,w,f,s,v\n100,600,60,10,6.1\n200,1200,60,20,11.8\n400,2400,60,40,24.3\n");
   const std::string volume = "volume = { column = \"v\", unit = \"mm^3\" }\ncycles = \"cycles\"\n";
   const std::string work = head + "[data]\nfile = \"a.csv\"\n[data.columns]\n" + volume +
@@ -297,8 +298,8 @@ TEST_F(FitCommand, CyclesInAnyUnitAreTheSame) {
                               "work_per_cycle = \"" +
                               work +
                               "\"\n[likelihood]\nfamily = \"normal\"\n[prior]\n"
-                              "k = { law = \"flat\", unit = \"mm^3/J\" }\n"
-                              "sigma = { law = \"half-normal\", scale = \"2 mm^3\" }\n"
+                              "k = { distribution = \"flat\", unit = \"mm^3/J\" }\n"
+                              "sigma = { distribution = \"half-normal\", scale = \"2 mm^3\" }\n"
                               "[predict]\ncycles = " +
                               predict + "\nlimit = \"60 mm^3\"\n")
                         .string(),
@@ -339,8 +340,8 @@ TEST_F(FitCommand, MistakenUnitsAreNamed) {
                               "\" }\n"
                               "[conditions]\nwork_per_cycle = \"7.5 J\"\n"
                               "[likelihood]\nfamily = \"normal\"\n[prior]\n"
-                              "k = { law = \"flat\", unit = \"mm^3/J\" }\n"
-                              "sigma = { law = \"half-normal\", scale = \"2 " +
+                              "k = { distribution = \"flat\", unit = \"mm^3/J\" }\n"
+                              "sigma = { distribution = \"half-normal\", scale = \"2 " +
                               unit + "\" }\n")
                         .string(),
                     0);
@@ -365,8 +366,8 @@ TEST_F(FitCommand, ValuesBeyondDoublesAreRefusedByName) {
               "model = \"archard-joint\"\n[data]\nfile = \"a.csv\"\n[data.columns]\ncycles = "
               "\"cycles\"\nvolume = { column = \"volume\", unit = \"mm^3\" }\n[conditions]\n"
               "work_per_cycle = \"5.966 N m\"\n[likelihood]\nfamily = \"lognormal\"\n[prior]\n"
-              "k = { law = \"flat\", lower = \"0 mm^3/(N m)\" }\n"
-              "sigma = { law = \"uniform\", lower = \"0 mm^3\", upper = \"7 mm^3\" }\n");
+              "k = { distribution = \"flat\", lower = \"0 mm^3/(N m)\" }\n"
+              "sigma = { distribution = \"uniform\", lower = \"0 mm^3\", upper = \"7 mm^3\" }\n");
     const CommandResult run = fit(study.string() + " --draws 100");
     EXPECT_EQ(run.err.find("internal error"), std::string::npos) << run.err;
     if (power == std::string("e-80")) {
@@ -416,17 +417,18 @@ TEST_F(FitCommand, ExactBeyondFourParametersIsSaidToBeASampler) {
   write("a.csv",
         "a,b,c,y\n1,2,0,3.1\n2,1,1,4.2\n3,3,0,7.9\n4,1,2,9.3\n5,2,1,11.2\n6,1,0,10.1\n"
         "7,3,1,16.2\n8,2,2,17.1\n");
-  const auto study = write("a.toml",
-                           "model = \"law\"\n[data]\nfile = \"a.csv\"\n[data.columns]\na = \"a\"\n"
-                           "b = \"b\"\nc = \"c\"\ny = \"y\"\n[likelihood.y]\nfamily = \"normal\"\n"
-                           "mean = \"p + q*a + r*b + t*c\"\nsd = \"s\"\n[prior]\n"
-                           "p = { law = \"normal\", mean = 0, sd = 5 }\n"
-                           "q = { law = \"normal\", mean = 0, sd = 5 }\n"
-                           "r = { law = \"normal\", mean = 0, sd = 5 }\n"
-                           "t = { law = \"normal\", mean = 0, sd = 5 }\n"
-                           "s = { law = \"half-normal\", scale = 1 }\n"
-                           "[sampler]\nmethod = \"exact\"\n")
-                         .string();
+  const auto study =
+      write("a.toml",
+            "model = \"formula\"\n[data]\nfile = \"a.csv\"\n[data.columns]\na = \"a\"\n"
+            "b = \"b\"\nc = \"c\"\ny = \"y\"\n[likelihood.y]\nfamily = \"normal\"\n"
+            "mean = \"p + q*a + r*b + t*c\"\nsd = \"s\"\n[prior]\n"
+            "p = { distribution = \"normal\", mean = 0, sd = 5 }\n"
+            "q = { distribution = \"normal\", mean = 0, sd = 5 }\n"
+            "r = { distribution = \"normal\", mean = 0, sd = 5 }\n"
+            "t = { distribution = \"normal\", mean = 0, sd = 5 }\n"
+            "s = { distribution = \"half-normal\", scale = 1 }\n"
+            "[sampler]\nmethod = \"exact\"\n")
+          .string();
   const char* const said =
       "Method: NUTS, not quadrature, which --method exact asks for: 5 "
       "parameters are more than quadrature reaches (4)";
@@ -503,8 +505,9 @@ class BadInput : public FitCommand {
                  "= \"6 N m\"\n"
                  "[likelihood]\nfamily = \"" +
                      family +
-                     "\"\n[prior]\nk = { law = \"flat\", unit = \"mm^3/J\" }\n"
-                     "sigma = { law = \"uniform\", lower = \"0 mm^3\", upper = \"15 mm^3\" }\n")
+                     "\"\n[prior]\nk = { distribution = \"flat\", unit = \"mm^3/J\" }\n"
+                     "sigma = { distribution = \"uniform\", lower = \"0 mm^3\", upper = \"15 "
+                     "mm^3\" }\n")
         .string();
   }
   // Exit code 2, one line that names the place, nothing written.

@@ -73,9 +73,10 @@ TEST_F(Messy, Workbook) {
 // A row that counts twice is two rows, for every model that has inspections.
 TEST_F(Messy, CountsAreRows) {
   const char* const rest =
-      "[likelihood]\nfamily = 'normal'\n[prior]\nk = { law = 'lognormal', median = '1e-6 mm^3/(N "
+      "[likelihood]\nfamily = 'normal'\n[prior]\nk = { distribution = 'lognormal', median = '1e-6 "
+      "mm^3/(N "
       "m)', "
-      "log_sd = 2.5 }\nsigma = { law = 'half-normal', scale = '1 mm^3' }\n";
+      "log_sd = 2.5 }\nsigma = { distribution = 'half-normal', scale = '1 mm^3' }\n";
   write("once.csv",
         "cycles,work [J],V [mm^3],n\n1e3,6e3,0.3,2\n2e3,1.2e4,0.5,1\n3e3,1.9e4,0.9,3\n");
   write("all.csv",

@@ -41,7 +41,7 @@ TEST_F(NewFromTables, LivesWithWordsForTheirEnds) {
   EXPECT_THAT(said, AllOf(HasSubstr("life: column 'Operating hours' in h"),
                           HasSubstr("status: column 'State' (failed, running"),
                           HasSubstr("column 'Pump' names rows")));
-  EXPECT_EQ(result_["model"], "law");
+  EXPECT_EQ(result_["model"], "formula");
   EXPECT_GT(middle("characteristic"), 1500);
   EXPECT_LT(middle("characteristic"), 5000);
   EXPECT_THAT(content("out/study.toml"), AllOf(HasSubstr("PROPOSED"), HasSubstr("or lognormal")));

@@ -58,13 +58,13 @@ work_per_cycle = "5.966 N m"
 family = "normal"
 [prior]
 k = {}
-sigma = {{ law = "flat", unit = "mm^3", lower = "0 mm^3", upper = "100 mm^3" }}
+sigma = {{ distribution = "flat", unit = "mm^3", lower = "0 mm^3", upper = "100 mm^3" }}
 )",
                             more, prior));
     return name;
   }
   static constexpr const char* flat =
-      R"toml({ law = "flat", unit = "mm^3/(N m)", lower = "0 mm^3/(N m)", upper = "1 mm^3/(N m)" })toml";
+      R"toml({ distribution = "flat", unit = "mm^3/(N m)", lower = "0 mm^3/(N m)", upper = "1 mm^3/(N m)" })toml";
 };
 
 TEST_F(Refusal, AStudyIsNoProgram) {
@@ -114,7 +114,7 @@ TEST_F(Refusal, WhatFitRefusesCheckRefuses) {
   // All of the prior lies where the likelihood is zero even in logarithms.
   data("cycles,volume\n1,4.44\n100,1e160\n1000,9\n");
   const std::string far =
-      R"toml({ law = "uniform", lower = "1e-320 mm^3/(N m)", upper = "1e-319 mm^3/(N m)" })toml";
+      R"toml({ distribution = "uniform", lower = "1e-320 mm^3/(N m)", upper = "1e-319 mm^3/(N m)" })toml";
   const std::string fit = refused("fit " + study("", far));
   EXPECT_EQ(refused("check " + study("", far)), fit);
 }
@@ -124,9 +124,9 @@ TEST_F(Refusal, PriorsThatNoNumberCanStartFrom) {
   data();
   for (
       const char* law :
-      {R"toml({ law = "student-t", df = 1e-3, location = "0 mm^3/(N m)", scale = "1 mm^3/(N m)" })toml",
-       R"toml({ law = "inverse-gamma", shape = 1e-5, scale = "1 mm^3/(N m)" })toml",
-       R"toml({ law = "uniform", lower = "1 mm^3/(N m)", upper = "1.0000000000000002 mm^3/(N m)" })toml"})
+      {R"toml({ distribution = "student-t", df = 1e-3, location = "0 mm^3/(N m)", scale = "1 mm^3/(N m)" })toml",
+       R"toml({ distribution = "inverse-gamma", shape = 1e-5, scale = "1 mm^3/(N m)" })toml",
+       R"toml({ distribution = "uniform", lower = "1 mm^3/(N m)", upper = "1.0000000000000002 mm^3/(N m)" })toml"})
     EXPECT_THAT(refused("check " + study("", law)), HasSubstr("study.toml:14:5: [prior.k]: "))
         << law;
 }
@@ -134,10 +134,10 @@ TEST_F(Refusal, PriorsThatNoNumberCanStartFrom) {
 TEST_F(Refusal, LongAndForeignText) {
   data();
   const std::string message =
-      refused("check " + study("", "{ law = \"" + std::string(10'000, 'x') + "\" }"));
+      refused("check " + study("", "{ distribution = \"" + std::string(10'000, 'x') + "\" }"));
   EXPECT_LT(message.size(), 1000U);
   EXPECT_THAT(message, HasSubstr("(10000 characters)"));
-  EXPECT_THAT(refused("check " + study("", "{ law = \"a\\u001b[31mb\" }")),
+  EXPECT_THAT(refused("check " + study("", "{ distribution = \"a\\u001b[31mb\" }")),
               AllOf(HasSubstr("a\\x1b[31mb"), Not(HasSubstr("\x1b"))));
   std::string deep = "a";
   for (int i = 0; i < 50'000; ++i) deep += ".a";

@@ -37,8 +37,8 @@ work_per_cycle = "5.966 N m"
 [likelihood]
 family = "normal"
 [prior]
-k = { law = "flat", lower = "0 mm^3/(N m)" }
-sigma = { law = "flat", lower = "0 mm^3" }
+k = { distribution = "flat", lower = "0 mm^3/(N m)" }
+sigma = { distribution = "flat", lower = "0 mm^3" }
 )toml" + priors);
   }
 
@@ -60,9 +60,9 @@ mean_stress = "0 MPa"
 [law]
 mean_stress = "none"
 [prior]
-log10_a = { law = "flat", unit = "log10(MPa)" }
-b = { law = "uniform", lower = -0.3, upper = -0.02 }
-sigma = { law = "flat" }
+log10_a = { distribution = "flat", unit = "log10(MPa)" }
+b = { distribution = "uniform", lower = -0.3, upper = -0.02 }
+sigma = { distribution = "flat" }
 )toml");
   }
 };
@@ -77,7 +77,7 @@ TEST_F(SingularStudy, WearExactlyInProportionIsNotTrusted) {
 
 TEST_F(SingularStudy, ConstantAndSlopeThatTheDataDoNotTellApart) {
   EXPECT_FALSE(joint("1000,4\n1000,5\n1000,4.5\n1000,5.2\n1000,4.1\n1000,4.7\n",
-                     "V0 = { law = \"flat\", unit = \"mm^3\" }\n")["trusted"]);
+                     "V0 = { distribution = \"flat\", unit = \"mm^3\" }\n")["trusted"]);
 }
 
 TEST_F(SingularStudy, LivesExactlyOnALineAreNotTrusted) {

@@ -38,11 +38,11 @@ class Trust : public ScratchTest {
   }
 
   // The joint of the tutorial, by cycles and worn volumes in mm^3.
-  json joint(
-      const Pairs& rows, const std::string& rest = "",
-      const std::string& k = R"x({ law = "flat", lower = "0 mm^3/(N m)" })x",
-      const std::string& sigma = R"x({ law = "uniform", lower = "0 mm^3", upper = "15 mm^3" })x",
-      const std::string& more = "") {
+  json joint(const Pairs& rows, const std::string& rest = "",
+             const std::string& k = R"x({ distribution = "flat", lower = "0 mm^3/(N m)" })x",
+             const std::string& sigma =
+                 R"x({ distribution = "uniform", lower = "0 mm^3", upper = "15 mm^3" })x",
+             const std::string& more = "") {
     return fit(fmt::format(R"x(title = "t"
 model = "archard-joint"
 [data]
@@ -81,7 +81,7 @@ pressure = "1 MPa"
 family = "normal"
 {}
 [prior]
-k = {{ law = "lognormal", median = "1e-6 mm^3/(N m)", log_sd = 2.5 }}
+k = {{ distribution = "lognormal", median = "1e-6 mm^3/(N m)", log_sd = 2.5 }}
 {})x",
                            table("revolutions,depth", rows),
                            sigma.empty() ? "depth_error = \"2 um\"" : "",
@@ -102,9 +102,9 @@ mean_stress = "none"
 [likelihood]
 family = "log10-normal"
 [prior]
-log10_a = {{ law = "normal", mean = "3.3 log10(MPa)", sd = 0.5 }}
-b = {{ law = "normal", mean = -0.1, sd = 0.05 }}
-sigma = {{ law = "half-normal", scale = 0.5 }}
+log10_a = {{ distribution = "normal", mean = "3.3 log10(MPa)", sd = 0.5 }}
+b = {{ distribution = "normal", mean = -0.1, sd = 0.05 }}
+sigma = {{ distribution = "half-normal", scale = 0.5 }}
 )x",
                            table("stress,life", rows)));
   }
@@ -134,8 +134,8 @@ TEST_F(Trust, WearThatFallsIsNot) {
   const std::vector<double> depths = {40, 31, 23, 14, 5};
   for (std::size_t i = 0; i < depths.size(); ++i)
     rows.emplace_back(50000 * (double(i) + 1), depths[i]);
-  for (const char* sigma : {"", R"x({ law = "half-normal", scale = "2 um" })x",
-                            R"x({ law = "flat", lower = "0 um" })x"}) {
+  for (const char* sigma : {"", R"x({ distribution = "half-normal", scale = "2 um" })x",
+                            R"x({ distribution = "flat", lower = "0 um" })x"}) {
     const json result = bearing(rows, sigma);
     EXPECT_EQ(verdict(result, "fit"), "fail") << sigma << check(result, "fit");
     EXPECT_FALSE(result["trusted"]);
@@ -147,15 +147,15 @@ TEST_F(Trust, WearThatFallsIsNot) {
 TEST_F(Trust, AnOutlierOfTypingIsNot) {
   const Pairs rows = {{50000, 17},    {100000, 24}, {150000, 30},
                       {200000, 5000}, {250000, 37}, {300000, 40}};
-  for (const char* sigma : {"", R"x({ law = "flat", lower = "0 um" })x"}) {
+  for (const char* sigma : {"", R"x({ distribution = "flat", lower = "0 um" })x"}) {
     const json result = bearing(rows, sigma);
     EXPECT_EQ(verdict(result, "fit"), "fail") << sigma << check(result, "fit");
     EXPECT_THAT(std::string(check(result, "fit")["detail"]), HasSubstr("row 4")) << sigma;
   }
   Pairs volumes = right;
   volumes[2].second = 2240;
-  EXPECT_EQ(verdict(joint(volumes, "", R"x({ law = "flat", lower = "0 mm^3/(N m)" })x",
-                          R"x({ law = "flat", lower = "0 mm^3" })x"),
+  EXPECT_EQ(verdict(joint(volumes, "", R"x({ distribution = "flat", lower = "0 mm^3/(N m)" })x",
+                          R"x({ distribution = "flat", lower = "0 mm^3" })x"),
                     "fit"),
             "fail");
 }
@@ -180,17 +180,17 @@ TEST_F(Trust, LivesThatGrowWithStressAreNot) {
 // A prior far from the data: the data win where they can, the prior where the scatter is wide.
 TEST_F(Trust, PriorsThatDataExcludeAreNot) {
   for (const char* prior :
-       {R"x({ law = "normal", mean = "1e-5 mm^3/(N m)", sd = "7.5e-9 mm^3/(N m)" })x",
-        R"x({ law = "normal", mean = "0.1 mm^3/(N m)", sd = "8e-5 mm^3/(N m)" })x",
-        R"x({ law = "lognormal", median = "0.1 mm^3/(N m)", log_sd = 0.1 })x"}) {
+       {R"x({ distribution = "normal", mean = "1e-5 mm^3/(N m)", sd = "7.5e-9 mm^3/(N m)" })x",
+        R"x({ distribution = "normal", mean = "0.1 mm^3/(N m)", sd = "8e-5 mm^3/(N m)" })x",
+        R"x({ distribution = "lognormal", median = "0.1 mm^3/(N m)", log_sd = 0.1 })x"}) {
     const json result = joint(right, "", prior);
     EXPECT_FALSE(result["trusted"])
         << prior << check(result, "prior-data-conflict") << check(result, "fit");
   }
   // The scatter that a gauge is said to have.
   const json result = joint({{1, 9}, {1000, -8}, {5000, 34}, {10000, 30}, {15000, 81}, {20000, 79}},
-                            "", R"x({ law = "flat", lower = "0 mm^3/(N m)" })x",
-                            R"x({ law = "half-normal", scale = "0.5 mm^3" })x");
+                            "", R"x({ distribution = "flat", lower = "0 mm^3/(N m)" })x",
+                            R"x({ distribution = "half-normal", scale = "0.5 mm^3" })x");
   EXPECT_EQ(verdict(result, "prior-data-conflict"), "fail") << check(result, "prior-data-conflict");
   EXPECT_THAT(std::string(check(result, "prior-data-conflict")["detail"]), HasSubstr("sigma"));
 }
@@ -201,9 +201,9 @@ TEST_F(Trust, ALifeThatFewNodesMakeInfiniteIsANumber) {
   const json result =
       joint({{1, 4.44}, {100, 5.105}, {1000, 8.825}, {5000, 24.175}, {10000, 45.31}},
             "[predict]\nlimit = \"100 mm^3\"\nrisk = \"1 %\"\n",
-            R"x({ law = "flat", lower = "0 mm^3/(N m)" })x",
-            R"x({ law = "uniform", lower = "0 mm^3", upper = "15 mm^3" })x",
-            R"x(exponent = { law = "normal", mean = 1, sd = 0.3 })x");
+            R"x({ distribution = "flat", lower = "0 mm^3/(N m)" })x",
+            R"x({ distribution = "uniform", lower = "0 mm^3", upper = "15 mm^3" })x",
+            R"x(exponent = { distribution = "normal", mean = 1, sd = 0.3 })x");
   const json& life = result["life"];
   EXPECT_NEAR(life["b1"].get<double>(), 15038, 100);
   EXPECT_NEAR(life["b10"].get<double>(), 18325, 100);
@@ -230,8 +230,9 @@ TEST_F(Trust, FarPredictionsAndWideIntervalsAreWarnedOf) {
   EXPECT_EQ(verdict(near, "extrapolation"), "pass");
   EXPECT_EQ(verdict(near, "sense"), "pass");
   // Wear within the noise of the gauge says hardly anything of a life.
-  const json wide = joint({{1, 0.1}, {100, -0.2}, {200, 0.15}}, "[predict]\nlimit = \"100 mm^3\"\n",
-                          R"x({ law = "lognormal", median = "1e-6 mm^3/(N m)", log_sd = 3 })x");
+  const json wide =
+      joint({{1, 0.1}, {100, -0.2}, {200, 0.15}}, "[predict]\nlimit = \"100 mm^3\"\n",
+            R"x({ distribution = "lognormal", median = "1e-6 mm^3/(N m)", log_sd = 3 })x");
   EXPECT_EQ(verdict(wide, "sense"), "warn") << check(wide, "sense");
   EXPECT_THAT(std::string(check(wide, "sense")["detail"]), HasSubstr("decades"));
 }

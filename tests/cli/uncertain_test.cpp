@@ -12,28 +12,29 @@
 namespace wearwell {
 namespace {
 
-using Law = Uncertain::Law;
+using Distribution = Uncertain::Distribution;
 
-void expect(const Uncertain& q, Law law, double mean, double sd) {
+void expect(const Uncertain& q, Distribution law, double mean, double sd) {
   EXPECT_EQ(q.law, law);
   EXPECT_NEAR(q.mean, mean, 1e-15 * std::abs(mean));
   EXPECT_NEAR(q.sd, sd, 1e-14 * sd);
 }
 
 TEST(Uncertain, ReadsEveryForm) {
-  expect(read_uncertain("0.1 mm", "m"), Law::exact, 1e-4, 0);
-  expect(read_uncertain("0.100 +- 0.005 mm", "m"), Law::normal, 1e-4, 5e-6);
-  expect(read_uncertain("0.100±0.005 mm", "m"), Law::normal, 1e-4, 5e-6);
-  expect(read_uncertain("0.100 +/- 0.005 mm", "m"), Law::normal, 1e-4, 5e-6);
-  expect(read_uncertain("0.1 mm +- 5 um", "m"), Law::normal, 1e-4, 5e-6);
-  expect(read_uncertain("2 MPa +- 10 %", "Pa"), Law::normal, 2e6, 2e5);
-  expect(read_uncertain("1e5 +- 10 %", "1"), Law::normal, 1e5, 1e4);
-  expect(read_uncertain("1e5 +- 300", "1"), Law::normal, 1e5, 300);
-  expect(read_uncertain(" ~ lognormal(0.1 mm, 5 um) ", "m"), Law::lognormal, 1e-4, 5e-6);
-  expect(read_uncertain("~normal( 0.1 mm , 5 um )", "m"), Law::normal, 1e-4, 5e-6);
-  expect(read_uncertain("~ uniform(2 mm, 8 mm)", "m"), Law::uniform, 5e-3, 6e-3 / std::sqrt(12));
-  expect(read_uncertain("0.1 +- 0 mm", "m"), Law::exact, 1e-4, 0);
-  expect(read_uncertain("20 +- 2 degC", "K"), Law::normal, 293.15, 2);
+  expect(read_uncertain("0.1 mm", "m"), Distribution::exact, 1e-4, 0);
+  expect(read_uncertain("0.100 +- 0.005 mm", "m"), Distribution::normal, 1e-4, 5e-6);
+  expect(read_uncertain("0.100±0.005 mm", "m"), Distribution::normal, 1e-4, 5e-6);
+  expect(read_uncertain("0.100 +/- 0.005 mm", "m"), Distribution::normal, 1e-4, 5e-6);
+  expect(read_uncertain("0.1 mm +- 5 um", "m"), Distribution::normal, 1e-4, 5e-6);
+  expect(read_uncertain("2 MPa +- 10 %", "Pa"), Distribution::normal, 2e6, 2e5);
+  expect(read_uncertain("1e5 +- 10 %", "1"), Distribution::normal, 1e5, 1e4);
+  expect(read_uncertain("1e5 +- 300", "1"), Distribution::normal, 1e5, 300);
+  expect(read_uncertain(" ~ lognormal(0.1 mm, 5 um) ", "m"), Distribution::lognormal, 1e-4, 5e-6);
+  expect(read_uncertain("~normal( 0.1 mm , 5 um )", "m"), Distribution::normal, 1e-4, 5e-6);
+  expect(read_uncertain("~ uniform(2 mm, 8 mm)", "m"), Distribution::uniform, 5e-3,
+         6e-3 / std::sqrt(12));
+  expect(read_uncertain("0.1 +- 0 mm", "m"), Distribution::exact, 1e-4, 0);
+  expect(read_uncertain("20 +- 2 degC", "K"), Distribution::normal, 293.15, 2);
   EXPECT_EQ(read_uncertain(" 0.1 +- 0.01 mm ", "m").text, "0.1 +- 0.01 mm");
 }
 
@@ -42,7 +43,7 @@ TEST(Uncertain, ReadsEveryForm) {
 TEST(Uncertain, AFactorIsLognormalAboutItsMedian) {
   for (const char* text : {"0.1 mm x/ 2", "0.1 mm ×/ 2", "0.1 mm ×÷2", "100 um x/2"}) {
     const Uncertain q = read_uncertain(text, "m");
-    EXPECT_EQ(q.law, Law::lognormal) << text;
+    EXPECT_EQ(q.law, Distribution::lognormal) << text;
     EXPECT_NEAR(q.centre, 1e-4, 1e-18) << text;
     EXPECT_NEAR(q.mean / 1e-4, std::exp(0.5 * std::log(2) * std::log(2)), 1e-14);
     EXPECT_NEAR(equal_factor(q), 2, 1e-12);
@@ -65,10 +66,10 @@ TEST(Uncertain, AFactorIsLognormalAboutItsMedian) {
 }
 
 TEST(Uncertain, CountsInAnyMultiple) {
-  expect(read_uncertain("40 +- 2 krev", "rev"), Law::normal, 4e4, 2e3);
-  expect(read_uncertain("4e4 +- 5 %", "rev"), Law::normal, 4e4, 2e3);
-  expect(read_uncertain("40 krev +- 2000 rev", "rev"), Law::normal, 4e4, 2e3);
-  expect(read_uncertain("600 +- 30 1/min", "rev/s"), Law::normal, 10, 0.5);
+  expect(read_uncertain("40 +- 2 krev", "rev"), Distribution::normal, 4e4, 2e3);
+  expect(read_uncertain("4e4 +- 5 %", "rev"), Distribution::normal, 4e4, 2e3);
+  expect(read_uncertain("40 krev +- 2000 rev", "rev"), Distribution::normal, 4e4, 2e3);
+  expect(read_uncertain("600 +- 30 1/min", "rev/s"), Distribution::normal, 10, 0.5);
   // Is the plain number one of thousands?
   for (const char* text : {"40 krev +- 2", "~ normal(40 krev, 2)", "~ uniform(10, 20 krev)"})
     EXPECT_THROW(read_uncertain(text, "rev"), InputError) << text;

@@ -139,25 +139,25 @@ TEST_F(UpdateCommand, OtherTradesAreTheirFitOfAll) {
 
 // Machines of which each wears at its own pace: late readings, another unit of measure, a machine that is new.
 TEST_F(UpdateCommand, MachinesThatDifferAreTheirFitOfAll) {
-  write("study.toml", R"(model = "law"
+  write("study.toml", R"(model = "formula"
 [data]
 file = "wear.csv"
 [data.columns]
 wear    = { column = "wear_um", unit = "um" }
 time    = { column = "hours", unit = "h" }
 machine = "machine"
-[law]
+[formula]
 depth = "rate * time"
 [likelihood.wear]
 family = "normal"
 mean   = "depth"
 sd     = "sigma"
 [prior]
-rate    = { law = "lognormal", median = "0.1 um/h", log_sd = 1 }
-sigma   = { law = "half-normal", scale = "2 um" }
-scatter = { law = "half-normal", scale = 0.5 }
-[varies.machine]
-rate = { law = "lognormal", log_sd = "scatter" }
+rate    = { distribution = "lognormal", median = "0.1 um/h", log_sd = 1 }
+sigma   = { distribution = "half-normal", scale = "2 um" }
+scatter = { distribution = "half-normal", scale = 0.5 }
+[random_effects.machine]
+rate = { distribution = "lognormal", log_sd = "scatter" }
 [predict]
 along = "time"
 limit = { depth = "100 um" }
@@ -242,10 +242,10 @@ TEST_F(UpdateCommand, TellsWhatContradictsLoudly) {
   const CommandResult update = run("update r slip.csv --no-report -o r2");
   EXPECT_THAT(update.out, HasSubstr("new-data"));
   EXPECT_THAT(update.out, HasSubstr("1 contradicts what was known"));
-  const json told = summary("r2")["update"];
-  ASSERT_EQ(told["contradictions"].size(), 1u);
-  EXPECT_THAT(told["contradictions"][0]["place"].get<std::string>(), HasSubstr("30000"));
-  EXPECT_EQ(told["counted"], 1);
+  const json reported = summary("r2")["update"];
+  ASSERT_EQ(reported["contradictions"].size(), 1u);
+  EXPECT_THAT(reported["contradictions"][0]["place"].get<std::string>(), HasSubstr("30000"));
+  EXPECT_EQ(reported["counted"], 1);
 }
 
 TEST_F(UpdateCommand, RefusesWithNothingWritten) {

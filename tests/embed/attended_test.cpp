@@ -43,14 +43,14 @@ TEST(Attended, WhatTheOnLookerThrowsStopsTheWorkAndComesOut) {
 }
 
 TEST(Attended, TheLastStepBeforeALookIsTold) {
-  std::vector<Told> steps;
+  std::vector<ProgressSnapshot> steps;
   attended<Away>(
       [](const Monitor& monitor) {
         monitor.progress({"parts", 1, 3, 0.5});
         monitor.progress({"parts", 2, 3, 1.5});
       },
-      [&](const std::optional<Told>& told) {
-        if (told) steps.push_back(*told);
+      [&](const std::optional<ProgressSnapshot>& reported) {
+        if (reported) steps.push_back(*reported);
       });
   ASSERT_FALSE(steps.empty());
   EXPECT_EQ(steps.back().what, "parts");

@@ -38,7 +38,7 @@ class ChdbEngine : public fleet::Engine {
   }
 
   fleet::Dialect dialect() const override { return fleet::Dialect::clickhouse; }
-  std::string in_words() const override { return "chDB"; }
+  std::string description() const override { return "chDB"; }
   std::string table() const override { return ""; }
   std::string source() const override { return "chDB"; }
   std::vector<fleet::EngineColumn> columns() override { return {}; }

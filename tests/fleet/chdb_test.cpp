@@ -67,9 +67,10 @@ TEST_F(Chdb, ALawHasTheNumbersOfTheLibrary) {
       "create table liners (id Int32, machine String, F Nullable(Float64), s Nullable(Float64)) "
       "engine = "
       "MergeTree order by id;\ninsert into liners values" +
-          ownlaw::law_row_values("\\'"),
+          formula_model::formula_row_values("\\'"),
       {}, "", 0);
-  ownlaw::expect_library(ownlaw::law_state(folder()), engine, "liners", ownlaw::law_values());
+  formula_model::expect_library(formula_model::formula_state(folder()), engine, "liners",
+                                formula_model::formula_values());
 }
 
 }  // namespace

@@ -172,17 +172,17 @@ TEST_F(ClickhouseFleet, ALawHasTheNumbersOfTheLibrary) {
   must(server,
        "create table liners (id Int32, machine String, F Nullable(Float64), s Nullable(Float64)) "
        "engine = MergeTree order by id;\ninsert into liners values" +
-           ownlaw::law_row_values("\\'") + ";\n");
+           formula_model::formula_row_values("\\'") + ";\n");
   const auto engine = fleet::clickhouse_engine(server.address(), "liners");
-  std::vector<std::string> values = ownlaw::law_values();
+  std::vector<std::string> values = formula_model::formula_values();
   values.push_back("erf(wear/(10 [um]))");
-  ownlaw::expect_library(ownlaw::law_state(folder()), *engine, "liners", values);
+  formula_model::expect_library(formula_model::formula_state(folder()), *engine, "liners", values);
   must(server,
        "create table pads (id Int32, machine String, mat String, T Float64, TF Float64, hours "
        "Float64) "
        "engine = MergeTree order by id;\ninsert into pads values" +
-           ownlaw::pad_row_values("\\'") + ";\n");
-  ownlaw::expect_pads(*fleet::clickhouse_engine(server.address(), "pads"), "pads");
+           formula_model::pad_row_values("\\'") + ";\n");
+  formula_model::expect_pads(*fleet::clickhouse_engine(server.address(), "pads"), "pads");
 }
 
 TEST_F(ClickhouseFleet, ACertificateIsHeldAgainstTheName) {

@@ -184,16 +184,17 @@ TEST_F(Cluster, ALawInPostgresHasTheNumbersOfTheLibrary) {
   const CommandResult made = server.sql(
       "create table liners (id integer, machine text, \"F\" float8, s float8);\ninsert "
       "into liners values" +
-      ownlaw::law_row_values("''") + ";\n");
+      formula_model::formula_row_values("''") + ";\n");
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const auto engine = fleet::postgres_engine(server.url(), "liners");
-  ownlaw::expect_library(ownlaw::law_state(folder()), *engine, "liners", ownlaw::law_values());
+  formula_model::expect_library(formula_model::formula_state(folder()), *engine, "liners",
+                                formula_model::formula_values());
   const CommandResult pads = server.sql(
       "create table pads (id integer, machine text, mat text, \"T\" float8, \"TF\" float8, hours "
       "float8);\ninsert into pads values" +
-      ownlaw::pad_row_values("''") + ";\n");
+      formula_model::pad_row_values("''") + ";\n");
   ASSERT_EQ(pads.exit_code, 0) << pads.err;
-  ownlaw::expect_pads(*fleet::postgres_engine(server.url(), "pads"), "pads");
+  formula_model::expect_pads(*fleet::postgres_engine(server.url(), "pads"), "pads");
 }
 
 TEST_F(Cluster, HostileNamesAreHarmlessInPostgres) {

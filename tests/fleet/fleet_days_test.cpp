@@ -35,7 +35,7 @@ class FleetInDays : public ScratchTest {
       std::getline(lines, line);
       const int daily = each.unit == "unit 3" ? 80 : 40, i = count[each.unit]++;
       const int seconds = i * (86400 / daily), day = seconds / 86400, left = seconds % 86400;
-      const std::string date = day_in_words(1.7e9 + 86400.0 * day);
+      const std::string date = day_text(1.7e9 + 86400.0 * day);
       text += fmt::format("{},{} {:02}:{:02}:{:02},{},{},soon\n", line, date, left / 3600,
                           left / 60 % 60, left % 60, date,
                           each.unit == "unit 4" ? "" : std::to_string(daily));
@@ -109,12 +109,12 @@ TEST_F(FleetInDays, WhatTellsNoDaysIsRefused) {
 }
 
 TEST(FleetDays, AreWordsOfTheCalendar) {
-  EXPECT_EQ(day_in_words(0), "1970-01-01");
-  EXPECT_EQ(day_in_words(951782400), "2000-02-29");
-  EXPECT_EQ(day_in_words(951782399), "2000-02-28");
-  EXPECT_EQ(day_in_words(253402300799.0), "9999-12-31");
-  EXPECT_EQ(day_in_words(253402300800.0), "");
-  EXPECT_EQ(day_in_words(NAN), "");
+  EXPECT_EQ(day_text(0), "1970-01-01");
+  EXPECT_EQ(day_text(951782400), "2000-02-29");
+  EXPECT_EQ(day_text(951782399), "2000-02-28");
+  EXPECT_EQ(day_text(253402300799.0), "9999-12-31");
+  EXPECT_EQ(day_text(253402300800.0), "");
+  EXPECT_EQ(day_text(NAN), "");
 }
 
 // Forecasts by any number of threads.

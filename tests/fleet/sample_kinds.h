@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "calibration/own_design.h"
+#include "calibration/formula_design.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/fleet/engine.h"
-#include "wearwell/law/dimension.h"
-#include "wearwell/models/ownlaw/sql_export.h"
+#include "wearwell/formula/dimension.h"
+#include "wearwell/models/formula_model/sql_export.h"
 
-namespace wearwell::ownlaw {
+namespace wearwell::formula_model {
 
 /// A row of a table of pads: of a machine and a material, a temperature in degC (and in degF beside it) and a time in h.
 struct PadRow {
@@ -43,23 +43,23 @@ material = "mat"
 machine = "machine"
 [constants]
 T0 = "300 K"
-[law]
+[formula]
 wear = "a + k[material] * rate * time * exp(theta * (1 - T0 / temperature))"
 [likelihood.depth]
 family = "normal"
 mean = "wear"
 sd = "sigma"
 [prior]
-a = { law = "normal", mean = "0.5 um", sd = "1 um" }
-rate = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
-k = { law = "lognormal", median = 1, log_sd = 0.5 }
-theta = { law = "normal", mean = 2, sd = 1 }
-sa = { law = "half-normal", scale = "1 um" }
-sb = { law = "half-normal", scale = 0.5 }
-sigma = { law = "half-normal", scale = "0.5 um" }
-[varies.machine]
-a = { law = "normal", sd = "sa" }
-rate = { law = "lognormal", log_sd = "sb" }
+a = { distribution = "normal", mean = "0.5 um", sd = "1 um" }
+rate = { distribution = "lognormal", median = "1 um/h", log_sd = 0.5 }
+k = { distribution = "lognormal", median = 1, log_sd = 0.5 }
+theta = { distribution = "normal", mean = 2, sd = 1 }
+sa = { distribution = "half-normal", scale = "1 um" }
+sb = { distribution = "half-normal", scale = 0.5 }
+sigma = { distribution = "half-normal", scale = "0.5 um" }
+[random_effects.machine]
+a = { distribution = "normal", sd = "sa" }
+rate = { distribution = "lognormal", log_sd = "sb" }
 )toml";
   const std::string materials[] = {"steel", "PTFE", "PA 6'6"};
   std::vector<double> depth, temperature, time;
@@ -74,17 +74,18 @@ rate = { law = "lognormal", log_sd = "sb" }
       depth.push_back(0.3 * u + (0.7 + 0.3 * m) * (0.9 + 0.2 * u) * i + 0.1 * (i % 2));
     }
   }
-  const OwnDesign design(study, {numbers("h", depth), numbers("T", temperature), numbers("t", time),
-                                 texts("mat", material), texts("machine", machine)});
+  const FormulaDesign design(study,
+                             {numbers("h", depth), numbers("T", temperature), numbers("t", time),
+                              texts("mat", material), texts("machine", machine)});
   prognosis::CarriedState state;
-  state.model = "law";
+  state.model = "formula";
   state.source = design.source;
   Rng rng(21, 0);
-  const auto count = static_cast<Eigen::Index>(design.law->parameters.size());
+  const auto count = static_cast<Eigen::Index>(design.model->parameters.size());
   state.posterior.values.resize(400, count);
   state.posterior.weights = Eigen::VectorXd::Constant(400, 1.0 / 400);
   for (Eigen::Index p = 0; p < count; ++p) {
-    const std::string& name = design.law->parameters[static_cast<std::size_t>(p)].name;
+    const std::string& name = design.model->parameters[static_cast<std::size_t>(p)].name;
     state.parameters.push_back(name);
     const double middle = name == "a" || name == "sa" || name == "sigma" ? 0.4e-6
                           : name == "rate"                               ? 1e-6 / 3600
@@ -117,7 +118,7 @@ inline const std::vector<PadValue>& pad_values() {
 inline void expect_pads(fleet::Engine& engine, const std::string& table) {
   const prognosis::CarriedState state = pad_state();
   const TomlReader root = TomlReader::parse(state.source.study);
-  const std::shared_ptr<const OwnLaw> law = read_own_law(root, state.source);
+  const std::shared_ptr<const FormulaModel> model = read_formula_model(root, state.source);
   for (const PadValue& asked : pad_values()) {
     SqlExportChoice choice;
     choice.dialect = engine.dialect();
@@ -133,13 +134,13 @@ inline void expect_pads(fleet::Engine& engine, const std::string& table) {
     ASSERT_EQ(made.units.size(), 4u);
     engine.begin();
     engine.run(made.setup, {}, "", 0);
-    const NodeProgram program(*law, {made.wanted});
+    const NodeProgram program(*model, {made.wanted});
     NodeProgram::Scratch scratch(program);
-    const Unit unit = law::read_any_unit(made.unit).unit;
+    const Unit unit = formula::read_any_unit(made.unit).unit;
     std::size_t found = 0;
     engine.rows(
-        "select id * 1e0, law_known * 1e0, law_q05, law_q50, law_q95 from (\n" + made.query +
-            "\n) as a",
+        "select id * 1e0, formula_known * 1e0, formula_q05, formula_q50, formula_q95 from (\n" +
+            made.query + "\n) as a",
         0, [&](const fleet::Row& row) {
           const PadRow& at = pad_rows().at(static_cast<std::size_t>(row.numbers[0]) - 1);
           ++found;
@@ -147,12 +148,12 @@ inline void expect_pads(fleet::Engine& engine, const std::string& table) {
           EXPECT_EQ(row.numbers[1], known != made.units.end());
           if (known == made.units.end()) known = made.units.begin();
           NodeRow conditions;
-          for (const auto& column : law->row_symbols.columns)
+          for (const auto& column : model->row_symbols.columns)
             conditions.numbers.push_back(column.name == "temperature" ? at.temperature + 273.15
                                          : column.name == "time"      ? 3600 * at.time
                                                                       : 0);
           bool whole = true;
-          for (const law::LabelSymbol& label : law->row_symbols.labels) {
+          for (const formula::LabelSymbol& label : model->row_symbols.labels) {
             const std::string& text = label.name == "material" ? at.material : at.machine;
             const auto level = std::find(label.levels.begin(), label.levels.end(), text);
             whole = whole && (label.name == "machine" || level != label.levels.end());
@@ -201,4 +202,4 @@ inline std::string pad_row_values(const std::string& quote) {
   return text;
 }
 
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell::formula_model

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "calibration/own_design.h"
+#include "calibration/formula_design.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/sha1.h"
 #include "wearwell/models/registry.h"
@@ -68,12 +68,12 @@ mean = "b * time"
 scale = "s"
 noise = "e"
 [prior]
-b = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
-s = { law = "half-normal", scale = "0.3 um" }
-e = { law = "half-normal", scale = "0.2 um" }
-scatter = { law = "half-normal", scale = 0.5 }
-[varies.unit]
-b = { law = "lognormal", log_sd = "scatter" }
+b = { distribution = "lognormal", median = "1 um/h", log_sd = 0.5 }
+s = { distribution = "half-normal", scale = "0.3 um" }
+e = { distribution = "half-normal", scale = "0.2 um" }
+scatter = { distribution = "half-normal", scale = 0.5 }
+[random_effects.unit]
+b = { distribution = "lognormal", log_sd = "scatter" }
 [predict]
 along = "time"
 limit = { depth = "12 um" }
@@ -87,26 +87,26 @@ time = { column = "time", unit = "h" }
 step = { column = "step", unit = "h" }
 material = "material"
 unit = "unit"
-[law]
+[formula]
 wear = "b * q[material] * cum(step)"
 [likelihood.depth]
 family = "normal"
 mean = "wear"
 sd = "e"
 [prior]
-b = { law = "lognormal", median = "1 um/h", log_sd = 0.5 }
-q = { law = "lognormal", median = "1", log_sd = 0.5 }
-e = { law = "half-normal", scale = "0.2 um" }
+b = { distribution = "lognormal", median = "1 um/h", log_sd = 0.5 }
+q = { distribution = "lognormal", median = "1", log_sd = 0.5 }
+e = { distribution = "half-normal", scale = "0.2 um" }
 [predict]
 along = "time"
 limit = { wear = "12 um" }
 given = { material = "PTFE", step = "1 h" }
-[varies.unit]
-b = { law = "lognormal", log_sd = "0.3" }
+[random_effects.unit]
+b = { distribution = "lognormal", log_sd = "0.3" }
 )toml";
 
 std::vector<Column> data() {
-  using ownlaw::numbers, ownlaw::texts;
+  using formula_model::numbers, formula_model::texts;
   return {texts("unit", {"u0", "u0", "u0", "u1", "u1", "u1"}),
           texts("material", {"PTFE", "PTFE", "PTFE", "PEEK", "PEEK", "PEEK"}),
           numbers("time", {1, 2, 3, 1, 2, 3}), numbers("step", {1, 1, 1, 1, 1, 1}),
@@ -125,8 +125,8 @@ work_per_cycle = "6 N m"
 [likelihood]
 family = "normal"
 [prior]
-k = { law = "lognormal", median = "1e-3 mm^3/(N m)", log_sd = 1.5 }
-sigma = { law = "half-normal", scale = "8 mm^3" }
+k = { distribution = "lognormal", median = "1e-3 mm^3/(N m)", log_sd = 1.5 }
+sigma = { distribution = "half-normal", scale = "8 mm^3" }
 [predict]
 limit = "100 mm^3"
 )toml";
@@ -135,8 +135,8 @@ Source study_of_joint() {
   Table table;
   table.source = "data.csv";
   table.rows = 3;
-  table.columns = {ownlaw::numbers("cycles", {100, 1000, 5000}),
-                   ownlaw::numbers("volume", {5.1, 8.8, 24.2})};
+  table.columns = {formula_model::numbers("cycles", {100, 1000, 5000}),
+                   formula_model::numbers("volume", {5.1, 8.8, 24.2})};
   return {{"study.toml", joint}, {{"data.csv", table}}};
 }
 
@@ -170,7 +170,7 @@ struct Population {
     }
     constexpr std::size_t length = 8, digest = 40;
     const std::string saved = tracker->begin(unit)->save();
-    sum_before = state.model != "law";
+    sum_before = state.model != "formula";
     const std::size_t mark = sum_before ? length + std::string_view("wearwell nodes 1").size() : 16;
     begin = saved.substr(sum_before ? digest : 0, mark + length + digest);
   }
@@ -184,12 +184,12 @@ struct Population {
 
 const Population& population_of(char which) {
   static const Population of[] = {
-      {"law",
-       ownlaw::OwnDesign(hidden, data()).source,
+      {"formula",
+       formula_model::FormulaDesign(hidden, data()).source,
        "new",
        {{"b", 3e-10}, {"s", 2e-7}, {"e", 1e-7}, {"scatter", 0.3}}},
-      {"law",
-       ownlaw::OwnDesign(summed, data()).source,
+      {"formula",
+       formula_model::FormulaDesign(summed, data()).source,
        "new",
        {{"b", 3e-10}, {"q[PEEK]", 1}, {"q[PTFE]", 1.1}, {"e", 2e-7}}},
       {"archard-joint", study_of_joint(), "joint", {{"k", 8e-13}, {"sigma", 3e-9}}}};

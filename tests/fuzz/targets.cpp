@@ -14,9 +14,9 @@
 #include "fuzz/state_targets.h"
 #include "wearwell/base/error.h"
 #include "wearwell/base/unit.h"
+#include "wearwell/formula/program.h"
 #include "wearwell/input/labelled.h"
 #include "wearwell/input/toml_reader.h"
-#include "wearwell/law/program.h"
 #include "wearwell/models/bearing/uncertain.h"
 #include "wearwell/models/clutch/clutch_model_file.h"
 #include "wearwell/models/registry.h"
@@ -146,7 +146,7 @@ void study(std::string_view bytes) {
   static_cast<void>(copied);
   const fs::path file = file_of("study.toml", bytes);
   read_or_refuse([&] {
-    demand(!read_study(source_of(file), all_models())->in_words().empty(), "a study has words");
+    demand(!read_study(source_of(file), all_models())->description().empty(), "a study has words");
   });
 }
 
@@ -188,19 +188,19 @@ void report(std::string_view bytes) {
   result("report.json", bytes);
 }
 
-// Lines "name := expression" are of [law], any other is an output.
+// Lines "name := expression" are of [formula], any other is an output.
 void laws(std::string_view bytes) {
-  const law::Powers metre = {{"meter", 1}}, newton = law::read_any_unit("N").powers;
-  const law::Symbols symbols = {
+  const formula::Powers metre = {{"meter", 1}}, newton = formula::read_any_unit("N").powers;
+  const formula::Symbols symbols = {
       {{"x", {}}, {"force", newton}, {"distance", metre}, {"depth", metre, true}},
       {{"material", {"PTFE", "PEEK"}}},
       {{"a", {}},
        {"b", {}},
-       {"q", {}, law::Scope::per_level, "material"},
-       {"u", {}, law::Scope::per_row}},
-      {{"g", law::read_any_unit("m/s^2").powers, 9.81}}};
-  std::vector<law::Line> lines;
-  std::vector<law::Wanted> wanted;
+       {"q", {}, formula::Scope::per_level, "material"},
+       {"u", {}, formula::Scope::per_row}},
+      {{"g", formula::read_any_unit("m/s^2").powers, 9.81}}};
+  std::vector<formula::Line> lines;
+  std::vector<formula::Wanted> wanted;
   for (std::size_t from = 0; from < bytes.size();) {
     const std::size_t end = std::min(bytes.find('\n', from), bytes.size());
     const std::string line(bytes.substr(from, end - from));
@@ -211,13 +211,13 @@ void laws(std::string_view bytes) {
       wanted.push_back({"output", line});
   }
   read_or_refuse([&] {
-    const law::Program program = law::compile(lines, wanted, symbols);
+    const formula::Program program = formula::compile(lines, wanted, symbols);
     const std::vector<double> x = {0.5, 2, -1}, force = {10, 20, 5}, distance = {0, 1, 1},
                               u = {1, 0, -1};
     const std::vector<int> material = {0, 1, 0};
-    const law::Data data =
+    const formula::Data data =
         program.bind({3, {x, force, distance, std::span<const double>()}, {material}, {0}});
-    law::Workspace work = program.workspace(3);
+    formula::Workspace work = program.workspace(3);
     const std::vector<double> parameters = {0.7, 1.3, 2, -0.5};
     const double* by_row[] = {u.data()};
     program.forward(data, 0, 3, {parameters, by_row}, work);
@@ -234,10 +234,10 @@ void laws(std::string_view bytes) {
   });
 }
 
-constexpr Target all[] = {{"unit", unit},   {"heading", heading}, {"toml", toml},
-                          {"table", table}, {"study", study},     {"model", model},
-                          {"state", state}, {"summary", summary}, {"report", report},
-                          {"law", laws},    {"carried", carried}, {"tracked", tracked}};
+constexpr Target all[] = {{"unit", unit},    {"heading", heading}, {"toml", toml},
+                          {"table", table},  {"study", study},     {"model", model},
+                          {"state", state},  {"summary", summary}, {"report", report},
+                          {"formula", laws}, {"carried", carried}, {"tracked", tracked}};
 
 }  // namespace
 

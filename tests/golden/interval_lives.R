@@ -1,5 +1,5 @@
 # Maximum likelihood and 90 % profile intervals of Weibull and lognormal lives that are known to an interval, by optim and
-# uniroot in logarithms: the numbers of tests/models/ownlaw/own_edges_test.cpp. Times in hours, `n` lives alike.
+# uniroot in logarithms: the numbers of tests/models/formula_model/formula_edges_test.cpp. Times in hours, `n` lives alike.
 few <- list(lower = c(0, 10, 20, 30, 40), upper = c(10, 20, 30, 40, Inf), n = c(1, 3, 2, 1, 1))
 # Cracked tubes of heat exchangers, of three plants: Meeker and Escobar (1998), example 1.5.
 tubes <- list(lower = c(0, 1, 2, 3), upper = c(1, 2, 3, Inf), n = c(5, 7, 9, 279))
@@ -25,5 +25,5 @@ fit <- function(data, cdf) {
 }
 for (law in names(cdfs)) for (data in c("few", "tubes")) {
   cat(law, data, "\n")
-  print(signif(fit(get(data), cdfs[[law]]), 7))
+  print(signif(fit(get(data), cdfs[[formula]]), 7))
 }

@@ -55,7 +55,7 @@ class Sum {
 };
 
 Parameter uniform(const std::string& name, double lower, double upper, double start) {
-  return {name, "1", Unit{"1", 1, 0}, "test", make_law(Uniform{}, lower, upper), start, 1};
+  return {name, "1", Unit{"1", 1, 0}, "test", make_distribution(Uniform{}, lower, upper), start, 1};
 }
 
 void compare(const std::string& what, const Posterior& posterior, const Moments& truth) {

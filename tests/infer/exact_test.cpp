@@ -29,7 +29,7 @@ TEST_P(ExactOnKnown, MomentsAndMedian) {
   for (int i = 0; i < posterior.dimension(); ++i) {
     EXPECT_NEAR(exact.mean[i], known.mean[i], 1e-5 * (known.sd[i] + std::abs(known.mean[i])));
     EXPECT_NEAR(exact.sd[i], known.sd[i], 2e-4 * known.sd[i]);
-    const Distribution marginal(exact.nodes, [i](const double* x) { return x[i]; });
+    const QuantityDistribution marginal(exact.nodes, [i](const double* x) { return x[i]; });
     // The cells of four parameters are coarser (lattice.h).
     const double cells = posterior.dimension() == 4 ? 0.01 : 1e-3;
     EXPECT_NEAR(marginal.mean(), known.mean[i], cells * known.sd[i]);
@@ -85,7 +85,7 @@ TEST(Exact, QuantilesOfJointPosteriorsIntoTheTails) {
     EXPECT_LE(exact.error, 1e-5) << line;
     const int i = cells[2] == "sigma";
     const double unit = i ? 1e9 : 1e13;
-    const Distribution marginal(exact.nodes, [=](const double* x) { return x[i] * unit; });
+    const QuantityDistribution marginal(exact.nodes, [=](const double* x) { return x[i] * unit; });
     EXPECT_NEAR(exact.mean[i] * unit, std::stod(cells[3]), 2e-5 * std::stod(cells[3])) << line;
     const double probabilities[] = {0.01, 0.05, 0.5, 0.95, 0.99};
     const double sd = exact.sd[i] * unit;
@@ -114,7 +114,7 @@ TEST(Exact, EvidenceOfConjugateNormal) {
     }
   };
   Parameter mean = flat_parameter("mu", 0.1, 1);
-  mean.prior = make_law(Normal{0, 2}, -INFINITY, INFINITY);
+  mean.prior = make_distribution(Normal{0, 2}, -INFINITY, INFINITY);
   const ExactPosterior exact = integrated(Posterior({mean}, std::make_shared<Likelihood>()));
   ASSERT_TRUE(exact.log_evidence.has_value());
   EXPECT_NEAR(*exact.log_evidence, -0.5 * 1.5 * 1.5 / 5 - 0.5 * std::log(2 * M_PI * 5), 1e-6);
@@ -136,7 +136,7 @@ TEST(Exact, IndependentDrawsFollowThePosterior) {
   const ExactPosterior exact = integrated(posterior);
   const Draws draws = independent_draws(posterior, exact, 4, 5000, 3, 0);
   for (int i = 0; i < 2; ++i) {
-    const Distribution marginal(exact.nodes, [i](const double* x) { return x[i]; });
+    const QuantityDistribution marginal(exact.nodes, [i](const double* x) { return x[i]; });
     // Kolmogorov-Smirnov with 20,000 independent draws: 1.95/sqrt(n) is exceeded with probability
     // 0.1 %.
     std::vector<double> all;

@@ -7,7 +7,7 @@
 
 #include "wearwell/base/rng.h"
 #include "wearwell/infer/residual_tests.h"
-#include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_distribution.h"
 
 namespace wearwell {
 namespace {
@@ -175,8 +175,9 @@ TEST(FitCheck, RunOutsAreDrawn) {
 
 TEST(NormalScore, KeepsTheDigitsOfBothTails) {
   for (const double z : {-300., -40., -9., -2., 0.5, 3., 8., 45., 500.}) {
-    const double score = normal_score(log_cdf_and_slope(StandardLaw::normal, z).value,
-                                      log_survival_and_slope(StandardLaw::normal, z).value);
+    const double score =
+        normal_score(log_cdf_and_slope(StandardDistribution::normal, z).value,
+                     log_survival_and_slope(StandardDistribution::normal, z).value);
     EXPECT_NEAR(score, z, 1e-7 * std::abs(z)) << z;
   }
   EXPECT_EQ(normal_score(0, -INFINITY), INFINITY);

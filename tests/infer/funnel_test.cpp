@@ -6,7 +6,7 @@
 #include <array>
 
 #include "support/formula.h"
-#include "wearwell/infer/natural_mode.h"
+#include "wearwell/infer/constrained_mode.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/math/constants.h"
 
@@ -19,28 +19,29 @@ using Rows = std::vector<std::array<double, 2>>;
 
 constexpr double sd_of_a = 2, sd_of_b = 1, scale_of_sigma = 1.5;
 
-Parameter parameter(const std::string& name, const Law& prior, double start) {
+Parameter parameter(const std::string& name, const Distribution& prior, double start) {
   const double natural_lower = prior.lower == 0 ? 0 : -infinity;
   return {name, "1", Unit{"1", 1, 0}, "", prior, start, 1, natural_lower, infinity};
 }
 
 // y = a + b x with normal scatter; every prior is proper.
 Posterior line(const Rows& rows, double sigma_start) {
-  return {{parameter("a", make_law(Normal{0, sd_of_a}, -infinity, infinity), 0.3),
-           parameter("b", make_law(Normal{0, sd_of_b}, -infinity, infinity), -0.2),
-           parameter("sigma", make_law(Normal{0, scale_of_sigma}, 0, infinity), sigma_start)},
-          std::make_shared<Formula>(3, [=](std::span<const double> p, std::span<double> gradient) {
-            double sum = 0;
-            gradient[0] = gradient[1] = gradient[2] = 0;
-            for (const auto& [x, y] : rows) {
-              const double z = (y - p[0] - p[1] * x) / p[2];
-              sum -= 0.5 * z * z + std::log(p[2]) + half_log_two_pi;
-              gradient[0] += z / p[2];
-              gradient[1] += z * x / p[2];
-              gradient[2] += (z * z - 1) / p[2];
-            }
-            return sum;
-          })};
+  return {
+      {parameter("a", make_distribution(Normal{0, sd_of_a}, -infinity, infinity), 0.3),
+       parameter("b", make_distribution(Normal{0, sd_of_b}, -infinity, infinity), -0.2),
+       parameter("sigma", make_distribution(Normal{0, scale_of_sigma}, 0, infinity), sigma_start)},
+      std::make_shared<Formula>(3, [=](std::span<const double> p, std::span<double> gradient) {
+        double sum = 0;
+        gradient[0] = gradient[1] = gradient[2] = 0;
+        for (const auto& [x, y] : rows) {
+          const double z = (y - p[0] - p[1] * x) / p[2];
+          sum -= 0.5 * z * z + std::log(p[2]) + half_log_two_pi;
+          gradient[0] += z / p[2];
+          gradient[1] += z * x / p[2];
+          gradient[2] += (z * z - 1) / p[2];
+        }
+        return sum;
+      })};
 }
 
 struct Moments {
@@ -89,9 +90,9 @@ Outcome outcome(const Posterior& posterior) {
   settings.run.warmup = 300;
   settings.run.draws = 500;
   Fit found = fit(posterior, settings);
-  NaturalMode mode = natural_mode(posterior, found);
-  for (Shortfall& each : later_shortfalls(posterior, found, mode)) {
-    found.shortfalls.push_back(std::move(each));
+  NaturalMode mode = constrained_mode(posterior, found);
+  for (StageDiagnostic& each : later_stage_diagnostics(posterior, found, mode)) {
+    found.stage_diagnostics.push_back(std::move(each));
   }
   std::vector<Check> checks = trust_checks(posterior, found);
   return {std::move(found), std::move(mode), std::move(checks)};
@@ -111,9 +112,9 @@ TEST(Funnel, TwoRowsOfALineAreRightAndTrusted) {
     EXPECT_THAT(here.mode.problem, HasSubstr("grows without end as sigma nears its lower bound"));
     EXPECT_FALSE(here.mode.fell_short);
     EXPECT_EQ(here.fit.method, Method::exact);
-    ASSERT_EQ(here.fit.shortfalls.size(), 1u);
-    EXPECT_EQ(here.fit.shortfalls[0].verdict, Verdict::warn);
-    EXPECT_THAT(here.fit.shortfalls[0].what, HasSubstr("the draws are quadrature's"));
+    ASSERT_EQ(here.fit.stage_diagnostics.size(), 1u);
+    EXPECT_EQ(here.fit.stage_diagnostics[0].verdict, Verdict::warn);
+    EXPECT_THAT(here.fit.stage_diagnostics[0].what, HasSubstr("the draws are quadrature's"));
   }
 }
 
@@ -135,7 +136,7 @@ TEST(Funnel, ItsMiddleIsThatOfTheMass) {
 TEST(Funnel, MoreRowsThanParametersHaveNone) {
   const Outcome here = outcome(line({{1, 0.7}, {2, 1.4}, {3, 1.6}}, 1));
   EXPECT_EQ(here.mode.problem, "");
-  EXPECT_TRUE(here.fit.shortfalls.empty());
+  EXPECT_TRUE(here.fit.stage_diagnostics.empty());
   EXPECT_EQ(here.fit.method, Method::nuts);
 }
 

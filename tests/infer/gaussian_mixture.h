@@ -47,7 +47,7 @@ struct GaussianMixture {
     std::vector<Parameter> parameters;
     for (Eigen::Index i = 0; i < dimension(); ++i) {
       parameters.push_back(flat_parameter(fmt::format("x{}", i + 1), start, 1));
-      parameters.back().prior = make_law(prior, -half, half);
+      parameters.back().prior = make_distribution(prior, -half, half);
     }
     struct Component {
       Eigen::VectorXd mean;

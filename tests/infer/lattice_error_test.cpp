@@ -98,7 +98,7 @@ struct Goodman {
                        "1",
                        Unit{"1", 1, 0},
                        "test",
-                       make_law(Uniform{}, range.lower, range.upper),
+                       make_distribution(Uniform{}, range.lower, range.upper),
                        range.at(0.5),
                        1};
     };

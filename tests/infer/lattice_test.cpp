@@ -10,7 +10,7 @@
 #include "infer/test_posteriors.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/math/view.h"
-#include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_distribution.h"
 
 namespace wearwell {
 namespace {
@@ -29,7 +29,8 @@ ExactPosterior integrated(const Posterior& posterior) {
 }
 
 double quantile(const ExactPosterior& exact, std::size_t parameter, double p) {
-  return Distribution(exact.nodes, [=](const double* x) { return x[parameter]; }).quantile(p);
+  return QuantityDistribution(exact.nodes, [=](const double* x) { return x[parameter]; })
+      .quantile(p);
 }
 
 TEST(Lattice, QuantilesOfNormals) {
@@ -40,7 +41,7 @@ TEST(Lattice, QuantilesOfNormals) {
     for (std::size_t i = 0; i < 4; ++i) {
       for (const double p : probabilities) {
         const double z = (quantile(exact, i, p) - normal.mean[i]) / normal.sd[i];
-        EXPECT_NEAR(z, quantile(StandardLaw::normal, p), 3e-3) << name << i << " " << p;
+        EXPECT_NEAR(z, quantile(StandardDistribution::normal, p), 3e-3) << name << i << " " << p;
       }
     }
   }
@@ -54,7 +55,7 @@ TEST(Lattice, FewNodesHaveCells) {
     const WeightedDraws& nodes = exact.nodes;
     EXPECT_LT(nodes.cells.mass.size(), 0.6 * static_cast<double>(nodes.values.rows())) << name;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Distribution cells(nodes, [=](const double* x) { return x[i]; });
+      const QuantityDistribution cells(nodes, [=](const double* x) { return x[i]; });
       const auto at = static_cast<Eigen::Index>(i);
       EXPECT_NEAR(cells.mean(), exact.mean[at], 2e-4 * exact.sd[at]) << name << i;
       EXPECT_NEAR(cells.sd(), exact.sd[at], 5e-4 * exact.sd[at]) << name << i;
@@ -65,7 +66,7 @@ TEST(Lattice, FewNodesHaveCells) {
   for (const auto& [p, tolerance] : {std::pair(1e-4, 2e-2), {1e-3, 5e-3}, {0.999, 5e-3}}) {
     for (std::size_t i = 0; i < 4; ++i) {
       const double z = (quantile(exact, i, p) - normal.mean[i]) / normal.sd[i];
-      EXPECT_NEAR(z, quantile(StandardLaw::normal, p), tolerance) << i << " " << p;
+      EXPECT_NEAR(z, quantile(StandardDistribution::normal, p), tolerance) << i << " " << p;
     }
   }
 }
@@ -73,7 +74,7 @@ TEST(Lattice, FewNodesHaveCells) {
 TEST(Lattice, QuantilesOfTruncatedNormals) {
   const ExactPosterior exact = integrated(known("Truncated4").make());
   ASSERT_EQ(exact.failure, "");
-  const Law law = make_law(Normal{0, 1}, 0.5, 2);
+  const Distribution law = make_distribution(Normal{0, 1}, 0.5, 2);
   for (std::size_t i = 0; i < 4; ++i) {
     for (const double p : probabilities) {
       EXPECT_NEAR(quantile(exact, i, p), quantile(law, p), 1e-2 * 0.388) << i << " " << p;
@@ -86,13 +87,13 @@ TEST(Lattice, QuantilesOfABentRidge) {
   const ExactPosterior exact = integrated(known("BentRidge4").make());
   ASSERT_EQ(exact.failure, "");
   for (const double p : probabilities) {
-    EXPECT_NEAR(quantile(exact, 0, p), quantile(StandardLaw::normal, p), 2.5e-2) << p;
+    EXPECT_NEAR(quantile(exact, 0, p), quantile(StandardDistribution::normal, p), 2.5e-2) << p;
     const double x2 = quantile(exact, 1, p);
     double below = 0;
     constexpr double step = 1e-3;
     for (double x1 = -9 + step / 2; x1 < 9; x1 += step) {
-      below += step * std::exp(log_density_and_slope(StandardLaw::normal, x1).value) *
-               cdf(StandardLaw::normal, (x2 - 0.5 * x1 * x1) / 0.25);
+      below += step * std::exp(log_density_and_slope(StandardDistribution::normal, x1).value) *
+               cdf(StandardDistribution::normal, (x2 - 0.5 * x1 * x1) / 0.25);
     }
     EXPECT_NEAR(below, p, 1e-2) << p;
   }

@@ -30,7 +30,7 @@ FitSettings exact_settings() {
   return settings;
 }
 
-std::string told(const Posterior& posterior, const Fit& fit) {
+std::string reported(const Posterior& posterior, const Fit& fit) {
   std::string all;
   for (const Check& each : trust_checks(posterior, fit)) {
     if (each.verdict == Verdict::fail || each.name == "computation")
@@ -118,21 +118,21 @@ TEST_P(OnMixtures, QuadratureCoversAllModes) {
   const Case& each = GetParam();
   const Posterior posterior = each.mixture.posterior(each.start, each.prior, each.half);
   const Fit found = fit(posterior, exact_settings());
-  ASSERT_TRUE(found.exact) << found.no_exact << "\n" << told(posterior, found);
-  EXPECT_TRUE(trusted(trust_checks(posterior, found))) << told(posterior, found);
+  ASSERT_TRUE(found.exact) << found.no_exact << "\n" << reported(posterior, found);
+  EXPECT_TRUE(trusted(trust_checks(posterior, found))) << reported(posterior, found);
   EXPECT_LT(found.exact->error, 1e-3);
   const Eigen::VectorXd mean = each.mixture.mean(), sd = each.mixture.sd();
   const double close = std::max(3e-5, 2 * found.exact->error);
   for (Eigen::Index i = 0; i < mean.size(); ++i) {
     EXPECT_NEAR(found.exact->mean[i], mean[i], close * sd[i]);
     EXPECT_NEAR(found.exact->sd[i], sd[i], close * sd[i]);
-    const Distribution& marginal = found.marginals[static_cast<std::size_t>(i)];
+    const QuantityDistribution& marginal = found.marginals[static_cast<std::size_t>(i)];
     EXPECT_NEAR(marginal.mean(), mean[i], 5e-3 * sd[i]);
   }
   // Those that touch share what lies between them.
   expect_shares(found.maxima, each.mixture.weights,
                 each.name.find("Touch") == std::string::npos ? 2e-3 : 0.08);
-  EXPECT_THAT(told(posterior, found), HasSubstr(" maxima, at x1 = "));
+  EXPECT_THAT(reported(posterior, found), HasSubstr(" maxima, at x1 = "));
 }
 
 INSTANTIATE_TEST_SUITE_P(, OnMixtures, testing::ValuesIn(mixtures()),
@@ -144,8 +144,8 @@ TEST(Maxima, ChainsGoBetweenModesOfFiveAndSixParameters) {
     const GaussianMixture mixture = corners(dimension, count, 6, 0.3);
     const Posterior posterior = mixture.posterior(0.3, Uniform{}, 30);
     const Fit found = fit(posterior, {});
-    EXPECT_TRUE(mixed(found)) << told(posterior, found);
-    EXPECT_TRUE(trusted(trust_checks(posterior, found))) << told(posterior, found);
+    EXPECT_TRUE(mixed(found)) << reported(posterior, found);
+    EXPECT_TRUE(trusted(trust_checks(posterior, found))) << reported(posterior, found);
     const Eigen::VectorXd mean = mixture.mean(), sd = mixture.sd();
     for (Eigen::Index i = 0; i < mean.size(); ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -208,7 +208,7 @@ struct Response {
   }
   Posterior posterior(const Family& prior, double lower, double upper, double start) const {
     Parameter parameter = flat_parameter("th", start, 1);
-    parameter.prior = make_law(prior, lower, upper);
+    parameter.prior = make_distribution(prior, lower, upper);
     return Posterior(
         {parameter}, std::make_shared<Formula>(1, [self = *this](auto x, std::span<double> g) {
           g[0] = 0;
@@ -224,8 +224,8 @@ struct Response {
 void expect_moments(const Posterior& posterior, const Moments& right) {
   const Fit found = fit(posterior, exact_settings());
   ASSERT_TRUE(found.exact) << found.no_exact;
-  EXPECT_NEAR(found.exact->mean[0], right.mean, 1e-4 * right.sd) << told(posterior, found);
-  EXPECT_NEAR(found.exact->sd[0], right.sd, 1e-4 * right.sd) << told(posterior, found);
+  EXPECT_NEAR(found.exact->mean[0], right.mean, 1e-4 * right.sd) << reported(posterior, found);
+  EXPECT_NEAR(found.exact->sd[0], right.sd, 1e-4 * right.sd) << reported(posterior, found);
   EXPECT_TRUE(found.maxima.several());
 }
 
@@ -241,7 +241,7 @@ TEST(Maxima, ASquareHasTwoRoots) {
   const Posterior posterior = square.posterior(Normal{0.5, 1}, -infinity, infinity, 0.5);
   expect_moments(posterior, right);
   const Fit found = fit(posterior, exact_settings());
-  EXPECT_THAT(told(posterior, found),
+  EXPECT_THAT(reported(posterior, found),
               HasSubstr("2 maxima, at th = 2.003 (88 %) and th = -2.002 (12 %)"));
 }
 
@@ -257,7 +257,7 @@ TEST(Maxima, AStartBetweenTheRoots) {
     ASSERT_TRUE(found.exact) << found.no_exact;
     EXPECT_NEAR(found.exact->mean[0], 0, 1e-4);
     EXPECT_NEAR(found.exact->sd[0], 2, 0.01);
-    EXPECT_TRUE(trusted(trust_checks(posterior, found))) << told(posterior, found);
+    EXPECT_TRUE(trusted(trust_checks(posterior, found))) << reported(posterior, found);
     expect_shares(found.maxima, {0.5, 0.5}, 1e-3);
   }
 }
@@ -312,7 +312,7 @@ TEST(Maxima, LabelsThatChangePlaces) {
   std::vector<Parameter> parameters;
   for (const char* name : {"a", "b"}) {
     parameters.push_back(flat_parameter(name, name[0] == 'a' ? 2 : -1, 1));
-    parameters.back().prior = make_law(Normal{0, 10}, -infinity, infinity);
+    parameters.back().prior = make_distribution(Normal{0, 10}, -infinity, infinity);
   }
   const Posterior posterior(parameters,
                             std::make_shared<Formula>(2, [=](auto x, std::span<double> g) {
@@ -330,7 +330,7 @@ TEST(Maxima, LabelsThatChangePlaces) {
   const Fit found = fit(posterior, exact_settings());
   ASSERT_TRUE(found.exact) << found.no_exact;
   for (const Eigen::Index i : {0, 1}) {
-    EXPECT_NEAR(found.exact->mean[i], mean, 2e-4 * sd) << told(posterior, found);
+    EXPECT_NEAR(found.exact->mean[i], mean, 2e-4 * sd) << reported(posterior, found);
     EXPECT_NEAR(found.exact->sd[i], sd, 2e-4 * sd);
   }
   expect_shares(found.maxima, {0.5, 0.5}, 1e-3);
@@ -344,14 +344,14 @@ TEST(Maxima, DrawsAreQuadraturesWhereThatCoversAllModes) {
   settings.extend = true;
   const Fit found = fit(posterior, settings);
   EXPECT_EQ(found.method, Method::exact);
-  const Distribution drawn(found.pooled, [](const double* x) { return x[0]; });
+  const QuantityDistribution drawn(found.pooled, [](const double* x) { return x[0]; });
   EXPECT_NEAR(drawn.mean(), mixture.mean()[0], 4 * mixture.sd()[0] / std::sqrt(4000.0));
 }
 
 // 400 modes of one height: more than are searched for, and that is said.
 TEST(Maxima, MoreThanSearchesFindAreSaid) {
   std::vector<Parameter> parameters = {flat_parameter("x", 0.3, 1), flat_parameter("y", 0.3, 1)};
-  for (Parameter& each : parameters) each.prior = make_law(Uniform{}, -10, 10);
+  for (Parameter& each : parameters) each.prior = make_distribution(Uniform{}, -10, 10);
   const double turn = 2 * std::numbers::pi;
   const Posterior posterior(parameters,
                             std::make_shared<Formula>(2, [=](auto x, std::span<double> g) {

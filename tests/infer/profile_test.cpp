@@ -10,7 +10,7 @@
 #include "infer/test_posteriors.h"
 #include "support/formula.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
-#include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_distribution.h"
 
 namespace wearwell {
 namespace {
@@ -51,7 +51,7 @@ struct Line {
 TEST(Profile, OfALinesSlopeAndScatterIsInClosedForm) {
   const Posterior posterior = joint_posterior(false, false, 500, 5);
   const Fit fit = short_fit(posterior);
-  const NaturalMode mode = natural_mode(posterior, fit);
+  const NaturalMode mode = constrained_mode(posterior, fit);
   ASSERT_EQ(mode.problem, "");
   const auto intervals = profile_intervals(posterior, fit, mode, level);
   const Line line;
@@ -69,7 +69,7 @@ TEST(Profile, AnEndBeyondTheBoundIsOpenAndSaysSo) {
   const double bound = 1.2 * Line().sigma();
   const Posterior posterior = joint_posterior(false, false, bound, 5);
   const Fit fit = short_fit(posterior);
-  const NaturalMode mode = natural_mode(posterior, fit);
+  const NaturalMode mode = constrained_mode(posterior, fit);
   ASSERT_EQ(mode.problem, "");
   const ProfileInterval sigma = profile_intervals(posterior, fit, mode, level)[1];
   EXPECT_EQ(sigma.lower.open, "");
@@ -82,8 +82,8 @@ TEST(Profile, AnEndBeyondTheBoundIsOpenAndSaysSo) {
 TEST(Profile, OfAModeOnItsBoundIsOpenThere) {
   constexpr double correlation = 0.8;
   const Posterior posterior(
-      {{"a", "1", Unit{"1", 1, 0}, "flat", make_law(Flat{}, -INFINITY, INFINITY), 0.5, 1},
-       {"b", "1", Unit{"1", 1, 0}, "uniform", make_law(Uniform{}, -10, 1), 0, 1}},
+      {{"a", "1", Unit{"1", 1, 0}, "flat", make_distribution(Flat{}, -INFINITY, INFINITY), 0.5, 1},
+       {"b", "1", Unit{"1", 1, 0}, "uniform", make_distribution(Uniform{}, -10, 1), 0, 1}},
       std::make_shared<Formula>(2, [](std::span<const double> x, std::span<double> gradient) {
         const double a = x[0] - 1, b = x[1] - 2, scale = 1 / (1 - correlation * correlation);
         gradient[0] = -scale * (a - correlation * b);
@@ -91,7 +91,7 @@ TEST(Profile, OfAModeOnItsBoundIsOpenThere) {
         return 0.5 * (gradient[0] * a + gradient[1] * b);
       }));
   const Fit fit = short_fit(posterior);
-  const NaturalMode mode = natural_mode(posterior, fit);
+  const NaturalMode mode = constrained_mode(posterior, fit);
   ASSERT_EQ(mode.problem, "");
   const ProfileInterval b = profile_intervals(posterior, fit, mode, level)[1];
   EXPECT_THAT(b.upper.open, HasSubstr("the mode lies on the bound"));
@@ -132,14 +132,14 @@ TEST(Profile, OfLifeTestsWithRunoutsAsBruteForceFindsIt) {
     law.correction = fatigue::MeanStress::none;
     if (family == "weibull") law.family = fatigue::LifeFamily::weibull;
     const auto flat = [](const std::string& name, double lower, double upper, double start) {
-      return Parameter{name,  "1", Unit{"1", 1, 0}, "flat", make_law(Flat{}, lower, upper),
+      return Parameter{name,  "1", Unit{"1", 1, 0}, "flat", make_distribution(Flat{}, lower, upper),
                        start, 1};
     };
     const Posterior posterior({flat("log10_a", -INFINITY, INFINITY, 9.2),
                                flat("b", -INFINITY, 0, -0.1), flat("sigma", 0, INFINITY, 0.2)},
                               fatigue::sn_likelihood(law, tests, tests.size()));
     const Fit fit = short_fit(posterior);
-    const NaturalMode mode = natural_mode(posterior, fit);
+    const NaturalMode mode = constrained_mode(posterior, fit);
     ASSERT_EQ(mode.problem, "");
     const auto intervals = profile_intervals(posterior, fit, mode, level);
     const auto compare = [](const ProfileInterval& interval, const std::vector<double>& ends) {

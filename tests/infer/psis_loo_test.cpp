@@ -11,7 +11,7 @@
 #include "infer/test_posteriors.h"
 #include "wearwell/base/rng.h"
 #include "wearwell/math/view.h"
-#include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_distribution.h"
 
 namespace wearwell {
 namespace {
@@ -74,7 +74,7 @@ TEST(PsisLoo, AgreesWithTheRPackage) {
     for (std::string cell; std::getline(row, cell, ',');) c.push_back(std::stod(cell));
     std::vector<double> mu;
     for (int s = 0; s < c[0]; ++s) {
-      mu.push_back(c[1] * quantile(StandardLaw::normal, (s + 0.5) / c[0]));
+      mu.push_back(c[1] * quantile(StandardDistribution::normal, (s + 0.5) / c[0]));
     }
     const Loo loo = psis_loo(NormalMean({c[2]}), draws_of(mu));
     ASSERT_EQ(loo.terms.size(), 1u);
@@ -271,7 +271,7 @@ TEST(PsisLoo, DoubtfulTermsAreFittedAnewOrNamed) {
 TEST(PsisLoo, CountsAreRepetitions) {
   std::vector<double> mu;
   for (int s = 0; s < 1000; ++s)
-    mu.push_back(0.3 * quantile(StandardLaw::normal, (s + 0.5) / 1000));
+    mu.push_back(0.3 * quantile(StandardDistribution::normal, (s + 0.5) / 1000));
   const WeightedDraws draws = draws_of(mu);
   const Loo counted = psis_loo(NormalMean({0.5, 1.5}, {3, 1}), draws);
   const Loo repeated = psis_loo(NormalMean({0.5, 0.5, 0.5, 1.5}), draws);

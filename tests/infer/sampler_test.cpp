@@ -7,7 +7,7 @@
 #include "infer/test_posteriors.h"
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/fit.h"
-#include "wearwell/infer/leaps.h"
+#include "wearwell/infer/independence_sampler.h"
 #include "wearwell/infer/metropolis.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/nuts.h"
@@ -80,7 +80,7 @@ TEST_P(SamplerOnKnown, Leaps) {
   const Posterior posterior = GetParam().make();
   const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
   const Draws pilot = run_nuts(posterior, whitening, {}, {4, 200, 200, 14, 0});
-  const Draws draws = run_leaps(posterior, pilot, {}, {4, 0, 4000, 14, 0});
+  const Draws draws = run_independence(posterior, pilot, {}, {4, 0, 4000, 14, 0});
   expect_agreement(GetParam(), draws);
   for (const Chain& chain : draws) {
     for (const Eigen::Index row : {0, 3999}) {
@@ -110,7 +110,7 @@ TEST_P(SamplerOnKnown, SlowOnesLeapAboutAQuarterOfTheWarmUp) {
   const Posterior quick = GetParam().make();
   const Posterior posterior(quick.parameters(), std::make_shared<Slow>(quick.likelihood()));
   const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
-  const Draws draws = run_nuts_or_leaps(posterior, whitening, {}, {4, 1000, 4000, 15, 0});
+  const Draws draws = run_nuts_or_independence(posterior, whitening, {}, {4, 1000, 4000, 15, 0});
   expect_agreement(GetParam(), draws);
   for (const Chain& chain : draws) {
     ASSERT_EQ(chain.notes.size(), 1u);
@@ -158,7 +158,8 @@ Posterior life_tests_posterior() {
   fatigue::SnLaw law;
   law.correction = fatigue::MeanStress::none;
   const auto flat = [](const std::string& name, double lower, double upper, double start) {
-    return Parameter{name, "1", Unit{"1", 1, 0}, "flat", make_law(Flat{}, lower, upper), start, 1};
+    return Parameter{name,  "1", Unit{"1", 1, 0}, "flat", make_distribution(Flat{}, lower, upper),
+                     start, 1};
   };
   return {{flat("log10_a", -INFINITY, INFINITY, 9.2), flat("b", -INFINITY, 0, -0.1),
            flat("sigma", 0, INFINITY, 0.2)},

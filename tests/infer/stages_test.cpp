@@ -5,7 +5,7 @@
 
 #include "infer/test_posteriors.h"
 #include "support/formula.h"
-#include "wearwell/infer/natural_mode.h"
+#include "wearwell/infer/constrained_mode.h"
 #include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/math/constants.h"
@@ -43,10 +43,10 @@ struct Verdicts {
 // All stages, as a study runs them.
 Verdicts judge(const Posterior& posterior) {
   Verdicts verdicts{fit(posterior, exact_settings()), {}};
-  const NaturalMode mode = natural_mode(posterior, verdicts.fit);
+  const NaturalMode mode = constrained_mode(posterior, verdicts.fit);
   const Loo loo = leave_one_out(posterior, verdicts.fit);
-  for (Shortfall& each : later_shortfalls(posterior, verdicts.fit, mode)) {
-    verdicts.fit.shortfalls.push_back(std::move(each));
+  for (StageDiagnostic& each : later_stage_diagnostics(posterior, verdicts.fit, mode)) {
+    verdicts.fit.stage_diagnostics.push_back(std::move(each));
   }
   verdicts.checks = trust_checks(posterior, verdicts.fit);
   if (!loo.terms.empty()) verdicts.checks.push_back(loo_check(loo, "row", posterior.dimension()));
@@ -59,7 +59,7 @@ Parameter parameter(const std::string& name, double lower, double upper, double 
           "1",
           Unit{"1", 1, 0},
           "",
-          make_law(family, lower, upper),
+          make_distribution(family, lower, upper),
           start,
           1,
           lower == 0 ? 0 : -infinity,
@@ -103,10 +103,10 @@ TEST(Stages, EachEndsTrust) {
   const Posterior posterior = joint_posterior(false, false, 15, 5);
   const Fit sound = fit(posterior, exact_settings());
   EXPECT_TRUE(trusted(trust_checks(posterior, sound)));
-  EXPECT_THAT(sound.shortfalls, testing::IsEmpty());
+  EXPECT_THAT(sound.stage_diagnostics, testing::IsEmpty());
   for (const Stage stage : all_stages) {
     Fit wrong = sound;
-    wrong.shortfalls.push_back({stage, Verdict::fail, "it fell short", "look"});
+    wrong.stage_diagnostics.push_back({stage, Verdict::fail, "it fell short", "look"});
     const std::vector<Check> checks = trust_checks(posterior, wrong);
     EXPECT_FALSE(trusted(checks)) << stage_name(stage);
     EXPECT_EQ(checks.back().name, "computation");
@@ -131,11 +131,11 @@ TEST(Stages, OpenIntegralsWithinALikelihoodAreSaid) {
     const Posterior posterior({parameter("a", -infinity, infinity, 1)},
                               std::make_shared<Open>(left));
     const Fit found = fit(posterior, exact_settings());
-    ASSERT_EQ(found.shortfalls.size(), left > 0 ? 1u : 0u);
+    ASSERT_EQ(found.stage_diagnostics.size(), left > 0 ? 1u : 0u);
     if (left == 0) continue;
-    EXPECT_EQ(found.shortfalls[0].stage, Stage::effects);
-    EXPECT_EQ(found.shortfalls[0].verdict, left > 1e-3 ? Verdict::fail : Verdict::warn);
-    EXPECT_THAT(found.shortfalls[0].what, HasSubstr(" of 200 points"));
+    EXPECT_EQ(found.stage_diagnostics[0].stage, Stage::effects);
+    EXPECT_EQ(found.stage_diagnostics[0].verdict, left > 1e-3 ? Verdict::fail : Verdict::warn);
+    EXPECT_THAT(found.stage_diagnostics[0].what, HasSubstr(" of 200 points"));
   }
 }
 
@@ -260,12 +260,12 @@ TEST(Stages, ModeWithinNarrowBounds) {
       const double width = std::pow(10, -exponent);
       const Posterior wide = line(abscissae, y, 0.5);
       std::vector<Parameter> parameters = wide.parameters();
-      parameters[1].prior = make_law(Uniform{}, center - width, center + width);
+      parameters[1].prior = make_distribution(Uniform{}, center - width, center + width);
       parameters[1].start = center;
       parameters[1].scale = width;
       const Posterior posterior(parameters, wide.likelihood());
       const Fit found = fit(posterior, exact_settings());
-      const NaturalMode mode = natural_mode(posterior, found);
+      const NaturalMode mode = constrained_mode(posterior, found);
       ASSERT_EQ(mode.problem, "") << center << " +- " << width;
       // Least squares of a with b at its place.
       double mean = 0, rss = 0;
@@ -289,8 +289,8 @@ TEST(Stages, ProperPriorsMakeAProperPosterior) {
   for (const double half : {1e-3, 0.1, 0.5, 3.0}) {
     const Posterior wide = line(abscissae, ordinates(0.1), 0.5, Uniform{}, 5);
     std::vector<Parameter> parameters = wide.parameters();
-    parameters[0].prior = make_law(Uniform{}, -50, 50);
-    parameters[1].prior = make_law(Uniform{}, -0.25 - half, -0.25 + half);
+    parameters[0].prior = make_distribution(Uniform{}, -50, 50);
+    parameters[1].prior = make_distribution(Uniform{}, -0.25 - half, -0.25 + half);
     parameters[1].start = -0.25 + 0.1 * half;
     const Posterior posterior(parameters, wide.likelihood());
     for (const Tail& tail : tails(posterior, find_mode(posterior, posterior.start()))) {

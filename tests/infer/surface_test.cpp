@@ -34,8 +34,8 @@ Posterior life_tests(int count) {
                      1});
   }
   Parameter b = flat_parameter("b", -0.14, 0.02), sigma = flat_parameter("sigma", 0.25, 0.1);
-  b.prior = make_law(Flat{}, -INFINITY, 0);
-  sigma.prior = make_law(Uniform{}, 0, 2);
+  b.prior = make_distribution(Flat{}, -INFINITY, 0);
+  sigma.prior = make_distribution(Uniform{}, 0, 2);
   return {{flat_parameter("log10_a", 9.2, 1), b, sigma},
           fatigue::sn_likelihood(law, tests, tests.size())};
 }
@@ -43,7 +43,7 @@ Posterior life_tests(int count) {
 TEST(Surface, IsTheLikelihoodWhereThereIsPosterior) {
   const Posterior posterior = life_tests(2000);
   const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
-  const auto quick = quick_posterior(posterior, whitening);
+  const auto quick = surrogate_posterior(posterior, whitening);
   ASSERT_TRUE(quick.has_value());
   EXPECT_LE(quick->error, 1e-5);
   Rng rng(20261203, 2);
@@ -68,7 +68,7 @@ TEST(Surface, IsTheLikelihoodWhereThereIsPosterior) {
 TEST(Surface, LeavesFewObservationsAlone) {
   const Posterior posterior = life_tests(500);
   const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
-  EXPECT_FALSE(quick_posterior(posterior, whitening).has_value());
+  EXPECT_FALSE(surrogate_posterior(posterior, whitening).has_value());
 }
 
 TEST(Surface, FitsAsTheLikelihoodDoes) {

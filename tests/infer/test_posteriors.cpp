@@ -12,7 +12,7 @@ namespace {
 
 Parameter with_law(const std::string& name, const Family& family, double lower, double upper,
                    double start) {
-  return {name, "1", Unit{"1", 1, 0}, "test", make_law(family, lower, upper), start, 1};
+  return {name, "1", Unit{"1", 1, 0}, "test", make_distribution(family, lower, upper), start, 1};
 }
 
 Posterior formula_posterior(std::vector<Parameter> parameters, Formula::F f) {
@@ -184,8 +184,9 @@ Posterior joint_posterior(bool lognormal, bool tribometer, double upper, std::si
   const Family k_prior = tribometer ? Family(Normal{5.05e-13, 0.74e-13}) : Family(Flat{});
   const Family sigma_prior = std::isfinite(upper) ? Family(Uniform{}) : Family(Flat{});
   std::vector<Parameter> parameters = {
-      {"k", "m^3/(N m)", rate, "", make_law(k_prior, 0, infinity), 8e-13, 1e-13, 0, infinity},
-      {"sigma", "m^3", volume, "", make_law(sigma_prior, 0, upper * 1e-9), 3e-9, 1e-9, 0,
+      {"k", "m^3/(N m)", rate, "", make_distribution(k_prior, 0, infinity), 8e-13, 1e-13, 0,
+       infinity},
+      {"sigma", "m^3", volume, "", make_distribution(sigma_prior, 0, upper * 1e-9), 3e-9, 1e-9, 0,
        infinity}};
   const auto family = lognormal ? ObservationFamily::lognormal : ObservationFamily::normal;
   return Posterior(std::move(parameters), joint::archard_likelihood({}, family, inspections, rows));

@@ -52,7 +52,7 @@ TEST(Tails, IndicesOfTheNormalJointPosterior) {
 TEST(Tails, StudentAndNormalOnAWholeLine) {
   for (const double df : {1.0, 2.0, 5.0}) {
     Parameter parameter = flat_parameter("x", 0.5, 1);
-    parameter.prior = make_law(StudentT{df, 0, 1}, -INFINITY, INFINITY);
+    parameter.prior = make_distribution(StudentT{df, 0, 1}, -INFINITY, INFINITY);
     class Nothing final : public LogDensity {
      public:
       int dimension() const override { return 1; }
@@ -72,7 +72,7 @@ TEST(Tails, StudentAndNormalOnAWholeLine) {
 
 Parameter positive_parameter(const std::string& name, const Family& prior) {
   Parameter parameter = flat_parameter(name, 1, 1);
-  parameter.prior = make_law(prior, 0, infinity);
+  parameter.prior = make_distribution(prior, 0, infinity);
   parameter.natural_lower = 0;
   return parameter;
 }
@@ -189,7 +189,7 @@ TEST(Trust, TribometerPriorConflictsWithTheJoint) {
 TEST(Trust, AWeakPriorOnScatterIsNoConflict) {
   const Posterior flat = joint_posterior(false, false, INFINITY, 4);
   std::vector<Parameter> parameters = flat.parameters();
-  parameters[1].prior = make_law(Normal{0, 5e-9}, 0, INFINITY);
+  parameters[1].prior = make_distribution(Normal{0, 5e-9}, 0, INFINITY);
   EXPECT_NE(
       check(checks_of(Posterior(parameters, flat.likelihood())), "prior-data-conflict").verdict,
       Verdict::fail);
@@ -204,7 +204,7 @@ TEST(Trust, DependenceOnTheCut) {
   EXPECT_THAT(warning.detail, HasSubstr("bounds of sigma"));
 
   std::vector<Parameter> parameters = uniform.parameters();
-  parameters[1].prior = make_law(Flat{}, 0, 7e-9);
+  parameters[1].prior = make_distribution(Flat{}, 0, 7e-9);
   const auto cut = checks_of(Posterior(parameters, uniform.likelihood()));
   EXPECT_EQ(check(cut, "prior-bounds").verdict, Verdict::fail);
   EXPECT_EQ(check(cut, "bounds").verdict, Verdict::fail);
@@ -279,7 +279,7 @@ TEST(Trust, ASkewedDensityThatVanishesAtABoundIsNotAccused) {
   };
   Parameter parameter = flat_parameter("x", 80, 40);
   parameter.natural_lower = 0;
-  parameter.prior = make_law(Uniform{}, 1, 1e5);
+  parameter.prior = make_distribution(Uniform{}, 1, 1e5);
   for (const Method method : {Method::nuts, Method::exact}) {
     FitSettings settings;
     settings.method = method;
@@ -287,7 +287,7 @@ TEST(Trust, ASkewedDensityThatVanishesAtABoundIsNotAccused) {
     EXPECT_EQ(check(checks_of(vanishing, settings), "bounds").verdict, Verdict::pass);
   }
   // The same cut where it is high, and one that rises towards the bound.
-  parameter.prior = make_law(Uniform{}, 50, 1e5);
+  parameter.prior = make_distribution(Uniform{}, 50, 1e5);
   EXPECT_EQ(
       check(checks_of(Posterior({parameter}, std::make_shared<InverseGamma>())), "bounds").verdict,
       Verdict::warn);

@@ -25,12 +25,12 @@ class LifeStatusTest : public ScratchTest {
         .required_table("data")
         .required_table("columns");
   }
-  std::vector<Seen> seen(const std::string& heading, const std::vector<std::string>& cells,
-                         std::string status = "") const {
+  std::vector<Censoring> seen(const std::string& heading, const std::vector<std::string>& cells,
+                              std::string status = "") const {
     if (status.empty()) status = "\"" + heading + "\"";
     const Table read = table(heading, cells);
     const auto column = read_life_status(columns(status), read);
-    std::vector<Seen> all;
+    std::vector<Censoring> all;
     for (std::size_t i = 0; i < read.rows; ++i) all.push_back(seen_in(read, *column, i));
     return all;
   }
@@ -39,36 +39,37 @@ class LifeStatusTest : public ScratchTest {
 TEST_F(LifeStatusTest, WordsSayItThemselves) {
   EXPECT_THAT(
       seen("status", {"failure", "F", "runout", "run-out", "right", "S", "left", "interval"}),
-      ElementsAre(Seen::exactly, Seen::exactly, Seen::above, Seen::above, Seen::above, Seen::above,
-                  Seen::below, Seen::between));
+      ElementsAre(Censoring::none, Censoring::none, Censoring::right, Censoring::right,
+                  Censoring::right, Censoring::right, Censoring::left, Censoring::interval));
 }
 
 TEST_F(LifeStatusTest, WordsOfFourLanguages) {
   for (const char* word : {"failed", "FAILURE", "f", "Bruch", "ausgefallen", "n.i.O.",
                            "d\u00E9faillance", "rupture", "rotura", "fallo", "observed", "broken"})
-    EXPECT_THAT(seen("z", {word}), ElementsAre(Seen::exactly)) << word;
+    EXPECT_THAT(seen("z", {word}), ElementsAre(Censoring::none)) << word;
   for (const char* word : {"RO", "running", "C", "s", "Suspended", "censored", "Run Out",
                            "Durchl\u00E4ufer", "Durchlaeufer", "DURCHL\u00C4UFER", "kein Bruch",
                            "censur\u00E9", "non rompu", "sin rotura", "OK"})
-    EXPECT_THAT(seen("z", {word}), ElementsAre(Seen::above)) << word;
+    EXPECT_THAT(seen("z", {word}), ElementsAre(Censoring::right)) << word;
   EXPECT_THAT(seen("z", {"left-censored", "linkszensiert", "Intervall"}),
-              ElementsAre(Seen::below, Seen::below, Seen::between));
-  EXPECT_THAT(seen("ausgefallen", {"WAHR", "FALSCH"}), ElementsAre(Seen::exactly, Seen::above));
-  EXPECT_THAT(seen("zensiert", {"ja", "nein"}), ElementsAre(Seen::above, Seen::exactly));
+              ElementsAre(Censoring::left, Censoring::left, Censoring::interval));
+  EXPECT_THAT(seen("ausgefallen", {"WAHR", "FALSCH"}),
+              ElementsAre(Censoring::none, Censoring::right));
+  EXPECT_THAT(seen("zensiert", {"ja", "nein"}), ElementsAre(Censoring::right, Censoring::none));
 }
 
 TEST_F(LifeStatusTest, WordsOfTheStudyComeFirst) {
   EXPECT_THAT(
       seen("z", {"kaputt", "l\u00E4uft weiter", "aus", "OK"},
            "{ column = \"z\", failure = \"kaputt\", runout = [\"L\u00E4uft weiter\", \"aus\"] }"),
-      ElementsAre(Seen::exactly, Seen::above, Seen::above, Seen::above));
+      ElementsAre(Censoring::none, Censoring::right, Censoring::right, Censoring::right));
   EXPECT_THAT(seen("z", {"OK"}, "{ column = \"z\", failure = \"OK\" }"),
-              ElementsAre(Seen::exactly));
+              ElementsAre(Censoring::none));
   EXPECT_THAT(seen("z", {"1", "0"}, "{ column = \"z\", failure = \"1\", runout = \"0\" }"),
-              ElementsAre(Seen::exactly, Seen::above));
+              ElementsAre(Censoring::none, Censoring::right));
   EXPECT_THAT(
       seen("z", {"x", "1", "y"}, "{ column = \"z\", failure = 0, left = \"x\", interval = \"y\" }"),
-      ElementsAre(Seen::below, Seen::above, Seen::between));
+      ElementsAre(Censoring::left, Censoring::right, Censoring::interval));
   EXPECT_THAT(message_of<InputError>(
                   [&] { seen("z", {"x"}, "{ column = \"z\", failure = \"x\", runout = \"X\" }"); }),
               HasSubstr("data.columns.status.runout: 'X' stands for two ends"));
@@ -95,19 +96,21 @@ TEST_F(LifeStatusTest, CodesNeedAHeadingOrTheStudyToTell) {
         << heading;
   }
   for (const char* heading : {"censored", "Cens.", "Run-out", "suspended?"})
-    EXPECT_THAT(seen(heading, {"0", "1"}), ElementsAre(Seen::exactly, Seen::above)) << heading;
+    EXPECT_THAT(seen(heading, {"0", "1"}), ElementsAre(Censoring::none, Censoring::right))
+        << heading;
   for (const char* heading : {"event", "Failed", "is_broken", "died"})
-    EXPECT_THAT(seen(heading, {"0", "1"}), ElementsAre(Seen::above, Seen::exactly)) << heading;
-  EXPECT_THAT(seen("failed", {"true", "false"}), ElementsAre(Seen::exactly, Seen::above));
-  EXPECT_THAT(seen("failed", {"True", "FALSE"}), ElementsAre(Seen::exactly, Seen::above));
-  EXPECT_THAT(seen("censored", {"true", "false"}), ElementsAre(Seen::above, Seen::exactly));
+    EXPECT_THAT(seen(heading, {"0", "1"}), ElementsAre(Censoring::right, Censoring::none))
+        << heading;
+  EXPECT_THAT(seen("failed", {"true", "false"}), ElementsAre(Censoring::none, Censoring::right));
+  EXPECT_THAT(seen("failed", {"True", "FALSE"}), ElementsAre(Censoring::none, Censoring::right));
+  EXPECT_THAT(seen("censored", {"true", "false"}), ElementsAre(Censoring::right, Censoring::none));
   EXPECT_THAT(seen("d", {"0", "1", "-1", "2"}, "{ column = \"d\", failure = 0 }"),
-              ElementsAre(Seen::exactly, Seen::above, Seen::below, Seen::between));
+              ElementsAre(Censoring::none, Censoring::right, Censoring::left, Censoring::interval));
   EXPECT_THAT(seen("d", {"1", "0", "2", "3"}, "{ column = \"d\", failure = 1 }"),
-              ElementsAre(Seen::exactly, Seen::above, Seen::below, Seen::between));
+              ElementsAre(Censoring::none, Censoring::right, Censoring::left, Censoring::interval));
   // What the study says outweighs the heading.
   EXPECT_THAT(seen("event", {"0", "1"}, "{ column = \"event\", failure = 0 }"),
-              ElementsAre(Seen::exactly, Seen::above));
+              ElementsAre(Censoring::none, Censoring::right));
 }
 
 TEST_F(LifeStatusTest, CodesOfTheOtherSetAreRefused) {

@@ -26,7 +26,7 @@ std::string text_of_page() {
 
 std::vector<Line> lines_of_page() {
   const std::string page = text_of_page();
-  const std::regex prior(R"((\w+) += \{ (law = [^}]*) \})");
+  const std::regex prior(R"((\w+) += \{ (distribution = [^}]*) \})");
   std::vector<Line> lines;
   for (std::sregex_iterator i(page.begin(), page.end(), prior), end; i != end; ++i) {
     Line line{(*i)[1], {}};
@@ -83,7 +83,8 @@ TEST_F(PriorDocs, NoLawIsLeftOut) {
     documented.insert(line.keys.front().substr(7, line.keys.front().size() - 8));
   }
   // The reader lists what it knows.
-  const std::string refusal = message_of<InputError>([&] { read("k", {"law = \"none such\""}); });
+  const std::string refusal =
+      message_of<InputError>([&] { read("k", {"distribution = \"none such\""}); });
   std::smatch list;
   ASSERT_TRUE(std::regex_search(refusal, list, std::regex("it is one of (.*) \\(nearest")))
       << refusal;

@@ -36,7 +36,7 @@ limit = "100 mm^3"
 share = 0.25
 cycles = [1, 2.5, "300"]
 [prior.k]
-law = "flat"
+distribution = "flat"
 )");
   EXPECT_EQ(root.required_text("title"), "Pin joint");
   EXPECT_EQ(root.integer("chains", 1, 10), 4);
@@ -48,8 +48,9 @@ law = "flat"
   EXPECT_EQ(cycles[1].si(), 2.5);
   EXPECT_EQ(cycles[2].si(), 300);
   EXPECT_EQ(root.quantities("share", "1").size(), 1u);
-  EXPECT_EQ(root.required_table("prior").required_table("k").choice("law", {"flat", "normal"}),
-            "flat");
+  EXPECT_EQ(
+      root.required_table("prior").required_table("k").choice("distribution", {"flat", "normal"}),
+      "flat");
   EXPECT_THAT(root.keys(), ElementsAre("title", "chains", "limit", "share", "cycles", "prior"));
   EXPECT_TRUE(root.is_text("title"));
   EXPECT_FALSE(root.is_text("chains"));
@@ -192,12 +193,13 @@ TEST_F(TomlReaderTest, FinishRefusesWhatNobodyAskedFor) {
                       r.finish();
                     }),
             "a.toml:1:8: lowr: unknown key; did you mean 'lower'? (possible: lower, upper)");
-  EXPECT_EQ(refusal("[prior.k]\nlw = \"flat\"\n",
-                    [](const auto& r) {
-                      r.required_table("prior").required_table("k").text("law");
-                      r.finish();
-                    }),
-            "a.toml:2:6: prior.k.lw: unknown key; did you mean 'law'? (possible: law)");
+  EXPECT_EQ(
+      refusal("[prior.k]\nlw = \"flat\"\n",
+              [](const auto& r) {
+                r.required_table("prior").required_table("k").text("distribution");
+                r.finish();
+              }),
+      "a.toml:2:6: prior.k.lw: unknown key; did you mean 'distribution'? (possible: distribution)");
   EXPECT_THAT(refusal("a = 1\n", [](const auto& r) { r.finish(); }),
               HasSubstr("a: unknown key; nothing may stand here"));
   // The first in the order of the file.

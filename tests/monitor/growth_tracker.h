@@ -12,18 +12,18 @@ namespace wearwell {
 /// any reading; readings are good to 5 m. Its posterior is two sums, which are added in the order of the readings.
 class GrowthUnit : public prognosis::TrackedUnit {
  public:
-  prognosis::Taken take(const prognosis::Reading& reading,
-                        const prognosis::History& history) override {
+  prognosis::UpdateResult take(const prognosis::Reading& reading,
+                               const prognosis::History& history) override {
     const double wear = reading.numbers[0], hours = reading.numbers[1] / 3600;
-    prognosis::Taken taken;
+    prognosis::UpdateResult taken;
     if (!(hours >= 0)) {
       taken.problem = "time is negative";
       return taken;
     }
     const double expected = mean() * hours, sd = std::hypot(hours * this->sd(), noise);
     taken.counted = true;
-    taken.surprise = std::erfc(std::abs(wear - expected) / sd / std::sqrt(2.0));
-    taken.contradicts = taken.surprise < 1e-6;
+    taken.p_value = std::erfc(std::abs(wear - expected) / sd / std::sqrt(2.0));
+    taken.contradicts = taken.p_value < 1e-6;
     precision_ += hours * hours / (noise * noise);
     weighted_ += hours * wear / (noise * noise);
     now_ = std::max(now_, reading.numbers[1]);
@@ -60,8 +60,8 @@ class GrowthUnit : public prognosis::TrackedUnit {
     if (!lives.empty()) forecast.remaining = prognosis::WeightedLives(lives, weights);
     return forecast;
   }
-  std::vector<prognosis::LevelAhead> ahead(std::span<const double> places) const override {
-    std::vector<prognosis::LevelAhead> path;
+  std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override {
+    std::vector<prognosis::ForecastBand> path;
     for (const double each : places) {
       const double hours = each / 3600, off = 1.6448536269514722 * sd();
       path.push_back({each, hours * (mean() - off), hours * mean(), hours * (mean() + off)});

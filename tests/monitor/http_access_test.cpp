@@ -39,7 +39,7 @@ class HttpAccessTest : public ScratchTest {
                     file + ".key -out " + file + ".pem");
     ASSERT_EQ(made.exit_code, 0) << made.err;
   }
-  HttpSettings secret(const std::string& its_token = "") const {
+  HttpSettings tls(const std::string& its_token = "") const {
     HttpSettings settings = settings_of(its_token);
     settings.certificate = folder() / "a.pem";
     settings.key = folder() / "a.key";
@@ -142,7 +142,7 @@ TEST_F(HttpAccessTest, ThePageIsSignedInByACookie) {
 
 TEST_F(HttpAccessTest, ACookieEndsWithItsTimeAndItsToken) {
   const HttpAccess access(settings_of(token), {});
-  HttpQuestion question;
+  HttpRequest question;
   const std::string cookie = access.cookie(1000);
   question.cookie = cookie.substr(0, cookie.find(';'));
   constexpr std::int64_t month = 30 * 24 * 3600;
@@ -183,10 +183,10 @@ TEST_F(HttpAccessTest, SettingsThatCannotBeAreRefused) {
   EXPECT_THAT(refusal_of(settings), HasSubstr("neither an address nor a name"));
   certify("a");
   certify("b");
-  settings = secret();
+  settings = tls();
   settings.certificate = folder() / "none.pem";
   EXPECT_THAT(refusal_of(settings), HasSubstr("none.pem: no certificate"));
-  settings = secret();
+  settings = tls();
   settings.key = folder() / "b.key";
   EXPECT_THAT(refusal_of(settings), HasSubstr("b.key: "));
   settings.key = write("bad.key", "no key");
@@ -200,7 +200,7 @@ TEST_F(HttpAccessTest, SettingsThatCannotBeAreRefused) {
 
 TEST_F(HttpAccessTest, TlsIsSpokenUnderTheNamesOfTheCertificate) {
   certify("a");
-  const HttpServer server(secret(token), fleet_, &fleet_);
+  const HttpServer server(tls(token), fleet_, &fleet_);
   const std::string port = std::to_string(server.port());
   const auto curl = [&](const std::string& arguments) {
     return run_command("curl -s --max-time 20 --noproxy '*' --cacert '" +

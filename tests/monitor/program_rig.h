@@ -33,7 +33,7 @@ distance = { field = "km", unit = "km" }
         (std::filesystem::temp_directory_path() / "wearwell-fleet-XXXXXX").string();
     learned_ = mkdtemp(pattern.data());
     const CommandResult fit =
-        run_wearwell("fit '" PROJECT_SOURCE_DIR "/examples/law/study.toml' -o '" + result() +
+        run_wearwell("fit '" PROJECT_SOURCE_DIR "/examples/formula/study.toml' -o '" + result() +
                      "' --quiet --no-report --chains 2 --draws 300 --warmup 400");
     ASSERT_LE(fit.exit_code, 1) << fit.err;
   }

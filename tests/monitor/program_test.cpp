@@ -79,23 +79,23 @@ TEST_F(Programs, AreDecidedUpon) {
   const CommandResult after =
       run_wearwell(decide + " --unit M01 --inspect-after '5 km' --given 'force = 20 N'");
   EXPECT_LE(after.exit_code, 1) << after.err;
-  const auto told = nlohmann::json::parse(after.out), early = nlohmann::json::parse(beside.out);
-  EXPECT_EQ(told["units"], early["units"]);
+  const auto reported = nlohmann::json::parse(after.out), early = nlohmann::json::parse(beside.out);
+  EXPECT_EQ(reported["units"], early["units"]);
   const CommandResult fleet =
       run_wearwell("monitor '" + config.string() + "' --once --json < /dev/null");
   std::map<std::string, nlohmann::json> lives;
   const auto shown = nlohmann::json::parse(fleet.out);
   for (const auto& each : shown["list"]) lives[each["unit"]] = each["remaining"];
   ASSERT_EQ(lives.size(), 4U);
-  ASSERT_EQ(told["units"].size(), 4U);
-  for (const auto& each : told["units"]) {
+  ASSERT_EQ(reported["units"].size(), 4U);
+  for (const auto& each : reported["units"]) {
     for (const char* p : {"q05", "q50", "q95"}) {
       const double expected = lives.at(each["unit"])[p];
       EXPECT_NEAR(each[p].get<double>(), expected, 1e-9 * expected);
     }
   }
-  EXPECT_EQ(told["inspection_ahead"]["unit"], "M01");
-  EXPECT_GE(told["inspection_ahead"]["worth"], 0);
+  EXPECT_EQ(reported["inspection_ahead"]["unit"], "M01");
+  EXPECT_GE(reported["inspection_ahead"]["worth"], 0);
   EXPECT_THAT(run_wearwell(decide + " --unit M9 --inspect-after '5 km'").err,
               HasSubstr("the fleet has no machine 'M9'"));
 }
@@ -145,10 +145,10 @@ TEST_F(Programs, GoOnWhereTheClockJumps) {
   EXPECT_GT(most - least, 3600'000LL * 3600);
   EXPECT_TRUE(known(config) == undisturbed(lines));
   // Begun anew it counts by the machine's clock: what came 3000 hours ago by that is old, what comes from ahead is not.
-  const std::size_t told_before = log(config).size();
+  const std::size_t reported_before = log(config).size();
   monitor = start(config);
   EXPECT_TRUE(eventually([&] {
-    return log(config).find("monitoring", told_before) != std::string::npos;
+    return log(config).find("monitoring", reported_before) != std::string::npos;
   })) << log(config);
   EXPECT_EQ(monitor.end(SIGTERM), 0);
 }
@@ -171,10 +171,10 @@ TEST_F(Programs, KilledAtAnyMomentGoOnToTheSameBits) {
     sleep_s(rng.uniform(0, 1.5));
     monitor.end(SIGKILL);
   }
-  const std::size_t told_before = log(config).size();
+  const std::size_t reported_before = log(config).size();
   ChildProcess monitor = start(config);
   ASSERT_TRUE(eventually([&] {
-    return log(config).find("monitoring", told_before) != std::string::npos;
+    return log(config).find("monitoring", reported_before) != std::string::npos;
   })) << log(config);
   ASSERT_TRUE(eventually([&] { return stored(config) == lines.size(); })) << log(config);
   EXPECT_EQ(monitor.end(SIGTERM), 0) << log(config);
@@ -259,21 +259,21 @@ TEST_F(BrokerPrograms, StoreWhatIsSentAndTellTheStates) {
   })) << log(config);
   send(1, 20);
   EXPECT_TRUE(eventually([&] { return stored(config) == 20 * machines; })) << log(config);
-  const auto told = [&] {
+  const auto reported = [&] {
     return run_command(fmt::format("mosquitto_sub -p {} -t 'fleet/+/state' -C {} -W 5 -v",
                                    broker_->port(), static_cast<int>(machines)))
         .out;
   };
   EXPECT_TRUE(eventually([&] {
-    return told().find("fleet/M04/state {\"unit\":\"M04\"") != std::string::npos;
-  })) << told();
+    return reported().find("fleet/M04/state {\"unit\":\"M04\"") != std::string::npos;
+  })) << reported();
   // A broker that has gone comes back; it may have forgotten, and is told again.
   broker_->kill();
   std::filesystem::remove(folder() / "broker" / "mosquitto.db");
   sleep_s(0.3);
   broker_->start();
   EXPECT_TRUE(eventually([&] {
-    return told().find("fleet/M04/state {\"unit\":\"M04\"") != std::string::npos;
+    return reported().find("fleet/M04/state {\"unit\":\"M04\"") != std::string::npos;
   })) << log(config);
   // Subscribed anew, since otherwise this would be lost.
   ASSERT_TRUE(eventually([&] {
@@ -332,9 +332,9 @@ TEST_F(BrokerPrograms, AreSureOfWhomTheyTalkTo) {
   // The broker goes and comes back.
   broker_->kill();
   broker_->start();
-  const std::size_t told_before = log(config).size();
+  const std::size_t reported_before = log(config).size();
   EXPECT_TRUE(eventually([&] {
-    return log(config).find("trying again", told_before / 2) != std::string::npos;
+    return log(config).find("trying again", reported_before / 2) != std::string::npos;
   })) << log(config);
   EXPECT_EQ(monitor.end(SIGTERM), 0);
 }
@@ -355,10 +355,10 @@ TEST_F(BrokerPrograms, KilledLoseNothingThatTheBrokerHas) {
     sleep_s(rng.uniform(0, 0.6));
     monitor.end(SIGKILL);
   }
-  const std::size_t told_before = log(config).size();
+  const std::size_t reported_before = log(config).size();
   ChildProcess monitor = start(config);
   EXPECT_TRUE(eventually([&] {
-    return log(config).find("follows", told_before) != std::string::npos;
+    return log(config).find("follows", reported_before) != std::string::npos;
   })) << log(config);
   EXPECT_TRUE(eventually([&] {
     return stored(config) == static_cast<std::uint64_t>(last * machines);

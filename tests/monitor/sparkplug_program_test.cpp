@@ -98,9 +98,9 @@ TEST_F(SparkplugPrograms, FollowAnEdgeNodeThroughBirthsAndKills) {
   // Killed, it asks for what it does not know any more.
   monitor.end(SIGKILL);
   EXPECT_TRUE(eventually([&] { return state().find("\"online\":false") != std::string::npos; }));
-  const std::size_t told_before = log(config).size();
+  const std::size_t reported_before = log(config).size();
   monitor = start(config);
-  ASSERT_TRUE(follows(config, told_before)) << log(config);
+  ASSERT_TRUE(follows(config, reported_before)) << log(config);
   const auto asked = folder() / "asked";
   ChildProcess edge({"mosquitto_sub", "-p", std::to_string(broker_->port()), "-t",
                      "spBv1.0/Plant 1/NCMD/E", "-C", "1", "-F", "%x"},

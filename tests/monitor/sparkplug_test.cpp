@@ -171,18 +171,18 @@ class Sparkplug : public FleetRig {
   std::vector<std::string> tell(const std::string& topic, const std::string& bytes) {
     std::vector<Row> rows;
     decoder_->read("spBv1.0/G/" + topic, bytes, rows);
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     for (const Row& row : rows) {
       try {
         if (!row.problem.empty()) throw InputError(row.problem);
         const StoredReading reading = reading_of(row.fields, row.unit, settings_.mapping, 1);
-        told.push_back(fmt::format("{} {} {:.6g} {:.6g}", reading.unit, reading.key,
-                                   reading.numbers[0], reading.numbers[1]));
+        reported.push_back(fmt::format("{} {} {:.6g} {:.6g}", reading.unit, reading.key,
+                                       reading.numbers[0], reading.numbers[1]));
       } catch (const InputError& error) {
-        told.push_back(error.what());
+        reported.push_back(error.what());
       }
     }
-    return told;
+    return reported;
   }
   void live() {
     EXPECT_THAT(tell("NBIRTH/E", node_birth()), IsEmpty());

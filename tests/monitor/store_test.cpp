@@ -185,10 +185,10 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
                 open({{"wear"}, {"site"}, true});
               }),
               HasSubstr("begin another store"));
-  std::vector<std::string> told;
-  const auto tell = [&](const std::string& what) { told.push_back(what); };
+  std::vector<std::string> reported;
+  const auto tell = [&](const std::string& what) { reported.push_back(what); };
   auto store = open_store(url(), folder(), columns, Access::write, tell);
-  EXPECT_THAT(told,
+  EXPECT_THAT(reported,
               ElementsAre(HasSubstr("was of version 1, and has been brought up to version 2")));
   EXPECT_EQ(shown(store->after(0, 10)), "a 3 0.25 true x;");
   ASSERT_EQ(store->states("p").size(), 1U);
@@ -204,7 +204,7 @@ TEST_P(OldStores, AreBroughtUpToDateOnce) {
   EXPECT_GT(store->after(7, 1)[0].place, 7);
   store = nullptr;
   store = open_store(url(), folder(), columns, Access::write, tell);
-  EXPECT_EQ(told.size(), 1U);
+  EXPECT_EQ(reported.size(), 1U);
   EXPECT_EQ(open(columns, Access::read)->count(), 2U);
 }
 

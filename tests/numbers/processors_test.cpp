@@ -40,8 +40,9 @@ INSTANTIATE_TEST_SUITE_P(, Processors,
                          testing::Values("joint/study.toml", "joint/lognormal_flat.toml",
                                          "bearing/study.toml", "fatigue/study.toml",
                                          "spring/case1.toml", "staircase/study.toml",
-                                         "clutch/study.toml", "law/study.toml", "life/study.toml",
-                                         "accelerated/study.toml", "degradation/steps.toml"),
+                                         "clutch/study.toml", "formula/study.toml",
+                                         "life/study.toml", "accelerated/study.toml",
+                                         "degradation/steps.toml"),
                          [](const auto& each) {
                            std::string name = each.param.substr(0, each.param.rfind('.'));
                            for (char& c : name) {

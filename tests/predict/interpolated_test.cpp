@@ -36,7 +36,7 @@ WeightedDraws normal_cells() {
   return draws;
 }
 
-Points values_at(const FewPoints& few, double (*value)(const double* x)) {
+Points values_at(const ThinnedPosterior& few, double (*value)(const double* x)) {
   Points values(few.values.rows(), 1);
   for (Eigen::Index i = 0; i < values.rows(); ++i) values(i, 0) = value(few.values.row(i).data());
   return values;
@@ -45,7 +45,7 @@ Points values_at(const FewPoints& few, double (*value)(const double* x)) {
 // exp(0.5 x + 0.02 y) is lognormal: its quantiles are closed forms.
 TEST(Interpolated, QuantilesAreThoseOfTheWholePosterior) {
   const WeightedDraws draws = normal_cells();
-  const FewPoints few(draws, 2000);
+  const ThinnedPosterior few(draws, 2000);
   const auto found = interpolated(draws, few, values_at(few, [](const double* x) {
                                     return std::exp(0.5 * x[0] + 0.02 * x[1]);
                                   }));
@@ -61,18 +61,18 @@ TEST(Interpolated, QuantilesAreThoseOfTheWholePosterior) {
 // Against the same number at every cell, where no closed form is.
 TEST(Interpolated, CurvedNumbersToo) {
   const WeightedDraws draws = normal_cells();
-  const FewPoints few(draws, 2000);
+  const ThinnedPosterior few(draws, 2000);
   const auto value = [](const double* x) { return x[1] / (1 + 0.2 * x[0] * x[0]); };
   const auto found = interpolated(draws, few, values_at(few, value));
   ASSERT_TRUE(found.front());
-  const Distribution direct(draws, value);
+  const QuantityDistribution direct(draws, value);
   for (const double p : {0.01, 0.05, 0.5, 0.95, 0.99})
     EXPECT_NEAR(found.front()->distribution.quantile(p) / direct.quantile(p), 1, 1e-5) << p;
 }
 
 TEST(Interpolated, WhatIsNotSmoothHasNone) {
   const WeightedDraws draws = normal_cells();
-  const FewPoints few(draws, 2000);
+  const ThinnedPosterior few(draws, 2000);
   EXPECT_FALSE(
       interpolated(draws, few, values_at(few, [](const double* x) { return std::abs(x[0] - 3); }))
           .front());

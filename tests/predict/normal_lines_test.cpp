@@ -71,9 +71,9 @@ TEST(NormalLines, AMixtureIsTheSumOfItsLines) {
 TEST(NormalLines, ALineThatTurns) {
   NormalLines lines;
   lines.add(1, first, step, along([](double z) { return z * z; }));
-  const boost::math::chi_squared law(1);
+  const boost::math::chi_squared distribution(1);
   for (const double p : {0.3, 0.5, 0.9, 0.99})
-    EXPECT_NEAR(lines.quantile(p) / boost::math::quantile(law, p), 1, 5e-5) << p;
+    EXPECT_NEAR(lines.quantile(p) / boost::math::quantile(distribution, p), 1, 5e-5) << p;
 }
 
 TEST(NormalLines, WhatIsNotANumberHasNoDistribution) {

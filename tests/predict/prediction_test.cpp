@@ -204,13 +204,13 @@ RC_GTEST_PROP(PredictLife, QuantilesAreInOrder, ()) {
 // is lognormal about ln(constant/2). Quantiles by R: 500 * exp(0.5 * qnorm(p)).
 TEST(Life, OfAnItemNotYetSeen) {
   const WeightedDraws one{Points::Constant(1, 1, 2.0), Eigen::VectorXd::Ones(1), {}, {}};
-  const LifeLaw law = life_law(
+  const LifeDistribution distribution = life_distribution(
       one, 1000, [](const double* x) { return x[0]; }, [](const double*) { return 0.5; });
-  EXPECT_NEAR(law.quantile(0.1), 263.44176, 1e-3);
-  EXPECT_NEAR(law.quantile(0.5), 500, 1e-6);
-  EXPECT_NEAR(law.cdf(263.44176), 0.1, 1e-7);
-  EXPECT_EQ(law.cdf(0), 0);
-  const Life life = predict_life(law, 0, 0.01);
+  EXPECT_NEAR(distribution.quantile(0.1), 263.44176, 1e-3);
+  EXPECT_NEAR(distribution.quantile(0.5), 500, 1e-6);
+  EXPECT_NEAR(distribution.cdf(263.44176), 0.1, 1e-7);
+  EXPECT_EQ(distribution.cdf(0), 0);
+  const Life life = predict_life(distribution, 0, 0.01);
   EXPECT_EQ(life.passed, 0);
   EXPECT_NEAR(life.inspect_within, life.b1, 1e-9);
   EXPECT_NEAR(life.b1, 156.24639, 1e-3);

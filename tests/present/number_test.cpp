@@ -9,28 +9,28 @@ namespace wearwell {
 namespace {
 
 TEST(Number, IsWrittenAlikeOnPagesAndTerminals) {
-  EXPECT_EQ(number_in_words(0.7759, 4, Script::terminal), "0.7759");
-  EXPECT_EQ(number_in_words(0.0026, 2, Script::terminal), "0.0026");
-  EXPECT_EQ(number_in_words(21602.3, 4, Script::page), "21\u202f600");
-  EXPECT_EQ(number_in_words(21602.3, 4, Script::terminal), "21\u202f600");
-  EXPECT_EQ(number_in_words(9'996'000, 3, Script::terminal), "1.00\u00a0×\u00a010^7");
-  EXPECT_EQ(number_in_words(999.96, 4, Script::page), "1\u202f000");
-  EXPECT_EQ(number_in_words(9.9996e-9, 4, Script::page), "1.000\u00a0×\u00a010⁻⁸");
-  EXPECT_EQ(number_in_words(6.88e7, 3, Script::page), "6.88\u00a0×\u00a010⁷");
-  EXPECT_EQ(number_in_words(-6.88e-10, 3, Script::terminal), "-6.88\u00a0×\u00a010^-10");
-  EXPECT_EQ(number_in_words(0, 4, Script::terminal), "0");
-  EXPECT_EQ(number_in_words(std::numeric_limits<double>::quiet_NaN(), 4, Script::terminal), "-");
-  EXPECT_EQ(number_in_words(std::numeric_limits<double>::quiet_NaN(), 4, Script::page), "–");
+  EXPECT_EQ(shown_number(0.7759, 4, Script::terminal), "0.7759");
+  EXPECT_EQ(shown_number(0.0026, 2, Script::terminal), "0.0026");
+  EXPECT_EQ(shown_number(21602.3, 4, Script::page), "21\u202f600");
+  EXPECT_EQ(shown_number(21602.3, 4, Script::terminal), "21\u202f600");
+  EXPECT_EQ(shown_number(9'996'000, 3, Script::terminal), "1.00\u00a0×\u00a010^7");
+  EXPECT_EQ(shown_number(999.96, 4, Script::page), "1\u202f000");
+  EXPECT_EQ(shown_number(9.9996e-9, 4, Script::page), "1.000\u00a0×\u00a010⁻⁸");
+  EXPECT_EQ(shown_number(6.88e7, 3, Script::page), "6.88\u00a0×\u00a010⁷");
+  EXPECT_EQ(shown_number(-6.88e-10, 3, Script::terminal), "-6.88\u00a0×\u00a010^-10");
+  EXPECT_EQ(shown_number(0, 4, Script::terminal), "0");
+  EXPECT_EQ(shown_number(std::numeric_limits<double>::quiet_NaN(), 4, Script::terminal), "-");
+  EXPECT_EQ(shown_number(std::numeric_limits<double>::quiet_NaN(), 4, Script::page), "–");
 }
 
 TEST(Number, KeepsTheDigitsOfWhatWasGiven) {
-  EXPECT_EQ(given_in_words(342.22, Script::terminal), "342.22");
-  EXPECT_EQ(given_in_words(1e6, Script::terminal), "1\u202f000\u202f000");
-  EXPECT_EQ(given_in_words(1e8, Script::terminal), "10^8");
-  EXPECT_EQ(given_in_words(1e8, Script::page), "10⁸");
-  EXPECT_EQ(given_in_words(1e-6, Script::terminal), "10^-6");
-  EXPECT_EQ(given_in_words(2.5e-5, Script::page), "2.5\u00a0×\u00a010⁻⁵");
-  EXPECT_EQ(fixed_in_words(1453.26, 1, Script::page), "1\u202f453.3");
+  EXPECT_EQ(given_text(342.22, Script::terminal), "342.22");
+  EXPECT_EQ(given_text(1e6, Script::terminal), "1\u202f000\u202f000");
+  EXPECT_EQ(given_text(1e8, Script::terminal), "10^8");
+  EXPECT_EQ(given_text(1e8, Script::page), "10⁸");
+  EXPECT_EQ(given_text(1e-6, Script::terminal), "10^-6");
+  EXPECT_EQ(given_text(2.5e-5, Script::page), "2.5\u00a0×\u00a010⁻⁵");
+  EXPECT_EQ(fixed_text(1453.26, 1, Script::page), "1\u202f453.3");
 }
 
 // An error below one of the last digit that is shown, whatever the first.
@@ -46,24 +46,24 @@ TEST(Number, ShowsNoMoreDigitsThanItsErrorAllows) {
 }
 
 TEST(Number, OneUnitAndOnePowerOfARange) {
-  EXPECT_EQ(range_in_words(18200, 26600, 3, Script::terminal), "18\u202f200 to 26\u202f600");
-  EXPECT_EQ(range_in_words(6.2988e-4, 9.2198e-4, 4, Script::terminal),
+  EXPECT_EQ(range_text(18200, 26600, 3, Script::terminal), "18\u202f200 to 26\u202f600");
+  EXPECT_EQ(range_text(6.2988e-4, 9.2198e-4, 4, Script::terminal),
             "6.299 to 9.220\u00a0×\u00a010^-4");
-  EXPECT_EQ(unit_in_words("1e6 cycles", Script::terminal), "×\u00a010^6\u00a0cycles");
-  EXPECT_EQ(unit_in_words("mm^3/(N m)", Script::page), "mm³/(N\u00a0m)");
+  EXPECT_EQ(unit_description("1e6 cycles", Script::terminal), "×\u00a010^6\u00a0cycles");
+  EXPECT_EQ(unit_description("mm^3/(N m)", Script::page), "mm³/(N\u00a0m)");
 }
 
 // A sentence that the program wrote; names of a user's stay as they are.
 TEST(Number, IsFoundInASentence) {
-  EXPECT_EQ(powers_in_words("within 9e-06 of 2e+07, 1e+06 cycles", Script::page),
+  EXPECT_EQ(powers_text("within 9e-06 of 2e+07, 1e+06 cycles", Script::page),
             "within 9\u00a0×\u00a010⁻⁶ of 2\u00a0×\u00a010⁷, 1\u202f000\u202f000 cycles");
-  EXPECT_EQ(powers_in_words("machine 100234, A1e+06, 1e6 cycles", Script::page),
+  EXPECT_EQ(powers_text("machine 100234, A1e+06, 1e6 cycles", Script::page),
             "machine 100234, A1e+06, 1e6 cycles");
-  EXPECT_EQ(powers_in_words("depth = k * force / 5e-05 [m^2]", Script::page),
+  EXPECT_EQ(powers_text("depth = k * force / 5e-05 [m^2]", Script::page),
             "depth = k * force / 5e-05 [m^2]");
-  EXPECT_EQ(numbers_in_words("survival to 500000 cycles", Script::terminal),
+  EXPECT_EQ(numbers_text("survival to 500000 cycles", Script::terminal),
             "survival to 500\u202f000 cycles");
-  EXPECT_EQ(numbers_in_words("at 1050 MPa, R = 0.123456, log10_a", Script::terminal),
+  EXPECT_EQ(numbers_text("at 1050 MPa, R = 0.123456, log10_a", Script::terminal),
             "at 1050 MPa, R = 0.123456, log10_a");
 }
 

@@ -37,12 +37,12 @@ TEST(Table, CommandsNoTerminal) {
 
 TEST(Table, IsShownAsPeopleReadIt) {
   const Table table = sample();
-  EXPECT_EQ(in_words(table.rows[0][1], table.columns[1]), "21 580");
-  EXPECT_EQ(in_words(table.rows[1][1], table.columns[1]), "never");
-  EXPECT_EQ(in_words(table.rows[0][2], table.columns[2]), "18 000 to 26 000");
-  EXPECT_EQ(in_words(table.rows[1][2], table.columns[2]), "–");
-  EXPECT_EQ(in_words(2.0 / 3, fixed(2)), "0.67");
-  EXPECT_EQ(in_words(20585, given), "20 585");
+  EXPECT_EQ(description(table.rows[0][1], table.columns[1]), "21 580");
+  EXPECT_EQ(description(table.rows[1][1], table.columns[1]), "never");
+  EXPECT_EQ(description(table.rows[0][2], table.columns[2]), "18 000 to 26 000");
+  EXPECT_EQ(description(table.rows[1][2], table.columns[2]), "–");
+  EXPECT_EQ(description(2.0 / 3, fixed(2)), "0.67");
+  EXPECT_EQ(description(20585, given), "20 585");
 }
 
 TEST(Table, LongOnesAreCutWhereTheyAreShown) {

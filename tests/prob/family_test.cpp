@@ -29,7 +29,7 @@ struct Member {
 
   Member(const std::string& name, const Slots& values)
       : family(form(name, values.size()).family), slots(values) {}
-  double term(Seen seen, double y, double until = 0) const {
+  double term(Censoring seen, double y, double until = 0) const {
     return log_response_value(family, {seen, y, until}, slots.data());
   }
 };
@@ -37,13 +37,13 @@ struct Member {
 // Densities and probabilities of a and, at `other(y)` with the factor `rate` of densities, of b.
 void expect_same(const Member& a, const Member& b, double tolerance = 1e-11) {
   for (const double y : {0.02, 0.3, 1.0, 1.7, 4.0, 9.0}) {
-    for (const Seen seen : {Seen::exactly, Seen::above, Seen::below}) {
+    for (const Censoring seen : {Censoring::none, Censoring::right, Censoring::left}) {
       const double of_a = a.term(seen, y), of_b = b.term(seen, y);
       EXPECT_NEAR(of_a, of_b, tolerance * (1 + std::abs(of_b)))
           << y << " seen " << static_cast<int>(seen);
     }
-    EXPECT_NEAR(a.term(Seen::between, y, 1.4 * y), b.term(Seen::between, y, 1.4 * y),
-                tolerance * (1 + std::abs(b.term(Seen::between, y, 1.4 * y))));
+    EXPECT_NEAR(a.term(Censoring::interval, y, 1.4 * y), b.term(Censoring::interval, y, 1.4 * y),
+                tolerance * (1 + std::abs(b.term(Censoring::interval, y, 1.4 * y))));
   }
   EXPECT_NEAR(center(a.family, a.slots.data()) / center(b.family, b.slots.data()), 1, 1e-9);
   for (const double p : {1e-6, 0.1, 0.5, 0.99}) {
@@ -68,7 +68,7 @@ TEST(Family, GeneralizedGammaIsSmoothInLambda) {
   constexpr double near = 1e-9;
   for (const double at : {-0.05, 0.0, 0.05}) {
     for (const double y : {0.2, 0.9, 1.6, 2.5, 7.0}) {
-      for (const Seen seen : {Seen::exactly, Seen::above, Seen::below}) {
+      for (const Censoring seen : {Censoring::none, Censoring::right, Censoring::left}) {
         const double slots[][3] = {{1.5, 0.5, at - near}, {1.5, 0.5, at}, {1.5, 0.5, at + near}};
         const ResponseFamily family = form("generalized-gamma", 3).family;
         const ResponseTerm below = log_response(family, {seen, y}, slots[0]),
@@ -89,15 +89,15 @@ TEST(Family, ReciprocalsStayInTheFamily) {
     const Member y("generalized-gamma", {1.5, 0.6, lambda}),
         reciprocal("generalized-gamma", {1 / 1.5, 0.6, -lambda});
     for (const double at : {0.2, 1.0, 4.0}) {
-      const double below = y.term(Seen::below, at);
-      EXPECT_NEAR(below, reciprocal.term(Seen::above, 1 / at), 1e-11 * (1 + std::abs(below)));
+      const double below = y.term(Censoring::left, at);
+      EXPECT_NEAR(below, reciprocal.term(Censoring::right, 1 / at), 1e-11 * (1 + std::abs(below)));
     }
   }
   const Member y("birnbaum-saunders", {3, 0.7}), reciprocal("birnbaum-saunders", {1. / 3, 0.7});
   for (const double at : {0.1, 1.0, 3.0, 20.0}) {
-    EXPECT_NEAR(y.term(Seen::below, at), reciprocal.term(Seen::above, 1 / at), 1e-12);
+    EXPECT_NEAR(y.term(Censoring::left, at), reciprocal.term(Censoring::right, 1 / at), 1e-12);
     const double z = (std::sqrt(at / 3) - std::sqrt(3 / at)) / 0.7;
-    EXPECT_NEAR(std::exp(y.term(Seen::below, at)), 0.5 * std::erfc(-z / std::sqrt(2.0)), 1e-14);
+    EXPECT_NEAR(std::exp(y.term(Censoring::left, at)), 0.5 * std::erfc(-z / std::sqrt(2.0)), 1e-14);
   }
   EXPECT_DOUBLE_EQ(quantile(y.family, 0.5, y.slots.data()), 3);
   EXPECT_DOUBLE_EQ(center(y.family, y.slots.data()), 3 * (1 + 0.5 * 0.7 * 0.7));
@@ -108,25 +108,25 @@ TEST(Family, ExponentiatedWeibullIsTheLastOfSeveral) {
   expect_same({"exponentiated-weibull", {1.5, 2.2, 1}}, {"weibull", {1.5, 2.2}});
   const Member last("exponentiated-weibull", {1.5, 2.2, 3}), one("weibull", {1.5, 2.2});
   for (const double y : {0.01, 0.4, 1.5, 3.0, 12.0}) {
-    const double below = one.term(Seen::below, y), above = one.term(Seen::above, y);
-    EXPECT_NEAR(last.term(Seen::below, y), 3 * below, 1e-13 * (1 + std::abs(3 * below)));
+    const double below = one.term(Censoring::left, y), above = one.term(Censoring::right, y);
+    EXPECT_NEAR(last.term(Censoring::left, y), 3 * below, 1e-13 * (1 + std::abs(3 * below)));
     // 1 - (1 - S)^3 = S (3 - 3 S + S^2)
     const double s = std::exp(above), expected = above + std::log(3 - 3 * s + s * s);
-    EXPECT_NEAR(last.term(Seen::above, y), expected, 1e-12 * (1 + std::abs(expected)));
+    EXPECT_NEAR(last.term(Censoring::right, y), expected, 1e-12 * (1 + std::abs(expected)));
   }
 }
 
 // Parameters of each kind that suit every family.
 Slots plausible(const ResponseForm& form) {
   Slots slots;
-  for (const SlotForm& slot : form.slots) {
+  for (const ParameterForm& slot : form.slots) {
     if (slot.name == "threshold") {
       slots.push_back(0.3);
     } else {
-      slots.push_back(slot.kind == SlotKind::real   ? 0.4
-                      : slot.kind == SlotKind::size ? 1.4
-                      : slot.name == "log10_sd"     ? 0.3
-                                                    : 2.6 - 0.7 * double(slots.size()));
+      slots.push_back(slot.kind == ParameterKind::real   ? 0.4
+                      : slot.kind == ParameterKind::size ? 1.4
+                      : slot.name == "log10_sd"          ? 0.3
+                                                         : 2.6 - 0.7 * double(slots.size()));
     }
   }
   return slots;
@@ -151,7 +151,8 @@ TEST(Family, AThresholdMovesIt) {
     ASSERT_EQ(plain.size(), 1u);
     const double moved = slots.back();
     for (const double y : {0.2, 1.0, 2.5}) {
-      for (const Seen seen : {Seen::exactly, Seen::above, Seen::below, Seen::between}) {
+      for (const Censoring seen :
+           {Censoring::none, Censoring::right, Censoring::left, Censoring::interval}) {
         const Response at{seen, y + moved, 1.3 * y + moved}, less{seen, y, 1.3 * y};
         const ResponseTerm here = log_response(each.family, at, slots.data()),
                            there = log_response(plain[0], less, without.data());
@@ -160,9 +161,9 @@ TEST(Family, AThresholdMovesIt) {
           EXPECT_NEAR(here.slope[s], there.slope[s], 1e-9 * (1 + std::abs(there.slope[s])));
       }
     }
-    EXPECT_EQ(log_response_value(each.family, {Seen::exactly, 0.5 * moved}, slots.data()),
+    EXPECT_EQ(log_response_value(each.family, {Censoring::none, 0.5 * moved}, slots.data()),
               -infinity);
-    EXPECT_EQ(log_response_value(each.family, {Seen::above, 0.5 * moved}, slots.data()), 0);
+    EXPECT_EQ(log_response_value(each.family, {Censoring::right, 0.5 * moved}, slots.data()), 0);
     EXPECT_NEAR(quantile(each.family, 0.3, slots.data()),
                 moved + quantile(plain[0], 0.3, without.data()), 1e-11);
   }
@@ -178,7 +179,7 @@ TEST(Family, CentersAreMeans) {
     const double low = quantile(of.family, 1e-15, slots.data()),
                  high = quantile(of.family, 1 - 1e-13, slots.data());
     const auto moment = [&](double y) {
-      return y * std::exp(log_response_value(of.family, {Seen::exactly, y}, slots.data()));
+      return y * std::exp(log_response_value(of.family, {Censoring::none, y}, slots.data()));
     };
     const double mean =
         of.positive ? gauss_kronrod<double, 61>::integrate(

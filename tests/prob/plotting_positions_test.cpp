@@ -17,7 +17,7 @@ std::vector<Response> lives(const std::vector<double>& entry) {
   const bool failed[] = {true, true, false, true, false, true, true, false, true, false};
   std::vector<Response> all;
   for (std::size_t i = 0; i < 10; ++i) {
-    all.push_back({.seen = failed[i] ? Seen::exactly : Seen::above, .at = t[i]});
+    all.push_back({.seen = failed[i] ? Censoring::none : Censoring::right, .at = t[i]});
     if (!entry.empty()) all.back().entry = entry[i];
   }
   return all;
@@ -56,10 +56,10 @@ TEST(PlottingPositions, OfIntervalsAreTurnbulls) {
   const double upper[] = {3, 5, 5, 6, 4, 9, 8, infinity, 12, infinity, 7};
   std::vector<Response> all;
   for (std::size_t i = 0; i < 11; ++i) {
-    all.push_back({.seen = lower[i] == upper[i]    ? Seen::exactly
-                           : upper[i] == infinity  ? Seen::above
-                           : lower[i] == -infinity ? Seen::below
-                                                   : Seen::between,
+    all.push_back({.seen = lower[i] == upper[i]    ? Censoring::none
+                           : upper[i] == infinity  ? Censoring::right
+                           : lower[i] == -infinity ? Censoring::left
+                                                   : Censoring::interval,
                    .at = lower[i] == -infinity ? upper[i] : lower[i],
                    .until = upper[i]});
   }
@@ -76,7 +76,7 @@ TEST(PlottingPositions, OfIntervalsAreTurnbulls) {
 }
 
 TEST(PlottingPositions, WithoutAFailureThereAreNone) {
-  const std::vector<Response> all = {{.seen = Seen::above, .at = 3}};
+  const std::vector<Response> all = {{.seen = Censoring::right, .at = 3}};
   EXPECT_TRUE(plotting_positions(all, std::vector<int>(1, 5)).empty());
 }
 

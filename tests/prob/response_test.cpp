@@ -75,10 +75,10 @@ TEST(Response, MatchesR) {
       std::getline(cells, cell, ',');
       each = std::stod(cell);
     }
-    Response y{Seen::exactly, v[0], v[1]};
-    if (seen == "above") y.seen = Seen::above;
-    if (seen == "below") y.seen = Seen::below;
-    if (seen == "between") y.seen = Seen::between;
+    Response y{Censoring::none, v[0], v[1]};
+    if (seen == "above") y.seen = Censoring::right;
+    if (seen == "below") y.seen = Censoring::left;
+    if (seen == "between") y.seen = Censoring::interval;
     const ResponseFamily family = family_of(name, name == "weibull" && v[4] != 0);
     const double value = log_response_value(family, y, v + 2);
     EXPECT_NEAR(value, v[5], 2e-12 * std::abs(v[5]) + 1e-14);
@@ -91,16 +91,16 @@ TEST(Response, MatchesR) {
 TEST(Response, SlopesAreTheDerivatives) {
   for (const Case& each : cases()) {
     const double* at = each.at;
-    const std::vector<Response> all = {{Seen::exactly, at[1]},
-                                       {Seen::above, at[1]},
-                                       {Seen::above, at[2]},
-                                       {Seen::below, at[0]},
-                                       {Seen::below, at[1]},
-                                       {Seen::between, at[0], at[1]},
-                                       {Seen::between, at[1], at[2]},
-                                       {Seen::between, at[1], at[1] * (1 + 1e-7)},
-                                       {Seen::exactly, at[1], 0, at[0]},
-                                       {Seen::above, at[2], 0, at[1]}};
+    const std::vector<Response> all = {{Censoring::none, at[1]},
+                                       {Censoring::right, at[1]},
+                                       {Censoring::right, at[2]},
+                                       {Censoring::left, at[0]},
+                                       {Censoring::left, at[1]},
+                                       {Censoring::interval, at[0], at[1]},
+                                       {Censoring::interval, at[1], at[2]},
+                                       {Censoring::interval, at[1], at[1] * (1 + 1e-7)},
+                                       {Censoring::none, at[1], 0, at[0]},
+                                       {Censoring::right, at[2], 0, at[1]}};
     for (const Response& y : all) {
       const ResponseTerm term = log_response(each.family, y, each.slots);
       ASSERT_TRUE(std::isfinite(term.value));
@@ -134,8 +134,8 @@ TEST(Response, DistributionFunctionsBelongTogether) {
       const double slope = (std::exp(log_cdf(each.family, y + step, each.slots)) -
                             std::exp(log_cdf(each.family, y - step, each.slots))) /
                            (2 * step);
-      EXPECT_NEAR(std::exp(log_response_value(each.family, {Seen::exactly, y}, each.slots)), slope,
-                  1e-7 * slope);
+      EXPECT_NEAR(std::exp(log_response_value(each.family, {Censoring::none, y}, each.slots)),
+                  slope, 1e-7 * slope);
     }
   }
 }
@@ -143,10 +143,10 @@ TEST(Response, DistributionFunctionsBelongTogether) {
 TEST(Response, OutsideItsSupportHasNoDensity) {
   const double weibull[] = {82, 2.1, 15};
   const ResponseFamily shifted = family_of("weibull", true);
-  EXPECT_EQ(log_response_value(shifted, {Seen::exactly, 15}, weibull), -infinity);
-  EXPECT_EQ(log_response_value(shifted, {Seen::above, 3}, weibull), 0);
+  EXPECT_EQ(log_response_value(shifted, {Censoring::none, 15}, weibull), -infinity);
+  EXPECT_EQ(log_response_value(shifted, {Censoring::right, 3}, weibull), 0);
   const double negative[] = {1, -1, 0};
-  for (const Seen seen : {Seen::exactly, Seen::above, Seen::below}) {
+  for (const Censoring seen : {Censoring::none, Censoring::right, Censoring::left}) {
     EXPECT_EQ(log_response_value(ResponseFamily::normal, {seen, 2}, negative), -infinity);
   }
   const double sure[] = {1, 0, 0};
@@ -162,7 +162,7 @@ TEST(Response, ExtremeParametersAreNoExceptions) {
       for (const double b : extremes) {
         const double slots[] = {a, b, each.slots[2], each.slots[3]};
         for (const double y : {1e-300, each.at[1], 1e300}) {
-          for (const Seen seen : {Seen::exactly, Seen::above, Seen::below}) {
+          for (const Censoring seen : {Censoring::none, Censoring::right, Censoring::left}) {
             ASSERT_NO_THROW(log_response(each.family, {seen, y}, slots))
                 << static_cast<int>(each.family) << " " << a << " " << b << " " << y;
           }
@@ -187,13 +187,14 @@ TEST(Response, Counts) {
 TEST(ResponseBlock, AgreesWithSingleRows) {
   for (const Case& each : cases()) {
     for (const bool censored : {false, true}) {
-      std::vector<Response> rows = {
-          {Seen::exactly, each.at[0]}, {Seen::exactly, each.at[1]}, {Seen::exactly, each.at[2]}};
-      if (censored) rows[2].seen = Seen::above;
+      std::vector<Response> rows = {{Censoring::none, each.at[0]},
+                                    {Censoring::none, each.at[1]},
+                                    {Censoring::none, each.at[2]}};
+      if (censored) rows[2].seen = Censoring::right;
       const ResponseColumn column(rows);
       EXPECT_EQ(column.plain, !censored);
       const double first[] = {each.slots[0], each.slots[0]};
-      const std::vector<SlotValues> slots = {
+      const std::vector<ParameterValues> slots = {
           {first, false}, {&each.slots[1], true}, {&each.slots[2], true}, {&each.slots[3], true}};
       double value[2], slope[8];
       log_responses(each.family, column, 1, slots, value, slope);

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 CarriedState example() {
   CarriedState state;
-  state.model = "law";
+  state.model = "formula";
   state.source.study = {"study.toml", "title = \"\xc3\xa4\"\n"};
   Table table;
   table.source = "a.csv";
@@ -53,7 +53,7 @@ TEST(CarriedState, IsReadBackToTheBit) {
   const std::string bytes = state_bytes(state);
   const CarriedState again = state_of_bytes(bytes, "state.bin");
   EXPECT_EQ(state_bytes(again), bytes);
-  EXPECT_EQ(again.model, "law");
+  EXPECT_EQ(again.model, "formula");
   EXPECT_EQ(again.source.study.text, state.source.study.text);
   const Table& table = again.source.tables.at("as read\na.csv");
   EXPECT_EQ(table.columns[1].text, (std::vector<std::string>{"J7", "", "\n,\""}));
@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(, EveryExample,
                          testing::Values("joint/study", "joint/pointwise", "bearing/study",
                                          "fatigue/study", "staircase/study", "spring/case1",
                                          "degradation/study", "degradation/lines", "life/study",
-                                         "accelerated/study", "law/study", "messy/german_excel",
+                                         "accelerated/study", "formula/study", "messy/german_excel",
                                          "messy/logger", "messy/workbook", "messy/rig"),
                          [](const auto& each) {
                            std::string name = each.param;

@@ -22,25 +22,25 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-const std::string laser_study = R"(model = "law"
+const std::string laser_study = R"(model = "formula"
 [data]
 file = "laser.csv"
 [data.columns]
 increase = { column = "increase_percent", unit = "%" }
 time     = { column = "hours", unit = "h" }
 laser    = "laser"
-[law]
+[formula]
 growth = "rate * time"
 [likelihood.increase]
 family = "normal"
 mean   = "growth"
 sd     = "sigma"
 [prior]
-rate  = { law = "lognormal", median = "0.002 %/h", log_sd = 1 }
-sigma = { law = "half-normal", scale = "0.5 %" }
-scatter = { law = "half-normal", scale = 0.5 }
-[varies.laser]
-rate = { law = "lognormal", log_sd = "scatter" }
+rate  = { distribution = "lognormal", median = "0.002 %/h", log_sd = 1 }
+sigma = { distribution = "half-normal", scale = "0.5 %" }
+scatter = { distribution = "half-normal", scale = 0.5 }
+[random_effects.laser]
+rate = { distribution = "lognormal", log_sd = "scatter" }
 [predict]
 along = "time"
 )";
@@ -213,7 +213,7 @@ TEST_F(NewData, MoveThePosteriorByItsWeights) {
     Parameter x;
     x.name = "x";
     x.si = "1";
-    x.prior = make_law(Uniform{}, -20, 20);
+    x.prior = make_distribution(Uniform{}, -20, 20);
     return Posterior({x}, std::make_shared<Normal>(mean));
   };
   WeightedDraws draws;

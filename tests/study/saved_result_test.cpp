@@ -50,7 +50,7 @@ PosteriorSummary full_result() {
   plots.life = curve;
   plots.study_text = "title = \"t\"";
   plots.files = {{"study.toml", "da39"}, {"joint.csv", "a3ee"}};
-  plots.exhibits["fit"].push_back(
+  plots.figures["fit"].push_back(
       {"id", "Title", "caption", {{"layer", Json::array({Json::object()})}}});
   result.plots = plots;
   return result;

@@ -29,9 +29,9 @@ life = "n"
 life_until = "until"
 status = "status"
 [prior]
-log10_a = { law = "flat", unit = "log10(MPa)" }
-b = { law = "flat" }
-sigma = { law = "flat" }
+log10_a = { distribution = "flat", unit = "log10(MPa)" }
+b = { distribution = "flat" }
+sigma = { distribution = "flat" }
 )toml");
     return message_of<InputError>([&] { read_posterior_study(study); });
   }

@@ -77,13 +77,13 @@ class StudyKeysTest : public ScratchTest {
           "cycles,dx,dy\n100,0.01,0\n100,0,0.01\n100,-0.01,0\n100,0,-0.01\n9000,0.05,0\n9000,0,"
           "0.05\n9000,-0.05,0\n9000,0,-0.05\n");
     for (const char* name :
-         {"joint", "bearing", "fatigue", "clutch", "spring", "law", "life", "accelerated"}) {
+         {"joint", "bearing", "fatigue", "clutch", "spring", "formula", "life", "accelerated"}) {
       for (const auto& entry :
            fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / name))
         if (!fs::exists(folder() / entry.path().filename()))
           fs::copy(entry.path(), folder() / entry.path().filename());
     }
-    fs::copy(fs::path(PROJECT_SOURCE_DIR) / "examples/law/wear.csv", folder() / "law.csv");
+    fs::copy(fs::path(PROJECT_SOURCE_DIR) / "examples/formula/wear.csv", folder() / "law.csv");
   }
 
   // Reads as `read_study` does, and keeps what was asked for.
@@ -135,7 +135,7 @@ const std::vector<Start>& starts() {
       {"archard-joint",
        {{"data.file", "\"positions.csv\""},
         {"data.columns.dx", "{ column = \"dx\", unit = \"mm\" }"},
-        {"prior.sigma", "{ law = \"half-normal\", scale = \"5 mm^3\" }"}}},
+        {"prior.sigma", "{ distribution = \"half-normal\", scale = \"5 mm^3\" }"}}},
       {"bearing-wear", {}},
       {"bearing-wear", {{"conditions.force", "\"400 N\""}}},
       {"bearing-wear", {{"conditions.time", "\"400 h\""}}},
@@ -152,59 +152,63 @@ const std::vector<Start>& starts() {
       {"sn",
        {{"data.columns.displacement_amplitude", "{ column = \"amplitude\", unit = \"mm\" }"},
         {"predict.stress.part.displacement_amplitude", "\"4 mm\""}}},
-      {"sn", {{"law.mean_stress", "\"soderberg\""}, {"prior.log10_Sy", "{ law = \"default\" }"}}},
-      {"sn", {{"law.mean_stress", "\"morrow\""}, {"prior.log10_sigma_f", "{ law = \"default\" }"}}},
+      {"sn",
+       {{"law.mean_stress", "\"soderberg\""},
+        {"prior.log10_Sy", "{ distribution = \"default\" }"}}},
+      {"sn",
+       {{"law.mean_stress", "\"morrow\""},
+        {"prior.log10_sigma_f", "{ distribution = \"default\" }"}}},
       {"sn",
        {{"law.mean_stress", "\"walker\""},
         {"law.fatigue_limit", "\"random\""},
-        {"prior.gamma", "{ law = \"default\" }"},
-        {"prior.log10_limit", "{ law = \"default\" }"},
-        {"prior.sigma_limit", "{ law = \"default\" }"}}},
+        {"prior.gamma", "{ distribution = \"default\" }"},
+        {"prior.log10_limit", "{ distribution = \"default\" }"},
+        {"prior.sigma_limit", "{ distribution = \"default\" }"}}},
       {"sn",
        {{"law.mean_stress", "\"none\""},
         {"law.curve", "\"knee\""},
         {"law.second_slope", "\"free\""},
         {"law.scatter", "\"grows\""},
-        {"prior.k", "{ law = \"default\" }"},
-        {"prior.k2", "{ law = \"default\" }"},
-        {"prior.log10_N_D", "{ law = \"default\" }"},
-        {"prior.log10_S_D", "{ law = \"default\" }"},
-        {"prior.sigma_growth", "{ law = \"default\" }"}}},
+        {"prior.k", "{ distribution = \"default\" }"},
+        {"prior.k2", "{ distribution = \"default\" }"},
+        {"prior.log10_N_D", "{ distribution = \"default\" }"},
+        {"prior.log10_S_D", "{ distribution = \"default\" }"},
+        {"prior.sigma_growth", "{ distribution = \"default\" }"}}},
       {"sn",
        {{"law.mean_stress", "\"none\""},
         {"law.curve", "\"bastenaire\""},
-        {"prior.log10_N_B", "{ law = \"default\" }"},
-        {"prior.log10_B", "{ law = \"default\" }"},
-        {"prior.C", "{ law = \"default\" }"}}},
+        {"prior.log10_N_B", "{ distribution = \"default\" }"},
+        {"prior.log10_B", "{ distribution = \"default\" }"},
+        {"prior.C", "{ distribution = \"default\" }"}}},
       {"sn",
        {{"data.columns.alternating_stress", "{ column = \"alternating_stress\", unit = \"um/m\" }"},
         {"law.mean_stress", "\"none\""},
         {"law.curve", "\"strain-life\""},
         {"conditions.E", "\"206 GPa\""},
-        {"prior.log10_elastic", "{ law = \"default\" }"},
-        {"prior.log10_plastic", "{ law = \"default\" }"},
-        {"prior.c", "{ law = \"default\" }"}}},
+        {"prior.log10_elastic", "{ distribution = \"default\" }"},
+        {"prior.log10_plastic", "{ distribution = \"default\" }"},
+        {"prior.c", "{ distribution = \"default\" }"}}},
       {"sn", {{"data.columns.status", "{ column = \"status\", failure = 0 }"}}},
       {"staircase", {}},
       {"staircase", {{"data.columns.status", "{ column = \"status\", failure = 0 }"}}},
       {"staircase",
        {{"data.columns.count", "\"count\""},
         {"law.limit_family", "\"normal\""},
-        {"prior.log10_limit", "{ law = \"default\" }"},
-        {"prior.sigma_limit", "{ law = \"default\" }"},
+        {"prior.log10_limit", "{ distribution = \"default\" }"},
+        {"prior.sigma_limit", "{ distribution = \"default\" }"},
         {"predict.reliability", "\"90 %\""},
         {"predict.credible_level", "0.9"}}},
       {"sn",
        {{"conditions.S_ut", "\"1200 MPa\""},
         {"predict.reliability", "\"90 %\""},
         {"predict.stress_ratio", "-1"}}},
-      {"law",
+      {"formula",
        {{"data.columns.depth", "{ column = \"depth\", unit = \"um\" }"},
         {"data.columns.status", "{ column = \"status\", failure = 0 }"},
         {"likelihood.depth.mean", "\"a\""},
         {"likelihood.depth.sd", "\"s\""},
-        {"prior.a", "{ law = \"normal\", mean = \"20 um\", sd = \"20 um\" }"},
-        {"prior.s", "{ law = \"half-normal\", scale = \"20 um\" }"}}},
+        {"prior.a", "{ distribution = \"normal\", mean = \"20 um\", sd = \"20 um\" }"},
+        {"prior.s", "{ distribution = \"half-normal\", scale = \"20 um\" }"}}},
   };
   return all;
 }
@@ -286,26 +290,27 @@ family = "normal"
 limit = "100 mm^3"
 )toml" + more;
   };
-  const auto with_law = [&](const std::string& law) {
-    return joint("[prior]\nk = " + law + "\nsigma = { law = \"flat\", unit = \"mm^3\" }\n");
+  const auto with_law = [&](const std::string& distribution) {
+    return joint("[prior]\nk = " + distribution +
+                 "\nsigma = { distribution = \"flat\", unit = \"mm^3\" }\n");
   };
   // One family after the other, of depths that grow with time; what a law does not use is refused.
-  const auto own_law = [](const std::string& family, const std::string& slots,
-                          const std::string& more) {
+  const auto formula_model = [](const std::string& family, const std::string& slots,
+                                const std::string& more) {
     std::string priors;
     const std::pair<const char*, const char*> all_priors[] = {
-        {"a", "{ law = \"lognormal\", median = \"10 um\", log_sd = 1 }"},
-        {"b", "{ law = \"lognormal\", median = \"5 um/h\", log_sd = 1 }"},
-        {"c", "{ law = \"half-normal\", scale = \"9 um\" }"},
-        {"q", "{ law = \"half-normal\", scale = 1 }"},
-        {"r", "{ law = \"half-normal\", scale = \"5 um\" }"},
-        {"u", "{ law = \"uniform\", lower = -1, upper = 1 }"}};
+        {"a", "{ distribution = \"lognormal\", median = \"10 um\", log_sd = 1 }"},
+        {"b", "{ distribution = \"lognormal\", median = \"5 um/h\", log_sd = 1 }"},
+        {"c", "{ distribution = \"half-normal\", scale = \"9 um\" }"},
+        {"q", "{ distribution = \"half-normal\", scale = 1 }"},
+        {"r", "{ distribution = \"half-normal\", scale = \"5 um\" }"},
+        {"u", "{ distribution = \"uniform\", lower = -1, upper = 1 }"}};
     for (const auto& [name, prior] : all_priors) {
       const bool used = std::string("ab").find(name) != std::string::npos ||
                         (slots + more).find(fmt::format("\"{}\"", name)) != std::string::npos;
       if (used) priors += fmt::format("{} = {}\n", name, prior);
     }
-    return fmt::format(R"toml(model = "law"
+    return fmt::format(R"toml(model = "formula"
 [data]
 file = "wear.csv"
 [data.columns]
@@ -320,28 +325,33 @@ family = "{}"
                        family, slots, priors, more);
   };
   static const std::vector<std::pair<const char*, std::string>> all = {
+      {"archard-joint", joint("[prior]\nk = { distribution = \"flat\", unit = \"mm^3/(N m)\" "
+                              "}\nsigma = { distribution = \"flat\", unit "
+                              "= \"mm^3\" }\n" +
+                              std::regex_replace(sampler, std::regex("KEY"), "mm^3"))},
       {"archard-joint",
-       joint(
-           "[prior]\nk = { law = \"flat\", unit = \"mm^3/(N m)\" }\nsigma = { law = \"flat\", unit "
-           "= \"mm^3\" }\n" +
-           std::regex_replace(sampler, std::regex("KEY"), "mm^3"))},
-      {"archard-joint", with_law("{ law = \"lognormal\", mean = \"1e-3 mm^3/(N m)\", sd = \"1e-3 "
-                                 "mm^3/(N m)\" }")},
+       with_law("{ distribution = \"lognormal\", mean = \"1e-3 mm^3/(N m)\", sd = \"1e-3 "
+                "mm^3/(N m)\" }")},
       {"archard-joint",
-       with_law("{ law = \"lognormal\", median = \"1e-3 mm^3/(N m)\", log_sd = 1 }")},
-      {"archard-joint", with_law("{ law = \"gamma\", shape = 2, scale = \"1e-3 mm^3/(N m)\" }")},
-      {"archard-joint", with_law("{ law = \"log10-normal\", median = \"1e-3 mm^3/(N m)\", "
+       with_law("{ distribution = \"lognormal\", median = \"1e-3 mm^3/(N m)\", log_sd = 1 }")},
+      {"archard-joint",
+       with_law("{ distribution = \"gamma\", shape = 2, scale = \"1e-3 mm^3/(N m)\" }")},
+      {"archard-joint", with_law("{ distribution = \"log10-normal\", median = \"1e-3 mm^3/(N m)\", "
                                  "log10_sd = 0.4, threshold = \"1e-5 mm^3/(N m)\" }")},
-      {"archard-joint", with_law("{ law = \"generalized-gamma\", scale = \"1e-3 mm^3/(N m)\", "
-                                 "sigma = 1, lambda = 0.5 }")},
-      {"archard-joint", with_law("{ law = \"exponentiated-weibull\", scale = \"1e-3 mm^3/(N m)\", "
-                                 "shape = 1, exponent = 2 }")},
-      {"archard-joint", with_law("{ law = \"student-t\", df = 4, location = \"1e-3 mm^3/(N m)\", "
-                                 "scale = \"1e-3 mm^3/(N m)\" }")},
-      {"archard-joint", with_law("{ law = \"uniform\", lower = \"0 mm^3/(N m)\", upper = \"1 "
-                                 "mm^3/(N m)\" }") +
-                            "V0 = { law = \"flat\", unit = \"mm^3\" }\nexponent = { law = "
-                            "\"beta\", alpha = 2, beta = 2 }\n"},
+      {"archard-joint",
+       with_law("{ distribution = \"generalized-gamma\", scale = \"1e-3 mm^3/(N m)\", "
+                "sigma = 1, lambda = 0.5 }")},
+      {"archard-joint",
+       with_law("{ distribution = \"exponentiated-weibull\", scale = \"1e-3 mm^3/(N m)\", "
+                "shape = 1, exponent = 2 }")},
+      {"archard-joint",
+       with_law("{ distribution = \"student-t\", df = 4, location = \"1e-3 mm^3/(N m)\", "
+                "scale = \"1e-3 mm^3/(N m)\" }")},
+      {"archard-joint",
+       with_law("{ distribution = \"uniform\", lower = \"0 mm^3/(N m)\", upper = \"1 "
+                "mm^3/(N m)\" }") +
+           "V0 = { distribution = \"flat\", unit = \"mm^3\" }\nexponent = { distribution = "
+           "\"beta\", alpha = 2, beta = 2 }\n"},
       {"archard-joint", R"toml(model = "archard-joint"
 [data]
 file = "wear.csv"
@@ -352,33 +362,37 @@ work = { column = "work", unit = "J" }
 [likelihood]
 family = "normal"
 [prior]
-k = { law = "flat", unit = "mm^3/(N m)" }
-sigma = { law = "flat", unit = "mm^3" }
+k = { distribution = "flat", unit = "mm^3/(N m)" }
+sigma = { distribution = "flat", unit = "mm^3" }
 [predict]
 work_per_cycle = "5 N m"
 cycles = [10000]
 )toml"},
-      {"law", own_law("normal", "mean = \"a + b * time\"\nsd = \"c\"", R"toml([varies.bearing]
-a = { law = "normal", sd = "r" }
-b = { law = "lognormal", log_sd = "q" }
+      {"formula", formula_model("normal", "mean = \"a + b * time\"\nsd = \"c\"",
+                                R"toml([random_effects.bearing]
+a = { distribution = "normal", sd = "r" }
+b = { distribution = "lognormal", log_sd = "q" }
 correlation = "u"
 [predict]
 along = "time"
 [predict.quantities]
 rate = { value = "b", unit = "um/h" }
 )toml")},
-      {"law", own_law("lognormal", "median = \"a + b * time\"\nlog_sd = \"q\"", "")},
-      {"law", own_law("log10-normal", "median = \"a + b * time\"\nlog10_sd = \"q\"", "")},
-      {"law", own_law("student-t", "df = 4\nlocation = \"a + b * time\"\nscale = \"c\"", "")},
-      {"law", own_law("wiener-process", "mean = \"a + b * time\"\nscale = \"c\"\nnoise = \"r\"",
-                      "[predict]\nalong = \"time\"\n")},
-      {"law",
-       own_law("generalized-gamma", "scale = \"a + b * time\"\nsigma = \"q\"\nlambda = \"u\"", "")},
-      {"law", own_law("exponentiated-weibull",
-                      "scale = \"a + b * time\"\nshape = \"q\"\nexponent = 2", "")},
-      {"law", own_law("weibull", "scale = \"a + b * time\"\nshape = \"q\"\nthreshold = \"1 [um]\"",
-                      "[predict]\ngiven = { time = \"2 h\" }\nhazard_at = \"9 um\"\n")},
-      {"law", R"toml(model = "law"
+      {"formula", formula_model("lognormal", "median = \"a + b * time\"\nlog_sd = \"q\"", "")},
+      {"formula", formula_model("log10-normal", "median = \"a + b * time\"\nlog10_sd = \"q\"", "")},
+      {"formula",
+       formula_model("student-t", "df = 4\nlocation = \"a + b * time\"\nscale = \"c\"", "")},
+      {"formula",
+       formula_model("wiener-process", "mean = \"a + b * time\"\nscale = \"c\"\nnoise = \"r\"",
+                     "[predict]\nalong = \"time\"\n")},
+      {"formula", formula_model("generalized-gamma",
+                                "scale = \"a + b * time\"\nsigma = \"q\"\nlambda = \"u\"", "")},
+      {"formula", formula_model("exponentiated-weibull",
+                                "scale = \"a + b * time\"\nshape = \"q\"\nexponent = 2", "")},
+      {"formula",
+       formula_model("weibull", "scale = \"a + b * time\"\nshape = \"q\"\nthreshold = \"1 [um]\"",
+                     "[predict]\ngiven = { time = \"2 h\" }\nhazard_at = \"9 um\"\n")},
+      {"formula", R"toml(model = "formula"
 [data]
 file = "wear.csv"
 [data.columns]
@@ -389,27 +403,23 @@ family = "binomial"
 probability = "p"
 trials = "trials"
 [prior]
-p = { law = "beta", alpha = 2, beta = 2 }
+p = { distribution = "beta", alpha = 2, beta = 2 }
 )toml"},
   };
   return all;
 }
 
 void add_examples(std::vector<std::pair<std::string, std::string>>& studies) {
-  const std::map<std::string, std::string> folders = {{"joint", "archard-joint"},
-                                                      {"bearing", "bearing-wear"},
-                                                      {"fatigue", "sn"},
-                                                      {"spring", "sn"},
-                                                      {"clutch", "clutch-wear"},
-                                                      {"law", "law"},
-                                                      {"life", "law"},
-                                                      {"accelerated", "law"}};
+  const std::map<std::string, std::string> folders = {
+      {"joint", "archard-joint"}, {"bearing", "bearing-wear"}, {"fatigue", "sn"},
+      {"spring", "sn"},           {"clutch", "clutch-wear"},   {"formula", "formula"},
+      {"life", "formula"},        {"accelerated", "formula"}};
   for (const auto& [folder, model] : folders) {
     for (const auto& entry :
          fs::directory_iterator(fs::path(PROJECT_SOURCE_DIR) / "examples" / folder)) {
       if (entry.path().extension() != ".toml" || entry.path().filename() == "truth.toml") continue;
       std::string text = read_text_file(entry.path()).text;
-      if (folder == "law") text = std::regex_replace(text, std::regex("wear\\.csv"), "law.csv");
+      if (folder == "formula") text = std::regex_replace(text, std::regex("wear\\.csv"), "law.csv");
       studies.emplace_back(model, text);
     }
   }

@@ -217,7 +217,7 @@ TEST(TerminalSummary, SaysHowFarLivesAreOff) {
   // So do the table of the report and of its file.
   const present::Table table = quantity_table(result.quantities);
   EXPECT_EQ(table.columns.back().name, "Numerical error");
-  EXPECT_EQ(present::in_words(table.rows[0][5], table.columns[5]), "2\u202f350");
+  EXPECT_EQ(present::description(table.rows[0][5], table.columns[5]), "2\u202f350");
 }
 
 TEST(TerminalSummary, DefaultPriorsAreNamed) {

@@ -101,8 +101,8 @@ time  = { column = "t", unit = "h" }
 depth = { column = "worn", unit = "um" }
 
 [prior]
-rate  = { law = "flat", unit = "um/h" }
-sigma = { law = "flat", unit = "um" }
+rate  = { distribution = "flat", unit = "um/h" }
+sigma = { distribution = "flat", unit = "um" }
 
 [predict]
 time = ["2000 h", "5000 h"]
@@ -117,7 +117,7 @@ std::string_view data_file() {
 Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", study_file}, {"pin.csv", data_file}};
   return {.key = "linear-drift",
-          .trade = "drift",
+          .preset = "drift",
           .example = example,
           .read = [](const TomlReader& root, const Source& source) {
             return read_posterior_study(root, source, read);

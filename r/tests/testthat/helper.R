@@ -30,8 +30,8 @@ joints <- function() {
   frame[c("joint", "F", "s", "V")]
 }
 
-of_a_law <- function(data = joints(), ..., units = c(F = "N", s = "m", V = "mm^3")) {
-  ww_study(law = "V = k*F*s", data = data, units = units,
+of_a_formula <- function(data = joints(), ..., units = c(F = "N", s = "m", V = "mm^3")) {
+  ww_study(formula = "V = k*F*s", data = data, units = units,
            priors = list(k = ww_lognormal("1e-7 mm^3/(N m)", log_sd = 3), sigma = ww_half_normal("5 mm^3")), ...)
 }
 

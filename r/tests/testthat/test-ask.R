@@ -1,7 +1,7 @@
 # Questions that come later: held to the library's own answers to a study that asks them at once.
 
-test_that("predictions of a law are those of a study that asks them", {
-  fit <- quiet(ww_fit(of_a_law(unit = "joint"), seed = 1, method = "exact", report = FALSE))
+test_that("predictions of a formula model are those of a study that asks them", {
+  fit <- quiet(ww_fit(of_a_formula(unit = "joint"), seed = 1, method = "exact", report = FALSE))
   new <- data.frame(F = c(150, 250, 150), s = c(5e4, 5e4, 6e4), row.names = c("a", "b", "c"))
   mean <- predict(fit, new)
   nxt <- predict(fit, new, kind = "next")
@@ -9,7 +9,7 @@ test_that("predictions of a law are those of a study that asks them", {
   expect_identical(attr(mean, "unit"), "mm^3")
   expect_true(all(mean$lower < mean$mean & mean$mean < mean$upper))
   expect_true(all(nxt$upper - nxt$lower > mean$upper - mean$lower))
-  asking <- of_a_law(unit = "joint", predict = list(along = "s", at = list("50000 m", "60000 m"), given = list(F = "150 N")))
+  asking <- of_a_formula(unit = "joint", predict = list(along = "s", at = list("50000 m", "60000 m"), given = list(F = "150 N")))
   asked <- quiet(ww_fit(asking, seed = 1, method = "exact", report = FALSE))
   expect_equal(asked$predictions$ci95, mean$upper[c(1, 3)], tolerance = 1e-12)
   expect_equal(asked$predictions$pi05, nxt$lower[c(1, 3)], tolerance = 1e-12)
@@ -26,7 +26,7 @@ test_that("predictions of a law are those of a study that asks them", {
 
 test_that("measurements of a joint that was seen lie where its own rate says", {
   data <- joints()
-  fit <- quiet(ww_fit(of_a_law(unit = "joint"), seed = 1, method = "exact", report = FALSE))
+  fit <- quiet(ww_fit(of_a_formula(unit = "joint"), seed = 1, method = "exact", report = FALSE))
   new <- data.frame(joint = c("J4", NA), F = 300, s = 6e4, row.names = c("seen", "new"))
   found <- predict(fit, new, kind = "unit", along = "s")
   own <- data[data$joint == "J4", ]
@@ -37,12 +37,12 @@ test_that("measurements of a joint that was seen lie where its own rate says", {
   refused(predict(fit, data.frame(joint = "J9", F = 300, s = 6e4), kind = "unit", along = "s"), "column 'joint': the data have no joint 'J9'")
   refused(predict(fit, data.frame(F = 300, s = 6e4), kind = "unit", along = "s"), "newdata has no column 'joint'")
   refused(predict(fit, new, kind = "unit"), "along is missing: the column along which it wears (F, s)")
-  alone <- quiet(ww_fit(of_a_law(), seed = 1, method = "exact", report = FALSE))
+  alone <- quiet(ww_fit(of_a_formula(), seed = 1, method = "exact", report = FALSE))
   refused(predict(alone, data.frame(F = 300, s = 6e4), kind = "unit"), "nothing differs here")
 })
 
 test_that("lives to a limit, of a new joint and of those seen", {
-  fit <- quiet(ww_fit(of_a_law(unit = "joint"), seed = 1, method = "exact", report = FALSE))
+  fit <- quiet(ww_fit(of_a_formula(unit = "joint"), seed = 1, method = "exact", report = FALSE))
   asked <- function(...) ww_life(fit, limit = "10 mm^3", along = "s", given = list(F = "200 N"), ...)
   levels <- c(1, 10, 5, 0.5)
   new <- asked(b = levels, confidence = 0.95)
@@ -82,8 +82,8 @@ test_that("lives of a joint's own study", {
   expect_identical(c(found$b1, found$b10), c(fit$lives$b1, fit$lives$b10))
   sooner <- ww_life(fit, limit = "50 mm^3", b = 10)
   expect_lt(sooner$b10, found$b10)
-  refused(ww_life(fit, unit = "J1"), "unit is of studies of a law")
-  refused(ww_life(fit, along = "cycles"), "along is of studies of a law")
+  refused(ww_life(fit, unit = "J1"), "unit is of studies of a formula model")
+  refused(ww_life(fit, along = "cycles"), "along is of studies of a formula model")
 })
 
 test_that("any study is asked by its own keys", {
@@ -91,5 +91,5 @@ test_that("any study is asked by its own keys", {
   later <- ww_ask(fit, list(cycles = c(30000, 20585)))
   expect_identical(later$predictions[[2]], fit$summary$predictions[[1]])
   refused(ww_ask(fit, list(cykles = list(1))), "cykles")
-  refused(predict(fit, data.frame(cycles = 1)), "asked of studies of the model law")
+  refused(predict(fit, data.frame(cycles = 1)), "asked of studies of the model formula")
 })

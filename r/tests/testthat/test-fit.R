@@ -134,9 +134,9 @@ test_that("a fit that was kept answers as before", {
   expect_identical(again$draws, fit$draws)
   expect_identical(capture.output(print(again)), capture.output(print(fit)))
   expect_identical(ww_ask(again, list(cycles = list(30000))), ww_ask(fit, list(cycles = list(30000))))
-  law <- quiet(ww_fit(of_a_law(), seed = 1, method = "exact", report = FALSE))
-  saveRDS(law, file)
-  expect_identical(predict(readRDS(file), list(F = 150, s = 5e4)), predict(law, list(F = 150, s = 5e4)))
+  formula <- quiet(ww_fit(of_a_formula(), seed = 1, method = "exact", report = FALSE))
+  saveRDS(formula, file)
+  expect_identical(predict(readRDS(file), list(F = 150, s = 5e4)), predict(formula, list(F = 150, s = 5e4)))
 })
 
 test_that("a kept fit of data that changed is refused", {
@@ -177,7 +177,7 @@ test_that("NetCDF is that of the program", {
 
 test_that("memory does not grow with fits", {
   resident <- function() as.double(strsplit(grep("VmRSS", readLines("/proc/self/status"), value = TRUE), "[^0-9]+")[[1]][2])
-  study <- of_a_law()
+  study <- of_a_formula()
   fit <- function() quiet(ww_fit(study, seed = 1, method = "exact", draws = 10, chains = 1, report = FALSE))
   for (i in 1:30) fit()
   gc()

@@ -172,7 +172,7 @@ bool lock_staging(const Descriptor& opened, const fs::path& path, const fs::path
 StagingFolder make_staging_folder(const fs::path& place, const fs::path& target) {
   for (;;) {
     const fs::path path = staging_name(place);
-    Uninterrupted now;
+    SignalBlocker now;
     if (mkdir(path.c_str(), 0700) != 0) {
       if (errno == EEXIST) continue;
       fail_to_write(target, errno);

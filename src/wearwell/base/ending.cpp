@@ -107,7 +107,7 @@ void wait_if_ending() {
   while (ending) pause();
 }
 
-Uninterrupted::Uninterrupted() {
+SignalBlocker::SignalBlocker() {
   sigset_t all;
   sigemptyset(&all);
   for (const int signal : ending_signals) sigaddset(&all, signal);
@@ -115,20 +115,20 @@ Uninterrupted::Uninterrupted() {
   take_lock();
 }
 
-Uninterrupted::~Uninterrupted() {
+SignalBlocker::~SignalBlocker() {
   lock.clear();
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
-void Uninterrupted::note(const std::filesystem::path& path, bool is_folder) {
+void SignalBlocker::note(const std::filesystem::path& path, bool is_folder) {
   half_written().push_back({path.string(), is_folder ? Kind::folder : Kind::file});
 }
 
-void Uninterrupted::note_tree(const std::filesystem::path& path) {
+void SignalBlocker::note_tree(const std::filesystem::path& path) {
   half_written().push_back({path.string(), Kind::tree});
 }
 
-void Uninterrupted::forget(const std::filesystem::path& path) {
+void SignalBlocker::unregister(const std::filesystem::path& path) {
   const std::string name = path.string();
   std::erase_if(half_written(), [&](const HalfWritten& each) {
     return each.path == name || each.path.starts_with(name + "/");

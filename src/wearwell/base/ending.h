@@ -14,12 +14,12 @@ void wait_if_ending();
 
 /// While one lives, a signal ends the program before or after, never between a change of the disk
 /// and the note of it; so it lives for a few system calls only. Not to be nested.
-class Uninterrupted {
+class SignalBlocker {
  public:
-  Uninterrupted();
-  ~Uninterrupted();
-  Uninterrupted(const Uninterrupted&) = delete;
-  Uninterrupted& operator=(const Uninterrupted&) = delete;
+  SignalBlocker();
+  ~SignalBlocker();
+  SignalBlocker(const SignalBlocker&) = delete;
+  SignalBlocker& operator=(const SignalBlocker&) = delete;
 
   /// `path` (absolute) goes when the program is ended by a signal; the last one noted goes first.
   /// A folder goes only when it is empty by then.
@@ -27,7 +27,7 @@ class Uninterrupted {
   /// Likewise a folder with all that is in it, whoever put it there.
   void note_tree(const std::filesystem::path& path);
   /// It is whole, or gone; and all that was noted within it.
-  void forget(const std::filesystem::path& path);
+  void unregister(const std::filesystem::path& path);
 
  private:
   sigset_t before_;

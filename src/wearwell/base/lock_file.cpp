@@ -37,7 +37,7 @@ bool LockFile::take(bool wait) {
     }
     flock(opened.get(), LOCK_UN);  // and taken below, where a signal cannot come between
   }
-  Uninterrupted now;
+  SignalBlocker now;
   if (flock(opened.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK || errno == EINTR) return false;
     fail_to_write(path_, errno);
@@ -52,9 +52,9 @@ bool LockFile::take(bool wait) {
 
 LockFile::~LockFile() {
   if (!lock_) return;
-  Uninterrupted now;
+  SignalBlocker now;
   unlink(path_.c_str());
-  now.forget(path_);
+  now.unregister(path_);
 }
 
 }  // namespace wearwell

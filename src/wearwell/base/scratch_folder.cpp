@@ -15,24 +15,24 @@ namespace wearwell {
 // goes when the hidden one is healed.
 ScratchFolder::ScratchFolder(const std::filesystem::path& parent) {
   const std::filesystem::path place = std::filesystem::absolute(parent);
-  heal_folder(place);
+  recover_folder(place);
   hidden_ = make_staging_folder(place, parent);
   path_ = hidden_.path / "new";
-  Uninterrupted now;
-  now.forget(hidden_.path);
+  SignalBlocker now;
+  now.unregister(hidden_.path);
   now.note_tree(hidden_.path);
   if (mkdir(path_.c_str(), 0700) == 0) return;
   const int error = errno;
   rmdir(hidden_.path.c_str());
-  now.forget(hidden_.path);
+  now.unregister(hidden_.path);
   fail_to_write(parent, error);
 }
 
 ScratchFolder::~ScratchFolder() {
   std::error_code ignored;
   std::filesystem::remove_all(hidden_.path, ignored);
-  Uninterrupted now;
-  now.forget(hidden_.path);
+  SignalBlocker now;
+  now.unregister(hidden_.path);
 }
 
 }  // namespace wearwell

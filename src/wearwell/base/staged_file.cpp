@@ -27,10 +27,10 @@ StagedFile::StagedFile(const fs::path& target, Links links) {
   const bool replaces = exists && S_ISREG(there.st_mode);
   if (replaces && access(target_.c_str(), W_OK) != 0) fail_to_write(target, errno);
   if (links == Links::follow) make_folders();
-  heal_folder(target_.parent_path());
+  recover_folder(target_.parent_path());
   while (!file_) {
     const fs::path staging = staging_name(target_.parent_path());
-    Uninterrupted now;
+    SignalBlocker now;
     Descriptor file = create_file(staging);
     const int error = errno;
     if (!file && error == EEXIST) continue;
@@ -70,9 +70,9 @@ void StagedFile::remove_folders() {
 
 StagedFile::~StagedFile() {
   if (staging_.empty()) return;
-  Uninterrupted now;
+  SignalBlocker now;
   unlink(staging_.c_str());
-  now.forget(staging_);
+  now.unregister(staging_);
   remove_folders();
 }
 
@@ -83,9 +83,9 @@ void StagedFile::commit() {
   }
   flush_to_disk(file_, target_);
   {
-    Uninterrupted now;
+    SignalBlocker now;
     if (std::rename(staging_.c_str(), target_.c_str()) != 0) fail_to_write(target_, errno);
-    now.forget(staging_);
+    now.unregister(staging_);
     staging_.clear();
   }
   flush_folder(target_.parent_path());

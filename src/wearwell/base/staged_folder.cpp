@@ -186,7 +186,7 @@ std::vector<std::string> files_in(const fs::path& folder) {
   return files;
 }
 
-void heal_folder(const fs::path& folder) {
+void recover_folder(const fs::path& folder) {
   for_each_abandoned(folder, [](const fs::path& path, bool is_folder) {
     if (is_folder) {
       heal(path);
@@ -201,7 +201,7 @@ StagedFolder::StagedFolder(const fs::path& target, const std::vector<std::string
   struct stat there, parent, working;
   if (stat(target_.c_str(), &there) == 0) {
     if (!S_ISDIR(there.st_mode)) fail_to_write(target_, ENOTDIR);
-    heal_folder(target_);
+    recover_folder(target_);
     const fs::path above = target_.parent_path();
     const std::vector<std::string> held = files_in(target_);
     const bool holds_more = std::any_of(held.begin(), held.end(), [&](const std::string& name) {
@@ -218,7 +218,7 @@ StagedFolder::StagedFolder(const fs::path& target, const std::vector<std::string
     while (!is_there(place_) && place_.has_relative_path()) place_ = place_.parent_path();
   }
   if (place_ != target_) {
-    heal_folder(place_);
+    recover_folder(place_);
     within_ = target_.lexically_relative(place_);
   }
   open_area(place_);
@@ -231,16 +231,16 @@ void StagedFolder::open_area(const fs::path& place) {
   StagingFolder made = make_staging_folder(place, target_);
   area_ = std::move(made.path);
   lock_ = std::move(made.lock);
-  Uninterrupted now;
+  SignalBlocker now;
   now.note(area_ / "journal", false);
 }
 
 void StagedFolder::make_folder(const fs::path& folder, unsigned mode) {
-  Uninterrupted now;
+  SignalBlocker now;
   if (mkdir(folder.c_str(), mode) != 0) {
     const int error = errno;
     heal(area_);
-    now.forget(area_);
+    now.unregister(area_);
     area_.clear();
     fail_to_write(target_, error);
   }
@@ -249,9 +249,9 @@ void StagedFolder::make_folder(const fs::path& folder, unsigned mode) {
 
 StagedFolder::~StagedFolder() {
   if (area_.empty()) return;
-  Uninterrupted now;
+  SignalBlocker now;
   heal(area_);
-  now.forget(area_);
+  now.unregister(area_);
 }
 
 fs::path StagedFolder::staged(const std::string& name) {
@@ -263,7 +263,7 @@ fs::path StagedFolder::staged(const std::string& name) {
 void StagedFolder::write(const std::string& name, std::string_view content) {
   const fs::path file = staged(name);
   const Descriptor opened = [&] {
-    Uninterrupted now;
+    SignalBlocker now;
     now.note(file, false);
     return create_file(file);
   }();
@@ -280,7 +280,7 @@ void StagedFolder::keep(const std::string& name) {
   }
   {
     const fs::path file = staged(name);
-    Uninterrupted now;
+    SignalBlocker now;
     if (link((target_ / name).c_str(), file.c_str()) == 0) {
       now.note(file, false);
       names_.push_back(name);
@@ -311,7 +311,7 @@ void StagedFolder::write_journal(const std::vector<std::string>& replaced) {
                                    (blocked ? folder : file).string()));
   }
   const Descriptor file = [&] {
-    const Uninterrupted now;
+    const SignalBlocker now;
     return create_file(area_ / "journal");
   }();
   if (!file) fail_to_write(target_, errno);
@@ -334,7 +334,7 @@ void StagedFolder::commit(const std::vector<std::string>& replaced) {
 }
 
 void StagedFolder::put_into_place() {
-  Uninterrupted now;
+  SignalBlocker now;
   const fs::path files = area_ / "new" / within_;
   const auto check = [&](bool done) {
     if (!done) fail_to_write(target_, errno);
@@ -363,7 +363,7 @@ void StagedFolder::put_into_place() {
     check(rename_new(from, to));
   }
   const int trouble = heal(area_);
-  now.forget(area_);
+  now.unregister(area_);
   area_.clear();
   if (trouble != 0) fail_to_write(target_, trouble);
 }

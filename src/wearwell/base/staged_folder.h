@@ -63,6 +63,6 @@ std::vector<std::string> files_in(const std::filesystem::path& folder);
 
 /// Removes what killed programs left half written in `folder`, or completes what they had begun to
 /// put into place.
-void heal_folder(const std::filesystem::path& folder);
+void recover_folder(const std::filesystem::path& folder);
 
 }  // namespace wearwell

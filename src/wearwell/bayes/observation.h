@@ -16,11 +16,12 @@ enum class ObservationFamily { normal, lognormal };
 
 /// The law of one measurement whose mean and standard deviation are known, ready for many
 /// evaluations: normal in y, or in log y for the lognormal family.
-struct ObservationLaw {
+struct ObservationDistribution {
   double location;
   double scale;
 
-  ObservationLaw(ObservationFamily family, double mean, double sd) : location(mean), scale(sd) {
+  ObservationDistribution(ObservationFamily family, double mean, double sd)
+      : location(mean), scale(sd) {
     if (family == ObservationFamily::lognormal) {
       // A lognormal quantity vanishes with its mean: the median is mean^2/sqrt(mean^2 + sd^2).
       if (!(mean > 1e-150 * sd)) {
@@ -28,9 +29,9 @@ struct ObservationLaw {
         return;
       }
       if (!std::isfinite(mean)) return;  // beyond all that can be read
-      const LognormalByMoments<double> law(mean, sd);
-      location = law.eta;
-      scale = law.zeta;
+      const LognormalByMoments<double> distribution(mean, sd);
+      location = distribution.eta;
+      scale = distribution.zeta;
     }
   }
 
@@ -100,7 +101,7 @@ class Observations {
   std::vector<NormalScore> scores(const Mean& mean, double sd) const {
     std::vector<NormalScore> scores;
     for (std::size_t i = 0; i < y_.size(); ++i) {
-      const double z = ObservationLaw(family_, mean(i), sd).score(y_[i]);
+      const double z = ObservationDistribution(family_, mean(i), sd).score(y_[i]);
       scores.push_back({z, z});
     }
     return scores;

@@ -4,17 +4,17 @@
 #include <string>
 
 #include "wearwell/base/unit.h"
-#include "wearwell/prob/law.h"
+#include "wearwell/prob/distribution.h"
 
 namespace wearwell {
 
 /// One unknown of a model, in SI.
 struct Parameter {
   std::string name;
-  std::string si;   ///< its SI unit
-  Unit unit;        ///< in which it is reported: the one its prior is written in
-  std::string law;  ///< the prior's name as in the study file
-  Law prior;
+  std::string si;            ///< its SI unit
+  Unit unit;                 ///< in which it is reported: the one its prior is written in
+  std::string distribution;  ///< the prior's name as in the study file
+  Distribution prior;
   double start = 1;  ///< a plausible value inside the support, where searches start
   double scale = 1;  ///< the size of a plausible change, > 0
   double natural_lower =

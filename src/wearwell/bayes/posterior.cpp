@@ -42,7 +42,7 @@ Posterior::Posterior(std::vector<Parameter> parameters,
                                  parameters_.size(), max_dimension));
   }
   for (const Parameter& p : parameters_) {
-    const Law& prior = p.prior;
+    const Distribution& prior = p.prior;
     if (!(prior.lower < p.start && p.start < prior.upper)) {
       throw InputError(
           fmt::format("prior.{}: its law leaves no number between {:.17g} and {:.17g} {} to start "
@@ -72,7 +72,7 @@ double Posterior::value_above(std::span<const double> z, double least) const {
   double sum = 0;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const Transform::Point point = transforms_[i].from_real(z[i]);
-    const Law& prior = parameters_[i].prior;
+    const Distribution& prior = parameters_[i].prior;
     if (!(prior.lower < point.x && point.x < prior.upper)) return minus_infinity;
     x[i] = point.x;
     sum += log_density(prior, point.x).value + point.log_jacobian;
@@ -88,7 +88,7 @@ double Posterior::value_and_gradient(std::span<const double> z, std::span<double
   double sum = 0;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const Transform::Point point = transforms_[i].from_real(z[i]);
-    const Law& prior = parameters_[i].prior;
+    const Distribution& prior = parameters_[i].prior;
     if (!(prior.lower < point.x && point.x < prior.upper)) return minus_infinity;
     x[i] = point.x;
     slope[i] = point.slope;
@@ -112,7 +112,7 @@ double Posterior::log_prior(std::span<const double> x) const {
 
 double Posterior::natural_value(std::span<const double> x) const {
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
-    const Law& prior = parameters_[i].prior;
+    const Distribution& prior = parameters_[i].prior;
     if (!(prior.lower < x[i] && x[i] < prior.upper)) return minus_infinity;
   }
   return in_support(log_prior(x) + likelihood_->value(x));

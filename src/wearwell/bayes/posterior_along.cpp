@@ -11,7 +11,7 @@ PosteriorAlong::PosteriorAlong(const Posterior& posterior, std::span<const doubl
     : posterior_(posterior), axis_(axis), dimension_(z.size()) {
   for (std::size_t i = 0; i < dimension_; ++i) {
     const Transform::Point point = posterior.transforms()[i].from_real(z[i]);
-    const Law& prior = posterior.parameters()[i].prior;
+    const Distribution& prior = posterior.parameters()[i].prior;
     x_[i] = point.x;
     if (i == axis) continue;
     possible_ = possible_ && prior.lower < point.x && point.x < prior.upper;
@@ -28,7 +28,7 @@ PosteriorAlong::PosteriorAlong(const Posterior& posterior, std::span<const doubl
 
 double PosteriorAlong::value(double z) {
   const Transform::Point point = posterior_.transforms()[axis_].from_real(z);
-  const Law& prior = posterior_.parameters()[axis_].prior;
+  const Distribution& prior = posterior_.parameters()[axis_].prior;
   x_[axis_] = point.x;
   if (!(possible_ && prior.lower < point.x && point.x < prior.upper)) return -infinity;
   // In the order in which Posterior adds them up.

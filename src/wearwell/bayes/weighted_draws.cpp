@@ -88,12 +88,12 @@ constexpr double negligible = 1e-8;
 
 }  // namespace
 
-double Distribution::least_weight(const WeightedDraws& draws) {
+double QuantityDistribution::least_weight(const WeightedDraws& draws) {
   return draws.lower.empty() ? 0 : negligible / static_cast<double>(draws.values.rows());
 }
 
-Distribution::Distribution(const WeightedDraws& draws,
-                           const std::function<double(const double* x)>& quantity)
+QuantityDistribution::QuantityDistribution(const WeightedDraws& draws,
+                                           const std::function<double(const double* x)>& quantity)
     : cells_(!draws.lower.empty()) {
   const double least = least_weight(draws);
   std::vector<SpreadPoint> points, endless;
@@ -148,12 +148,12 @@ bool even(std::span<const double> weights) {
 
 }  // namespace
 
-double Distribution::mean() const {
+double QuantityDistribution::mean() const {
   if (center_.empty()) return std::nan("");
   return std::inner_product(center_.begin(), center_.end(), weight_.begin(), 0.0);
 }
 
-double Distribution::sd() const {
+double QuantityDistribution::sd() const {
   const double m = mean();
   double variance = 0;
   for (std::size_t i = 0; i < center_.size(); ++i) {
@@ -175,7 +175,7 @@ double share_below(double x, double center, double half_width, double weight) {
 
 }  // namespace
 
-double Distribution::cdf(double x) const {
+double QuantityDistribution::cdf(double x) const {
   double sum = 0;
   std::size_t i = 0;
   for (const Section& section : sections_) {
@@ -191,12 +191,12 @@ double Distribution::cdf(double x) const {
   return sum;
 }
 
-void Distribution::visit(
+void QuantityDistribution::visit(
     const std::function<void(double weight, double center, double half_width)>& each) const {
   for (std::size_t i = 0; i < center_.size(); ++i) each(weight_[i], center_[i], half_width_[i]);
 }
 
-double Distribution::quantile(double p) const {
+double QuantityDistribution::quantile(double p) const {
   if (center_.empty()) return std::nan("");
   if (!cells_) {
     // Points of few regions, or nodes whose cells are not kept, weigh each its own: then by the weighted type 7. Between an
@@ -235,7 +235,7 @@ double Distribution::quantile(double p) const {
                           {.relative = 0x1p-39}, lowest, highest);
 }
 
-std::size_t Distribution::cell_at(const Section& section, double weight) const {
+std::size_t QuantityDistribution::cell_at(const Section& section, double weight) const {
   const auto s = static_cast<std::size_t>(&section - sections_.data());
   std::vector<std::size_t> order(section.end - (s == 0 ? 0 : sections_[s - 1].end));
   std::iota(order.begin(), order.end(), section.end - order.size());

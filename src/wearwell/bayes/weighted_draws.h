@@ -45,10 +45,11 @@ struct WeightedDraws {
 /// draws), which keep mean and variance of their cells. Nodes of a quadrature without weight do not
 /// count; where the number is NaN with more than 1e-8 of the weight it has no distribution, and all
 /// that is asked of it is NaN.
-class Distribution {
+class QuantityDistribution {
  public:
-  Distribution() = default;
-  Distribution(const WeightedDraws& draws, const std::function<double(const double* x)>& quantity);
+  QuantityDistribution() = default;
+  QuantityDistribution(const WeightedDraws& draws,
+                       const std::function<double(const double* x)>& quantity);
 
   /// Points of no more weight than this do not count.
   static double least_weight(const WeightedDraws& draws);

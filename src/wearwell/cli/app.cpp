@@ -60,7 +60,7 @@ std::unique_ptr<CLI::App> make_app(Models models, int& exit_code) {
   bearing::add_bearing_command(*app);
   clutch::add_clutch_commands(*app, exit_code);
   fatigue::add_fatigue_command(*app, exit_code);
-  ownlaw::add_export_command(*app, exit_code);
+  formula_model::add_export_command(*app, exit_code);
   add_select_command(*app, exit_code);
   add_help_command(*app, exit_code);
   add_version_command(*app, exit_code);

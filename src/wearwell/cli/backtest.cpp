@@ -26,7 +26,7 @@ struct BacktestOptions {
   bool json = false;
 };
 
-std::string told(const Backtest& test, const Tracker& tracker) {
+std::string reported(const Backtest& test, const Tracker& tracker) {
   std::string text = wrapped(fmt::format(
       "{} readings of {} {}s, {} repeated and counted once, {} refused, {} that contradict those "
       "before",
@@ -104,7 +104,7 @@ int run_backtest(const BacktestOptions& options, Models models) {
   if (options.json) {
     fmt::print("{}\n", printable_json(as_json(test).dump(2)));
   } else {
-    fmt::print("{}", told(test, tracker));
+    fmt::print("{}", reported(test, tracker));
     if (!options.output.empty()) fmt::print("Each forecast is in {}\n", options.output.string());
   }
   return result.trusted ? 0 : 1;

@@ -14,7 +14,7 @@ void add_check_command(CLI::App& app, Models models, int& exit_code) {
   check->add_option("STUDY", *study, "Study file (TOML)")->required();
   check->footer("Example:\n  wearwell check examples/joint/study.toml");
   check->callback([study, models, &exit_code] {
-    fmt::print("{}", read_study(source_of(*study), models)->in_words());
+    fmt::print("{}", read_study(source_of(*study), models)->description());
     exit_code = 0;
   });
 }

@@ -37,7 +37,7 @@ std::string shell_word(const std::string& text) {
   return quoted + "'";
 }
 
-std::optional<FirstStudy> first_selection(ColumnRoles& roles) {
+std::optional<Scaffold> first_selection(ColumnRoles& roles) {
   const bool stated = roles.has({"response"});
   const bool wear = roles.has({"depth", "volume", "mass", "measured"});
   const bool along = roles.has({"time", "cycles", "distance", "revolutions"});

@@ -7,7 +7,7 @@
 namespace wearwell {
 
 /// A table of a response with inputs: the text is the options of `wearwell select`. Nothing where the table has none.
-std::optional<FirstStudy> first_selection(ColumnRoles& roles);
+std::optional<Scaffold> first_selection(ColumnRoles& roles);
 
 /// A word as a shell takes it.
 std::string shell_word(const std::string& text);

@@ -162,7 +162,8 @@ present::Table path_ahead(const LifeOptions& options, Models models,
                         {tracker->limited() + " 5 %", level.text},
                         {tracker->limited() + " 50 %", level.text},
                         {tracker->limited() + " 95 %", level.text}}};
-  for (const prognosis::LevelAhead& each : unit->ahead(prognosis::places_ahead(unit->forecast()))) {
+  for (const prognosis::ForecastBand& each :
+       unit->ahead(prognosis::places_ahead(unit->forecast()))) {
     table.rows.push_back({from_si(along, each.at), from_si(level, each.level05),
                           from_si(level, each.level50), from_si(level, each.level95)});
   }
@@ -170,7 +171,7 @@ present::Table path_ahead(const LifeOptions& options, Models models,
 }
 
 void print(const UnitLife& life, const Moved& moved, bool trusted) {
-  const std::string unit = printable(unit_in_words(life.unit, Script::terminal));
+  const std::string unit = printable(unit_description(life.unit, Script::terminal));
   const int digits = digits_within(life.numerical_error.value_or(0));
   const auto shown = [&](double value) {
     return std::isfinite(value) ? plain_number(value, digits) : std::string("never");
@@ -189,9 +190,9 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
                moved.counted == 1 ? "" : "s", moved.repeated, moved.how);
   if (life.passed)
     fmt::print("  the end lies before that with a probability of {}; given that it does not:\n",
-               probability_in_words(*life.passed));
+               probability_text(*life.passed));
   if (life.never)
-    fmt::print("  with a probability of {} it never ends\n", probability_in_words(*life.never));
+    fmt::print("  with a probability of {} it never ends\n", probability_text(*life.never));
   for (const prognosis::Contradiction& each : moved.contradictions)
     fmt::print("  look at {}: {}\n", each.place, each.why);
   fmt::print("  median {} {}, {} to {} {} (90 %)\n", shown(life.quantile(0.5)), unit,
@@ -203,9 +204,9 @@ void print(const UnitLife& life, const Moved& moved, bool trusted) {
                plain_number(100 * *life.numerical_error, 2));
   if (life.horizon)
     fmt::print("  within {} {} the end is reached with a probability of {}\n",
-               plain_given(*life.horizon), unit, probability_in_words(*life.reached));
+               plain_given(*life.horizon), unit, probability_text(*life.reached));
   fmt::print("  inspect again within {} {}: {} risk of reaching the end before\n",
-             shown(life.inspect_within), unit, probability_in_words(life.risk));
+             shown(life.inspect_within), unit, probability_text(life.risk));
 }
 
 // A name of a part may be that of a stress as well.

@@ -17,12 +17,12 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
   auto options = std::make_shared<NewOptions>();
   CLI::App* command =
       app.add_subcommand("new", "Write a commented study: an example, or one for your own table");
-  std::vector<std::string> trades;
-  for (const Model& model : models) trades.emplace_back(model.trade);
+  std::vector<std::string> presets;
+  for (const Model& model : models) presets.emplace_back(model.preset);
   command
-      ->add_option("TRADE", options->trade,
-                   fmt::format("What to start from: {}", fmt::join(trades, ", ")))
-      ->type_name(fmt::format("TEXT:{}", fmt::join(trades, "|")));
+      ->add_option("PRESET", options->preset,
+                   fmt::format("What to start from: {}", fmt::join(presets, ", ")))
+      ->type_name(fmt::format("TEXT:{}", fmt::join(presets, "|")));
   command->add_option("DIR", options->folder,
                       "Folder for it: new or empty (with --from: FILE-study if not said)");
   command->add_option("--from", options->from,
@@ -54,8 +54,8 @@ void add_new_command(CLI::App& app, Models models, int& exit_code) {
       exit_code = run_from(*options, models);
       return;
     }
-    if (options->trade.empty()) throw CLI::RequiredError("TRADE");
-    const Model& model = model_of(models, options->trade);
+    if (options->preset.empty()) throw CLI::RequiredError("PRESET");
+    const Model& model = model_of(models, options->preset);
     const bool of_table = !options->columns.empty() || options->failure ||
                           !options->limit.empty() || !options->table.empty();
     if (of_table)

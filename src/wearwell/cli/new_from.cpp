@@ -26,8 +26,8 @@ constexpr const char* selection = "select";  // what is no study, but a command 
 
 // One way to read the table.
 struct Candidate {
-  std::string trade;
-  FirstStudy study;
+  std::string preset;
+  Scaffold study;
 };
 
 std::string settings_text(const NewOptions& options) {
@@ -42,7 +42,7 @@ std::string settings_text(const NewOptions& options) {
 std::string command(const NewOptions& options, const std::vector<std::string>& more = {}) {
   std::string text = "wearwell new";
   const auto add = [&](const std::string& word) { text += " " + shell_word(word); };
-  if (!options.trade.empty()) add(options.trade);
+  if (!options.preset.empty()) add(options.preset);
   if (!options.folder.empty()) add(options.folder.string());
   text += " --from";
   add(options.from.string());
@@ -69,7 +69,7 @@ void choose(NewOptions& options, const std::vector<std::string>& words) {
     if (words[i] == "--column") options.columns.push_back(words[i + 1]);
     if (words[i] == "--failure") options.failure = std::stoi(words[i + 1]);
     if (words[i] == "--sheet") options.table["sheet"] = words[i + 1];
-    if (words[i] == "TRADE") options.trade = words[i + 1];
+    if (words[i] == "PRESET") options.preset = words[i + 1];
   }
 }
 
@@ -152,14 +152,14 @@ TableChoices choices_of(const NewOptions& options, const Table& table) {
 std::vector<Candidate> candidates(const NewOptions& options, Models models, const Table& table,
                                   const TableChoices& choices) {
   std::vector<Candidate> found;
-  const auto add = [&](std::string_view trade, std::optional<FirstStudy> (*first)(ColumnRoles&)) {
-    if (!first || (!options.trade.empty() && trade != options.trade)) return;
-    ColumnRoles roles(table, options.from.filename().string(), choices, !options.trade.empty());
+  const auto add = [&](std::string_view preset, std::optional<Scaffold> (*first)(ColumnRoles&)) {
+    if (!first || (!options.preset.empty() && preset != options.preset)) return;
+    ColumnRoles roles(table, options.from.filename().string(), choices, !options.preset.empty());
     auto study = first(roles);
     if (study && study->fit != ReadingFit::none)
-      found.push_back({std::string(trade), std::move(*study)});
+      found.push_back({std::string(preset), std::move(*study)});
   };
-  for (const Model& model : models) add(model.trade, model.first_study);
+  for (const Model& model : models) add(model.preset, model.scaffold);
   add(selection, first_selection);
   std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
     return a.study.fit > b.study.fit;
@@ -178,15 +178,15 @@ std::vector<Candidate> candidates(const NewOptions& options, Models models, cons
       "lives, or a "
       "response with inputs. Say what a column is, as in wearwell new --from {} --column life={}, "
       "or "
-      "start from an example: wearwell new TRADE DIR",
-      file, options.trade.empty() ? "" : " of a " + options.trade, fmt::join(headings, ", "),
+      "start from an example: wearwell new PRESET DIR",
+      file, options.preset.empty() ? "" : " of a " + options.preset, fmt::join(headings, ", "),
       options.columns.empty() ? ""
                               : fmt::format(" with --column {}", fmt::join(options.columns, ", ")),
       shell_word(file), shell_word(headings.front())));
 }
 
 // An option that changes nothing is a mistake.
-void require_used(const NewOptions& options, const FirstStudy& study) {
+void require_used(const NewOptions& options, const Scaffold& study) {
   const auto refuse = [&](const char* option, const char* what) {
     throw InputError(fmt::format("{}: {} is read as {}, which has no {}", option,
                                  options.from.filename().string(), study.reading, what));
@@ -197,7 +197,7 @@ void require_used(const NewOptions& options, const FirstStudy& study) {
     refuse("--failure", "column of codes that say how a life ended");
 }
 
-std::string in_words(const WideTable& wide) {
+std::string description(const WideTable& wide) {
   return fmt::format(
       "columns {} are units with a column each: `sql` puts their readings below each other",
       fmt::join(wide.units, ", "));
@@ -217,7 +217,7 @@ std::optional<std::vector<Candidate>> chosen(NewOptions& options, Models models,
         fmt::format("{} can be read in several ways.", options.from.filename().string()), {}};
     for (const Candidate& each : found) {
       question.readings.push_back(
-          {fmt::format("{}: {}", each.trade, each.study.reading), {"TRADE", each.trade}});
+          {fmt::format("{}: {}", each.preset, each.study.reading), {"PRESET", each.preset}});
     }
     ask(options, question);
     return {};
@@ -229,7 +229,7 @@ std::optional<std::vector<Candidate>> chosen(NewOptions& options, Models models,
   require_used(options, found.front().study);
   if (options.wide) {
     for (Candidate& each : found)
-      each.study.guesses.insert(each.study.guesses.begin(), in_words(*options.wide));
+      each.study.guesses.insert(each.study.guesses.begin(), description(*options.wide));
   }
   return found;
 }
@@ -241,13 +241,13 @@ std::string listed(const char* title, const std::vector<std::string>& lines) {
   return text;
 }
 
-std::string in_words(const NewOptions& options, const std::vector<Candidate>& found) {
-  const FirstStudy& first = found.front().study;
+std::string description(const NewOptions& options, const std::vector<Candidate>& found) {
+  const Scaffold& first = found.front().study;
   std::vector<std::string> others;
   for (std::size_t i = 1; i < found.size(); ++i) {
     NewOptions other = options;
-    other.trade = found[i].trade;
-    other.folder = options.from.stem().string() + "-" + other.trade;
+    other.preset = found[i].preset;
+    other.folder = options.from.stem().string() + "-" + other.preset;
     others.push_back(fmt::format("{}: {}", found[i].study.reading, command(other)));
   }
   return fmt::format("Read as {}.\n", first.reading) + listed("From the headings", first.taken) +
@@ -257,27 +257,27 @@ std::string in_words(const NewOptions& options, const std::vector<Candidate>& fo
 }
 
 int run(NewOptions options, Models models) {
-  const auto is_trade = [&](const std::string& word) {
+  const auto is_preset = [&](const std::string& word) {
     return word == selection || std::any_of(models.begin(), models.end(),
-                                            [&](const Model& each) { return each.trade == word; });
+                                            [&](const Model& each) { return each.preset == word; });
   };
   // One word is the folder, where it is no trade.
-  if (!options.trade.empty() && options.folder.empty() && !is_trade(options.trade))
-    options.folder = std::exchange(options.trade, "");
-  if (!options.trade.empty() && options.trade != selection &&
-      !model_of(models, options.trade).first_study)
+  if (!options.preset.empty() && options.folder.empty() && !is_preset(options.preset))
+    options.folder = std::exchange(options.preset, "");
+  if (!options.preset.empty() && options.preset != selection &&
+      !model_of(models, options.preset).scaffold)
     throw InputError(
         fmt::format("--from: no study of a {} is guessed from one table; start from the "
                     "example: wearwell new {} DIR",
-                    options.trade, options.trade));
+                    options.preset, options.preset));
   std::optional<std::vector<Candidate>> found;
   while (!found) {
     const auto table = read_from(options);
     if (table) found = chosen(options, models, *table);
   }
-  const FirstStudy& first = found->front().study;
-  fmt::print("{}", printable_lines(in_words(options, *found)));
-  if (found->front().trade == selection) {
+  const Scaffold& first = found->front().study;
+  fmt::print("{}", printable_lines(description(options, *found)));
+  if (found->front().preset == selection) {
     if (!options.table.empty())
       throw InputError(
           "wearwell select reads a table as it is: save the sheet or range as a CSV of its own");
@@ -286,10 +286,10 @@ int run(NewOptions options, Models models) {
     return 0;
   }
   if (options.folder.empty()) options.folder = options.from.stem().string() + "-study";
-  const fs::path study = write_first_study(first, options.from, options.folder);
+  const fs::path study = write_scaffold(first, options.from, options.folder);
   const std::string file = shell_word(study.string());
   try {
-    read_study(source_of(study), models)->in_words();
+    read_study(source_of(study), models)->description();
   } catch (const InputError& error) {
     fmt::print("It does not run yet:\n{}Correct {}, then run: wearwell check {}\n",
                wrapped(printable(error.what()), 2, 4), study.string(), file);
@@ -307,14 +307,14 @@ std::string option_of(const std::string& key) {
   return option;
 }
 
-const Model& model_of(Models models, const std::string& trade) {
+const Model& model_of(Models models, const std::string& preset) {
   const auto found = std::find_if(models.begin(), models.end(),
-                                  [&](const Model& each) { return each.trade == trade; });
+                                  [&](const Model& each) { return each.preset == preset; });
   if (found != models.end()) return *found;
-  std::vector<std::string> trades;
-  for (const Model& model : models) trades.emplace_back(model.trade);
-  throw InputError(fmt::format("TRADE: '{}' is not possible; it is one of {}{}", trade,
-                               fmt::join(trades, ", "), did_you_mean(trade, trades)));
+  std::vector<std::string> presets;
+  for (const Model& model : models) presets.emplace_back(model.preset);
+  throw InputError(fmt::format("PRESET: '{}' is not possible; it is one of {}{}", preset,
+                               fmt::join(presets, ", "), did_you_mean(preset, presets)));
 }
 
 int run_from(NewOptions options, Models models) {

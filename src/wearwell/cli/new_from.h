@@ -14,7 +14,7 @@ namespace wearwell {
 
 /// What `wearwell new` is asked.
 struct NewOptions {
-  std::string trade;
+  std::string preset;
   std::filesystem::path folder, from;
   std::vector<std::string> columns;
   std::optional<int> failure;
@@ -24,7 +24,7 @@ struct NewOptions {
 };
 
 /// The model of that trade. Throws InputError that names all trades.
-const Model& model_of(Models models, const std::string& trade);
+const Model& model_of(Models models, const std::string& preset);
 
 /// Keys of [data] that are options while there is no study.
 inline constexpr std::pair<const char*, const char*> table_keys[] = {

@@ -13,7 +13,7 @@ namespace wearwell {
 namespace {
 
 void rebuild(const std::filesystem::path& folder) {
-  heal_results(folder);
+  recover_results(folder);
   const SavedReport saved = read_saved_report(folder);
   replace_result(folder, "report.html", report_html(saved.header, saved.sections));
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wearwell/study/first_study.h"
+#include "wearwell/study/scaffold.h"
 
 namespace wearwell {
 

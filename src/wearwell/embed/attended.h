@@ -16,14 +16,14 @@
 namespace wearwell::embed {
 
 /// How far work is, as it may be told on another thread.
-struct Told {
+struct ProgressSnapshot {
   std::string what;
   long long done = 0, total = 0;
   double seconds = 0;
 };
 
 /// Called on the thread that waits, some twenty times a second, with what is new; what it throws stops the work.
-using Look = std::function<void(const std::optional<Told>&)>;
+using Look = std::function<void(const std::optional<ProgressSnapshot>&)>;
 
 /// Does `work`, a function of a Monitor, on a thread of its own, while this one looks after its user. `Away` is what this
 /// thread holds while it waits: an interpreter's lock let go, or nothing. Returns when the work has ended, with what it
@@ -34,7 +34,7 @@ void attended(const Work& work, const Look& look) {
   std::mutex mutex;
   std::condition_variable changed;
   std::stop_source stop;
-  std::optional<Told> fresh;
+  std::optional<ProgressSnapshot> fresh;
   bool done = false;
   std::exception_ptr thrown, raised;
   std::thread worker([&] {
@@ -42,7 +42,8 @@ void attended(const Work& work, const Look& look) {
       work(Monitor{.progress =
                        [&](const Step& step) {
                          const std::lock_guard lock(mutex);
-                         fresh = Told{std::string(step.what), step.done, step.total, step.seconds};
+                         fresh = ProgressSnapshot{std::string(step.what), step.done, step.total,
+                                                  step.seconds};
                        },
                    .stop = stop.get_token()});
     } catch (...) {
@@ -53,7 +54,7 @@ void attended(const Work& work, const Look& look) {
     changed.notify_all();
   });
   for (bool ended = false; !ended;) {
-    std::optional<Told> news;
+    std::optional<ProgressSnapshot> news;
     {
       const Away away;
       std::unique_lock lock(mutex);

@@ -52,7 +52,7 @@ class ClickhouseEngine : public Engine {
   }
 
   Dialect dialect() const override { return Dialect::clickhouse; }
-  std::string in_words() const override { return "ClickHouse " + printable(version_); }
+  std::string description() const override { return "ClickHouse " + printable(version_); }
   std::string table() const override { return table_; }
   std::string source() const override {
     const HttpPlace& place = address_.hosts[host_];
@@ -62,7 +62,7 @@ class ClickhouseEngine : public Engine {
   std::vector<EngineColumn> columns() override;
   void begin() override;
   void commit() override {}
-  void refuse_torn_units(const std::string& unit) override;
+  void refuse_split_units(const std::string& unit) override;
   void run(const std::string& statements, const Monitor& monitor, const std::string& what,
            long long total) override;
   void rows(const std::string& query, std::size_t texts,
@@ -72,7 +72,7 @@ class ClickhouseEngine : public Engine {
 
  private:
   using Take = std::function<void(std::string_view)>;
-  struct Told {
+  struct ProgressReport {
     const Monitor& monitor;
     const std::string& what;
     long long total = 0;
@@ -83,8 +83,8 @@ class ClickhouseEngine : public Engine {
   HttpRequest request(const std::string& statement, const std::string& parameters) const;
   /// In the session; `more` parameters: "&name=value".
   void ask(const std::string& statement, const std::string& more, const Take& take,
-           const Told* told);
-  void watch(const std::string& query_id, const Told* told, Clock::time_point start);
+           const ProgressReport* reported);
+  void watch(const std::string& query_id, const ProgressReport* reported, Clock::time_point start);
   std::string quick(const std::string& statement) const;
   [[noreturn]] void fail(const std::string& said) const;
   std::string at() const {
@@ -169,9 +169,9 @@ void ClickhouseEngine::fail(const std::string& said) const {
 }
 
 /// Ten times a second while an answer is waited for.
-void ClickhouseEngine::watch(const std::string& query_id, const Told* told,
+void ClickhouseEngine::watch(const std::string& query_id, const ProgressReport* reported,
                              Clock::time_point start) {
-  if (told && told->monitor.stop.stop_requested()) {
+  if (reported && reported->monitor.stop.stop_requested()) {
     try {
       quick("kill query where query_id = " + literal(Dialect::clickhouse, query_id));
     } catch (const std::exception&) {
@@ -195,13 +195,14 @@ void ClickhouseEngine::watch(const std::string& query_id, const Told* told,
     in_vain_ = 0;  // It answers, if only that it may not tell.
   }
   polled_ = Clock::now();
-  if (told && told->monitor.progress)
-    told->monitor.progress({told->what, std::min(static_cast<long long>(read), told->total),
-                            told->total, std::chrono::duration<double>(now - start).count()});
+  if (reported && reported->monitor.progress)
+    reported->monitor.progress(
+        {reported->what, std::min(static_cast<long long>(read), reported->total), reported->total,
+         std::chrono::duration<double>(now - start).count()});
 }
 
 void ClickhouseEngine::ask(const std::string& statement, const std::string& more, const Take& take,
-                           const Told* told) {
+                           const ProgressReport* reported) {
   const std::string id = new_id();
   std::string parameters = fmt::format("&query_id={}{}{}", id, settings, more);
   if (!session_.empty())
@@ -211,7 +212,7 @@ void ClickhouseEngine::ask(const std::string& statement, const std::string& more
   const auto start = Clock::now();
   polled_ = start;
   in_vain_ = 0;
-  asked.wait = [&] { watch(id, told, start); };
+  asked.wait = [&] { watch(id, reported, start); };
   std::string said;
   int status = 0;
   try {
@@ -274,7 +275,7 @@ std::vector<EngineColumn> ClickhouseEngine::columns() {
 }
 
 /// Each shard gives its own units, which nobody puts together.
-void ClickhouseEngine::refuse_torn_units(const std::string& unit) {
+void ClickhouseEngine::refuse_split_units(const std::string& unit) {
   rows(fmt::format("select unit from (select toString({}) as unit from {} group by unit) group by "
                    "unit having count() > 1 order by unit limit 1",
                    identifier(Dialect::clickhouse, unit), table_),
@@ -288,10 +289,10 @@ void ClickhouseEngine::refuse_torn_units(const std::string& unit) {
 
 void ClickhouseEngine::run(const std::string& statements, const Monitor& monitor,
                            const std::string& what, long long total) {
-  const Told told{monitor, what, total};
+  const ProgressReport reported{monitor, what, total};
   for (const std::string& each : single_statements(statements))
     ask(
-        each, "", [](std::string_view) {}, &told);
+        each, "", [](std::string_view) {}, &reported);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ class DuckdbEngine : public Engine, public ColumnEngine {
   ~DuckdbEngine() override { close(); }
 
   Dialect dialect() const override { return Dialect::duckdb; }
-  std::string in_words() const override {
+  std::string description() const override {
     return fmt::format("DuckDB {}", duckdb_library_version());
   }
   std::string table() const override { return "cycles"; }

@@ -36,7 +36,7 @@ class Engine {
  public:
   virtual ~Engine() = default;
   virtual Dialect dialect() const = 0;
-  virtual std::string in_words() const = 0;  ///< "DuckDB 1.4.4"
+  virtual std::string description() const = 0;  ///< "DuckDB 1.4.4"
   /// What a query calls the table of cycles.
   virtual std::string table() const = 0;
   /// What people call it.
@@ -48,7 +48,7 @@ class Engine {
   virtual void begin() = 0;
   virtual void commit() = 0;
   /// Throws where the table lies in parts that hold some of the rows of one unit each. `unit`: the column that names units.
-  virtual void refuse_torn_units(const std::string& /*unit*/) {}
+  virtual void refuse_split_units(const std::string& /*unit*/) {}
   /// Statements, one after the other, without an answer. `what`: the steps that progress is told in,
   /// of which there are `total`. Throws Cancelled.
   virtual void run(const std::string& statements, const Monitor& monitor, const std::string& what,

@@ -23,7 +23,7 @@ using net::ip::tcp;
 using Error = beast::error_code;
 using Clock = std::chrono::steady_clock;
 using Plain = beast::tcp_stream;
-using Secret = beast::ssl_stream<beast::tcp_stream>;
+using TlsStream = beast::ssl_stream<beast::tcp_stream>;
 
 constexpr double connect_seconds = 10;
 constexpr auto between_waits = std::chrono::milliseconds(100);
@@ -150,7 +150,7 @@ void http_post(const HttpPlace& place, const HttpRequest& request,
   context.set_default_verify_paths();
   context.set_verify_mode(net::ssl::verify_peer);
   context.set_verify_callback(net::ssl::host_name_verification(place.host));
-  Secret stream(driver.io, context);
+  TlsStream stream(driver.io, context);
   Error bad_address;
   net::ip::make_address(place.host, bad_address);
   // A server of several names is told which; an address is none.

@@ -45,7 +45,7 @@ class PostgresEngine : public Engine {
   }
 
   Dialect dialect() const override { return Dialect::postgresql; }
-  std::string in_words() const override {
+  std::string description() const override {
     const int version = connection_->server_version();
     return fmt::format("PostgreSQL {}.{}", version / 10000, version % 10000);
   }

@@ -11,8 +11,8 @@ namespace wearwell {
 std::vector<Disagreement> distances_from_exact(const Fit& fit) {
   std::vector<std::vector<Disagreement>> each(fit.diagnostics.size());
   tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t i) {
-    const Distribution& exact = fit.marginals[i];
-    const Distribution drawn(fit.pooled, [i](const double* x) { return x[i]; });
+    const QuantityDistribution& exact = fit.marginals[i];
+    const QuantityDistribution drawn(fit.pooled, [i](const double* x) { return x[i]; });
     const Diagnostics& d = fit.diagnostics[i];
     const double sd = fit.exact->sd[static_cast<Eigen::Index>(i)];
     // A mean without variance has no Monte Carlo standard error to speak of.

@@ -202,7 +202,7 @@ bool BoxIntegrator::restandardize() {
 
 bool BoxIntegrator::too_far(int axis, double reach) const {
   for (int i = 0; i < d_; ++i) {
-    const Law& prior = posterior_.parameters()[static_cast<std::size_t>(i)].prior;
+    const Distribution& prior = posterior_.parameters()[static_cast<std::size_t>(i)].prior;
     const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
     const double way = reach * unit_[axis][i];
     if (way > (whole_line ? farthest_on_whole_line : farthest_on_half_line)) return true;

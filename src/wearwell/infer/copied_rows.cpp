@@ -128,8 +128,9 @@ std::optional<CopiedRows> copied_rows(const FitData& data, const std::vector<dou
   }
   constexpr double doubt = 2;  // of the density
   const double expected = std::max(doubt * found.expected, 1e-300);
-  const boost::math::poisson law(expected);
-  found.p = boost::math::cdf(boost::math::complement(law, static_cast<double>(found.rows) - 1));
+  const boost::math::poisson distribution(expected);
+  found.p =
+      boost::math::cdf(boost::math::complement(distribution, static_cast<double>(found.rows) - 1));
   return found;
 }
 

@@ -96,7 +96,7 @@ FitTest shape_test(const std::string& of, const StudentizedScores& residuals,
   if (!(test.judged() < 1)) return test;
   const ResidualShapeFound found = shape_of(middles(residuals.scores));
   test.finding = fmt::format("{} do not follow their distribution: {}", of,
-                             in_words(found, residuals.scores.front().size()));
+                             description(found, residuals.scores.front().size()));
   test.advice = advice_on(found.shape, remedies);
   return test;
 }

@@ -10,6 +10,7 @@ namespace wearwell {
 
 /// Looks at up to 200 of these points, evenly by their weight: in how many the likelihood left integrals
 /// within it open (LogDensity::unsettled), and by how much.
-std::vector<Shortfall> unsettled_effects(const Posterior& posterior, const WeightedDraws& points);
+std::vector<StageDiagnostic> unsettled_effects(const Posterior& posterior,
+                                               const WeightedDraws& points);
 
 }  // namespace wearwell

@@ -16,7 +16,7 @@ constexpr int most_tries = 10'000;  // of a draw
 
 bool within(const Posterior& posterior, const Eigen::VectorXd& x) {
   for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Law& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
+    const Distribution& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
     if (!(prior.lower < x[i] && x[i] < prior.upper)) return false;
   }
   return true;

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "wearwell/infer/agreement.h"
-#include "wearwell/infer/digits.h"
+#include "wearwell/infer/conditioning.h"
 #include "wearwell/infer/effects.h"
-#include "wearwell/infer/leaps.h"
+#include "wearwell/infer/independence_sampler.h"
 #include "wearwell/infer/maxima_mixture.h"
 #include "wearwell/infer/mode.h"
 #include "wearwell/infer/posterior_shape.h"
@@ -55,10 +55,11 @@ Draws draw(const Posterior& posterior, const Fit& fit, const FitSettings& settin
   return run_nuts(posterior, fit.whitening, settings.nuts, settings.run, maxima_to_draw(fit));
 }
 
-std::vector<Shortfall> shortfalls(const Posterior& posterior, const PosteriorShape& shape,
-                                  const FitSettings& settings, const Fit& fit,
-                                  const ExactPosterior& integral) {
-  std::vector<Shortfall> found;
+std::vector<StageDiagnostic> stage_diagnostics(const Posterior& posterior,
+                                               const PosteriorShape& shape,
+                                               const FitSettings& settings, const Fit& fit,
+                                               const ExactPosterior& integral) {
+  std::vector<StageDiagnostic> found;
   constexpr double most_above = 3;
   if (!shape.mode.found) {
     found.push_back(
@@ -66,13 +67,13 @@ std::vector<Shortfall> shortfalls(const Posterior& posterior, const PosteriorSha
          fit.exact ? "there is none, or it was not found; the numbers are those of quadrature"
                    : "there is none, or it was not found",
          "Give priors that hold every parameter, or better guesses by their location."});
-  } else if (shape.throat >= 0) {
-    const auto throat = static_cast<std::size_t>(shape.throat);
+  } else if (shape.neck >= 0) {
+    const auto neck = static_cast<std::size_t>(shape.neck);
     found.push_back(
         {Stage::mode, fit.exact ? Verdict::warn : Verdict::fail,
          fmt::format("there is none: the density rises without end as {} nears its bound, where no "
                      "sampler follows; {}",
-                     posterior.parameters()[throat].name,
+                     posterior.parameters()[neck].name,
                      !fit.exact                      ? "and there is no quadrature"
                      : fit.method == settings.method ? "the numbers are those of quadrature"
                                                      : "the draws are quadrature's"),
@@ -173,14 +174,14 @@ namespace {
 void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& fit) {
   constexpr int most_doublings = 2;
   FitSettings longer = settings;
-  const bool leaps = settings.extend && !fit.exact && proper(fit) && fit.method == Method::nuts &&
-                     !fit.maxima.several();
+  const bool independence = settings.extend && !fit.exact && proper(fit) &&
+                            fit.method == Method::nuts && !fit.maxima.several();
   for (int doubling = 0;; ++doubling) {
     fit.run = longer.run;
-    fit.draws = !leaps ? draw(posterior, fit, longer)
+    fit.draws = !independence ? draw(posterior, fit, longer)
                 : doubling == 0
-                    ? run_nuts_or_leaps(posterior, fit.whitening, longer.nuts, longer.run)
-                    : run_leaps(posterior, fit.draws, longer.nuts, longer.run);
+                    ? run_nuts_or_independence(posterior, fit.whitening, longer.nuts, longer.run)
+                    : run_independence(posterior, fit.draws, longer.nuts, longer.run);
     fit.pooled = pool(fit.draws);
     fit.diagnostics.clear();
     for (int i = 0; i < posterior.dimension(); ++i) {
@@ -189,11 +190,11 @@ void draw_enough(const Posterior& posterior, const FitSettings& settings, Fit& f
     const bool may = settings.extend && !fit.exact && proper(fit) && doubling < most_doublings;
     if (!may || mixed(fit)) return;
     // Of random numbers of their own: the pilot has used those.
-    if (leaps)
+    if (independence)
       longer.run.first_stream += 1ULL << 42;
     else
       longer.run.warmup *= 2;
-    if (!leaps || doubling > 0) longer.run.draws *= 2;
+    if (!independence || doubling > 0) longer.run.draws *= 2;
     longer.run.progress = nullptr;
   }
 }
@@ -228,8 +229,8 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
 
   fit.maxima = shape.maxima;
   // Polynomials reach no farther than one maximum.
-  if (shape.mode.found && shape.throat < 0 && !fit.maxima.several()) {
-    if (auto quick = quick_posterior(whole, fit.whitening)) {
+  if (shape.mode.found && shape.neck < 0 && !fit.maxima.several()) {
+    if (auto quick = surrogate_posterior(whole, fit.whitening)) {
       fit.quick = quick->posterior;
       fit.quick_error = quick->error;
     }
@@ -263,24 +264,24 @@ Fit fit(const Posterior& whole, const FitSettings& settings) {
   }
   if (fit.method == Method::exact && !fit.exact) fit.method = Method::nuts;
   // A sampler hardly reaches into a throat, and says so, nor from one maximum to the next; draws are then quadrature's.
-  const bool spared = (shape.throat >= 0 || fit.maxima.several()) && fit.exact &&
+  const bool spared = (shape.neck >= 0 || fit.maxima.several()) && fit.exact &&
                       fit.method == Method::nuts && settings.extend;
   if (spared) fit.method = Method::exact;
   draw_enough(posterior, settings, fit);
   if (fit.maxima.several())
     measure_shares(whole, fit.exact ? fit.exact->nodes : fit.pooled, fit.maxima);
-  fit.shortfalls = shortfalls(whole, shape, settings, fit, integral);
+  fit.stage_diagnostics = stage_diagnostics(whole, shape, settings, fit, integral);
   const WeightedDraws& points = fit.exact ? fit.exact->nodes : fit.pooled;
   fit.marginals.resize(posterior.parameters().size());
   tbb::parallel_for(std::size_t{0}, fit.marginals.size(), [&](std::size_t i) {
-    fit.marginals[i] = Distribution(points, [i](const double* x) { return x[i]; });
+    fit.marginals[i] = QuantityDistribution(points, [i](const double* x) { return x[i]; });
   });
   redraw_where_they_disagree(posterior, settings, fit);
-  for (Shortfall& each : digits(whole, fit.whitening, points)) {
-    fit.shortfalls.push_back(std::move(each));
+  for (StageDiagnostic& each : digits(whole, fit.whitening, points)) {
+    fit.stage_diagnostics.push_back(std::move(each));
   }
-  for (Shortfall& each : unsettled_effects(whole, points)) {
-    fit.shortfalls.push_back(std::move(each));
+  for (StageDiagnostic& each : unsettled_effects(whole, points)) {
+    fit.stage_diagnostics.push_back(std::move(each));
   }
   return fit;
 }

@@ -41,9 +41,10 @@ struct Fit {
   Draws draws;
   WeightedDraws pooled;                  ///< all draws of all chains, of one weight
   std::vector<Diagnostics> diagnostics;  ///< of the draws, one a parameter
-  std::vector<Distribution> marginals;   ///< of each parameter, SI: by quadrature, or else by draws
-  int max_treedepth = 0;                 ///< that NUTS was allowed
-  std::vector<Shortfall> shortfalls = {};  ///< what any stage did not reach
+  std::vector<QuantityDistribution>
+      marginals;          ///< of each parameter, SI: by quadrature, or else by draws
+  int max_treedepth = 0;  ///< that NUTS was allowed
+  std::vector<StageDiagnostic> stage_diagnostics = {};  ///< what any stage did not reach
   RunSettings run = {};  ///< of the draws: longer than asked for where settings say `extend`
   /// The same posterior by polynomials, where observations are many (surface.h); what is done with nodes and
   /// draws may ask this one.

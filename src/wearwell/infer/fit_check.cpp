@@ -69,21 +69,22 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
     for (const std::size_t i : row) all.push_back(values[i]);
     return all;
   };
-  const std::string other_law =
+  const std::string other_distribution =
       "The law misses something that the data show: look at the residuals, try another law or "
       "exponent, or ask whether a prior holds it off.";
   std::vector<Judged> tests;
   tests.push_back({"scatter", scatter_test, "residuals are not of the size that the scatter says",
                    "The scatter that is known or believed is not that of these data: see what it "
                    "was taken for, or let it be fitted."});
-  tests.push_back({"location", location_test, "residuals do not lie about zero", other_law});
+  tests.push_back(
+      {"location", location_test, "residuals do not lie about zero", other_distribution});
   for (const Driver& driver : data.drivers) {
     const std::vector<double> values = each(driver.value);
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     if (!(*least < *most)) continue;
     tests.push_back({"trend with " + driver.name,
                      [values](std::span<const double> z) { return trend_test(z, values); },
-                     "residuals follow " + driver.name, other_law});
+                     "residuals follow " + driver.name, other_distribution});
   }
   if (data.drivers.empty()) return tests;
   const std::vector<double> along = each(data.drivers.front().value);
@@ -95,7 +96,7 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
                      return neighbour_test(ordered);
                    },
                    "residuals of neighbours along " + data.drivers.front().name + " are alike",
-                   other_law});
+                   other_distribution});
   if (data.unit.empty()) return tests;
   // Unit by unit, or where rows are judged one by one measured column by column: what is alike within one may
   // cancel over all of them.
@@ -110,7 +111,7 @@ std::vector<Judged> tests_of(const FitData& data, const std::vector<std::size_t>
                      for (const std::size_t i : within) ordered.push_back(z[i]);
                      return neighbour_test(ordered);
                    },
-                   "residuals of neighbours of one " + one + " are alike", other_law});
+                   "residuals of neighbours of one " + one + " are alike", other_distribution});
   return tests;
 }
 
@@ -129,8 +130,8 @@ double outsider_test(std::span<const double> z) {
   const double share = most / squares * n / (n - 1);  // of what one alone could have
   if (!(share < 1)) return 0;
   const double t = std::sqrt((n - 2) * share / (1 - share));
-  const boost::math::students_t law(n - 2);
-  return std::min(1.0, 2 * n * boost::math::cdf(boost::math::complement(law, t)));
+  const boost::math::students_t distribution(n - 2);
+  return std::min(1.0, 2 * n * boost::math::cdf(boost::math::complement(distribution, t)));
 }
 
 // Whether units differ as the law of what varies says.
@@ -285,14 +286,14 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
     const std::string impossible =
         "No parameters of the law can do that. Look whether signs, columns or units were mistaken, "
         "and whether what was measured is wear at all.";
-    outcome.tests.push_back({"fall", fall_test(*data.rise),
-                             fmt::format("by the law {}, in the data it falls", data.rise->law),
-                             impossible});
+    outcome.tests.push_back(
+        {"fall", fall_test(*data.rise),
+         fmt::format("by the law {}, in the data it falls", data.rise->distribution), impossible});
     if (data.rise->from_zero) {
-      outcome.tests.push_back(
-          {"sign", sign_test(*data.rise),
-           fmt::format("by the law {} from zero, in the data it goes below", data.rise->law),
-           impossible});
+      outcome.tests.push_back({"sign", sign_test(*data.rise),
+                               fmt::format("by the law {} from zero, in the data it goes below",
+                                           data.rise->distribution),
+                               impossible});
     }
   }
   for (FitTest& test : outcome.tests) test.share = 1 / static_cast<double>(outcome.tests.size());

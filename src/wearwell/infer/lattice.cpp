@@ -39,7 +39,7 @@ constexpr long most_nodes = 6'000'000;
 constexpr int farthest = 3000;  // steps along an axis: beyond, the mass has no end
 // Finer than sums ask for: quantiles of a posterior whose cells are as wide as those that sum well are wrong by some
 // hundredths of a standard deviation, which falls with the fourth power of the step.
-constexpr double widest_told = 0.55;
+constexpr double widest_reported = 0.55;
 constexpr int most_across = 80;  // steps along a line on either side of its mode
 constexpr double longest_on_line = 0.7;
 
@@ -116,15 +116,15 @@ class CellShape {
 };
 
 // What sums over a lattice lack, relative to mass and second moments.
-struct Doubt {
+struct ErrorEstimate {
   double lacks = 0;  // by the width of steps
-  double fall =
+  double decay =
       1;  // of the transform of the terms, over the fourth of the lattice's frequency that was seen last
 };
-struct Doubts {
-  std::array<Doubt, d> along{};  // each axis, the worst direction that it has a part in
-  double steps = 0;              // of all directions
-  double beyond = 0;             // what lies where the lattice ends
+struct ErrorEstimates {
+  std::array<ErrorEstimate, d> along{};  // each axis, the worst direction that it has a part in
+  double steps = 0;                      // of all directions
+  double beyond = 0;                     // what lies where the lattice ends
 };
 
 // Mass, first and second moments, relative to their sizes: what is to be believed of them.
@@ -133,14 +133,14 @@ using Terms = Eigen::Array<double, 2 * d + 1, 1>;
 // A sum over a lattice lacks what its terms' Fourier transform is at the lattice's own frequencies. Halves of the
 // lattice tell it at half of one, quarters at a fourth: beyond, it is taken to fall as between these, as exp(-c frequency);
 // that of smooth terms falls faster. Of one parameter's terms together: any of them may be zero where its sign changes.
-Doubt beyond_lattice(const Terms& quarter, const Terms& half) {
-  Doubt worst;
+ErrorEstimate beyond_lattice(const Terms& quarter, const Terms& half) {
+  ErrorEstimate worst;
   for (int i = 1; i <= d; ++i) {
     const double at_quarter = std::max(quarter[0], quarter[i]),
                  at_half = std::max(half[0], half[i]);
-    const double fall = at_quarter > at_half ? at_half / at_quarter : 1;
-    const double lacks = std::max(at_half, half[i + d]) * fall * fall;
-    if (lacks > worst.lacks) worst = {lacks, fall};
+    const double decay = at_quarter > at_half ? at_half / at_quarter : 1;
+    const double lacks = std::max(at_half, half[i + d]) * decay * decay;
+    if (lacks > worst.lacks) worst = {lacks, decay};
   }
   return worst;
 }
@@ -216,11 +216,11 @@ class Lattice {
     return reference_ + std::log(mass) + chart_.log_scale();
   }
 
-  Doubts doubts(bool moments) {
+  ErrorEstimates error_estimates(bool moments) {
     const std::vector<LineSums> sums = line_sums(moments);
-    Doubts doubts;
+    ErrorEstimates error_estimates;
     // Along an axis, and along diagonals, each once.
-    std::array<Doubt, directions> each;
+    std::array<ErrorEstimate, directions> each;
     tbb::parallel_for(directions / 2 + 1, directions, [&](int direction) {
       const std::array<int, outer> way = way_of(direction);
       Terms real = Terms::Zero(), imaginary = real, half = real;
@@ -235,10 +235,11 @@ class Lattice {
           beyond_lattice((real.square() + imaginary.square()).sqrt(), half.abs());
     });
     for (int direction = directions / 2 + 1; direction < directions; ++direction) {
-      const Doubt& here = each[static_cast<std::size_t>(direction)];
-      doubts.steps += here.lacks;
+      const ErrorEstimate& here = each[static_cast<std::size_t>(direction)];
+      error_estimates.steps += here.lacks;
       for (std::size_t a = 0; a < outer; ++a) {
-        if (way_of(direction)[a] != 0 && here.lacks > doubts.along[a].lacks) doubts.along[a] = here;
+        if (way_of(direction)[a] != 0 && here.lacks > error_estimates.along[a].lacks)
+          error_estimates.along[a] = here;
       }
     }
     Terms quarter[2] = {Terms::Zero(), Terms::Zero()}, half = Terms::Zero(),
@@ -250,16 +251,16 @@ class Lattice {
       }
       half += line.half;
     }
-    doubts.along[outer] =
+    error_estimates.along[outer] =
         beyond_lattice((quarter[0].square() + quarter[1].square()).sqrt(), half.abs());
-    doubts.steps += doubts.along[outer].lacks;
+    error_estimates.steps += error_estimates.along[outer].lacks;
     // Shells at the end hold less and less: as the last two do, so do all beyond.
     for (const int i : {0, 5, 6, 7, 8}) {
       if (!(shell[0][i] > 0)) continue;
       const double falls = std::min(shell[0][i] / shell[1][i], 0.98);
-      doubts.beyond = std::max(doubts.beyond, shell[0][i] * falls / (1 - falls));
+      error_estimates.beyond = std::max(error_estimates.beyond, shell[0][i] * falls / (1 - falls));
     }
-    return doubts;
+    return error_estimates;
   }
 
   // Without cells the nodes are good for sums alone.
@@ -670,7 +671,7 @@ Steps steps_of(double step) {
 struct Filled {
   std::unique_ptr<Lattice> lattice;
   std::string failure;
-  Doubts doubts;
+  ErrorEstimates error_estimates;
   double error = INFINITY;  // where it was filled
 
   Filled(const Posterior& posterior, const LatticeChart& chart, const Steps& steps,
@@ -678,20 +679,22 @@ struct Filled {
       : lattice(std::make_unique<Lattice>(posterior, chart, steps, log_negligible)),
         failure(lattice->fill(most)) {
     if (!failure.empty()) return;
-    doubts = lattice->doubts(settings.second_moments);
-    error = doubts.steps + doubts.beyond;
+    error_estimates = lattice->error_estimates(settings.second_moments);
+    error = error_estimates.steps + error_estimates.beyond;
   }
 };
 
 // Each axis by its own: one that is narrow makes no others finer. Doubts fall as exp(-c/step), those of coarse steps faster.
-Steps next_steps(const Steps& steps, const Doubts& doubts, double tolerance, const Steps& widest) {
+Steps next_steps(const Steps& steps, const ErrorEstimates& error_estimates, double tolerance,
+                 const Steps& widest) {
   constexpr double share = 0.2, least = 1.15, most = 2.5, coarse = 0.6;
   Steps next;
   for (std::size_t a = 0; a < d; ++a) {
-    const Doubt& doubt = doubts.along[a];
-    const double too_much = std::log(doubt.lacks / (share * tolerance));
+    const ErrorEstimate& error_estimate = error_estimates.along[a];
+    const double too_much = std::log(error_estimate.lacks / (share * tolerance));
     const double faster = steps[a] > coarse ? 1.5 : 1;
-    const double finer = 1 + too_much / (-4 * faster * std::log(std::min(doubt.fall, 0.9)));
+    const double finer =
+        1 + too_much / (-4 * faster * std::log(std::min(error_estimate.decay, 0.9)));
     const double step = too_much > 0 ? steps[a] / std::clamp(finer, least, most) : steps[a];
     next[a] = std::min(widest[a], step);
   }
@@ -727,7 +730,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
   std::optional<Filled> filled(std::in_place, posterior, *chart, steps_of(coarsest), end,
                                most_nodes, settings);
   if (!settings.along_ridge && !map->affine() && !(filled->error <= enough)) {
-    const bool dear = !filled->failure.empty() || filled->lattice->nodes() > few_nodes;
+    const bool expensive = !filled->failure.empty() || filled->lattice->nodes() > few_nodes;
     const auto filled_on = [&](const LatticeChart& of, double step, long most) {
       return Filled(posterior, of, steps_of(step), end, most, settings);
     };
@@ -738,12 +741,12 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
              filled_on(*along, telling, enough_nodes).error <
                  filled_on(*straight, telling, enough_nodes).error;
     };
-    if (dear ? filled_on(*along, coarsest, few_nodes).failure.empty() : rounder()) {
+    if (expensive ? filled_on(*along, coarsest, few_nodes).failure.empty() : rounder()) {
       chart = along.get();
       filled.reset();
     }
   }
-  const Steps widest = steps_of(coarse ? coarsest : widest_told);
+  const Steps widest = steps_of(coarse ? coarsest : widest_reported);
   ExactPosterior exact;
   std::optional<Filled> best;
   long evaluations = 0;
@@ -763,7 +766,7 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
       continue;
     }
     const double error = filled->error;
-    const Doubts doubts = filled->doubts;
+    const ErrorEstimates error_estimates = filled->error_estimates;
     if (error <= std::max(enough, acceptable) && !(best && best->error < error))
       best = std::move(filled);
     const bool fine = std::equal(steps.begin(), steps.end(), widest.begin(), std::less_equal<>());
@@ -771,23 +774,23 @@ ExactPosterior integrate_on_lattice(const Posterior& posterior, const Whitening&
     // Across a kink or a jump errors fall by a power of the step: what the evaluations will not suffice
     // for is not begun.
     const double step = mean_step(steps);
-    const double power = std::log(before / doubts.steps) / std::log(step_before / step);
+    const double power = std::log(before / error_estimates.steps) / std::log(step_before / step);
     const bool hopeless =
         std::isfinite(before) && step < step_before &&
-        (doubts.steps >= before ||
-         std::pow(doubts.steps / enough, 4 / power) * static_cast<double>(evaluations) >
+        (error_estimates.steps >= before ||
+         std::pow(error_estimates.steps / enough, 4 / power) * static_cast<double>(evaluations) >
              static_cast<double>(settings.max_evaluations));
-    before = doubts.steps;
+    before = error_estimates.steps;
     step_before = step;
     if (hopeless && best && best->error <= good_enough) break;
     exact.failure = fmt::format("no convergence in {} evaluations", evaluations);
     const Steps steps_now = steps;
     const double end_now = end;
-    steps = next_steps(steps, doubts, enough, widest);
+    steps = next_steps(steps, error_estimates, enough, widest);
     // What lies beyond falls about as the density at the end.
     const double most_beyond = 0.5 * enough;
-    if (may_deepen && doubts.beyond > most_beyond)
-      end -= std::clamp(1.5 * std::log(doubts.beyond / most_beyond), 1.0, 4.0);
+    if (may_deepen && error_estimates.beyond > most_beyond)
+      end -= std::clamp(1.5 * std::log(error_estimates.beyond / most_beyond), 1.0, 4.0);
     if (steps == steps_now && end == end_now) break;
     filled.reset();
   }

@@ -16,7 +16,7 @@ class Bending {
  public:
   explicit Bending(const Posterior& posterior) {
     for (std::size_t i = 0; i < d; ++i) {
-      const Law& prior = posterior.parameters()[i].prior;
+      const Distribution& prior = posterior.parameters()[i].prior;
       bent_[i] = std::isfinite(prior.lower) && std::isfinite(prior.upper);
     }
   }
@@ -124,12 +124,12 @@ class AlongRidge final : public LatticeChart {
   explicit AlongRidge(const RidgeMap& map) : map_(map) {
     const Eigen::Vector4d v =
         Eigen::Vector4d(1, std::sqrt(2), std::sqrt(3), std::sqrt(5)) / std::sqrt(11);
-    askew_ = Eigen::Matrix4d::Identity() - 2 * v * v.transpose();
+    reflection_ = Eigen::Matrix4d::Identity() - 2 * v * v.transpose();
   }
 
   double to_real(const Eigen::Vector4d& u, Z& z) const override {
     RidgeMap::Coordinates turned;
-    Eigen::Map<Eigen::Vector4d>(turned.data()).noalias() = askew_ * u;
+    Eigen::Map<Eigen::Vector4d>(turned.data()).noalias() = reflection_ * u;
     const RidgeMap::Frame frame = map_.at(turned[static_cast<std::size_t>(map_.axis())]);
     map_.to_real(frame, turned, z);
     return frame.log_jacobian;
@@ -138,7 +138,7 @@ class AlongRidge final : public LatticeChart {
 
  private:
   const RidgeMap& map_;
-  Eigen::Matrix4d askew_;
+  Eigen::Matrix4d reflection_;
 };
 
 }  // namespace

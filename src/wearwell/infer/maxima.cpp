@@ -47,10 +47,10 @@ Effort effort_for(const Posterior& posterior, const Mode& known) {
   Eigen::VectorXd x(d);
   posterior.to_natural(view(known.position), view(x));
   const auto rows = static_cast<double>(posterior.likelihood()->pointwise(view(x)).size());
-  constexpr double cheap = 100, dear = 5000;
+  constexpr double cheap = 100, expensive = 5000;
   const double most = d == 1 ? 4096 : 2048;
   const int points = static_cast<int>(std::clamp(most * cheap / std::max(rows, cheap), 64.0, most));
-  if (rows > dear) return {points, 8, 48, 8};
+  if (rows > expensive) return {points, 8, 48, 8};
   if (d == 1) return {points, 12, 256, 256};
   return {points, 12, d <= 8 ? 128u : 32u, 32};
 }
@@ -238,8 +238,8 @@ Maxima find_maxima(const Posterior& posterior, const Mode& known) {
 std::string description(const Posterior& posterior, const Maxima& maxima) {
   if (maxima.found.empty()) return "";
   if (!maxima.several()) return fmt::format("{} starts found one maximum", maxima.starts);
-  constexpr double told = 1e-3;
-  constexpr std::size_t most_told = 8, most_parameters = 4;
+  constexpr double reported = 1e-3;
+  constexpr std::size_t most_reported = 8, most_parameters = 4;
   std::vector<const LocalMaximum*> order;
   for (const LocalMaximum& each : maxima.found) order.push_back(&each);
   std::stable_sort(order.begin(), order.end(), [](const LocalMaximum* a, const LocalMaximum* b) {
@@ -248,7 +248,7 @@ std::string description(const Posterior& posterior, const Maxima& maxima) {
   std::vector<std::string> places;
   double rest = 0;
   for (const LocalMaximum* each : order) {
-    if (places.size() == most_told || (each->share < told && !places.empty())) {
+    if (places.size() == most_reported || (each->share < reported && !places.empty())) {
       rest += each->share;
       continue;
     }
@@ -268,7 +268,7 @@ std::string description(const Posterior& posterior, const Maxima& maxima) {
   if (others > 0) {
     places.push_back(
         fmt::format("{} more of {} % together", others,
-                    rest < told ? "less than 0.1" : fmt::format("{:.1f}", 100 * rest)));
+                    rest < reported ? "less than 0.1" : fmt::format("{:.1f}", 100 * rest)));
   }
   const std::string last = places.back();
   places.pop_back();

@@ -103,7 +103,7 @@ Chain metropolis_chain(const Posterior& posterior, const Eigen::VectorXd& start,
   double log_density = posterior.natural_value(view(x));
   // What is told of a draw is its density with the Jacobian, as of every other method.
   const auto on_real_line = [&] { return posterior.value(view(posterior.to_real(view(x)))); };
-  double told = on_real_line();
+  double reported = on_real_line();
   long accepted = 0;
 
   Chain chain;
@@ -125,10 +125,10 @@ Chain metropolis_chain(const Posterior& posterior, const Eigen::VectorXd& start,
     }
     if (i < 0) continue;
     accepted += accept;
-    if (moved) told = on_real_line();
+    if (moved) reported = on_real_line();
     moved = false;
     chain.values.row(i) = x;
-    chain.log_density.push_back(told);
+    chain.log_density.push_back(reported);
   }
   chain.accept_rate = static_cast<double>(accepted) / settings.draws;
   for (Eigen::Index j = 0; j < d; ++j) {

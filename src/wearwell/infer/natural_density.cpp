@@ -25,7 +25,7 @@ Box natural_box(const Posterior& posterior, const Eigen::VectorXd& width) {
   constexpr double inset = 1e-6;
   Box box{width, width};
   for (Eigen::Index i = 0; i < width.size(); ++i) {
-    const Law& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
+    const Distribution& prior = posterior.parameters()[static_cast<std::size_t>(i)].prior;
     const double size = std::min(width[i], prior.upper - prior.lower);
     const auto gap = [&](double bound) {
       constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();

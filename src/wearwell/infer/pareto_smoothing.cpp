@@ -29,15 +29,15 @@ GeneralizedPareto fit_generalized_pareto(std::span<const double> ascending) {
   double mean = 0;
   for (std::size_t j = 0; j < theta.size(); ++j)
     mean += theta[j] * std::exp(log_profile[j] - total);
-  GeneralizedPareto law;
-  law.k = 0;
-  for (const double x : ascending) law.k += std::log1p(-mean * x);
-  law.k /= n;
-  law.sigma = -law.k / mean;
+  GeneralizedPareto distribution;
+  distribution.k = 0;
+  for (const double x : ascending) distribution.k += std::log1p(-mean * x);
+  distribution.k /= n;
+  distribution.sigma = -distribution.k / mean;
   constexpr double prior_weight = 10, prior_k = 0.5;
-  law.k = (law.k * n + prior_weight * prior_k) / (n + prior_weight);
-  if (std::isnan(law.k)) law.k = infinity;
-  return law;
+  distribution.k = (distribution.k * n + prior_weight * prior_k) / (n + prior_weight);
+  if (std::isnan(distribution.k)) distribution.k = infinity;
+  return distribution;
 }
 
 double pareto_smooth(std::vector<double>& log_weights) {
@@ -60,14 +60,14 @@ double pareto_smooth(std::vector<double>& log_weights) {
   for (std::size_t i = first; i < order.size(); ++i) {
     excess.push_back(std::exp(log_weights[order[i]]) - cutoff);
   }
-  const GeneralizedPareto law = fit_generalized_pareto(excess);
-  if (std::isfinite(law.k)) {
+  const GeneralizedPareto distribution = fit_generalized_pareto(excess);
+  if (std::isfinite(distribution.k)) {
     for (std::size_t i = 0; i < tail; ++i) {
       const double p = (static_cast<double>(i) + 0.5) / static_cast<double>(tail);
-      log_weights[order[first + i]] = std::min(0.0, std::log(law.quantile(p) + cutoff));
+      log_weights[order[first + i]] = std::min(0.0, std::log(distribution.quantile(p) + cutoff));
     }
   }
-  return law.k;
+  return distribution.k;
 }
 
 double khat_threshold(double draws) {

@@ -56,7 +56,7 @@ PosteriorShape posterior_shape(const Posterior& posterior) {
   }
   if (auto funnel = funnel_middle(posterior, posterior.start())) {
     shape.tails = tails(posterior, *funnel);
-    shape.throat = funnel->scale;
+    shape.neck = funnel->scale;
     shape.mode = std::move(funnel->middle);
     return shape;
   }

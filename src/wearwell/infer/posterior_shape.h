@@ -14,7 +14,7 @@ struct PosteriorShape {
   Mode mode;                ///< on the real line
   std::vector<Tail> tails;  ///< about the mode
   double highest;           ///< log density met anywhere
-  int throat = -1;  ///< the scale of a funnel (funnel.h): then the mode is the middle of the mass
+  int neck = -1;  ///< the scale of a funnel (funnel.h): then the mode is the middle of the mass
   Maxima maxima = {};  ///< of a posterior whose tails can be integrated
 };
 

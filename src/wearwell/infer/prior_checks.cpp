@@ -29,9 +29,10 @@ std::string prior_line(const Parameter& parameter) {
   const std::string number = unit == "1" ? "..." : fmt::format("\"... {}\"", unit);
   const bool scale = parameter.natural_lower == 0 && !is_logarithm(parameter.si);
   if (scale)
-    return fmt::format("{} = {{ law = \"half-normal\", scale = {} }}", parameter.name, number);
-  return fmt::format("{} = {{ law = \"normal\", mean = {}, sd = {} }}", parameter.name, number,
-                     is_logarithm(parameter.si) ? "..." : number);
+    return fmt::format("{} = {{ distribution = \"half-normal\", scale = {} }}", parameter.name,
+                       number);
+  return fmt::format("{} = {{ distribution = \"normal\", mean = {}, sd = {} }}", parameter.name,
+                     number, is_logarithm(parameter.si) ? "..." : number);
 }
 
 Verdict dependence_on(const Parameter& parameter) {
@@ -97,10 +98,10 @@ namespace {
 Posterior with_cut_moved(const Posterior& posterior, std::size_t index, double mean) {
   std::vector<Parameter> parameters = posterior.parameters();
   Parameter& moved = parameters[index];
-  const Law& prior = moved.prior;
-  moved.prior =
-      make_law(prior.family, std::max(moved.natural_lower, mean + 2 * (prior.lower - mean)),
-               std::min(moved.natural_upper, mean + 2 * (prior.upper - mean)));
+  const Distribution& prior = moved.prior;
+  moved.prior = make_distribution(prior.family,
+                                  std::max(moved.natural_lower, mean + 2 * (prior.lower - mean)),
+                                  std::min(moved.natural_upper, mean + 2 * (prior.upper - mean)));
   return Posterior(std::move(parameters), posterior.likelihood());
 }
 
@@ -126,7 +127,7 @@ std::vector<Mode> maxima_of(const Posterior& wider, const Posterior& posterior, 
 }
 
 bool has_cut(const Parameter& parameter) {
-  const Law& prior = parameter.prior;
+  const Distribution& prior = parameter.prior;
   const bool flat = is_flat(prior);
   return flat && ((std::isfinite(prior.lower) && prior.lower != parameter.natural_lower) ||
                   (std::isfinite(prior.upper) && prior.upper != parameter.natural_upper));
@@ -141,11 +142,12 @@ struct LeftOut {
 
 LeftOut left_out(const Posterior& wider, const Posterior& posterior, const Fit& fit,
                  std::size_t index) {
-  const Distribution& marginal = fit.marginals[index];
+  const QuantityDistribution& marginal = fit.marginals[index];
   const auto at = static_cast<Eigen::Index>(index);
   const double mean = fit.exact->mean[at], sd = fit.exact->sd[at];
   const double width = (marginal.quantile(0.95) - marginal.quantile(0.05)) / 20;
-  const Law &cut = posterior.parameters()[index].prior, &moved = wider.parameters()[index].prior;
+  const Distribution &cut = posterior.parameters()[index].prior,
+                     &moved = wider.parameters()[index].prior;
   LeftOut all;
   for (const bool lower : {true, false}) {
     const double edge = lower ? cut.lower : cut.upper, end = lower ? moved.lower : moved.upper;
@@ -167,7 +169,7 @@ struct CutFinding {
 
 CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t index) {
   constexpr double tolerated = 0.25;      // standard deviations
-  constexpr double without_doubt = 1e-3;  // so little more than which integration would not see
+  constexpr double without_error = 1e-3;  // so little more than which integration would not see
   const Parameter& parameter = posterior.parameters()[index];
   if (!has_cut(parameter)) return {};
   if (!fit.exact) {
@@ -177,7 +179,7 @@ CutFinding moved_cut(const Posterior& posterior, const Fit& fit, std::size_t ind
   const Posterior wider =
       with_cut_moved(posterior, index, fit.exact->mean[static_cast<Eigen::Index>(index)]);
   const LeftOut out = left_out(wider, posterior, fit, index);
-  if (out.shift < without_doubt) {
+  if (out.shift < without_error) {
     return {Verdict::pass,
             fmt::format("the bounds of {} at twice the distance from its mean would take in less "
                         "than {:.1g} of the posterior",
@@ -240,7 +242,7 @@ namespace {
 class RelativeDensity {
  public:
   // `finest` is the least share that the distribution resolves.
-  RelativeDensity(const Distribution& distribution, double finest)
+  RelativeDensity(const QuantityDistribution& distribution, double finest)
       : distribution_(distribution),
         finest_(finest),
         width_((distribution.quantile(0.95) - distribution.quantile(0.05)) / 20) {
@@ -284,7 +286,7 @@ class RelativeDensity {
     return finer < alike * std::min(1.0, ratio) ? finer : ratio;
   }
 
-  const Distribution& distribution_;
+  const QuantityDistribution& distribution_;
   double finest_;
   double width_;
   double highest_ = 0;
@@ -302,7 +304,7 @@ Check bounds(const Posterior& posterior, const Fit& fit) {
   // Of each parameter at its lower and its upper bound.
   std::vector<std::array<double, 2>> ratios(posterior.parameters().size());
   tbb::parallel_for(std::size_t{0}, ratios.size(), [&](std::size_t i) {
-    const Law& prior = posterior.parameters()[i].prior;
+    const Distribution& prior = posterior.parameters()[i].prior;
     if (!std::isfinite(prior.lower) && !std::isfinite(prior.upper)) return;
     const RelativeDensity density(fit.marginals[i], finest);
     if (std::isfinite(prior.lower)) ratios[i][0] = density.above(prior.lower);
@@ -333,49 +335,51 @@ Check bounds(const Posterior& posterior, const Fit& fit) {
 namespace {
 
 // The probit of a law's distribution function, to about 1e-12 in either tail: beyond, the nearer of -7 and 7.
-double score_of(const Law& law, double x) {
+double score_of(const Distribution& distribution, double x) {
   double low = -7, high = 7;
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (low + high);
-    (quantile(law, normal_cdf(middle)) < x ? low : high) = middle;
+    (quantile(distribution, normal_cdf(middle)) < x ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
 
 // Whether a law ends on this side while its density is still high: it says nothing against what lies there, as
 // a half-normal law of a scatter says nothing against a small one.
-bool ends_high(const Law& law, bool lower) {
+bool ends_high(const Distribution& distribution, bool lower) {
   constexpr int stations = 400;
   constexpr double high = 0.01;
-  if (!std::isfinite(lower ? law.lower : law.upper)) return false;
+  if (!std::isfinite(lower ? distribution.lower : distribution.upper)) return false;
   double highest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < stations; ++i)
-    highest = std::max(highest, log_density(law, quantile(law, (i + 0.5) / stations)).value);
+    highest = std::max(
+        highest, log_density(distribution, quantile(distribution, (i + 0.5) / stations)).value);
   constexpr double end = 1e-12;
-  return log_density(law, quantile(law, lower ? end : 1 - end)).value >= highest + std::log(high);
+  return log_density(distribution, quantile(distribution, lower ? end : 1 - end)).value >=
+         highest + std::log(high);
 }
 
 // A posterior on the scale on which its prior is standard normal: its standard deviation, 1 where the data say nothing and 0
 // where the prior is improper; and how improbable the prior makes what the data say, either side.
 struct AgainstPrior {
-  double width = 0, surprise = 1;
+  double width = 0, p_value = 1;
 };
 
 // The posterior mean m of variance v lies at random with variance 1 - v when the prior is right: the variance of a mean
 // and the mean of a variance add up. So m / sqrt(1 - v) is standard normal where the likelihood is, too, and is
 // the distance of prior and likelihood by their common standard deviation. No surprise where the prior excludes
 // nothing on that side.
-AgainstPrior against_prior(const Law& law, std::vector<double> draws) {
+AgainstPrior against_prior(const Distribution& distribution, std::vector<double> draws) {
   constexpr double least_learned = 0.05;  // of 1 - v, which 4000 draws tell to sqrt(2/4000) = 0.022
-  if (!law.proper) return {};
+  if (!distribution.proper) return {};
   const auto score = [&](double share) {
     const auto at = draws.begin() + static_cast<std::ptrdiff_t>(share * double(draws.size()));
     std::nth_element(draws.begin(), at, draws.end());
-    return score_of(law, *at);
+    return score_of(distribution, *at);
   };
   const double median = score(0.5);
   const double sd = 0.5 * (score(0.84134) - score(0.15866));
-  if (ends_high(law, median < 0)) return {sd, 1};
+  if (ends_high(distribution, median < 0)) return {sd, 1};
   const double distance = std::abs(median) / std::sqrt(std::max(1 - sd * sd, least_learned));
   return {sd, std::erfc(distance / std::numbers::sqrt2)};
 }
@@ -440,7 +444,7 @@ Check prior_data_conflict(const Posterior& posterior, const Fit& fit) {
     // A prior that expects one of several maxima does not exclude what the data say.
     for (const std::vector<Eigen::Index>& group : groups) {
       const Eigen::VectorXd some = draws(group);
-      p = std::max(p, against_prior(parameter.prior, {some.begin(), some.end()}).surprise);
+      p = std::max(p, against_prior(parameter.prior, {some.begin(), some.end()}).p_value);
     }
     if (p < far_out) {
       findings.add(

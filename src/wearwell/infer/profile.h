@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wearwell/infer/natural_mode.h"
+#include "wearwell/infer/constrained_mode.h"
 
 namespace wearwell {
 

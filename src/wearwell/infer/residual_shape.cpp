@@ -41,7 +41,7 @@ ResidualShapeFound shape_of(std::span<const double> residuals) {
   return {excess > 0 ? ResidualShape::long_tails : ResidualShape::short_tails};
 }
 
-std::string in_words(const ResidualShapeFound& found, std::size_t count) {
+std::string description(const ResidualShapeFound& found, std::size_t count) {
   switch (found.shape) {
     case ResidualShape::two_groups:
       return fmt::format("they form two groups, of {} and {}", found.lower_group,

@@ -19,7 +19,7 @@ struct ResidualShapeFound {
 /// one), then by skewness and kurtosis over their standard errors. At least two values.
 ResidualShapeFound shape_of(std::span<const double> residuals);
 
-std::string in_words(const ResidualShapeFound& found, std::size_t count);
+std::string description(const ResidualShapeFound& found, std::size_t count);
 /// What to try.
 std::string advice_on(ResidualShape shape, const Remedies& remedies);
 

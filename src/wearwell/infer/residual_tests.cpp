@@ -44,8 +44,8 @@ double below(double cosine, double freedom) {
   if (!(freedom >= 1) || std::isnan(cosine)) return 0.5;
   const double rest = 1 - cosine * cosine;
   if (rest <= 0) return cosine < 0 ? 0 : 1;
-  const boost::math::students_t law(freedom);
-  return cdf(law, cosine * std::sqrt(freedom / rest));
+  const boost::math::students_t distribution(freedom);
+  return cdf(distribution, cosine * std::sqrt(freedom / rest));
 }
 
 double two_sided(double cosine, double freedom) {
@@ -112,9 +112,9 @@ std::vector<double> scaled(std::vector<double> values) {
 }  // namespace
 
 double scatter_test(std::span<const double> z) {
-  const boost::math::chi_squared law(static_cast<double>(z.size()));
+  const boost::math::chi_squared distribution(static_cast<double>(z.size()));
   const double q = sum_of_squares(z);
-  return std::min(1.0, 2 * std::min(cdf(law, q), cdf(complement(law, q))));
+  return std::min(1.0, 2 * std::min(cdf(distribution, q), cdf(complement(distribution, q))));
 }
 
 double location_test(std::span<const double> z) {
@@ -158,8 +158,8 @@ double extreme_test(std::span<const double> z) {
   for (const double each : z) largest = std::max(largest, each * each);
   const double share = largest / sum_of_squares(z);
   if (std::isnan(share)) return 1;
-  const boost::math::beta_distribution law(0.5, 0.5 * (n - 1));
-  return std::min(1.0, n * cdf(complement(law, std::min(share, 1.0))));
+  const boost::math::beta_distribution distribution(0.5, 0.5 * (n - 1));
+  return std::min(1.0, n * cdf(complement(distribution, std::min(share, 1.0))));
 }
 
 double fall_test(const Rise& rise) {

@@ -142,7 +142,7 @@ std::vector<ConditionalMode> RidgeMap::walk(const Posterior& posterior, int way)
   const double z = whitening_.center[axis_];
   std::vector<ConditionalMode> modes = {
       visit_at(slice, z, whitening_, covariance, axis_, nullptr, nullptr)};
-  const Law& prior = posterior.parameters()[static_cast<std::size_t>(axis_)].prior;
+  const Distribution& prior = posterior.parameters()[static_cast<std::size_t>(axis_)].prior;
   const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
   double t = 0, step = first_step, top = modes.front().log_marginal;
   while (static_cast<int>(modes.size()) < most_modes) {
@@ -194,7 +194,7 @@ void RidgeMap::follow(const Posterior& posterior) {
     axis_ = 0;
     return;
   }
-  const Law& prior = posterior.parameters()[static_cast<std::size_t>(axis_)].prior;
+  const Distribution& prior = posterior.parameters()[static_cast<std::size_t>(axis_)].prior;
   if (std::isfinite(prior.lower) || std::isfinite(prior.upper)) {
     for (const ConditionalMode* end : {&modes.front(), &modes.back()}) {
       endless_ |= std::abs(end->at - whitening_.center[axis_]) > endless_way &&

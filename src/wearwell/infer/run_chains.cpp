@@ -11,7 +11,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/infer/diagnostics.h"
 #include "wearwell/infer/fit.h"
-#include "wearwell/infer/leaps.h"
+#include "wearwell/infer/independence_sampler.h"
 #include "wearwell/infer/maxima_mixture.h"
 #include "wearwell/infer/metropolis.h"
 #include "wearwell/infer/nuts.h"
@@ -181,24 +181,24 @@ bool promising(const Draws& late, int draws) {
 
 template <int N>
 Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
-                  const NutsSettings& options, const RunSettings& settings, bool may_leap,
-                  std::span<const LocalMaximum> maxima) {
+                  const NutsSettings& options, const RunSettings& settings,
+                  bool may_propose_independently, std::span<const LocalMaximum> maxima) {
   std::vector<std::unique_ptr<NutsChain<N>>> chains(static_cast<std::size_t>(settings.chains));
   // Leaps take fewer evaluations than transitions without them, once there is something to leap about.
-  const bool leaps = may_leap && posterior.likelihood()->is_slow();
-  const int first = settings.warmup / (leaps ? 4 : 2);
+  const bool independence = may_propose_independently && posterior.likelihood()->is_slow();
+  const int first = settings.warmup / (independence ? 4 : 2);
   for (const int iterations : {first, settings.warmup - first}) {
     tbb::parallel_for(std::size_t{0}, chains.size(), [&](std::size_t c) {
       if (!chains[c])
         chains[c] =
             std::make_unique<NutsChain<N>>(posterior, whitening, options, settings, c, maxima);
-      chains[c]->warm_up(iterations, may_leap);
+      chains[c]->warm_up(iterations, may_propose_independently);
     });
-    if (!may_leap) continue;
+    if (!may_propose_independently) continue;
     Draws late;
     for (const auto& chain : chains) late.push_back(chain->late());
-    if (leaps || !promising(late, settings.draws))
-      return run_leaps(posterior, late, options, settings);
+    if (independence || !promising(late, settings.draws))
+      return run_independence(posterior, late, options, settings);
   }
   Draws draws(chains.size());
   tbb::parallel_for(std::size_t{0}, chains.size(),
@@ -207,19 +207,24 @@ Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
 }
 
 Draws nuts_chains(const Posterior& posterior, const Whitening& whitening,
-                  const NutsSettings& options, const RunSettings& settings, bool may_leap,
-                  std::span<const LocalMaximum> maxima = {}) {
+                  const NutsSettings& options, const RunSettings& settings,
+                  bool may_propose_independently, std::span<const LocalMaximum> maxima = {}) {
   switch (posterior.dimension()) {
     case 1:
-      return nuts_chains<1>(posterior, whitening, options, settings, may_leap, maxima);
+      return nuts_chains<1>(posterior, whitening, options, settings, may_propose_independently,
+                            maxima);
     case 2:
-      return nuts_chains<2>(posterior, whitening, options, settings, may_leap, maxima);
+      return nuts_chains<2>(posterior, whitening, options, settings, may_propose_independently,
+                            maxima);
     case 3:
-      return nuts_chains<3>(posterior, whitening, options, settings, may_leap, maxima);
+      return nuts_chains<3>(posterior, whitening, options, settings, may_propose_independently,
+                            maxima);
     case 4:
-      return nuts_chains<4>(posterior, whitening, options, settings, may_leap, maxima);
+      return nuts_chains<4>(posterior, whitening, options, settings, may_propose_independently,
+                            maxima);
     default:
-      return nuts_chains<Eigen::Dynamic>(posterior, whitening, options, settings, may_leap, maxima);
+      return nuts_chains<Eigen::Dynamic>(posterior, whitening, options, settings,
+                                         may_propose_independently, maxima);
   }
 }
 
@@ -230,8 +235,8 @@ Draws run_nuts(const Posterior& posterior, const Whitening& whitening, const Nut
   return nuts_chains(posterior, whitening, nuts, settings, false, maxima);
 }
 
-Draws run_nuts_or_leaps(const Posterior& posterior, const Whitening& whitening,
-                        const NutsSettings& nuts, const RunSettings& settings) {
+Draws run_nuts_or_independence(const Posterior& posterior, const Whitening& whitening,
+                               const NutsSettings& nuts, const RunSettings& settings) {
   return nuts_chains(posterior, whitening, nuts, settings, true);
 }
 

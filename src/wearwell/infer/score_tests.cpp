@@ -44,9 +44,9 @@ double cosine_score(std::span<const double> a, std::span<const double> b, double
   const double r = std::inner_product(a.begin(), a.end(), b.begin(), 0.0) / std::sqrt(squares);
   const double rest = 1 - r * r;
   if (!(rest > 0)) return r > 0 ? farthest : -farthest;
-  const boost::math::students_t law(freedom);
+  const boost::math::students_t distribution(freedom);
   const double t = r * std::sqrt(freedom / rest);
-  return score_of(cdf(law, t), cdf(complement(law, t)));
+  return score_of(cdf(distribution, t), cdf(complement(distribution, t)));
 }
 
 }  // namespace
@@ -94,9 +94,9 @@ double scatter_between_score(std::span<const double> size, std::span<const std::
     within += std::pow(size[i] - own.sum / own.n, 2);
   }
   if (!(within > 0)) return 0;
-  const boost::math::fisher_f law(between_freedom, within_freedom);
+  const boost::math::fisher_f distribution(between_freedom, within_freedom);
   const double f = between / between_freedom / (within / within_freedom);
-  return -score_of(cdf(law, f), cdf(complement(law, f)));
+  return -score_of(cdf(distribution, f), cdf(complement(distribution, f)));
 }
 
 double offset_score(std::span<const double> z, std::span<const double> driver) {

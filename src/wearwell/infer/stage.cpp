@@ -16,7 +16,7 @@ const char* stage_name(Stage stage) {
       return "quadrature";
     case Stage::digits:
       return "digits";
-    case Stage::natural_mode:
+    case Stage::constrained_mode:
       return "mode in the parameters' own units";
     case Stage::effects:
       return "integrals over effects";
@@ -24,9 +24,10 @@ const char* stage_name(Stage stage) {
   return "";
 }
 
-Check computation(const std::vector<Shortfall>& shortfalls, const std::string& precision) {
+Check computation(const std::vector<StageDiagnostic>& stage_diagnostics,
+                  const std::string& precision) {
   Findings findings("computation");
-  for (const Shortfall& each : shortfalls) {
+  for (const StageDiagnostic& each : stage_diagnostics) {
     findings.add(each.verdict, fmt::format("{}: {}", stage_name(each.stage), each.what),
                  each.advice);
   }

@@ -10,14 +10,14 @@ namespace wearwell {
 
 /// The stages of a fit that can fall short of what they promise. A new stage gets an entry here; a
 /// test walks over the list and asks of each that its failure ends trust.
-enum class Stage { mode, maxima, tails, quadrature, digits, natural_mode, effects };
+enum class Stage { mode, maxima, tails, quadrature, digits, constrained_mode, effects };
 
 inline constexpr std::array all_stages = {Stage::mode,       Stage::maxima, Stage::tails,
-                                          Stage::quadrature, Stage::digits, Stage::natural_mode,
+                                          Stage::quadrature, Stage::digits, Stage::constrained_mode,
                                           Stage::effects};
 
 /// What a stage did not reach. Verdict::warn where something else vouches for the numbers.
-struct Shortfall {
+struct StageDiagnostic {
   Stage stage;
   Verdict verdict;
   std::string what;
@@ -28,6 +28,7 @@ struct Shortfall {
 const char* stage_name(Stage stage);
 
 /// The check "computation": one finding a shortfall. `precision` is what is said when there is none.
-Check computation(const std::vector<Shortfall>& shortfalls, const std::string& precision);
+Check computation(const std::vector<StageDiagnostic>& stage_diagnostics,
+                  const std::string& precision);
 
 }  // namespace wearwell

@@ -34,13 +34,13 @@ Eigen::MatrixXd evenly(Eigen::Index dimension, Eigen::Index count) {
 }
 
 double score_of(double share) {
-  static const Law standard = make_law(Normal{0, 1}, -infinity, infinity);
+  static const Distribution standard = make_distribution(Normal{0, 1}, -infinity, infinity);
   return quantile(standard, share);
 }
 
 // Of a parameter on the real line: by the prior, or about the start value over some hundred of its scales.
 double about_start(const Parameter& parameter, const Transform& transform, double score) {
-  const Law& prior = parameter.prior;
+  const Distribution& prior = parameter.prior;
   const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
   const double z = transform.to_real(parameter.start);
   // On a whole line the unit of z is the scale itself.

@@ -232,8 +232,8 @@ class Trial {
 
 }  // namespace
 
-std::optional<QuickPosterior> quick_posterior(const Posterior& posterior,
-                                              const Whitening& whitening) {
+std::optional<QuickPosterior> surrogate_posterior(const Posterior& posterior,
+                                                  const Whitening& whitening) {
   const int d = posterior.dimension();
   if (d > most_parameters) return {};
   Eigen::VectorXd x(d);

@@ -20,7 +20,7 @@ struct QuickPosterior {
 /// decided by evaluations alone, not by time. Beyond seven standard deviations the likelihood goes on as a parabola,
 /// and is held against the true one there; beyond 21 it is the true one. Factors are always true.
 /// `whitening` is at the mode of `posterior`.
-std::optional<QuickPosterior> quick_posterior(const Posterior& posterior,
-                                              const Whitening& whitening);
+std::optional<QuickPosterior> surrogate_posterior(const Posterior& posterior,
+                                                  const Whitening& whitening);
 
 }  // namespace wearwell

@@ -43,7 +43,7 @@ bool all_proper(const Posterior& posterior) {
 
 // Of the prior itself: at a billionth of the way to the bound, or a billion times as far.
 double prior_index(const Parameter& parameter, bool upward, bool towards_bound) {
-  const Law& prior = parameter.prior;
+  const Distribution& prior = parameter.prior;
   constexpr double near = 1e-9;
   if (!towards_bound) {
     const double size = std::max(std::abs(parameter.start), parameter.scale);
@@ -175,7 +175,7 @@ bool is_out_of_reach(const Posterior& posterior, const Mode& mode, int i,
                      const Eigen::VectorXd& rest) {
   for (Eigen::Index j = 0; j < rest.size(); ++j) {
     const Eigen::Index from = j + (j >= i);
-    const Law& prior = parameter_of(posterior, static_cast<int>(from)).prior;
+    const Distribution& prior = parameter_of(posterior, static_cast<int>(from)).prior;
     const bool bounded = std::isfinite(prior.lower) || std::isfinite(prior.upper);
     if (bounded && !(std::abs(rest[j] - mode.position[from]) < out_of_reach)) return true;
   }
@@ -185,7 +185,7 @@ bool is_out_of_reach(const Posterior& posterior, const Mode& mode, int i,
 // `to_the_end`: where the density has vanished as well.
 Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward, bool to_the_end) {
   const int i = tail.parameter;
-  const Law& prior = parameter_of(posterior, i).prior;
+  const Distribution& prior = parameter_of(posterior, i).prior;
   const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
   Slice slice(posterior, i);
   slice.at = mode.position[i];
@@ -239,7 +239,7 @@ Walk walk(const Posterior& posterior, const Mode& mode, Tail& tail, bool outward
 
 Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, bool proper) {
   const Parameter& parameter = parameter_of(posterior, i);
-  const Law& prior = parameter.prior;
+  const Distribution& prior = parameter.prior;
   // On a half-line z is minus the log of the closeness to the bound; below an upper bound it runs
   // downwards.
   const bool upward =
@@ -290,7 +290,7 @@ Tail measure(const Posterior& posterior, const Mode& mode, int i, bool outward, 
 bool grows_beside(const Posterior& posterior, const Funnel& funnel, const Tail& tail) {
   const int i = tail.parameter, scale = funnel.scale;
   const Eigen::VectorXd& z = funnel.middle.position;
-  const Law& prior = parameter_of(posterior, i).prior;
+  const Distribution& prior = parameter_of(posterior, i).prior;
   const bool whole_line = !std::isfinite(prior.lower) && !std::isfinite(prior.upper);
   const bool below = std::isfinite(prior.upper) && !std::isfinite(prior.lower);
   const double unit =

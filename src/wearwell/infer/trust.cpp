@@ -30,7 +30,7 @@ std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit) {
     if (!fit.maxima.found.empty()) detail += "; " + description(posterior, fit.maxima);
     if (fit.exact)
       detail += fmt::format("; quadrature to an estimated relative {:.1g}", fit.exact->error);
-    checks.push_back(computation(fit.shortfalls, detail));
+    checks.push_back(computation(fit.stage_diagnostics, detail));
     return checks;
   };
   if (fit.method == Method::exact) return with_computation();
@@ -46,9 +46,9 @@ std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit) {
   return with_computation();
 }
 
-std::vector<Shortfall> later_shortfalls(const Posterior& posterior, const Fit& fit,
-                                        const NaturalMode& mode) {
-  std::vector<Shortfall> found;
+std::vector<StageDiagnostic> later_stage_diagnostics(const Posterior& posterior, const Fit& fit,
+                                                     const NaturalMode& mode) {
+  std::vector<StageDiagnostic> found;
   if (mode.problem.empty() && fit.exact) {
     const double there = posterior.value(view(posterior.to_real(view(mode.position))));
     if (there > fit.exact->highest + most_above) {
@@ -63,7 +63,7 @@ std::vector<Shortfall> later_shortfalls(const Posterior& posterior, const Fit& f
     // Where it climbed hardly above the draws it is on a plateau or an edge (a scatter of zero), and they missed nothing.
     const bool missed = !(mode.above_draws < most_above_draws);
     found.push_back(
-        {Stage::natural_mode, missed ? Verdict::fail : Verdict::warn,
+        {Stage::constrained_mode, missed ? Verdict::fail : Verdict::warn,
          missed ? mode.problem
                 : fmt::format(
                       "{}; nothing is missed: it climbed to e^{:.1f} times the density of draws",

@@ -4,9 +4,9 @@
 
 #include "wearwell/bayes/posterior.h"
 #include "wearwell/infer/check.h"
+#include "wearwell/infer/constrained_mode.h"
 #include "wearwell/infer/fit.h"
 #include "wearwell/infer/loo.h"
-#include "wearwell/infer/natural_mode.h"
 
 namespace wearwell {
 
@@ -19,8 +19,8 @@ namespace wearwell {
 std::vector<Check> trust_checks(const Posterior& posterior, const Fit& fit);
 
 /// What the stages after the fit fell short of, to be added to its own.
-std::vector<Shortfall> later_shortfalls(const Posterior& posterior, const Fit& fit,
-                                        const NaturalMode& mode);
+std::vector<StageDiagnostic> later_stage_diagnostics(const Posterior& posterior, const Fit& fit,
+                                                     const NaturalMode& mode);
 
 /// No check fails.
 bool trusted(const std::vector<Check>& checks);

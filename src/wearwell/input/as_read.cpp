@@ -8,7 +8,7 @@ namespace wearwell {
 namespace {
 
 // How the file is written, as far as the section says.
-std::string settings_in_words(const TomlReader& section) {
+std::string settings_text(const TomlReader& section) {
   const TableSettings settings = read_table_settings(section);
   std::string words;
   const auto add = [&](const char* key, const auto& value) {
@@ -38,12 +38,12 @@ std::string settings_in_words(const TomlReader& section) {
 
 std::string as_read_name(const TomlReader& section) {
   const auto sql = section.text("sql");
-  return fmt::format("as read\n{}{}{}", section.required_text("file"), settings_in_words(section),
+  return fmt::format("as read\n{}{}{}", section.required_text("file"), settings_text(section),
                      sql ? "\nsql = " + *sql : "");
 }
 
 std::string before_sql_name(const TomlReader& section) {
-  return fmt::format("before sql\n{}{}", section.required_text("file"), settings_in_words(section));
+  return fmt::format("before sql\n{}{}", section.required_text("file"), settings_text(section));
 }
 
 const Table* table_in_memory(const TomlReader& section, const Source& source) {

@@ -186,9 +186,9 @@ std::string label_word(const Table& table, const Column& column, std::size_t row
                                   printable(above))));
 }
 
-SeenNumbers seen_numbers(const Table& table, const ColumnChoice& choice) {
+CensoredNumbers censored_numbers(const Table& table, const ColumnChoice& choice) {
   const Column& column = table.column(choice.column);
-  SeenNumbers all;
+  CensoredNumbers all;
   Table values;  // of which limits are values
   values.source = table.source;
   values.rows = table.rows;
@@ -200,12 +200,12 @@ SeenNumbers seen_numbers(const Table& table, const ColumnChoice& choice) {
     const CellValue cell = cell_value(table, column, i);
     if (cell.unstated) refuse_unstated_limit(table, column, i);
     values.columns[0].numbers.push_back(cell.number);
-    all.seen.push_back(cell.sign == 0     ? Seen::exactly
-                       : cell.sign == '>' ? Seen::above
-                                          : Seen::below);
+    all.seen.push_back(cell.sign == 0     ? Censoring::none
+                       : cell.sign == '>' ? Censoring::right
+                                          : Censoring::left);
   }
   const bool any_limit = std::any_of(all.seen.begin(), all.seen.end(),
-                                     [](Seen each) { return each != Seen::exactly; });
+                                     [](Censoring each) { return each != Censoring::none; });
   all.values = any_limit ? si_numbers(values, column.name, choice.unit) : si_numbers(table, choice);
   return all;
 }

@@ -60,11 +60,11 @@ inline std::vector<double> si_numbers(const Table& table, const ColumnChoice& ch
 }
 
 /// The same where cells may be limits, "<0.5" and ">5000": the limit, and that the value lies below or above it.
-struct SeenNumbers {
+struct CensoredNumbers {
   std::vector<double> values;
-  std::vector<Seen> seen;
+  std::vector<Censoring> seen;
 };
-SeenNumbers seen_numbers(const Table& table, const ColumnChoice& choice);
+CensoredNumbers censored_numbers(const Table& table, const ColumnChoice& choice);
 
 /// Throws InputError of a cell such as "<LOD". `key` is what states it in the study, if anything does.
 [[noreturn]] void refuse_unstated_limit(const Table& table, const Column& column, std::size_t row,

@@ -81,7 +81,7 @@ Table read_table(const std::filesystem::path& path, const std::optional<std::str
   DuckdbSession session(file, settings);
   Table table;
   table.source = file.source();
-  table.layout = session.layout_in_words();
+  table.layout = session.layout_text();
   if (sql) {
     table.source += " (through sql)";
     for (const TextColumn& column : session.layout() ? session.layout()->columns : no_columns) {

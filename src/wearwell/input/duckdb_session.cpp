@@ -220,9 +220,9 @@ std::string DuckdbSession::sentence(const std::string& message) const {
   return text;
 }
 
-TableLayout DuckdbSession::layout_in_words() const {
+TableLayout DuckdbSession::layout_text() const {
   if (!layout_) return {};
-  return {in_words(*layout_, sheet_name_), layout_->notes};
+  return {description(*layout_, sheet_name_), layout_->notes};
 }
 
 const TextColumn* DuckdbSession::column(const std::string& name) const {

@@ -28,7 +28,7 @@ class DuckdbSession {
   const TableFile& file() const { return file_; }
   /// Of a text or a sheet.
   const std::optional<TextLayout>& layout() const { return layout_; }
-  TableLayout layout_in_words() const;  ///< empty of other files
+  TableLayout layout_text() const;  ///< empty of other files
   const TextColumn* column(const std::string& name) const;
   /// Where each row stands, where that is not in the line behind the row before it.
   std::vector<std::size_t>& lines() { return lines_; }

@@ -28,11 +28,11 @@ bool is_code(const std::string& word) {
 }
 
 bool is_word(const std::string& word) {
-  return seen_by_word(word).has_value();
+  return censoring_by_word(word).has_value();
 }
 
 bool is_failure(const std::string& word) {
-  return seen_by_word(word) == Seen::exactly;
+  return censoring_by_word(word) == Censoring::none;
 }
 
 template <class Property>

@@ -16,12 +16,12 @@ namespace wearwell {
 namespace {
 
 // Where a failure is 0, the code tells how a life is censored; where it is 1, whether it ended.
-std::optional<Seen> find_code(int failure, const std::string& word) {
+std::optional<Censoring> find_code(int failure, const std::string& word) {
   if (const auto truth = truth_in(word))
-    return *truth == (failure == 1) ? Seen::exactly : Seen::above;
+    return *truth == (failure == 1) ? Censoring::none : Censoring::right;
   const char *left = failure == 0 ? "-1" : "2", *interval = failure == 0 ? "2" : "3";
-  if (word == left) return Seen::below;
-  if (word == interval) return Seen::between;
+  if (word == left) return Censoring::left;
+  if (word == interval) return Censoring::interval;
   return {};
 }
 
@@ -29,7 +29,7 @@ bool is_code(const std::string& word) {
   return find_code(0, word) || find_code(1, word);
 }
 
-std::optional<Seen> find_own(const LifeStatus& status, const std::string& word) {
+std::optional<Censoring> find_own(const LifeStatus& status, const std::string& word) {
   const std::string folded = folded_word(word);
   for (const auto& [name, seen] : status.words) {
     if (folded == name) return seen;
@@ -39,10 +39,10 @@ std::optional<Seen> find_own(const LifeStatus& status, const std::string& word) 
 
 // The words that the study has for each of the ends.
 void add_own_words(const TomlReader& choice, LifeStatus& status) {
-  const std::pair<const char*, Seen> ends[] = {{"failure", Seen::exactly},
-                                               {"runout", Seen::above},
-                                               {"left", Seen::below},
-                                               {"interval", Seen::between}};
+  const std::pair<const char*, Censoring> ends[] = {{"failure", Censoring::none},
+                                                    {"runout", Censoring::right},
+                                                    {"left", Censoring::left},
+                                                    {"interval", Censoring::interval}};
   for (const auto& [key, seen] : ends) {
     if (choice.is_integer(key)) continue;
     for (const std::string& word : choice.texts(key)) {
@@ -103,10 +103,10 @@ std::optional<LifeStatus> read_life_status(const TomlReader& columns, const Tabl
   return status;
 }
 
-Seen seen_in(const Table& table, const LifeStatus& status, std::size_t row) {
+Censoring seen_in(const Table& table, const LifeStatus& status, std::size_t row) {
   const std::string word = cell_word(table.column(status.column), row);
   if (const auto seen = find_own(status, word)) return *seen;
-  if (const auto seen = seen_by_word(word)) return *seen;
+  if (const auto seen = censoring_by_word(word)) return *seen;
   if (status.failure_code) {
     if (const auto seen = find_code(*status.failure_code, word)) return *seen;
   }

@@ -20,7 +20,8 @@ struct LifeStatus {
   std::string column;  ///< its heading
   std::optional<int> failure_code =
       {};  ///< what a failure is written as; none where all cells are words
-  std::vector<std::pair<std::string, Seen>> words = {};  ///< of the study, folded; they come first
+  std::vector<std::pair<std::string, Censoring>> words =
+      {};  ///< of the study, folded; they come first
 };
 
 /// Nothing where the study names none. Throws InputError, and with both readings where neither the study
@@ -28,7 +29,7 @@ struct LifeStatus {
 std::optional<LifeStatus> read_life_status(const TomlReader& columns, const Table& table);
 
 /// What a row says of its life. Throws InputError that names its cell.
-Seen seen_in(const Table& table, const LifeStatus& status, std::size_t row);
+Censoring seen_in(const Table& table, const LifeStatus& status, std::size_t row);
 
 /// What a failure is written as by what a heading says: "censored?" has 0, "event" 1; nothing where it does not tell.
 std::optional<int> failure_code_of(const std::string& heading);

@@ -24,7 +24,7 @@ void MergedCells::fill(SheetRow& row) {
   }
 }
 
-std::string MergedCells::in_words() const {
+std::string MergedCells::description() const {
   constexpr std::size_t most = 3;
   std::vector<std::string> names;
   for (const std::size_t i : filled_) {

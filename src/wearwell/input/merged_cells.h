@@ -16,7 +16,7 @@ class MergedCells {
   /// Of each row, in their order.
   void fill(SheetRow& row);
   /// "merged cells A2:A4, A5:A7 read in each of their rows"; empty where none were.
-  std::string in_words() const;
+  std::string description() const;
 
  private:
   const std::vector<SheetRange>& ranges_;

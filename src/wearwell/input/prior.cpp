@@ -54,8 +54,8 @@ class PriorReader {
     return value ? keep(key, *value) : none;
   }
 
-  Family family(const std::string& law) {
-    const ResponseForm& form = stated_form(law);
+  Family family(const std::string& distribution) {
+    const ResponseForm& form = stated_form(distribution);
     refuse_form(form);
     Family family{form.family};
     for (std::size_t i = 0; i < form.slots.size(); ++i) {
@@ -77,20 +77,20 @@ class PriorReader {
 
  private:
   // That of its parameter forms whose parameters are given; else that of which the most are, which then says what is missing.
-  const ResponseForm& stated_form(const std::string& law) const {
+  const ResponseForm& stated_form(const std::string& distribution) const {
     // Not by table_.has, after which a key that the form does not have counts as one that was asked for.
     const std::vector<std::string> keys = table_.keys();
     const auto has = [&](std::string_view key) {
       return std::find(keys.begin(), keys.end(), key) != keys.end();
     };
-    if (const ResponseForm* form = given_form(prior_forms(), law, has)) return *form;
+    if (const ResponseForm* form = given_form(prior_forms(), distribution, has)) return *form;
     const ResponseForm* nearest = nullptr;
     std::ptrdiff_t most = -1;
     for (const ResponseForm& form : prior_forms()) {
-      if (form.name != law) continue;
+      if (form.name != distribution) continue;
       const std::ptrdiff_t given =
           std::count_if(form.slots.begin(), form.slots.end(),
-                        [&](const SlotForm& slot) { return has(slot.name); });
+                        [&](const ParameterForm& slot) { return has(slot.name); });
       if (given >= most) nearest = &form;
       most = std::max(most, given);
     }
@@ -104,21 +104,21 @@ class PriorReader {
       }
     }
     if (is_logarithm(spec_.si) && form.positive) {
-      table_.fail("law", fmt::format("of a logarithm must be {}, not {}",
-                                     fmt::join(names_of_logarithms(), ", "), form.name));
+      table_.fail("distribution", fmt::format("of a logarithm must be {}, not {}",
+                                              fmt::join(names_of_logarithms(), ", "), form.name));
     }
     if (form.family == ResponseFamily::beta && spec_.si != "1") {
-      table_.fail("law", "a beta law lies between 0 and 1: it is only for a plain number");
+      table_.fail("distribution", "a beta law lies between 0 and 1: it is only for a plain number");
     }
   }
 
   // Of a logarithm sizes are plain numbers.
-  double parameter(const char* key, SlotKind kind) {
+  double parameter(const char* key, ParameterKind kind) {
     const bool dimensional =
-        kind == SlotKind::place || (kind == SlotKind::size && !is_logarithm(spec_.si));
+        kind == ParameterKind::place || (kind == ParameterKind::size && !is_logarithm(spec_.si));
     const double value = dimensional ? keep(key, table_.required_quantity(key, spec_.si))
                                      : table_.required_quantity(key, "1").si();
-    const bool positive = kind == SlotKind::size || kind == SlotKind::number;
+    const bool positive = kind == ParameterKind::size || kind == ParameterKind::number;
     if (positive && !(value > 0)) table_.fail(key, "must be positive");
     return value;
   }
@@ -149,23 +149,25 @@ class PriorReader {
 };
 
 // A value strictly inside the support, the guess where that is possible.
-double start_inside(const Law& law, double guess) {
-  if (law.lower < guess && guess < law.upper) return guess;
-  if (std::isfinite(law.lower) && std::isfinite(law.upper)) return 0.5 * (law.lower + law.upper);
-  if (law.proper) return quantile(law, 0.5);
-  const bool from_lower = std::isfinite(law.lower);
-  const double bound = from_lower ? law.lower : law.upper;
+double start_inside(const Distribution& distribution, double guess) {
+  if (distribution.lower < guess && guess < distribution.upper) return guess;
+  if (std::isfinite(distribution.lower) && std::isfinite(distribution.upper))
+    return 0.5 * (distribution.lower + distribution.upper);
+  if (distribution.proper) return quantile(distribution, 0.5);
+  const bool from_lower = std::isfinite(distribution.lower);
+  const double bound = from_lower ? distribution.lower : distribution.upper;
   const double step = std::max(std::abs(guess), std::abs(bound));
   return from_lower ? bound + step : bound - step;
 }
 
-double spread(const Law& law, double start) {
-  if (law.proper) return 0.5 * (quantile(law, 0.84) - quantile(law, 0.16));
+double spread(const Distribution& distribution, double start) {
+  if (distribution.proper)
+    return 0.5 * (quantile(distribution, 0.84) - quantile(distribution, 0.16));
   return start != 0 ? std::abs(start) : 1;
 }
 
 struct StatedPrior {
-  std::string law;
+  std::string distribution;
   Family family;
   double lower, upper;
   Unit unit;
@@ -173,7 +175,7 @@ struct StatedPrior {
 
 // `fail(key, message)` refuses what the study says, or the default where it says nothing.
 Parameter make_parameter(const ParameterSpec& spec, const StatedPrior& stated, const auto& fail) {
-  Parameter parameter{spec.name, spec.si, stated.unit, stated.law, {}};
+  Parameter parameter{spec.name, spec.si, stated.unit, stated.distribution, {}};
   parameter.natural_lower = spec.natural_lower;
   parameter.natural_upper = spec.natural_upper;
   if (!(stated.lower < stated.upper)) {
@@ -182,8 +184,8 @@ Parameter make_parameter(const ParameterSpec& spec, const StatedPrior& stated, c
                      from_si(parameter.unit, stated.lower), from_si(parameter.unit, stated.upper)));
   }
   try {
-    parameter.prior = make_law(stated.family, std::max(stated.lower, spec.natural_lower),
-                               std::min(stated.upper, spec.natural_upper));
+    parameter.prior = make_distribution(stated.family, std::max(stated.lower, spec.natural_lower),
+                                        std::min(stated.upper, spec.natural_upper));
   } catch (const InputError& error) {
     fail("", error.what());
   }
@@ -207,16 +209,17 @@ Parameter make_parameter(const ParameterSpec& spec, const StatedPrior& stated, c
 // `table` is where the study says nothing of it, under `key` or as a whole.
 Parameter default_parameter(const TomlReader& table, const char* key, const ParameterSpec& spec) {
   if (!spec.fallback) {
-    table.fail(key,
-               fmt::format("no prior for {}; write {} = {{ law = \"flat\", unit = \"{}\" }} if "
-                           "nothing is known",
-                           spec.name, spec.name, spec.si));
+    table.fail(
+        key,
+        fmt::format("no prior for {}; write {} = {{ distribution = \"flat\", unit = \"{}\" }} if "
+                    "nothing is known",
+                    spec.name, spec.name, spec.si));
   }
   const DefaultPrior& prior = *spec.fallback;
   Parameter parameter =
       make_parameter(spec,
-                     {prior.law, prior.family, prior.lower, std::numeric_limits<double>::infinity(),
-                      read_unit(prior.unit, spec.si)},
+                     {prior.distribution, prior.family, prior.lower,
+                      std::numeric_limits<double>::infinity(), read_unit(prior.unit, spec.si)},
                      [&](const char*, const std::string& message) {
                        table.fail(key, fmt::format("the data have no size for a default prior of "
                                                    "{}: {}; state one",
@@ -245,21 +248,22 @@ Parameter read_prior(const TomlReader& root, const std::optional<TomlReader>& pr
 Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec) {
   const auto table = priors.table(spec.name);
   if (!table) return default_parameter(priors, "", spec);
-  const auto law = table->choice("law", names());
-  if (!law) table->fail("law", "is missing");
-  if (*law == "default") {
-    if (!spec.fallback) table->fail("law", fmt::format("{} has no default prior", spec.name));
-    return default_parameter(*table, "law", spec);
+  const auto distribution = table->choice("distribution", names());
+  if (!distribution) table->fail("distribution", "is missing");
+  if (*distribution == "default") {
+    if (!spec.fallback)
+      table->fail("distribution", fmt::format("{} has no default prior", spec.name));
+    return default_parameter(*table, "distribution", spec);
   }
   PriorReader reader(*table, spec);
-  const Family family = reader.family(*law);
+  const Family family = reader.family(*distribution);
   const ResponseForm& form = form_of(family.id);
   const bool shifted = form.slots.size() > 0 && form.slots.back().name == "threshold";
   const double least = form.positive && !shifted ? 0 : -std::numeric_limits<double>::infinity();
   const double lower = std::max(least, reader.bound("lower", least));
   const double upper = reader.bound("upper", std::numeric_limits<double>::infinity());
   return make_parameter(
-      spec, {*law, family, lower, upper, reader.unit()},
+      spec, {*distribution, family, lower, upper, reader.unit()},
       [&](const char* key, const std::string& message) { table->fail(key, message); });
 }
 

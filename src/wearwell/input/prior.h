@@ -12,8 +12,8 @@ namespace wearwell {
 /// The prior of a parameter of which the study says nothing: weak, what the field knows or what units
 /// and the size of the data say, never what a fit says. docs/reference/priors.md has them all.
 struct DefaultPrior {
-  std::string law;  ///< as in study files: "lognormal"
-  Family family;    ///< SI
+  std::string distribution;  ///< as in study files: "lognormal"
+  Family family;             ///< SI
   std::string unit;
   double lower = -std::numeric_limits<double>::infinity();
 };
@@ -31,7 +31,7 @@ struct ParameterSpec {
 /// The size of positive data for a default: 1, 2 or 5 times a power of ten, not below `x`.
 double rounded_up(double x);
 
-/// Reads [prior] NAME = { law = ..., ... } and makes the parameter. The parameter's unit is the one
+/// Reads [prior] NAME = { distribution = ..., ... } and makes the parameter. The parameter's unit is the one
 /// its prior is written in.
 ///
 ///   flat       lower, upper (both optional)
@@ -40,7 +40,7 @@ double rounded_up(double x);
 ///              quantity of the parameter's dimension, all else as plain numbers
 ///
 /// each truncated by lower and upper; `unit` where no quantity names one. Where nothing stands there,
-/// or law = "default", it is the model's default; without one that is refused.
+/// or distribution = "default", it is the model's default; without one that is refused.
 Parameter read_prior(const TomlReader& priors, const ParameterSpec& spec);
 /// The same where [prior] may be missing from `root`.
 Parameter read_prior(const TomlReader& root, const std::optional<TomlReader>& priors,

@@ -23,7 +23,7 @@ std::vector<const ResponseForm*> forms_of(std::string_view name) {
 
 bool has_slot(const ResponseForm& form, std::string_view slot) {
   return std::any_of(form.slots.begin(), form.slots.end(),
-                     [&](const SlotForm& each) { return each.name == slot; });
+                     [&](const ParameterForm& each) { return each.name == slot; });
 }
 
 void add_new(std::vector<std::string>& conditions, const std::string& each) {
@@ -32,26 +32,27 @@ void add_new(std::vector<std::string>& conditions, const std::string& each) {
 }
 
 // When a law needs the slot: of two parameter forms the first where another of its slots is given, else the last.
-void add_conditions(std::string_view law, const SlotForm& slot, StudyKey& key) {
-  const std::vector<const ResponseForm*> forms = forms_of(law);
+void add_conditions(std::string_view distribution, const ParameterForm& slot, StudyKey& key) {
+  const std::vector<const ResponseForm*> forms = forms_of(distribution);
   const ResponseForm &first = *forms.front(), &last = *forms.back();
   if (has_slot(last, slot.name)) {
-    add_new(key.when, fmt::format(".law={}", law));
+    add_new(key.when, fmt::format(".distribution={}", distribution));
     if (forms.size() == 1) return;
-    for (const SlotForm& each : first.slots) add_new(key.unless, fmt::format(".{}", each.name));
+    for (const ParameterForm& each : first.slots)
+      add_new(key.unless, fmt::format(".{}", each.name));
     return;
   }
-  for (const SlotForm& each : first.slots) {
+  for (const ParameterForm& each : first.slots) {
     if (each.name == slot.name) continue;
     add_new(key.when, fmt::format(".{}", each.name));
     for (const ResponseForm& other : prior_forms()) {
-      if (other.name != law && has_slot(other, each.name) && !has_slot(other, slot.name))
-        add_new(key.unless, fmt::format(".law={}", other.name));
+      if (other.name != distribution && has_slot(other, each.name) && !has_slot(other, slot.name))
+        add_new(key.unless, fmt::format(".distribution={}", other.name));
     }
   }
 }
 
-StudyKey key_of(const SlotForm& slot) {
+StudyKey key_of(const ParameterForm& slot) {
   static const std::map<std::string_view, const char*> examples = {{"sd", "\"2 mm^3\""},
                                                                    {"threshold", "\"1 mm^3\""},
                                                                    {"log_sd", "0.5"},
@@ -66,20 +67,20 @@ StudyKey key_of(const SlotForm& slot) {
       {"beta", "second shape"},
       {"threshold", "value at which the distribution begins"}};
   const auto given = examples.find(slot.name);
-  const bool dimensional = slot.kind == SlotKind::place || slot.kind == SlotKind::size;
+  const bool dimensional = slot.kind == ParameterKind::place || slot.kind == ParameterKind::size;
   const auto meaning = meanings.find(slot.name);
-  std::vector<std::string> laws;
+  std::vector<std::string> distributions;
   StudyKey key;
   for (const ResponseForm& form : prior_forms()) {
     if (!has_slot(form, slot.name)) continue;
-    add_new(laws, std::string(form.name));
+    add_new(distributions, std::string(form.name));
     if (!slot.optional) add_conditions(form.name, slot, key);
   }
   key.path = fmt::format("prior.*.{}", slot.name);
   key.example = given != examples.end() ? given->second : dimensional ? "\"5 mm^3\"" : "2";
   key.meaning = fmt::format(
       "{}, of {}", meaning != meanings.end() ? std::string_view(meaning->second) : slot.name,
-      fmt::join(laws, ", "));
+      fmt::join(distributions, ", "));
   key.needed = !slot.optional;
   return key;
 }
@@ -88,15 +89,15 @@ StudyKey key_of(const SlotForm& slot) {
 
 StudyKeys prior_keys() {
   StudyKeys keys = {
-      needed_key("prior.*.law", "\"normal\"", "law: see [priors.md](priors.md)"),
+      needed_key("prior.*.distribution", "\"normal\"", "law: see [priors.md](priors.md)"),
       {"prior.*.unit", "\"mm^3\"", "unit to report in; needed where no quantity has one"},
       needed_key("prior.*.lower", "\"0 mm^3\"", "lower bound; needed by uniform", {},
-                 {".law=uniform"}),
+                 {".distribution=uniform"}),
       needed_key("prior.*.upper", "\"15 mm^3\"", "upper bound; needed by uniform", {},
-                 {".law=uniform"})};
+                 {".distribution=uniform"})};
   std::set<std::string_view> done;
   for (const ResponseForm& form : prior_forms()) {
-    for (const SlotForm& slot : form.slots) {
+    for (const ParameterForm& slot : form.slots) {
       if (done.insert(slot.name).second) keys.push_back(key_of(slot));
     }
   }

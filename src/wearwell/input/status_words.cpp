@@ -19,15 +19,15 @@ constexpr std::array<std::string_view, 64> latin_letters = {
     "a", "a", "a", "a", "a", "a", "ae", "c", "e", "e", "e", "e", "i", "i", "i", "i",
     "d", "n", "o", "o", "o", "o", "o",  "",  "o", "u", "u", "u", "u", "y", "t", "y"};
 
-using Words = std::map<std::string, Seen, std::less<>>;
+using Words = std::map<std::string, Censoring, std::less<>>;
 
 const Words& status_words() {
   static const Words words = [] {
     Words all;
-    const auto add = [&](Seen seen, std::initializer_list<const char*> list) {
+    const auto add = [&](Censoring seen, std::initializer_list<const char*> list) {
       for (const char* each : list) all.emplace(folded_word(each), seen);
     };
-    add(Seen::exactly,
+    add(Censoring::none,
         {"failure", "failed", "fail", "F", "broke", "broken", "breakage", "fracture", "fractured",
          "ruptured", "cracked", "crack", "dead", "died", "observed", "event", "uncensored", "NOK",
          "not ok", "worn out", "exact",
@@ -40,7 +40,7 @@ const Words& status_words() {
          // Spanish
          "fallo", "falla", "fallado", "fallada", "avería", "averiado", "averiada", "rotura", "roto",
          "rota"});
-    add(Seen::above,
+    add(Censoring::right,
         {"runout", "RO", "right", "right censored", "S", "suspended", "suspension", "susp", "C",
          "censored", "censor", "cens", "survived", "survivor", "surviving", "alive", "running",
          "still running", "in service", "OK", "unbroken", "intact", "not failed", "no failure",
@@ -58,10 +58,10 @@ const Words& status_words() {
          "censurado", "censurada", "derecha", "censura derecha", "suspendido", "suspendida",
          "sobrevivió", "superviviente", "en servicio", "en marcha", "en funcionamiento",
          "sin rotura", "sin fallo", "sin falla", "no roto", "no rota", "intacto", "intacta"});
-    add(Seen::below, {"left", "left censored", "links", "linkszensiert", "gauche",
-                      "censuré à gauche", "izquierda", "censura izquierda"});
-    add(Seen::between, {"interval", "interval censored", "Intervall", "intervallzensiert",
-                        "intervalle", "censuré par intervalle", "intervalo"});
+    add(Censoring::left, {"left", "left censored", "links", "linkszensiert", "gauche",
+                          "censuré à gauche", "izquierda", "censura izquierda"});
+    add(Censoring::interval, {"interval", "interval censored", "Intervall", "intervallzensiert",
+                              "intervalle", "censuré par intervalle", "intervalo"});
     return all;
   }();
   return words;
@@ -90,7 +90,7 @@ std::string folded_word(std::string_view word) {
   return folded.empty() ? boost::algorithm::trim_copy(std::string(word)) : folded;
 }
 
-std::optional<Seen> seen_by_word(std::string_view word) {
+std::optional<Censoring> censoring_by_word(std::string_view word) {
   const auto found = status_words().find(folded_word(word));
   if (found == status_words().end()) return {};
   return found->second;

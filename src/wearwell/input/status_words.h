@@ -14,7 +14,7 @@ std::string folded_word(std::string_view word);
 
 /// What a word of a table says of how a test ended ("failed", "S", "Durchläufer", "censuré"), in
 /// English, German, French and Spanish; nothing where it says nothing of that, or is a code.
-std::optional<Seen> seen_by_word(std::string_view word);
+std::optional<Censoring> censoring_by_word(std::string_view word);
 
 /// The word of that list that was probably meant; nothing where none is near.
 std::optional<std::string> near_status_word(std::string_view word);

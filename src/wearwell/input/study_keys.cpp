@@ -176,7 +176,7 @@ class Keys {
                        fmt::join(names, ", "));
   }
 
-  // "data", "law.fatigue_limit=random", ".law=normal".
+  // "data", "law.fatigue_limit=random", ".distribution=normal".
   bool holds(const std::string& condition, std::string_view table) const {
     const std::size_t equals = condition.find('=');
     std::string path = condition.substr(0, equals);

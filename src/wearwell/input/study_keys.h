@@ -12,12 +12,12 @@ namespace wearwell {
 /// the reader's business alone; tests hold these lists against what readers ask for.
 struct StudyKey {
   /// "data.columns.volume". A part "*" is a name that the user chooses, or one of those that stand
-  /// in the list by themselves ("prior.*.law").
+  /// in the list by themselves ("prior.*.distribution").
   std::string path;
   std::string example;  ///< a value as it stands in TOML
   std::string meaning;
   bool needed = false;
-  /// Needed only where one of these stands: "data", "law.fatigue_limit=random"; ".law=normal" is
+  /// Needed only where one of these stands: "data", "law.fatigue_limit=random"; ".distribution=normal" is
   /// beside the key itself.
   std::vector<std::string> when = {};
   /// Not needed where one of these stands.

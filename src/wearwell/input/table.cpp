@@ -106,7 +106,8 @@ double cell_number(const Table& table, const Column& column, std::size_t index) 
   if (value.sign == 0) return value.number;
   throw InputError(fmt::format(
       "{}: '{}' is a limit: the value lies {} it, and a value is needed here. Such rows are "
-      "{}-censored; they are read in the life of a test and in what a formula (model = \"law\") "
+      "{}-censored; they are read in the life of a test and in what a formula (model = "
+      "\"formula\") "
       "measures (docs/reference/tables.md)",
       place(table, column.name, index), column.text[index], value.sign == '<' ? "below" : "above",
       value.sign == '<' ? "left" : "right"));

@@ -330,7 +330,7 @@ TextLayout find_layout(const TableFile& file, const TableSettings& settings, boo
   return Survey(file, settings, Encoding::cp1252).run(whole);
 }
 
-std::string in_words(const TextLayout& layout, const std::string& sheet) {
+std::string description(const TextLayout& layout, const std::string& sheet) {
   std::vector<std::string> words;
   if (!sheet.empty()) {
     words.push_back(fmt::format("sheet '{}'", sheet));

@@ -45,6 +45,6 @@ struct TextLayout {
 TextLayout find_layout(const TableFile& file, const TableSettings& settings, bool whole = false);
 
 /// "semicolons, decimal comma, thousands point, cp1252, headings in line 5"; of a sheet its name.
-std::string in_words(const TextLayout& layout, const std::string& sheet);
+std::string description(const TextLayout& layout, const std::string& sheet);
 
 }  // namespace wearwell

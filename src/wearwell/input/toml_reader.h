@@ -60,7 +60,7 @@ class TomlReader {
   [[noreturn]] void fail(std::string_view key, const std::string& message,
                          const Repair& repair = {}) const;
 
-  /// A key that stands in the file, with its table: "prior.k.law".
+  /// A key that stands in the file, with its table: "prior.k.distribution".
   struct Present {
     std::string path;
     bool is_table = false;

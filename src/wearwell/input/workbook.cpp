@@ -286,7 +286,7 @@ SheetSurvey survey_of(const Workbook& book, const SheetName& sheet, const SheetR
 }
 
 /// "2 hidden rows read like the others (rows 5, 9)".
-std::string hidden_in_words(const std::vector<std::size_t>& rows, bool read) {
+std::string hidden_text(const std::vector<std::size_t>& rows, bool read) {
   constexpr std::size_t most = 5;
   std::vector<std::string> numbers;
   for (const std::size_t row : rows) {
@@ -372,9 +372,8 @@ SheetText sheet_text(const TableFile& file, const TableSettings& settings) {
   for (auto& [column, doubt] : used.numbers.doubts())
     found.doubts[column - used.first] = std::move(doubt);
   if (used.numbers.any_comma()) found.notes.emplace_back("decimal comma in cells of text");
-  if (const std::string words = merged.in_words(); !words.empty()) found.notes.push_back(words);
-  if (!hidden.empty())
-    found.notes.push_back(hidden_in_words(hidden, settings.hidden_rows != false));
+  if (const std::string words = merged.description(); !words.empty()) found.notes.push_back(words);
+  if (!hidden.empty()) found.notes.push_back(hidden_text(hidden, settings.hidden_rows != false));
   return found;
 }
 

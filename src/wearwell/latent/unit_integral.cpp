@@ -20,7 +20,7 @@ constexpr int most_halvings = 5, most_steps = 40;
 using Pair = std::array<double, 2>;
 
 // Where the integrand of a unit is highest, about, and how wide it is there.
-struct Bell {
+struct LaplaceApproximation {
   Pair center{};
   // Columns of the lattice: z = center + sinh(s) across[0] + sinh(t) across[1].
   std::array<Pair, 2> across{{{1, 0}, {0, 1}}};
@@ -37,12 +37,13 @@ class Search {
         slope_(units_ * effects_),
         wanted_(units_, 1) {}
 
-  std::vector<Bell> bells() {
+  std::vector<LaplaceApproximation> approximations() {
     return effects_ == 1 ? along_line(std::vector<Pair>(units_)) : over_plane();
   }
 
   // One effect: of these units alone, from elsewhere.
-  std::vector<Bell> bells(const std::vector<std::uint8_t>& whose, std::vector<Pair> from) {
+  std::vector<LaplaceApproximation> approximations(const std::vector<std::uint8_t>& whose,
+                                                   std::vector<Pair> from) {
     wanted_ = whose;
     return along_line(std::move(from));
   }
@@ -85,7 +86,7 @@ class Search {
   }
 
   // One effect: the root of the slope by the secant's method within a bracket.
-  std::vector<Bell> along_line(std::vector<Pair> at) {
+  std::vector<LaplaceApproximation> along_line(std::vector<Pair> at) {
     std::vector<Pair> slope(units_), next(units_), next_slope(units_);
     std::vector<double> log_f(units_, -infinity), next_f(units_, -infinity);
     std::vector<double> curvature(units_, 1), low(units_, -infinity), high(units_, infinity);
@@ -129,20 +130,20 @@ class Search {
       }
       first = false;
     }
-    std::vector<Bell> bells(units_);
+    std::vector<LaplaceApproximation> approximations(units_);
     for (std::size_t u = 0; u < units_; ++u) {
-      bells[u].center = at[u];
-      bells[u].across[0] = {1 / std::sqrt(curvature[u]), 0};
+      approximations[u].center = at[u];
+      approximations[u].across[0] = {1 / std::sqrt(curvature[u]), 0};
     }
-    return bells;
+    return approximations;
   }
 
   // Two effects: Newton's method with the curvature by differences, kept positive.
-  std::vector<Bell> over_plane() {
+  std::vector<LaplaceApproximation> over_plane() {
     std::vector<Pair> at(units_), slope(units_), one(units_), two(units_), probe(units_);
     std::vector<Pair> to_slope(units_);
     std::vector<double> log_f(units_, -infinity), other(units_, -infinity), to_f(units_, -infinity);
-    std::vector<Bell> bells(units_);
+    std::vector<LaplaceApproximation> approximations(units_);
     std::vector<double> share(units_, 1);
     begin(at, log_f, slope);
     constexpr double width = 1e-3;
@@ -166,14 +167,14 @@ class Search {
         }
         // Inverse of the Cholesky factor of the curvature: z = center + L^-T (i, j).
         const double l11 = std::sqrt(a), l21 = b / l11, l22 = std::sqrt(d - l21 * l21);
-        bells[u].across = {{{1 / l11, 0}, {-l21 / (l11 * l22), 1 / l22}}};
+        approximations[u].across = {{{1 / l11, 0}, {-l21 / (l11 * l22), 1 / l22}}};
         const double det = a * d - b * b;
         Pair move = {(d * slope[u][0] - b * slope[u][1]) / det,
                      (a * slope[u][1] - b * slope[u][0]) / det};
         const double length = std::hypot(move[0], move[1]);
         const double most = std::min(1.0, 3 / length) * share[u];
         const double promise = move[0] * slope[u][0] + move[1] * slope[u][1];
-        bells[u].center = at[u];
+        approximations[u].center = at[u];
         if (!(promise > 0.01)) {
           wanted_[u] = 0;
           probe[u] = at[u];
@@ -192,10 +193,10 @@ class Search {
         } else if ((share[u] *= 0.25) < 1e-8) {
           wanted_[u] = 0;
         }
-        bells[u].center = at[u];
+        approximations[u].center = at[u];
       }
     }
-    return bells;
+    return approximations;
   }
 
   UnitTerms& terms_;
@@ -224,9 +225,10 @@ struct Sum {
 
 class Lattice {
  public:
-  Lattice(UnitTerms& terms, std::vector<Bell>& bells, UnitIntegrals& result)
+  Lattice(UnitTerms& terms, std::vector<LaplaceApproximation>& approximations,
+          UnitIntegrals& result)
       : terms_(terms),
-        bells_(bells),
+        approximations_(approximations),
         result_(result),
         units_(terms.units()),
         effects_(static_cast<std::size_t>(terms.effects())),
@@ -257,12 +259,14 @@ class Lattice {
     s.log_f.assign(units_, -infinity);
     s.weight.resize(units_);
     for (std::size_t u = 0; u < units_; ++u) {
-      const Bell& bell = bells_[u];
-      double area = effects_ == 1 ? bell.across[0][0] : bell.across[0][0] * bell.across[1][1];
+      const LaplaceApproximation& approximation = approximations_[u];
+      double area = effects_ == 1 ? approximation.across[0][0]
+                                  : approximation.across[0][0] * approximation.across[1][1];
       s.weight[u] = log_cell + std::log(area);
       for (std::size_t e = 0; e < effects_; ++e) {
         double& z = s.z[u * effects_ + e];
-        z = bell.center[e] + i * bell.across[0][e] + j * bell.across[1][e];
+        z = approximation.center[e] + i * approximation.across[0][e] +
+            j * approximation.across[1][e];
         if (std::abs(z) > farthest) wanted_[u] = 0;
       }
     }
@@ -323,10 +327,11 @@ class Lattice {
       }
     }
     if (!any) return;
-    const std::vector<Bell> bells = Search(terms_).bells(whose, from);
+    const std::vector<LaplaceApproximation> approximations =
+        Search(terms_).approximations(whose, from);
     for (std::size_t u = 0; u < units_; ++u) {
       if (!whose[u]) continue;
-      bells_[u] = bells[u];
+      approximations_[u] = approximations[u];
       sums_[u] = {};
       for (std::size_t n = 0; n < used_; ++n) result_.sweeps[n].log_f[u] = -infinity;
     }
@@ -373,9 +378,10 @@ class Lattice {
   }
 
   void finish(std::size_t u, double step) {
-    const Bell& bell = bells_[u];
-    const double area = effects_ == 1 ? step * bell.across[0][0]
-                                      : step * step * bell.across[0][0] * bell.across[1][1];
+    const LaplaceApproximation& approximation = approximations_[u];
+    const double area = effects_ == 1
+                            ? step * approximation.across[0][0]
+                            : step * step * approximation.across[0][0] * approximation.across[1][1];
     result_.log_likelihood[u] = sums_[u].highest + std::log((sums_[u].even + sums_[u].odd) * area);
   }
 
@@ -428,7 +434,7 @@ class Lattice {
   }
 
   UnitTerms& terms_;
-  std::vector<Bell>& bells_;
+  std::vector<LaplaceApproximation>& approximations_;
   UnitIntegrals& result_;
   std::size_t units_, effects_, used_ = 0;
   std::vector<std::uint8_t> wanted_;
@@ -466,8 +472,8 @@ void UnitIntegrals::put(std::size_t unit, std::size_t place, const double* z,
 }
 
 void integrate(UnitTerms& terms, UnitIntegrals& result) {
-  std::vector<Bell> bells = Search(terms).bells();
-  Lattice(terms, bells, result).run();
+  std::vector<LaplaceApproximation> approximations = Search(terms).approximations();
+  Lattice(terms, approximations, result).run();
 }
 
 }  // namespace wearwell::latent

@@ -28,7 +28,7 @@ namespace {
 
 /// The curve that people see: a forecast itself is a hundred times as large, and there is one of every unit.
 std::shared_ptr<const std::vector<UnitDetail::CurvePoint>> survival_of(
-    const prognosis::WeightedLives& lives, const TrackerUnits& told) {
+    const prognosis::WeightedLives& lives, const TrackerUnits& reported) {
   auto curve = std::make_shared<std::vector<UnitDetail::CurvePoint>>();
   if (lives.points().empty()) return curve;
   constexpr double last = 0.995;
@@ -38,7 +38,7 @@ std::shared_ptr<const std::vector<UnitDetail::CurvePoint>> survival_of(
   constexpr int points = 120;
   for (int i = 0; i <= points; ++i) {
     const double x = end * i / points;
-    curve->push_back({told.along(x), 1 - lives.cdf(x)});
+    curve->push_back({reported.along(x), 1 - lives.cdf(x)});
   }
   return curve;
 }
@@ -52,7 +52,7 @@ Fleet::Fleet(const prognosis::Tracker& tracker, Store& store, Tally& tally, Noti
       tally_(tally),
       notices_(notices),
       settings_(std::move(settings)),
-      told_(tracker),
+      reported_(tracker),
       started_ms_(unix_ms_now()) {
   place_ = store_.all_up_to(settings_.population);
   for (const Checkpoint& each : store_.states(settings_.population)) {
@@ -142,7 +142,7 @@ void Fleet::apply_to(Unit& unit, const std::vector<const StoredReading*>& readin
     if (each.place <= unit.record.place) return;
     const std::lock_guard lock(unit.moving);
     try {
-      take(unit.record, each, told_, store_);
+      take(unit.record, each, reported_, store_);
     } catch (const StoreError&) {
       unit.lost = true;  // in the middle of a reading, perhaps
       throw;
@@ -181,16 +181,16 @@ void Fleet::forecast(Unit& unit) {
   const UnitRecord& record = unit.record;
   view.unit = record.unit;
   view.known = known;
-  view.at = told_.at(forecast.now);
+  view.at = reported_.at(forecast.now);
   // No reading is younger than its message, whatever the clock of its sender says.
   view.last_reading_ms = record.last_time_ms
                              ? std::min(record.last_time_ms, record.last_received_ms)
                              : record.last_received_ms;
-  if (known) view.level = told_.level(forecast);
-  view.remaining = told_.remaining(forecast);
+  if (known) view.level = reported_.level(forecast);
+  view.remaining = reported_.remaining(forecast);
   constexpr double tenth = 0.1;
   view.b10 =
-      forecast.remaining.points().empty() ? 0 : told_.along(forecast.remaining.quantile(tenth));
+      forecast.remaining.points().empty() ? 0 : reported_.along(forecast.remaining.quantile(tenth));
   view.numerical_error = relative_error(forecast.remaining, tracker_.probability_error());
   view.risk = risk;
   if (known) view.passed = forecast.passed;
@@ -199,7 +199,7 @@ void Fleet::forecast(Unit& unit) {
   view.quality.contradicting = record.contradicting;
   view.quality.refused = record.not_counted;
   view.quality.last_problem = record.last_problem;
-  seen->survival = survival_of(forecast.remaining, told_);
+  seen->survival = survival_of(forecast.remaining, reported_);
   seen->held = record.held;
   seen->judged = record.judged;
   seen->moments = unit.seen && unit.seen->moments->size() == record.moments.size()
@@ -220,10 +220,10 @@ std::vector<UnitDetail::PathPoint> Fleet::path_ahead(const Seen& seen) const {
   const std::lock_guard still(unit.moving);
   if (unit.lost || !unit.record.state) return {};
   const std::vector<double> places = prognosis::places_ahead(unit.record.state->forecast());
-  for (const prognosis::LevelAhead& each : unit.record.state->ahead(places)) {
-    seen.ahead->path.push_back(
-        {told_.at(each.at),
-         {told_.level(each.level05), told_.level(each.level50), told_.level(each.level95)}});
+  for (const prognosis::ForecastBand& each : unit.record.state->ahead(places)) {
+    seen.ahead->path.push_back({reported_.at(each.at),
+                                {reported_.level(each.level05), reported_.level(each.level50),
+                                 reported_.level(each.level95)}});
   }
   seen.ahead->known = true;
   return seen.ahead->path;

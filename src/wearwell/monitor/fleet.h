@@ -73,7 +73,7 @@ class Fleet : public FleetReader {
   Tally& tally_;
   Notices& notices_;
   const FleetSettings settings_;
-  const TrackerUnits told_;
+  const TrackerUnits reported_;
   const std::int64_t started_ms_;
 
   std::unordered_map<std::string, std::unique_ptr<Unit>> units_;

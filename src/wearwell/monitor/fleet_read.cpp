@@ -36,7 +36,7 @@ FleetView Fleet::fleet() const {
   view.limited = tracker_.limited();
   view.level_unit = tracker_.limit().unit.text;
   view.limit = tracker_.limit().value;
-  view.horizon = told_.along(settings_.alarm.horizon);
+  view.horizon = reported_.along(settings_.alarm.horizon);
   view.trusted = settings_.trusted;
   const Tally::Total total = tally_.total();
   view.messages = total.messages;

@@ -61,7 +61,7 @@ std::string_view cookie_value(std::string_view field, std::string_view name) {
 
 }  // namespace
 
-HttpAnswer refusal(unsigned status, const std::string& problem) {
+HttpResponse refusal(unsigned status, const std::string& problem) {
   // Quoted as JSON by hand: `printable` leaves nothing but quotes and backslashes to escape.
   std::string text;
   for (const char each : printable(problem)) {
@@ -107,7 +107,7 @@ bool HttpAccess::is_ours(const std::string& name) const {
          (covered_ && covered_(name));
 }
 
-std::optional<HttpAnswer> HttpAccess::refuse(const HttpQuestion& question) const {
+std::optional<HttpResponse> HttpAccess::refuse(const HttpRequest& question) const {
   if (question.host.empty()) return refusal(400, "the request has no Host, or more than one");
   const std::string name = name_of(question.host);
   if (!is_ours(name)) {
@@ -138,7 +138,7 @@ bool HttpAccess::is_token(std::string_view text) const {
   return equal_in_constant_time(text, token_);
 }
 
-bool HttpAccess::authorized(const HttpQuestion& question, std::int64_t now) const {
+bool HttpAccess::authorized(const HttpRequest& question, std::int64_t now) const {
   if (token_.empty()) return true;
   constexpr std::string_view scheme = "bearer ";
   const std::string& field = question.authorization;

@@ -23,10 +23,10 @@ class HttpAccess {
   HttpAccess(const HttpSettings& settings, std::function<bool(const std::string&)> covered);
 
   /// Why a request is refused, whoever sends it: 400, 403 or 421.
-  std::optional<HttpAnswer> refuse(const HttpQuestion& question) const;
+  std::optional<HttpResponse> refuse(const HttpRequest& question) const;
 
   /// Whether it bears the token, or the cookie that `cookie` gave within its time. `now`: Unix time in s.
-  bool authorized(const HttpQuestion& question, std::int64_t now) const;
+  bool authorized(const HttpRequest& question, std::int64_t now) const;
   bool needs_token() const { return !token_.empty(); }
   bool is_token(std::string_view text) const;
 

@@ -23,15 +23,15 @@ namespace http = beast::http;
 namespace net = boost::asio;
 using Error = beast::error_code;
 using Plain = beast::tcp_stream;
-using Secret = beast::ssl_stream<beast::tcp_stream>;
+using TlsStream = beast::ssl_stream<beast::tcp_stream>;
 
 std::string text_of_field(beast::string_view view) {
   return {view.data(), view.size()};
 }
 
-HttpQuestion question_of(const http::request<http::string_body>& request) {
+HttpRequest question_of(const http::request<http::string_body>& request) {
   const auto field = [&](http::field name) { return text_of_field(request[name]); };
-  HttpQuestion question;
+  HttpRequest question;
   question.method = text_of_field(request.method_string());
   question.target = text_of_field(request.target());
   if (request.count(http::field::host) == 1) question.host = field(http::field::host);
@@ -47,7 +47,7 @@ HttpQuestion question_of(const http::request<http::string_body>& request) {
 }
 
 template <class Message>
-void set_common_fields(Message* message, bool secret) {
+void set_common_fields(Message* message, bool tls) {
   message->set(http::field::server, "wearwell");
   message->set(http::field::cache_control, "no-store");
   message->set("X-Content-Type-Options", "nosniff");
@@ -55,10 +55,10 @@ void set_common_fields(Message* message, bool secret) {
   message->set("Referrer-Policy", "same-origin");  // without one a form sends no Origin
   message->set("Cross-Origin-Resource-Policy", "same-origin");
   message->set("Cross-Origin-Opener-Policy", "same-origin");
-  if (secret) message->set("Strict-Transport-Security", "max-age=31536000");
+  if (tls) message->set("Strict-Transport-Security", "max-age=31536000");
 }
 
-HttpAnswer answer_to_error(const Error& error) {
+HttpResponse answer_to_error(const Error& error) {
   if (error == http::error::body_limit) return refusal(413, "the body is too long");
   if (error == http::error::header_limit) return refusal(431, "the header is too long");
   return refusal(400, fmt::format("this is no HTTP request: {}", error.message()));
@@ -88,7 +88,7 @@ class Connection final : public HttpConnection,
   void start() override {
     Error ignored;
     tcp().socket().set_option(net::ip::tcp::no_delay(true), ignored);
-    if constexpr (is_secret) {
+    if constexpr (is_tls) {
       tcp().expires_after(hub_.limits.header);
       stream_.async_handshake(net::ssl::stream_base::server, [self = self()](Error error) {
         if (!error) self->read_header();
@@ -121,7 +121,7 @@ class Connection final : public HttpConnection,
   }
 
  private:
-  static constexpr bool is_secret = std::is_same_v<Stream, Secret>;
+  static constexpr bool is_tls = std::is_same_v<Stream, TlsStream>;
 
   auto self() { return this->shared_from_this(); }
   Plain& tcp() { return beast::get_lowest_layer(stream_); }
@@ -143,7 +143,7 @@ class Connection final : public HttpConnection,
     if (HttpRoutes::is_events(question_)) return listen();
     if (is_large()) {
       if (hub_.large_bodies >= hub_.limits.large_bodies) {
-        HttpAnswer answer = refusal(503, "too much is being sent already");
+        HttpResponse answer = refusal(503, "too much is being sent already");
         answer.fields.emplace_back("Retry-After", "5");
         return respond(std::move(answer));
       }
@@ -181,7 +181,7 @@ class Connection final : public HttpConnection,
     auto& pool = HttpRoutes::is_delivery(question_) ? hub_.deliveries : hub_.readers;
     HttpCounts counts{hub_.connections.size(), hub_.streams.size(), hub_.answers};
     net::post(pool, [self = self(), counts = std::move(counts)]() mutable {
-      HttpAnswer answer = self->hub_.routes.answer(self->question_, counts);
+      HttpResponse answer = self->hub_.routes.answer(self->question_, counts);
       auto& io = self->hub_.io;
       net::post(io, [self = std::move(self), answer = std::move(answer)]() mutable {
         self->respond(std::move(answer));
@@ -194,14 +194,14 @@ class Connection final : public HttpConnection,
     respond(answer_to_error(error));
   }
 
-  void respond(HttpAnswer answer) {
+  void respond(HttpResponse answer) {
     ++hub_.answers[answer.status];
     if (std::exchange(large_, false)) --hub_.large_bodies;
     const bool read = parser_->is_done();
     response_ = {};
     response_.version(parser_->get().version() == 10 ? 10 : 11);  // the older is told what is kept
     response_.result(answer.status);
-    set_common_fields(&response_, is_secret);
+    set_common_fields(&response_, is_tls);
     response_.set(http::field::content_type, answer.type);
     for (const auto& [name, value] : answer.fields) response_.set(name, value);
     response_.body() = std::move(answer.body);
@@ -229,7 +229,7 @@ class Connection final : public HttpConnection,
   }
 
   void finish() {
-    if constexpr (is_secret) {
+    if constexpr (is_tls) {
       tcp().expires_after(std::chrono::seconds(2));
       stream_.async_shutdown([self = self()](Error) { self->close(); });
     } else {
@@ -241,7 +241,7 @@ class Connection final : public HttpConnection,
 
   void listen() {
     if (hub_.streams.size() >= hub_.limits.streams) {
-      HttpAnswer answer = refusal(503, "too many listen to events already");
+      HttpResponse answer = refusal(503, "too many listen to events already");
       answer.fields.emplace_back("Retry-After", "10");
       return respond(std::move(answer));
     }
@@ -249,7 +249,7 @@ class Connection final : public HttpConnection,
     hub_.streams.insert(this);
     version_ = hub_.routes.version_of(question_.last_event_id);
     http::response<http::empty_body> head(http::status::ok, 11);
-    set_common_fields(&head, is_secret);
+    set_common_fields(&head, is_tls);
     head.set(http::field::content_type, "text/event-stream; charset=utf-8");
     head.keep_alive(false);
     // Who does not read holds little, of the kernel's memory too.
@@ -270,7 +270,7 @@ class Connection final : public HttpConnection,
   Stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
-  HttpQuestion question_;
+  HttpRequest question_;
   http::response<http::string_body> response_;
   std::array<char, 4096> scrap_;
   std::shared_ptr<const std::string> event_;
@@ -283,7 +283,7 @@ class Connection final : public HttpConnection,
 
 std::shared_ptr<HttpConnection> make_connection(net::ip::tcp::socket socket, HttpHub* hub) {
   if (!hub->tls) return std::make_shared<Connection<Plain>>(hub, std::move(socket));
-  return std::make_shared<Connection<Secret>>(hub, std::move(socket), *hub->tls);
+  return std::make_shared<Connection<TlsStream>>(hub, std::move(socket), *hub->tls);
 }
 
 }  // namespace wearwell::monitor

@@ -7,14 +7,14 @@
 namespace wearwell::monitor {
 
 /// What of a request the answers depend on. Fields that it does not have are "".
-struct HttpQuestion {
+struct HttpRequest {
   std::string method, target;  ///< "GET", "/api/units?count=20"
   std::string host, origin, fetch_site, authorization, cookie, content_type, content_encoding;
   std::string last_event_id, if_none_match;
   std::string body;
 };
 
-struct HttpAnswer {
+struct HttpResponse {
   unsigned status = 200;
   std::string type = "application/json";
   std::string body = {};
@@ -22,6 +22,6 @@ struct HttpAnswer {
 };
 
 /// {"error": "..."}: what is wrong, in one sentence.
-HttpAnswer refusal(unsigned status, const std::string& problem);
+HttpResponse refusal(unsigned status, const std::string& problem);
 
 }  // namespace wearwell::monitor

@@ -20,7 +20,7 @@ constexpr std::size_t units_measured = 10'000;
 constexpr std::size_t names_at_once = 200;
 constexpr std::string_view unit_prefix = "/api/units/";
 
-std::string_view path_of(const HttpQuestion& question) {
+std::string_view path_of(const HttpRequest& question) {
   return std::string_view(question.target).substr(0, question.target.find('?'));
 }
 
@@ -44,11 +44,11 @@ std::int64_t now_seconds() {
   return duration_cast<seconds>(system_clock::now().time_since_epoch()).count();
 }
 
-HttpAnswer moved(const char* where) {
+HttpResponse moved(const char* where) {
   return {303, "text/plain; charset=utf-8", "", {{"Location", where}}};
 }
 
-HttpAnswer as_page(const ServedPage& page, unsigned status = 200) {
+HttpResponse as_page(const ServedPage& page, unsigned status = 200) {
   return {status,
           "text/html; charset=utf-8",
           page.html,
@@ -65,7 +65,7 @@ std::string media_type(const std::string& field) {
   return type;
 }
 
-std::optional<HttpAnswer> refuse_kind(const HttpQuestion& question) {
+std::optional<HttpResponse> refuse_kind(const HttpRequest& question) {
   if (!question.content_encoding.empty() && question.content_encoding != "identity") {
     return refusal(415, "the body is compressed: it is taken as it is only");
   }
@@ -96,22 +96,23 @@ HttpRoutes::HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbo
       wrong_(login_page(true)),
       started_ms_(reader.fleet().started_ms) {}
 
-bool HttpRoutes::is_events(const HttpQuestion& question) {
+bool HttpRoutes::is_events(const HttpRequest& question) {
   return question.method == "GET" && path_of(question) == "/api/events";
 }
 
-bool HttpRoutes::is_delivery(const HttpQuestion& question) {
+bool HttpRoutes::is_delivery(const HttpRequest& question) {
   return path_of(question) == "/api/readings";
 }
 
-std::optional<HttpAnswer> HttpRoutes::refuse(const HttpQuestion& question) const {
+std::optional<HttpResponse> HttpRoutes::refuse(const HttpRequest& question) const {
   if (auto refused = access_.refuse(question)) return refused;
   const std::string_view path = path_of(question);
   const std::string methods = methods_of(path);
   const bool open = path == "/health" || path == "/login";
   if (!open && !access_.authorized(question, now_seconds())) {
     if (path == "/") return moved("/login");
-    HttpAnswer answer = refusal(401, "the token is missing or wrong: Authorization: Bearer TOKEN");
+    HttpResponse answer =
+        refusal(401, "the token is missing or wrong: Authorization: Bearer TOKEN");
     answer.fields.emplace_back("WWW-Authenticate", "Bearer realm=\"wearwell\"");
     return answer;
   }
@@ -119,7 +120,7 @@ std::optional<HttpAnswer> HttpRoutes::refuse(const HttpQuestion& question) const
     return refusal(404, fmt::format("nothing is at {}", shortened(std::string(path))));
   }
   if (!is_taken(methods, question.method)) {
-    HttpAnswer answer = refusal(405, fmt::format("{} takes {}", path, methods));
+    HttpResponse answer = refusal(405, fmt::format("{} takes {}", path, methods));
     answer.fields.emplace_back("Allow", methods);
     return answer;
   }
@@ -127,14 +128,14 @@ std::optional<HttpAnswer> HttpRoutes::refuse(const HttpQuestion& question) const
   return {};
 }
 
-HttpAnswer HttpRoutes::answer(const HttpQuestion& question, const HttpCounts& http) const {
+HttpResponse HttpRoutes::answer(const HttpRequest& question, const HttpCounts& http) const {
   try {
     const HttpTarget target = http_target(question.target);
     const std::string& path = target.path;
     if (path == "/") return page(question);
     if (path == "/login") return login(question);
     if (path == "/logout") {
-      HttpAnswer answer = moved("/login");
+      HttpResponse answer = moved("/login");
       answer.fields.emplace_back("Set-Cookie", access_.no_cookie());
       return answer;
     }
@@ -155,25 +156,25 @@ HttpAnswer HttpRoutes::answer(const HttpQuestion& question, const HttpCounts& ht
   }
 }
 
-HttpAnswer HttpRoutes::page(const HttpQuestion& question) const {
+HttpResponse HttpRoutes::page(const HttpRequest& question) const {
   if (question.if_none_match == page_.tag) {
     return {304, "text/html; charset=utf-8", "", {{"ETag", page_.tag}}};
   }
   return as_page(page_);
 }
 
-HttpAnswer HttpRoutes::login(const HttpQuestion& question) const {
+HttpResponse HttpRoutes::login(const HttpRequest& question) const {
   if (!access_.needs_token()) return moved("/");
   if (question.method != "POST") return as_page(login_);
   const auto fields = form_fields(question.body);
   const auto token = fields.find("token");
   if (token == fields.end() || !access_.is_token(token->second)) return as_page(wrong_, 403);
-  HttpAnswer answer = moved("/");
+  HttpResponse answer = moved("/");
   answer.fields.emplace_back("Set-Cookie", access_.cookie(now_seconds()));
   return answer;
 }
 
-HttpAnswer HttpRoutes::units(const HttpTarget& target) const {
+HttpResponse HttpRoutes::units(const HttpTarget& target) const {
   for (const auto& [key, value] : target.query) {
     if (key != "search" && key != "offset" && key != "count") {
       throw InputError(fmt::format("{}: search, offset and count are known", shortened(key)));
@@ -192,7 +193,7 @@ HttpAnswer HttpRoutes::units(const HttpTarget& target) const {
   return {200, "application/json", text_of(json)};
 }
 
-HttpAnswer HttpRoutes::unit(const std::string& encoded) const {
+HttpResponse HttpRoutes::unit(const std::string& encoded) const {
   const std::string name = percent_decoded(encoded);
   const std::uint64_t version = reader_.version();
   const std::optional<UnitDetail> detail = reader_.unit(name);
@@ -203,10 +204,10 @@ HttpAnswer HttpRoutes::unit(const std::string& encoded) const {
 }
 
 // Refused for good with 400, to be sent again with 503.
-HttpAnswer HttpRoutes::readings(const std::string& body) const {
+HttpResponse HttpRoutes::readings(const std::string& body) const {
   if (!inbox_) return refusal(404, "readings are not taken by HTTP here");
   Delivery delivery = inbox_->deliver("", body);
-  HttpAnswer answer;
+  HttpResponse answer;
   if (!delivery.stored) {
     answer.status = 503;
     answer.fields.emplace_back("Retry-After", "5");
@@ -218,7 +219,7 @@ HttpAnswer HttpRoutes::readings(const std::string& body) const {
   return answer;
 }
 
-HttpAnswer HttpRoutes::metrics(const HttpCounts& http) const {
+HttpResponse HttpRoutes::metrics(const HttpCounts& http) const {
   return {200, "text/plain; version=0.0.4; charset=utf-8",
           metrics_text(reader_.fleet(), reader_.units("", 0, units_measured), http)};
 }

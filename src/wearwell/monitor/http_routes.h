@@ -19,13 +19,13 @@ class HttpRoutes {
   HttpRoutes(const HttpAccess& access, const FleetReader& reader, Inbox* inbox);
 
   /// What stands in the header is enough to refuse it: who asks, which path and method, what kind of body.
-  std::optional<HttpAnswer> refuse(const HttpQuestion& question) const;
+  std::optional<HttpResponse> refuse(const HttpRequest& question) const;
   /// Whether what is asked for is the stream of events.
-  static bool is_events(const HttpQuestion& question);
+  static bool is_events(const HttpRequest& question);
   /// Whether the answer waits for the store.
-  static bool is_delivery(const HttpQuestion& question);
+  static bool is_delivery(const HttpRequest& question);
 
-  HttpAnswer answer(const HttpQuestion& question, const HttpCounts& http) const;
+  HttpResponse answer(const HttpRequest& question, const HttpCounts& http) const;
 
   /// An event of what changed since `version`, that ends with an empty line; of all where there is none.
   /// `*reached`: the version that it leads to.
@@ -35,12 +35,12 @@ class HttpRoutes {
   std::optional<std::uint64_t> version_of(const std::string& event_id) const;
 
  private:
-  HttpAnswer page(const HttpQuestion& question) const;
-  HttpAnswer login(const HttpQuestion& question) const;
-  HttpAnswer units(const HttpTarget& target) const;
-  HttpAnswer unit(const std::string& encoded) const;
-  HttpAnswer readings(const std::string& body) const;
-  HttpAnswer metrics(const HttpCounts& http) const;
+  HttpResponse page(const HttpRequest& question) const;
+  HttpResponse login(const HttpRequest& question) const;
+  HttpResponse units(const HttpTarget& target) const;
+  HttpResponse unit(const std::string& encoded) const;
+  HttpResponse readings(const std::string& body) const;
+  HttpResponse metrics(const HttpCounts& http) const;
 
   const HttpAccess& access_;
   const FleetReader& reader_;

@@ -68,7 +68,7 @@ class EndingSignals {
 };
 
 /// Whoever waits for readings is woken by whoever stores them.
-class Bell {
+class WakeSignal {
  public:
   void ring() {
     const std::lock_guard lock(lock_);
@@ -91,7 +91,7 @@ class Bell {
 class Sources {
  public:
   Sources(const MonitorConfig& config, bool once, Intake& intake, Store& store, Notices& notices,
-          Bell& bell);
+          WakeSignal& wake);
   /// Whether all have ended and none may ever bring more.
   bool ended() const { return open_ == 0; }
   void stop();
@@ -100,14 +100,14 @@ class Sources {
   void run(SourceContext& context, std::stop_token stop);
 
   std::deque<SourceContext> contexts_;
-  Bell& bell_;
+  WakeSignal& wake_;
   std::atomic<int> open_ = 0;
   std::vector<std::jthread> threads_;
 };
 
 Sources::Sources(const MonitorConfig& config, bool once, Intake& intake, Store& store,
-                 Notices& notices, Bell& bell)
-    : bell_(bell) {
+                 Notices& notices, WakeSignal& wake)
+    : wake_(wake) {
   for (const SourceSettings& source : config.sources) {
     ++open_;
     if (source.kind == SourceKind::http) continue;  // the server's, which is open for ever
@@ -140,7 +140,7 @@ void Sources::run(SourceContext& context, std::stop_token stop) {
                          fmt::format("has ended: {}", error.what()));
   }
   --open_;
-  bell_.ring();
+  wake_.ring();
 }
 
 void Sources::stop() {
@@ -267,18 +267,18 @@ void run_monitor(const MonitorConfig& config, const Population& population,
   }
   fleet.refresh(true);
 
-  Bell bell;
-  Intake intake(*store, tally, notices, [&] { bell.ring(); });
+  WakeSignal wake;
+  Intake intake(*store, tally, notices, [&] { wake.ring(); });
   const Outlets outlets(config, options, fleet, intake, notices);
   started(fleet, outlets.address());
-  Sources sources(config, options.once, intake, *store, notices, bell);
+  Sources sources(config, options.once, intake, *store, notices, wake);
   Follower follower(fleet, notices);
   while (!signals.arrived()) {
     constexpr auto patience = std::chrono::milliseconds(50);
     const bool over = sources.ended();
     if (!follower.round()) {
       if (over) break;
-      bell.wait(patience);
+      wake.wait(patience);
     }
   }
   sources.stop();

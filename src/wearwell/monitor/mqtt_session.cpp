@@ -49,7 +49,7 @@ MqttSession::MqttSession(const BrokerSettings& broker, bool keeps_session)
   const int code = mosquitto_tls_set(client_, file, file ? nullptr : "/etc/ssl/certs", nullptr,
                                      nullptr, nullptr);
   if (code != MOSQ_ERR_SUCCESS) {
-    const std::string why = in_words(code);
+    const std::string why = description(code);
     mosquitto_destroy(std::exchange(client_, nullptr));
     throw InputError(fmt::format("TLS to the broker {}: {}", broker.host, why));
   }
@@ -92,7 +92,7 @@ void MqttSession::on_log(mosquitto*, void* self, int level, const char* text) {
   static_cast<MqttSession*>(self)->tls_ = said.substr(colon == said.npos ? 0 : colon + 1);
 }
 
-std::string MqttSession::in_words(int code) const {
+std::string MqttSession::description(int code) const {
   if (code == MOSQ_ERR_SUCCESS) return {};
   if (code == MOSQ_ERR_ERRNO) return std::strerror(errno);
   if (code != MOSQ_ERR_TLS || tls_.empty()) return mosquitto_strerror(code);
@@ -132,7 +132,7 @@ std::string MqttSession::connect() {
   } else {
     code = mosquitto_connect(client_, broker_.host.c_str(), broker_.port, keepalive_s);
   }
-  return in_words(code);
+  return description(code);
 }
 
 void MqttSession::subscribe(const std::string& filter) {
@@ -150,7 +150,7 @@ std::string MqttSession::read(std::size_t messages, std::size_t bytes) {
   do {
     errno = 0;
     const int code = mosquitto_loop_read(client_, 1);
-    if (code != MOSQ_ERR_SUCCESS) return in_words(code);
+    if (code != MOSQ_ERR_SUCCESS) return description(code);
   } while (arrived_.size() < messages && arrived_bytes_ < bytes && wait(0));
   arrived_bytes_ = 0;
   return refusal_;
@@ -160,10 +160,10 @@ std::string MqttSession::write() {
   while (mosquitto_want_write(client_)) {
     errno = 0;
     const int code = mosquitto_loop_write(client_, 1);
-    if (code != MOSQ_ERR_SUCCESS) return in_words(code);
+    if (code != MOSQ_ERR_SUCCESS) return description(code);
     if (errno == EAGAIN) break;
   }
-  return in_words(mosquitto_loop_misc(client_));
+  return description(mosquitto_loop_misc(client_));
 }
 
 bool MqttSession::publish(const std::string& topic, const std::string& payload, bool retain,

@@ -53,7 +53,7 @@ class MqttSession {
   static void on_connect(mosquitto* client, void* self, int code);
   static void on_message(mosquitto* client, void* self, const mosquitto_message* message);
   static void on_log(mosquitto* client, void* self, int level, const char* text);
-  std::string in_words(int code) const;
+  std::string description(int code) const;
 
   std::string presence(bool online) const;
 

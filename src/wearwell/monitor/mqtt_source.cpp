@@ -15,7 +15,7 @@ constexpr std::size_t most_at_once = 2000, most_bytes_at_once = longest_message;
 /// Reads, stores, acknowledges, until the connection is lost: why. Nothing is sent while something that was read is not stored.
 std::string follow(MqttSession& session, SourceContext& context, std::stop_token stop) {
   constexpr int patience_ms = 100;
-  bool told = false;
+  bool reported = false;
   while (!stop.stop_requested()) {
     if (session.wait(patience_ms)) {
       std::string problem = session.read(most_at_once, most_bytes_at_once);
@@ -27,7 +27,7 @@ std::string follow(MqttSession& session, SourceContext& context, std::stop_token
       if (!problem.empty()) return problem;
     }
     if (std::string problem = session.write(); !problem.empty()) return problem;
-    if (session.accepted() && !std::exchange(told, true))
+    if (session.accepted() && !std::exchange(reported, true))
       context.notices.tell("source." + context.settings.name,
                            fmt::format("follows {} at {}:{}", context.settings.topic.filter(),
                                        context.settings.broker.host, context.settings.broker.port));

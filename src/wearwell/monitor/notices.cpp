@@ -13,8 +13,8 @@ void Notices::tell(const std::string& subject, const std::string& text) {
   Subject& state = subjects_[subject];
   const auto now = std::chrono::steady_clock::now();
   const bool quiet_since = now - state.last >= std::chrono::seconds(10);
-  if (quiet_since && state.left_out == 0) state.told = 0;
-  if (state.told >= burst && !quiet_since) {
+  if (quiet_since && state.left_out == 0) state.reported = 0;
+  if (state.reported >= burst && !quiet_since) {
     ++state.left_out;
     return;
   }
@@ -24,7 +24,7 @@ void Notices::tell(const std::string& subject, const std::string& text) {
       fmt::format("{} {}: {}{}\n", iso_of_unix_ms(unix_ms_now()), subject, shown(text), more);
   std::fputs(line.c_str(), stream_);
   std::fflush(stream_);
-  ++state.told;
+  ++state.reported;
   state.left_out = 0;
   state.last = now;
 }

@@ -20,7 +20,7 @@ class Notices {
  private:
   static constexpr int burst = 5;
   struct Subject {
-    int told = 0;
+    int reported = 0;
     std::uint64_t left_out = 0;
     std::chrono::steady_clock::time_point last = {};
   };

@@ -22,7 +22,7 @@ std::string bounded(const std::string& url) {
   return text;
 }
 
-std::string in_words(const std::exception& error) {
+std::string description(const std::exception& error) {
   std::string text = error.what();
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -61,7 +61,7 @@ void PostgresSession::run(const std::function<void(pqxx::work&)>& work) {
     throw;
   } catch (const pqxx::pqxx_exception& error) {
     connection_.reset();
-    throw StoreError(fmt::format("{}: {}", shown_url(url_), in_words(error.base())));
+    throw StoreError(fmt::format("{}: {}", shown_url(url_), description(error.base())));
   }
 }
 

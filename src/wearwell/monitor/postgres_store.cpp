@@ -62,7 +62,7 @@ void put(pqxx::work& work, const char* name, const std::string& value) {
 class PostgresStore : public Store {
  public:
   PostgresStore(const std::string& url, const StoreColumns& columns, Access access,
-                const ToldOfStore& told);
+                const StoreNotice& reported);
 
   std::vector<Kept> add(const std::vector<StoredReading>& readings) override;
   std::vector<StoredReading> after(std::int64_t place, std::size_t count) override;
@@ -92,7 +92,7 @@ class PostgresStore : public Store {
 };
 
 PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns, Access access,
-                             const ToldOfStore& told)
+                             const StoreNotice& reported)
     : name_(shown_url(url)),
       write_(url, [this](pqxx::connection& connection) { begin_writing(connection); }),
       read_(url, [](pqxx::connection&) {}) {
@@ -129,7 +129,7 @@ PostgresStore::PostgresStore(const std::string& url, const StoreColumns& columns
   const int number = check_store(name_, version, there, columns, access);
   if (number == store_version) return;
   migrate(number);
-  if (told) told(migrated_in_words(name_, number));
+  if (reported) reported(migrated_text(name_, number));
 }
 
 // All steps, or none.
@@ -315,8 +315,8 @@ std::map<std::string, std::int64_t> PostgresStore::files() {
 }  // namespace
 
 std::unique_ptr<Store> open_postgres_store(const std::string& url, const StoreColumns& columns,
-                                           Access access, const ToldOfStore& told) {
-  return std::make_unique<PostgresStore>(url, columns, access, told);
+                                           Access access, const StoreNotice& reported) {
+  return std::make_unique<PostgresStore>(url, columns, access, reported);
 }
 
 }  // namespace wearwell::monitor

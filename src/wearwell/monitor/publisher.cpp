@@ -19,7 +19,7 @@ std::string tell(MqttSession& session, const FleetReader& reader, const PublishS
   using Clock = std::chrono::steady_clock;
   constexpr auto between = std::chrono::milliseconds(500);
   constexpr int patience_ms = 50;
-  std::uint64_t told = 0;
+  std::uint64_t reported = 0;
   Clock::time_point last = {};
   for (bool ends = false; !ends;) {
     ends = stop.stop_requested();  // and tells what is last
@@ -29,13 +29,13 @@ std::string tell(MqttSession& session, const FleetReader& reader, const PublishS
     if (session.accepted() && (ends || Clock::now() - last >= between)) {
       last = Clock::now();
       const std::uint64_t version = reader.version();
-      for (const std::string& name : reader.changed_since(told)) {
+      for (const std::string& name : reader.changed_since(reported)) {
         const auto unit = reader.unit(name);
         if (unit)
           session.publish(fmt::format("{}/{}/state", settings.prefix, topic_level(name)),
                           text_of(json_of(unit->view)), true);
       }
-      told = version;
+      reported = version;
     }
     if (std::string problem = session.write(); !problem.empty()) return problem;
   }

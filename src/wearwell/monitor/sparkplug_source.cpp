@@ -25,7 +25,7 @@ std::string follow(MqttSession& session, SparkplugDecoder& decoder, SourceContex
   constexpr int patience_ms = 100;
   const std::string subject = "source." + context.settings.name;
   decoder.forget();  // nobody kept what came while there was no connection
-  bool told = false;
+  bool reported = false;
   while (!stop.stop_requested()) {
     if (session.wait(patience_ms)) {
       std::string problem = session.read(most_at_once, most_bytes_at_once);
@@ -41,7 +41,7 @@ std::string follow(MqttSession& session, SparkplugDecoder& decoder, SourceContex
       context.notices.tell(subject, "asks for birth certificates: " + printable(topic));
     }
     if (std::string problem = session.write(); !problem.empty()) return problem;
-    if (session.accepted() && !std::exchange(told, true))
+    if (session.accepted() && !std::exchange(reported, true))
       context.notices.tell(subject,
                            fmt::format("follows {} at {}:{}", context.settings.topic.filter(),
                                        context.settings.broker.host, context.settings.broker.port));

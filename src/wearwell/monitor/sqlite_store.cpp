@@ -42,7 +42,7 @@ StoredReading reading_in(const SqliteStatement& row) {
 class SqliteStore : public Store {
  public:
   SqliteStore(const std::filesystem::path& file, const StoreColumns& columns, Access access,
-              const ToldOfStore& told);
+              const StoreNotice& reported);
 
   std::vector<Kept> add(const std::vector<StoredReading>& readings) override;
   std::vector<StoredReading> after(std::int64_t place, std::size_t count) override;
@@ -87,7 +87,7 @@ std::optional<LockFile> locked(const std::filesystem::path& file, Access access)
 }
 
 SqliteStore::SqliteStore(const std::filesystem::path& file, const StoreColumns& columns,
-                         Access access, const ToldOfStore& told)
+                         Access access, const StoreNotice& reported)
     : name_(file.string()), lock_(locked(file, access)), write_(file), read_(file) {
   try {
     write_.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;");
@@ -105,7 +105,7 @@ SqliteStore::SqliteStore(const std::filesystem::path& file, const StoreColumns& 
   const int version = check(columns, access);
   if (version < store_version) {
     migrate(version);
-    if (told) told(migrated_in_words(name_, version));
+    if (reported) reported(migrated_text(name_, version));
   }
   insert_ = std::make_unique<SqliteStatement>(
       write_,
@@ -288,8 +288,8 @@ std::map<std::string, std::int64_t> SqliteStore::files() {
 
 std::unique_ptr<Store> open_sqlite_store(const std::filesystem::path& file,
                                          const StoreColumns& columns, Access access,
-                                         const ToldOfStore& told) {
-  return std::make_unique<SqliteStore>(file, columns, access, told);
+                                         const StoreNotice& reported) {
+  return std::make_unique<SqliteStore>(file, columns, access, reported);
 }
 
 }  // namespace wearwell::monitor

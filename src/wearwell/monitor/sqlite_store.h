@@ -11,6 +11,6 @@ namespace wearwell::monitor {
 /// when the disk says that it has it. Throws as open_store does.
 std::unique_ptr<Store> open_sqlite_store(const std::filesystem::path& file,
                                          const StoreColumns& columns, Access access,
-                                         const ToldOfStore& told);
+                                         const StoreNotice& reported);
 
 }  // namespace wearwell::monitor

@@ -24,9 +24,9 @@ std::string shown_store(const std::string& url) {
 
 std::unique_ptr<Store> open_store(const std::string& url, const std::filesystem::path& folder,
                                   const StoreColumns& columns, Access access,
-                                  const ToldOfStore& told) {
-  if (is_postgres(url)) return open_postgres_store(url, columns, access, told);
-  return open_sqlite_store(folder / url, columns, access, told);
+                                  const StoreNotice& reported) {
+  if (is_postgres(url)) return open_postgres_store(url, columns, access, reported);
+  return open_sqlite_store(folder / url, columns, access, reported);
 }
 
 int check_store(const std::string& name, const std::string& version, const StoreColumns& there,
@@ -65,7 +65,7 @@ int check_store(const std::string& name, const std::string& version, const Store
   return number;
 }
 
-std::string migrated_in_words(const std::string& name, int from) {
+std::string migrated_text(const std::string& name, int from) {
   return fmt::format("{} was of version {}, and has been brought up to version {}", name, from,
                      store_version);
 }

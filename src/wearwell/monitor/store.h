@@ -95,14 +95,14 @@ struct StoreColumns {
 enum class Access { write, read };
 
 /// Takes what happened to a store when it was opened, in words.
-using ToldOfStore = std::function<void(const std::string& what)>;
+using StoreNotice = std::function<void(const std::string& what)>;
 
 /// Opens or begins a store: a URL "postgresql://...", or else a file of SQLite, found beside `folder`. Who writes brings an older
 /// one up to date, in one transaction, and tells. Throws InputError: of a later version, of an older one that is only to be read, of
 /// other columns, no store at all, or in use by another monitor; StoreError.
 std::unique_ptr<Store> open_store(const std::string& url, const std::filesystem::path& folder,
                                   const StoreColumns& columns, Access access = Access::write,
-                                  const ToldOfStore& told = {});
+                                  const StoreNotice& reported = {});
 bool is_postgres(const std::string& url);
 /// As messages name it: without who logs in.
 std::string shown_store(const std::string& url);
@@ -116,7 +116,7 @@ inline constexpr int store_version = 2;
 /// The version of a store `name` that says this of itself, if it can be gone on with: 1 to `store_version`. Throws InputError.
 int check_store(const std::string& name, const std::string& version, const StoreColumns& there,
                 const StoreColumns& wanted, Access access);
-std::string migrated_in_words(const std::string& name, int from);
+std::string migrated_text(const std::string& name, int from);
 
 /// Lists as the store's tables have them, JSON: "[1.5,null]", numbers in the shortest form that reads back to the same.
 std::string json_of(const std::vector<double>& numbers);

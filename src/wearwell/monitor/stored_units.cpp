@@ -7,7 +7,7 @@
 namespace wearwell::monitor {
 
 std::map<std::string, UnitRecord> stored_units(Store& store, const Population& population) {
-  const TrackerUnits told(population.tracker);
+  const TrackerUnits reported(population.tracker);
   std::map<std::string, UnitRecord> units;
   // First how far the states go at least: should a monitor save others meanwhile, these go farther.
   std::int64_t place = store.all_up_to(population.fingerprint);
@@ -17,7 +17,7 @@ std::map<std::string, UnitRecord> stored_units(Store& store, const Population& p
     } catch (const InputError&) {  // damaged: from its readings
       UnitRecord fresh = begun_record(each.unit, population.tracker);
       store.of_unit(each.unit, 0, place,
-                    [&](const StoredReading& reading) { take(fresh, reading, told, store); });
+                    [&](const StoredReading& reading) { take(fresh, reading, reported, store); });
       units[each.unit] = std::move(fresh);
     }
   }
@@ -29,7 +29,7 @@ std::map<std::string, UnitRecord> stored_units(Store& store, const Population& p
       auto at = units.find(each.unit);
       if (at == units.end())
         at = units.emplace(each.unit, begun_record(each.unit, population.tracker)).first;
-      if (each.place > at->second.place) take(at->second, each, told, store);
+      if (each.place > at->second.place) take(at->second, each, reported, store);
     }
     place = readings.back().place;
   }

@@ -110,7 +110,8 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
       visit({each.numbers, each.labels});
     });
   };
-  const prognosis::Taken taken = record.state->take({reading.numbers, reading.labels}, history);
+  const prognosis::UpdateResult taken =
+      record.state->take({reading.numbers, reading.labels}, history);
   if (!taken.problem.empty()) record.last_problem = taken.problem;
   constexpr std::int64_t hour_ms = 3'600'000;  // clocks differ
   if (taken.problem.empty() && reading.time_ms > reading.received_ms + hour_ms)
@@ -126,7 +127,7 @@ void take(UnitRecord& record, const StoredReading& reading, const TrackerUnits& 
   if (!first && !late) {
     constexpr double outside = 0.1;  // of 5 to 95 %, on both sides
     ++record.judged;
-    record.held += taken.surprise >= outside;
+    record.held += taken.p_value >= outside;
   }
   if (!is_kept_moment(record.readings)) return;
   const prognosis::Forecast forecast = record.state->forecast();

@@ -72,7 +72,7 @@ void CellMixture::add(const CellMixture& other) {
   cells_.insert(cells_.end(), other.cells_.begin(), other.cells_.end());
 }
 
-void CellMixture::add(const Distribution& other) {
+void CellMixture::add(const QuantityDistribution& other) {
   const std::size_t before = cells_.size();
   other.visit([this](double weight, double center, double half_width) {
     add(weight, center - half_width, center + half_width);

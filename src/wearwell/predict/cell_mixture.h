@@ -16,7 +16,7 @@ class CellMixture {
   void add(double weight, double a, double b);
   void add(const CellMixture& other);
   /// All of a distribution; NaN where it is none.
-  void add(const Distribution& other);
+  void add(const QuantityDistribution& other);
   /// A density of which the nodes of a trapezoidal rule are known: `share` of each, one even step of some
   /// parameter after the other, and the number there, `value`, which rises or falls along them. Between
   /// nodes the distribution goes on as the polynomials through those about them: cells spread evenly would

@@ -19,7 +19,7 @@ constexpr double tolerance = 0.03;  // relative, of what the polynomials miss
 // Products of Hermite polynomials of the whitened parameters, normalized under the normal distribution.
 class Basis {
  public:
-  explicit Basis(const FewPoints& few) : axes_(few.values.cols()) {
+  explicit Basis(const ThinnedPosterior& few) : axes_(few.values.cols()) {
     const Eigen::Map<const Eigen::VectorXd> w(few.weights.data(),
                                               static_cast<Index>(few.weights.size()));
     mean_ = w.transpose() * few.values;
@@ -96,7 +96,7 @@ struct Scaled {
 
 // Of each number what its polynomial misses of what was left for judging, relative, root mean square; infinite where it is not
 // finite.
-std::vector<double> misfits(const FewPoints& few, const Points& at_few, const Scaled& scaled,
+std::vector<double> misfits(const ThinnedPosterior& few, const Points& at_few, const Scaled& scaled,
                             const Points& terms, const Eigen::MatrixXd& coefficients,
                             const std::vector<Index>& judging) {
   std::vector<double> found;
@@ -119,7 +119,8 @@ std::vector<double> misfits(const FewPoints& few, const Points& at_few, const Sc
 }  // namespace
 
 std::vector<std::optional<Interpolated>> interpolated(const WeightedDraws& draws,
-                                                      const FewPoints& few, const Points& at_few) {
+                                                      const ThinnedPosterior& few,
+                                                      const Points& at_few) {
   std::vector<std::optional<Interpolated>> found(static_cast<std::size_t>(at_few.cols()));
   const Index n = at_few.rows();
   if (draws.lower.empty() || draws.values.cols() > most_axes) return found;
@@ -150,7 +151,7 @@ std::vector<std::optional<Interpolated>> interpolated(const WeightedDraws& draws
   for (Index k = 0; k < count; ++k)
     chosen.col(k) = coefficients.col(good[static_cast<std::size_t>(k)]);
   const Index cells = draws.has_cells() ? draws.cells.mass.size() : draws.lower[0].rows();
-  const double least = Distribution::least_weight(draws);
+  const double least = QuantityDistribution::least_weight(draws);
   const auto everywhere = [&](const Points& of) {
     Points values = Points::Zero(cells, count);
     tbb::parallel_for(tbb::blocked_range<Index>(0, cells, 256), [&](const auto& some) {
@@ -171,7 +172,8 @@ std::vector<std::optional<Interpolated>> interpolated(const WeightedDraws& draws
   for (const Points& ends : draws.upper) whole.upper.push_back(everywhere(ends));
   for (Index k = 0; k < count; ++k) {
     const auto j = static_cast<std::size_t>(good[static_cast<std::size_t>(k)]);
-    found[j] = Interpolated{Distribution(whole, [k](const double* x) { return x[k]; }), missed[j]};
+    found[j] =
+        Interpolated{QuantityDistribution(whole, [k](const double* x) { return x[k]; }), missed[j]};
   }
   return found;
 }

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "wearwell/bayes/weighted_draws.h"
-#include "wearwell/predict/few_points.h"
+#include "wearwell/predict/thinned_posterior.h"
 
 namespace wearwell {
 
 struct Interpolated {
-  Distribution distribution;
+  QuantityDistribution distribution;
   double
       misfit;  ///< of the polynomial at points that it was not fitted to, relative, root mean square
 };
@@ -20,6 +20,7 @@ struct Interpolated {
 /// None of a number whose polynomial misses points that it was not fitted to by more than 3 % of its size, in the mean square, and where the
 /// posterior has no cells.
 std::vector<std::optional<Interpolated>> interpolated(const WeightedDraws& draws,
-                                                      const FewPoints& few, const Points& at_few);
+                                                      const ThinnedPosterior& few,
+                                                      const Points& at_few);
 
 }  // namespace wearwell

@@ -13,18 +13,18 @@ namespace wearwell {
 namespace {
 
 // Of t = y, or log y for the lognormal family.
-double density(const ObservationLaw& law, double t) {
-  const double z = (law.location - t) / law.scale;
+double density(const ObservationDistribution& distribution, double t) {
+  const double z = (distribution.location - t) / distribution.scale;
   if (!(std::abs(z) < 9)) return 0;
   constexpr double sqrt_2_pi = 2.50662827463100050241576528481;
-  return std::exp(-0.5 * z * z) / (law.scale * sqrt_2_pi);
+  return std::exp(-0.5 * z * z) / (distribution.scale * sqrt_2_pi);
 }
 
 // Weighted measurements: each draw gives one law, or one for each of some items.
 struct Mixture {
   ObservationFamily family;
   std::vector<double> weight;
-  std::vector<ObservationLaw> law;
+  std::vector<ObservationDistribution> distribution;
   double middle = 0, width = 0;  // about where, and how wide: medians over the draws
 
   double cdf(double y) const {
@@ -32,7 +32,7 @@ struct Mixture {
     if (lognormal && y <= 0) return 0;
     const double t = lognormal ? std::log(y) : y;
     double sum = 0;
-    for (std::size_t i = 0; i < weight.size(); ++i) sum += weight[i] * law[i].cdf(t);
+    for (std::size_t i = 0; i < weight.size(); ++i) sum += weight[i] * distribution[i].cdf(t);
     return sum;
   }
 
@@ -57,7 +57,7 @@ struct Mixture {
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t at = i * weight.size() / count;
       chosen.weight.push_back(weight[at]);
-      chosen.law.push_back(law[at]);
+      chosen.distribution.push_back(distribution[at]);
       total += weight[at];
     }
     for (double& each : chosen.weight) each /= total;
@@ -72,10 +72,12 @@ struct Mixture {
     for (int step = 0; step < 8; ++step) {
       double below = 0, slope = 0, bend = 0;
       for (std::size_t i = 0; i < weight.size(); ++i) {
-        const double each = weight[i] * density(law[i], t);
-        below += weight[i] * law[i].cdf(t);
+        const double each = weight[i] * density(distribution[i], t);
+        below += weight[i] * distribution[i].cdf(t);
         slope += each;
-        if (each > 0) bend += each * (law[i].location - t) / (law[i].scale * law[i].scale);
+        if (each > 0)
+          bend += each * (distribution[i].location - t) /
+                  (distribution[i].scale * distribution[i].scale);
       }
       const double newton = (below - p) / slope;
       t -= newton / std::clamp(1 - 0.5 * newton * bend / slope, 0.5, 2.0);
@@ -111,7 +113,7 @@ Mixture mixture(const WeightedDraws& draws, const Function& mean, const Function
       const double m = item ? item(x, each) : mean(x);
       if (std::isnan(m) || !(s > 0)) return {family, {}, {}, std::nan(""), std::nan("")};
       all.weight.push_back(weight);
-      all.law.emplace_back(family, m, s);
+      all.distribution.emplace_back(family, m, s);
       if (each == z[z.size() / 2]) {
         means.push_back({m, dominant.weights[i]});
         sds.push_back({s, dominant.weights[i]});
@@ -146,26 +148,26 @@ DominantDraws::DominantDraws(const WeightedDraws& draws) {
 Prediction predict(const WeightedDraws& draws, const Function& mean, const Function& sd,
                    ObservationFamily family, const ItemFunction& item, std::size_t points,
                    const Ends& ends) {
-  const Distribution truth(draws, mean);
+  const QuantityDistribution truth(draws, mean);
   const Mixture measurement = mixture(draws, mean, sd, family, item, points);
   return {truth.mean(), truth.quantile(ends.lower), truth.quantile(ends.upper),
           measurement.quantile(ends.lower), measurement.quantile(ends.upper)};
 }
 
-LifeLaw life_law(const WeightedDraws& draws, const Function& life) {
-  const auto lives = std::make_shared<const Distribution>(draws, life);
+LifeDistribution life_distribution(const WeightedDraws& draws, const Function& life) {
+  const auto lives = std::make_shared<const QuantityDistribution>(draws, life);
   return {[lives](double at) { return lives->cdf(at); },
           [lives](double p) { return lives->quantile(p); }};
 }
 
-LifeLaw life_law(const WeightedDraws& draws, double constant, const Function& driver,
-                 const Function& log_sd) {
+LifeDistribution life_distribution(const WeightedDraws& draws, double constant,
+                                   const Function& driver, const Function& log_sd) {
   const auto items = std::make_shared<const ItemMixture>(draws, driver, log_sd);
   return {[=](double at) { return at > 0 ? 1 - items->cdf(constant / at) : 0.0; },
           [=](double p) { return constant / items->quantile(1 - p); }};
 }
 
-Life predict_life(const LifeLaw& lives, double now, double risk) {
+Life predict_life(const LifeDistribution& lives, double now, double risk) {
   const double reached = lives.cdf(now);
   const double wait = lives.quantile(reached + risk * (1 - reached)) - now;
   return {lives.quantile(0.01),

@@ -58,24 +58,24 @@ struct Life {
 };
 
 /// The distribution of a life.
-struct LifeLaw {
+struct LifeDistribution {
   std::function<double(double life)> cdf;
   std::function<double(double p)> quantile;  ///< 0 < p < 1
 };
 
 /// `life` of the parameters, infinite where it is never reached.
-LifeLaw life_law(const WeightedDraws& draws, const Function& life);
+LifeDistribution life_distribution(const WeightedDraws& draws, const Function& life);
 
 /// The life of an item not yet seen, constant/driver: the logarithm of the driver, a wear rate, is
 /// normal over items about that of driver(x) with standard deviation log_sd(x).
-LifeLaw life_law(const WeightedDraws& draws, double constant, const Function& driver,
-                 const Function& log_sd);
+LifeDistribution life_distribution(const WeightedDraws& draws, double constant,
+                                   const Function& driver, const Function& log_sd);
 
 /// `now` in the same unit, `risk` in (0, 1).
-Life predict_life(const LifeLaw& lives, double now, double risk);
+Life predict_life(const LifeDistribution& lives, double now, double risk);
 inline Life predict_life(const WeightedDraws& draws, const Function& life, double now,
                          double risk) {
-  return predict_life(life_law(draws, life), now, risk);
+  return predict_life(life_distribution(draws, life), now, risk);
 }
 
 }  // namespace wearwell

@@ -81,11 +81,11 @@ std::string capital(std::string text) {
 }
 
 std::string number(double x, int digits) {
-  return number_in_words(x, digits, Script::page);
+  return shown_number(x, digits, Script::page);
 }
 
 std::string given(double x) {
-  return given_in_words(x, Script::page);
+  return given_text(x, Script::page);
 }
 
 std::string raised(const std::string& text) {
@@ -93,7 +93,7 @@ std::string raised(const std::string& text) {
 }
 
 std::string unit(const std::string& text) {
-  return unit_in_words(text, Script::page);
+  return unit_description(text, Script::page);
 }
 
 std::string quantity(double x, const std::string& unit_text, int digits) {
@@ -102,7 +102,7 @@ std::string quantity(double x, const std::string& unit_text, int digits) {
 }
 
 std::string range(double low, double high, int digits) {
-  return range_in_words(low, high, digits, Script::page);
+  return range_text(low, high, digits, Script::page);
 }
 
 std::string tiles(const std::vector<Tile>& tiles) {

@@ -134,7 +134,7 @@ std::string in_text(const std::string& text, Script script, bool thousands) {
     const bool long_one = thousands && token.is_whole && digits.size() > most_together &&
                           digits.size() <= given_digits && digits.front() != '0';
     const bool changes = !cut_off && !is_operand(out) && (token.has_power || long_one);
-    out += changes ? given_in_words(std::strtod(digits.c_str(), nullptr), script) : digits;
+    out += changes ? given_text(std::strtod(digits.c_str(), nullptr), script) : digits;
     i = token.end;
   }
   return out;
@@ -142,14 +142,14 @@ std::string in_text(const std::string& text, Script script, bool thousands) {
 
 }  // namespace
 
-std::string number_in_words(double x, int digits, Script script) {
+std::string shown_number(double x, int digits, Script script) {
   if (!std::isfinite(x)) return not_finite(x, script);
   x = rounded(x, digits);
   const int exponent = exponent_of(x);
   return plain(mantissa(x, exponent), digits, script) + times_power(exponent, script);
 }
 
-std::string given_in_words(double x, Script script) {
+std::string given_text(double x, Script script) {
   if (!std::isfinite(x)) return not_finite(x, script);
   const int exponent = exponent_of(x);
   const std::string digits = fmt::format("{:.{}g}", mantissa(x, exponent), given_digits);
@@ -162,16 +162,16 @@ int digits_within(double relative_error, int most) {
   return std::clamp(static_cast<int>(std::floor(-std::log10(relative_error))) + 1, 2, most);
 }
 
-std::string fixed_in_words(double x, int decimals, Script script) {
+std::string fixed_text(double x, int decimals, Script script) {
   return std::isfinite(x) ? spaced(fmt::format("{:.{}f}", x, decimals), script)
                           : not_finite(x, script);
 }
 
-std::string range_in_words(double low, double high, int digits, Script script) {
+std::string range_text(double low, double high, int digits, Script script) {
   low = rounded(low, digits), high = rounded(high, digits);
   const int exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
   if (exponent == 0 || !std::isfinite(low) || !std::isfinite(high)) {
-    return number_in_words(low, digits, script) + " to " + number_in_words(high, digits, script);
+    return shown_number(low, digits, script) + " to " + shown_number(high, digits, script);
   }
   const int lost =
       low == 0 ? 0 : exponent - static_cast<int>(std::floor(std::log10(std::abs(low))));
@@ -182,21 +182,21 @@ std::string range_in_words(double low, double high, int digits, Script script) {
 namespace {
 
 // "10⁶ cycles" of "1e6 cycles"; empty of a unit that is no multiple.
-std::string multiple_in_words(const std::string& unit, Script script) {
+std::string multiple_text(const std::string& unit, Script script) {
   const std::size_t digits = unit.find_first_not_of("0123456789", 2);
   if (!unit.starts_with("1e") || digits == unit.npos || digits == 2) return {};
   return power_of_ten(std::atoi(unit.substr(2, digits - 2).c_str()), script) +
-         unit_in_words(unit.substr(digits), script);
+         unit_description(unit.substr(digits), script);
 }
 
 }  // namespace
 
-std::string unit_in_words(const std::string& unit, Script script) {
+std::string unit_description(const std::string& unit, Script script) {
   if (unit == "1") return {};
-  const std::string multiple = multiple_in_words(unit, script);
+  const std::string multiple = multiple_text(unit, script);
   if (!multiple.empty()) return fmt::format("×{}{}", hard_space, multiple);
   if (unit.starts_with("1/(") && unit.ends_with(")")) {
-    const std::string per = multiple_in_words(unit.substr(3, unit.size() - 4), script);
+    const std::string per = multiple_text(unit.substr(3, unit.size() - 4), script);
     if (!per.empty()) return fmt::format("1/({})", per);
   }
   std::string out;
@@ -223,11 +223,11 @@ std::string powers_raised(const std::string& text) {
   return out;
 }
 
-std::string powers_in_words(const std::string& text, Script script) {
+std::string powers_text(const std::string& text, Script script) {
   return in_text(text, script, false);
 }
 
-std::string numbers_in_words(const std::string& text, Script script) {
+std::string numbers_text(const std::string& text, Script script) {
   return in_text(text, script, true);
 }
 

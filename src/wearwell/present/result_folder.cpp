@@ -102,7 +102,7 @@ Content look_at(const fs::path& folder) {
 /// The earlier results that may be replaced.
 std::vector<std::string> replaceable(const fs::path& target) {
   const fs::path folder = behind_links(target);
-  heal_results(folder);
+  recover_results(folder);
   std::error_code error;
   if (!fs::exists(folder, error)) return {};
   if (!fs::is_directory(folder, error))
@@ -127,11 +127,12 @@ void ResultFolder::commit() {
   folder_.commit(look_at(folder_.target()).own);
 }
 
-void heal_results(const fs::path& target) {
+void recover_results(const fs::path& target) {
   const fs::path folder = behind_links(target);
   std::error_code error;
-  if (!fs::exists(folder, error)) heal_folder(folder.parent_path());  // it may have been left aside
-  if (fs::is_directory(folder, error)) heal_folder(folder);
+  if (!fs::exists(folder, error))
+    recover_folder(folder.parent_path());  // it may have been left aside
+  if (fs::is_directory(folder, error)) recover_folder(folder);
 }
 
 void replace_result(const fs::path& folder, const std::string& name, std::string_view content) {

@@ -32,7 +32,7 @@ class ResultFolder {
 };
 
 /// What a run that was killed had begun to put into place is brought to its end, or removed.
-void heal_results(const std::filesystem::path& target);
+void recover_results(const std::filesystem::path& target);
 
 /// Replaces one file of a result folder and its line in the list, both or none (StagedFolder); of a
 /// folder without a list, the file alone. Throws InputError when another run wrote there meanwhile.

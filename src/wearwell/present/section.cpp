@@ -14,11 +14,11 @@ std::string html_of(const std::vector<Block>& blocks, bool folded);
 
 std::string html_of(const Prose& prose) {
   return fmt::format("<p{}>{}</p>\n", prose.lead ? " class=\"verdict\"" : "",
-                     html::escape(powers_in_words(prose.text, Script::page)));
+                     html::escape(powers_text(prose.text, Script::page)));
 }
 
 std::string html_of(const Callout& callout) {
-  return html::callout(callout.kind, callout.word, powers_in_words(callout.text, Script::page));
+  return html::callout(callout.kind, callout.word, powers_text(callout.text, Script::page));
 }
 
 std::string html_of(const Tiles& tiles) {
@@ -51,7 +51,7 @@ bool is_text(const Table& table, std::size_t column) {
 bool has_content(const Table& table, std::size_t column) {
   if (column == 0 || table.rows.empty()) return true;
   return std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-    const std::string words = in_words(row[column], table.columns[column]);
+    const std::string words = description(row[column], table.columns[column]);
     return !words.empty() && words != "–" && words != "– to –";
   });
 }
@@ -77,9 +77,9 @@ std::string html_of(const Table& table, bool folded) {
     if (shown.rows.size() == most_rows_shown) break;
     shown.rows.emplace_back();
     for (const std::size_t c : columns) {
-      std::string words = html::raised(in_words(row[c], table.columns[c]));
+      std::string words = html::raised(description(row[c], table.columns[c]));
       if (c + 1 < row.size() && is_unit_of_name(table, c + 1)) {
-        const std::string unit = html::unit(in_words(row[c + 1], table.columns[c + 1]));
+        const std::string unit = html::unit(description(row[c + 1], table.columns[c + 1]));
         if (!unit.empty()) words += fmt::format(" [{}]", unit);
       }
       shown.rows.back().push_back(std::move(words));

@@ -60,34 +60,33 @@ std::string file_cell(const Cell& cell, bool is_range) {
 std::string shown(double x, const Format& format, Script script) {
   switch (format.kind) {
     case Format::Kind::given:
-      return given_in_words(x, script);
+      return given_text(x, script);
     case Format::Kind::fixed:
-      return fixed_in_words(x, format.digits, script);
+      return fixed_text(x, format.digits, script);
     case Format::Kind::life:
       return std::isinf(x) && x > 0 ? "never"
-                                    : number_in_words(x, digits_of_life(x, format.digits), script);
+                                    : shown_number(x, digits_of_life(x, format.digits), script);
     case Format::Kind::significant:
       break;
   }
-  return number_in_words(x, format.digits, script);
+  return shown_number(x, format.digits, script);
 }
 
 std::string shown(const Range& range, const Format& format, Script script) {
   const bool finite = std::isfinite(range.low) && std::isfinite(range.high);
   return format.kind == Format::Kind::significant && finite
-             ? range_in_words(range.low, range.high, format.digits, script)
+             ? range_text(range.low, range.high, format.digits, script)
              : shown(range.low, format, script) + " to " + shown(range.high, format, script);
 }
 
 std::string shown(const Cell& cell, const Format& format, Script script) {
   const bool page = script == Script::page;
-  return std::visit(
-      Overloaded{[&](std::monostate) { return std::string(page ? "–" : "-"); },
-                 [&](const std::string& text) { return powers_in_words(text, script); },
-                 [&](double x) { return shown(x, format, script); },
-                 [&](const Range& range) { return shown(range, format, script); },
-                 [&](const Badge& badge) { return page ? badge.word : badge.kind; }},
-      cell);
+  return std::visit(Overloaded{[&](std::monostate) { return std::string(page ? "–" : "-"); },
+                               [&](const std::string& text) { return powers_text(text, script); },
+                               [&](double x) { return shown(x, format, script); },
+                               [&](const Range& range) { return shown(range, format, script); },
+                               [&](const Badge& badge) { return page ? badge.word : badge.kind; }},
+                    cell);
 }
 
 }  // namespace
@@ -100,11 +99,11 @@ std::string heading(const Column& column) {
   return heading(column.name, column.unit);
 }
 
-std::string in_words(double x, const Format& format, Script script) {
+std::string description(double x, const Format& format, Script script) {
   return shown(x, format, script);
 }
 
-std::string in_words(const Cell& cell, const Column& column) {
+std::string description(const Cell& cell, const Column& column) {
   return shown(cell, column.format, Script::page);
 }
 
@@ -145,10 +144,10 @@ std::string text(const Table& table) {
   }
   std::string out = fmt::format("{}\n{}", printable(table.caption), text_table(rows, table.words));
   if (table.rows.size() > most_rows_shown)
-    out += fmt::format("  the first {} of {}; all are in tables/{}.csv\n",
-                       given_in_words(most_rows_shown, Script::terminal),
-                       given_in_words(static_cast<double>(table.rows.size()), Script::terminal),
-                       table.id);
+    out +=
+        fmt::format("  the first {} of {}; all are in tables/{}.csv\n",
+                    given_text(most_rows_shown, Script::terminal),
+                    given_text(static_cast<double>(table.rows.size()), Script::terminal), table.id);
   return out;
 }
 

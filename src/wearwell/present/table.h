@@ -73,8 +73,8 @@ struct Table {
 inline constexpr std::size_t most_rows_shown = 1000;
 
 /// A number as a column shows it: "21 600"; "–" for what is not finite.
-std::string in_words(double x, const Format& format, Script script = Script::page);
-std::string in_words(const Cell& cell, const Column& column);
+std::string description(double x, const Format& format, Script script = Script::page);
+std::string description(const Cell& cell, const Column& column);
 
 /// RFC 4180, with the units in the heading: `life [h]`. Numbers in the shortest form that reads back
 /// to the same; an interval is two columns, `, from` and `, to`; nothing is an empty cell. Text that a

@@ -9,8 +9,8 @@ namespace wearwell::families {
 struct BirnbaumSaunders : OnPositive {
   static constexpr std::string_view name = "birnbaum-saunders";
   static constexpr std::string_view title = "Birnbaum-Saunders";
-  static constexpr auto slots = std::to_array<SlotForm>({{"scale", size}, {"shape", number}});
-  static constexpr StandardLaw standard = StandardLaw::normal;
+  static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}, {"shape", number}});
+  static constexpr StandardDistribution standard = StandardDistribution::normal;
 
   template <class U, class T>
   static auto z(const U& log_y, const T* s) {

@@ -7,9 +7,9 @@ namespace wearwell::families {
 /// The Weibull law of shape 1, and the gamma law.
 struct Exponential : OnPositive {
   static constexpr std::string_view name = "exponential";
-  static constexpr auto slots = std::to_array<SlotForm>({{"mean", size}});
-  static constexpr StandardLaw standard = StandardLaw::smallest_extreme_value;
-  static constexpr Paper paper = {"Weibull", StandardLaw::smallest_extreme_value};
+  static constexpr auto slots = std::to_array<ParameterForm>({{"mean", size}});
+  static constexpr StandardDistribution standard = StandardDistribution::smallest_extreme_value;
+  static constexpr Paper paper = {"Weibull", StandardDistribution::smallest_extreme_value};
 
   template <class U, class T>
   static auto z(const U& log_y, const T* s) {
@@ -22,7 +22,9 @@ struct Exponential : OnPositive {
   static double inverse(double z, const double* s) { return s[0] * std::exp(z); }
   static double mean(const double* s) { return s[0]; }
 
-  static std::array<double, most_response_slots> prepared(const double* s) { return {1, s[0]}; }
+  static std::array<double, most_response_parameters> prepared(const double* s) {
+    return {1, s[0]};
+  }
   template <class X>
   static X log_kernel(const X& x, const double* c) {
     return Gamma::log_kernel(x, c);

@@ -13,8 +13,8 @@ struct ExponentiatedWeibull : OnPositive {
   static constexpr std::string_view name = "exponentiated-weibull";
   static constexpr std::string_view title = "exponentiated Weibull";
   static constexpr auto slots =
-      std::to_array<SlotForm>({{"scale", size}, {"shape", number}, {"exponent", number}});
-  static constexpr Paper paper = {"Weibull", StandardLaw::smallest_extreme_value, false};
+      std::to_array<ParameterForm>({{"scale", size}, {"shape", number}, {"exponent", number}});
+  static constexpr Paper paper = {"Weibull", StandardDistribution::smallest_extreme_value, false};
 
   template <class Y, class T>
   static auto log_density(const Y& y, const T* s) {

@@ -7,7 +7,7 @@
 #include "wearwell/math/constants.h"
 #include "wearwell/math/dual.h"
 #include "wearwell/prob/family_form.h"
-#include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_distribution.h"
 
 /// What a family is, once for all that use it: a struct in a file of its own, with static members, and
 /// a line in families.h. `s` are its parameters, in the order of `slots`; functions are templates over
@@ -37,7 +37,7 @@ using std::log;
 using std::log1p;
 using std::sqrt;
 
-using enum SlotKind;
+using enum ParameterKind;
 
 template <class Y, class T>
 using Result = decltype(std::declval<Y>() * std::declval<T>());
@@ -46,14 +46,14 @@ using Result = decltype(std::declval<Y>() * std::declval<T>());
 struct OnLine {
   static constexpr bool positive = false, counted = false, prior_only = false;
   static constexpr std::string_view title = {};
-  static constexpr Paper paper = {"normal", StandardLaw::normal, false};
+  static constexpr Paper paper = {"normal", StandardDistribution::normal, false};
   static constexpr const char* c_density = nullptr;
 };
 
 /// The same of one above 0.
 struct OnPositive : OnLine {
   static constexpr bool positive = true;
-  static constexpr Paper paper = {"lognormal", StandardLaw::normal, false};
+  static constexpr Paper paper = {"lognormal", StandardDistribution::normal, false};
 };
 
 /// A log density with its derivatives by two parameters.

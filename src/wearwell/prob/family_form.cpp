@@ -22,7 +22,7 @@ ResponseForm make_form(std::size_t i) {
   form.slots.assign(Own::slots.begin(), Own::slots.end());
   if (form.title.empty()) form.title = form.name;
   if constexpr (families::Thresholded<F>) {
-    form.slots.push_back({"threshold", SlotKind::place, true});
+    form.slots.push_back({"threshold", ParameterKind::place, true});
     form.paper.straight = false;
     form.c_density = nullptr;
   }

@@ -7,7 +7,7 @@
 
 namespace wearwell {
 
-enum class StandardLaw;
+enum class StandardDistribution;
 
 /// A family of distributions: its place in the list (families.h). Those that other code names stand
 /// here; the list has more, and each that is positive once more with a threshold.
@@ -36,7 +36,7 @@ enum class ResponseFamily {
 };
 
 /// What a parameter of a family, a slot, holds.
-enum class SlotKind {
+enum class ParameterKind {
   place,        ///< a value of what is observed
   size,         ///< a size of the same dimension, positive
   number,       ///< a pure number, positive
@@ -44,9 +44,9 @@ enum class SlotKind {
   probability,  ///< a pure number, 0 to 1
 };
 
-struct SlotForm {
+struct ParameterForm {
   std::string_view name;
-  SlotKind kind;
+  ParameterKind kind;
   bool optional = false;
   /// How a description has it, "{}" for the number: "{} degrees of freedom". Empty: the name and the number.
   std::string_view phrase = {};
@@ -55,15 +55,15 @@ struct SlotForm {
 /// Probability paper: the axes on which shares that have failed are drawn against life.
 struct Paper {
   std::string_view name;
-  StandardLaw law;       ///< the vertical axis is its quantile
-  bool straight = true;  ///< distributions of the family are straight lines on it
+  StandardDistribution distribution;  ///< the vertical axis is its quantile
+  bool straight = true;               ///< distributions of the family are straight lines on it
 };
 
 /// A family as a study names it, with its slots in order.
 struct ResponseForm {
   std::string_view name;
   ResponseFamily family;
-  std::vector<SlotForm> slots;
+  std::vector<ParameterForm> slots;
   bool positive = false;  ///< what is observed is above 0
   bool counted = false;   ///< it is a count; nothing is censored, and it is no prior
   bool prior_only = false;
@@ -80,7 +80,7 @@ std::span<const ResponseForm> response_forms();
 std::span<const ResponseForm> prior_forms();
 const ResponseForm& form_of(ResponseFamily family);
 
-inline constexpr int most_response_slots = 4;
+inline constexpr int most_response_parameters = 4;
 
 /// Of some forms of one name that whose parameters are given, by `has(name)`; of several that of
 /// which the most are given, then the first. None where each lacks one that it needs.
@@ -93,7 +93,7 @@ const ResponseForm* given_form(std::span<const ResponseForm> forms, std::string_
     if (form.name != name) continue;
     std::size_t given = 0;
     bool lacks = false;
-    for (const SlotForm& slot : form.slots) {
+    for (const ParameterForm& slot : form.slots) {
       const bool is_given = has(slot.name);
       given += is_given ? 1 : 0;
       lacks = lacks || !(is_given || slot.optional);

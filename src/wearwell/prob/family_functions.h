@@ -46,12 +46,12 @@ constexpr std::size_t slot_count() {
   }
 }
 
-inline bool holds(SlotKind kind, double x) {
+inline bool holds(ParameterKind kind, double x) {
   switch (kind) {
-    case SlotKind::size:
-    case SlotKind::number:
+    case ParameterKind::size:
+    case ParameterKind::number:
       return x > 0 && x < infinity;
-    case SlotKind::probability:
+    case ParameterKind::probability:
       return x >= 0 && x <= 1;
     default:
       return std::isfinite(x);
@@ -116,19 +116,19 @@ Result<Y, T> log_density(const Y& y, const T* s) {
 }
 
 /// Of one that is OnStandardAxis without its slopes, to the same bits: these cost as much again.
-inline double log_survival_there(StandardLaw law, double z) {
-  return log_survival_value(law, z);
+inline double log_survival_there(StandardDistribution distribution, double z) {
+  return log_survival_value(distribution, z);
 }
 template <int N>
-Dual<N> log_survival_there(StandardLaw law, const Dual<N>& z) {
-  return wearwell::log_survival(law, z);
+Dual<N> log_survival_there(StandardDistribution distribution, const Dual<N>& z) {
+  return wearwell::log_survival(distribution, z);
 }
-inline double log_cdf_there(StandardLaw law, double z) {
-  return log_cdf_value(law, z);
+inline double log_cdf_there(StandardDistribution distribution, double z) {
+  return log_cdf_value(distribution, z);
 }
 template <int N>
-Dual<N> log_cdf_there(StandardLaw law, const Dual<N>& z) {
-  return wearwell::log_cdf(law, z);
+Dual<N> log_cdf_there(StandardDistribution distribution, const Dual<N>& z) {
+  return wearwell::log_cdf(distribution, z);
 }
 
 template <class F, class Y, class T>
@@ -154,11 +154,11 @@ Result<Y, T> log_cdf(const Y& y, const T* s) {
 }
 
 /// The same share is asked for at very many points of a posterior.
-inline double standard_quantile(StandardLaw law, double p) {
-  if (law != StandardLaw::normal) return wearwell::quantile(law, p);
+inline double standard_quantile(StandardDistribution distribution, double p) {
+  if (distribution != StandardDistribution::normal) return wearwell::quantile(distribution, p);
   static thread_local double last = 0.5, z = 0;
   if (p != last) {
-    z = wearwell::quantile(law, p);
+    z = wearwell::quantile(distribution, p);
     last = p;
   }
   return z;

@@ -9,7 +9,7 @@ struct Flat : OnLine {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "flat";
   static constexpr std::string_view title = "flat: nothing is known";
-  static constexpr std::array<SlotForm, 0> slots = {};
+  static constexpr std::array<ParameterForm, 0> slots = {};
 
   template <class X>
   static X log_kernel(const X&, const double*) {

@@ -71,7 +71,7 @@ struct GeneralizedGamma : OnPositive {
   static constexpr std::string_view name = "generalized-gamma";
   static constexpr std::string_view title = "generalized gamma";
   static constexpr auto slots =
-      std::to_array<SlotForm>({{"scale", size}, {"sigma", number}, {"lambda", real}});
+      std::to_array<ParameterForm>({{"scale", size}, {"sigma", number}, {"lambda", real}});
 
   template <class Y, class T>
   static auto log_density(const Y& y, const T* s) {
@@ -130,9 +130,9 @@ struct GeneralizedGamma : OnPositive {
     R near_normal(bool upper) const {
       const R z = omega * sqrt(2.0 * generalized::curvature(u));
       const R sum = lambda * generalized::temme_sum(R(lambda * z), R(lambda * lambda));
-      const R tail = upper ? wearwell::log_survival(StandardLaw::normal, z)
-                           : wearwell::log_cdf(StandardLaw::normal, z);
-      const R ratio = exp(wearwell::log_density(StandardLaw::normal, z) - tail);
+      const R tail = upper ? wearwell::log_survival(StandardDistribution::normal, z)
+                           : wearwell::log_cdf(StandardDistribution::normal, z);
+      const R ratio = exp(wearwell::log_density(StandardDistribution::normal, z) - tail);
       return tail + log1p(upper ? R(sum * ratio) : R(-sum * ratio));
     }
   };

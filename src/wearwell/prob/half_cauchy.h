@@ -9,9 +9,11 @@ struct HalfCauchy : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "half-cauchy";
   static constexpr std::string_view title = "half-Cauchy";
-  static constexpr auto slots = std::to_array<SlotForm>({{"scale", size}});
+  static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}});
 
-  static std::array<double, most_response_slots> prepared(const double* s) { return {1, 0, s[0]}; }
+  static std::array<double, most_response_parameters> prepared(const double* s) {
+    return {1, 0, s[0]};
+  }
   template <class X>
   static X log_kernel(const X& x, const double* c) {
     return StudentT::log_kernel(x, c);

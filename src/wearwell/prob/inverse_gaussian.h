@@ -10,7 +10,7 @@ namespace wearwell::families {
 struct InverseGaussian : OnPositive {
   static constexpr std::string_view name = "inverse-gaussian";
   static constexpr std::string_view title = "inverse Gaussian";
-  static constexpr auto slots = std::to_array<SlotForm>({{"mean", size}, {"shape", size}});
+  static constexpr auto slots = std::to_array<ParameterForm>({{"mean", size}, {"shape", size}});
 
   template <class Y, class T>
   static auto log_density(const Y& y, const T* s) {
@@ -21,7 +21,8 @@ struct InverseGaussian : OnPositive {
   static auto log_cdf(const Y& y, const T* s) {
     using R = Result<Y, T>;
     const Arguments<R> at(y, s);
-    const R first = wearwell::log_cdf(StandardLaw::normal, at.a), second = at.log_mirrored();
+    const R first = wearwell::log_cdf(StandardDistribution::normal, at.a),
+            second = at.log_mirrored();
     return scalar(first) > scalar(second) ? R(first + log1p(exp(second - first)))
                                           : R(second + log1p(exp(first - second)));
   }
@@ -29,7 +30,8 @@ struct InverseGaussian : OnPositive {
   static auto log_survival(const Y& y, const T* s) {
     using R = Result<Y, T>;
     const Arguments<R> at(y, s);
-    return log_difference(wearwell::log_survival(StandardLaw::normal, at.a), at.log_mirrored());
+    return log_difference(wearwell::log_survival(StandardDistribution::normal, at.a),
+                          at.log_mirrored());
   }
   static double quantile(double p, const double* s) {
     return positive_quantile<InverseGaussian>(p, s, mean(s));
@@ -49,7 +51,9 @@ struct InverseGaussian : OnPositive {
       b = root * (y / s[0] + 1.0);
       power = 2.0 * s[1] / s[0];
     }
-    R log_mirrored() const { return power + wearwell::log_cdf(StandardLaw::normal, R(-b)); }
+    R log_mirrored() const {
+      return power + wearwell::log_cdf(StandardDistribution::normal, R(-b));
+    }
   };
 };
 

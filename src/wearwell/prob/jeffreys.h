@@ -10,7 +10,7 @@ struct Jeffreys : OnPositive {
   static constexpr bool prior_only = true;
   static constexpr std::string_view name = "jeffreys";
   static constexpr std::string_view title = "1/x: its order of magnitude is unknown";
-  static constexpr std::array<SlotForm, 0> slots = {};
+  static constexpr std::array<ParameterForm, 0> slots = {};
 
   template <class X>
   static X log_kernel(const X& x, const double*) {

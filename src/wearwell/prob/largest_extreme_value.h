@@ -8,8 +8,9 @@ namespace wearwell::families {
 struct LargestExtremeValue : SmallestExtremeValue {
   static constexpr std::string_view name = "largest-extreme-value";
   static constexpr std::string_view title = "largest extreme value";
-  static constexpr StandardLaw standard = StandardLaw::largest_extreme_value;
-  static constexpr Paper paper = {"largest-extreme-value", StandardLaw::largest_extreme_value};
+  static constexpr StandardDistribution standard = StandardDistribution::largest_extreme_value;
+  static constexpr Paper paper = {"largest-extreme-value",
+                                  StandardDistribution::largest_extreme_value};
 
   static double mean(const double* s) { return s[0] + s[1] * 0.57721566490153286; }
 };

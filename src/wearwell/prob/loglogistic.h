@@ -7,9 +7,9 @@ namespace wearwell::families {
 /// The logarithm has the logistic law; the scale is the median.
 struct Loglogistic : OnPositive {
   static constexpr std::string_view name = "loglogistic";
-  static constexpr auto slots = std::to_array<SlotForm>({{"scale", size}, {"shape", number}});
-  static constexpr StandardLaw standard = StandardLaw::logistic;
-  static constexpr Paper paper = {"loglogistic", StandardLaw::logistic};
+  static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}, {"shape", number}});
+  static constexpr StandardDistribution standard = StandardDistribution::logistic;
+  static constexpr Paper paper = {"loglogistic", StandardDistribution::logistic};
 
   template <class U, class T>
   static auto z(const U& log_y, const T* s) {

@@ -32,9 +32,9 @@ struct LognormalByMoments {
 template <class T>
 T lognormal_log_density(double log_x, const T& mean, const T& sd) {
   using std::log;
-  const LognormalByMoments<T> law(mean, sd);
-  const T z = (log_x - law.eta) / law.zeta;
-  return -0.5 * z * z - log(law.zeta) - half_log_two_pi - log_x;
+  const LognormalByMoments<T> distribution(mean, sd);
+  const T z = (log_x - distribution.eta) / distribution.zeta;
+  return -0.5 * z * z - log(distribution.zeta) - half_log_two_pi - log_x;
 }
 
 namespace families {
@@ -42,8 +42,8 @@ namespace families {
 /// log x is normal; `prepared` are its mean and standard deviation.
 struct OfNormalLogarithm : OnPositive {
   static constexpr std::string_view name = "lognormal";
-  static constexpr StandardLaw standard = StandardLaw::normal;
-  static constexpr Paper paper = {"lognormal", StandardLaw::normal};
+  static constexpr StandardDistribution standard = StandardDistribution::normal;
+  static constexpr Paper paper = {"lognormal", StandardDistribution::normal};
 
   template <class X>
   static X log_kernel(const X& x, const double* c) {
@@ -58,7 +58,7 @@ struct OfNormalLogarithm : OnPositive {
 };
 
 struct Lognormal : OfNormalLogarithm {
-  static constexpr auto slots = std::to_array<SlotForm>(
+  static constexpr auto slots = std::to_array<ParameterForm>(
       {{"median", size}, {"log_sd", number, false, "sd of the logarithm {}"}});
   static constexpr const char* c_density =
       "    const double z = (log(y) - log(a)) / b;\n"
@@ -82,14 +82,14 @@ struct Lognormal : OfNormalLogarithm {
     const Row row = normal_row(log_y, std::log(s[0]), s[1]);
     return {row.value - log_y, {row.slope[0] / s[0], row.slope[1]}};
   }
-  static std::array<double, most_response_slots> prepared(const double* s) {
+  static std::array<double, most_response_parameters> prepared(const double* s) {
     return {std::log(s[0]), s[1]};
   }
 };
 
 /// By mean and standard deviation of the quantity itself.
 struct LognormalOfMoments : OfNormalLogarithm {
-  static constexpr auto slots = std::to_array<SlotForm>({{"mean", size}, {"sd", size}});
+  static constexpr auto slots = std::to_array<ParameterForm>({{"mean", size}, {"sd", size}});
   static constexpr const char* c_density =
       "    const double s2 = log1p((b / a) * (b / a)), s = sqrt(s2);\n"
       "    const double z = (log(y) - log(a) + 0.5 * s2) / s;\n"
@@ -99,15 +99,15 @@ struct LognormalOfMoments : OfNormalLogarithm {
 
   template <class U, class T>
   static auto z(const U& log_y, const T* s) {
-    const LognormalByMoments<T> law(s[0], s[1]);
-    return (log_y - law.eta) / law.zeta;
+    const LognormalByMoments<T> distribution(s[0], s[1]);
+    return (log_y - distribution.eta) / distribution.zeta;
   }
   template <class Y, class T>
   static auto log_density(const Y& y, const T* s) {
-    const LognormalByMoments<T> law(s[0], s[1]);
+    const LognormalByMoments<T> distribution(s[0], s[1]);
     const auto log_y = log(y);
-    const auto z = (log_y - law.eta) / law.zeta;
-    return wearwell::log_density(standard, z) + (-log(law.zeta) - log_y);
+    const auto z = (log_y - distribution.eta) / distribution.zeta;
+    return wearwell::log_density(standard, z) + (-log(distribution.zeta) - log_y);
   }
   static double inverse(double z, const double* s) {
     const double variance = std::log1p(s[1] / s[0] * (s[1] / s[0]));
@@ -115,16 +115,16 @@ struct LognormalOfMoments : OfNormalLogarithm {
   }
   static double mean(const double* s) { return s[0]; }
 
-  static std::array<double, most_response_slots> prepared(const double* s) {
-    const LognormalByMoments<double> law(s[0], s[1]);
-    return {law.eta, law.zeta};
+  static std::array<double, most_response_parameters> prepared(const double* s) {
+    const LognormalByMoments<double> distribution(s[0], s[1]);
+    return {distribution.eta, distribution.zeta};
   }
 };
 
 /// By the median and the standard deviation of the decadic logarithm.
 struct Log10Normal : OfNormalLogarithm {
   static constexpr std::string_view name = "log10-normal";
-  static constexpr auto slots = std::to_array<SlotForm>(
+  static constexpr auto slots = std::to_array<ParameterForm>(
       {{"median", size}, {"log10_sd", number, false, "sd of the decadic logarithm {}"}});
 
   template <class U, class T>
@@ -143,7 +143,7 @@ struct Log10Normal : OfNormalLogarithm {
     const Row row = normal_row(log_y, std::log(s[0]), ln10 * s[1]);
     return {row.value - log_y, {row.slope[0] / s[0], ln10 * row.slope[1]}};
   }
-  static std::array<double, most_response_slots> prepared(const double* s) {
+  static std::array<double, most_response_parameters> prepared(const double* s) {
     return {std::log(s[0]), ln10 * s[1]};
   }
 };

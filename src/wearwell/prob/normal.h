@@ -20,9 +20,9 @@ namespace families {
 
 struct Normal : OnLine {
   static constexpr std::string_view name = "normal";
-  static constexpr auto slots = std::to_array<SlotForm>({{"mean", place}, {"sd", size}});
-  static constexpr StandardLaw standard = StandardLaw::normal;
-  static constexpr Paper paper = {"normal", StandardLaw::normal};
+  static constexpr auto slots = std::to_array<ParameterForm>({{"mean", place}, {"sd", size}});
+  static constexpr StandardDistribution standard = StandardDistribution::normal;
+  static constexpr Paper paper = {"normal", StandardDistribution::normal};
   static constexpr const char* c_density =
       "    const double z = (y - a) / b;\n"
       "    value = b > 0 ? -0.5 * z * z - (log(b) + 0.91893853320467274178) : -INFINITY;\n";

@@ -13,7 +13,7 @@ std::vector<PlottingPosition> by_kaplan_meier(std::span<const Response> response
                                               std::span<const int> counts) {
   std::map<double, double> failures;
   for (std::size_t i = 0; i < responses.size(); ++i) {
-    if (responses[i].seen == Seen::exactly) failures[responses[i].at] += counts[i];
+    if (responses[i].seen == Censoring::none) failures[responses[i].at] += counts[i];
   }
   std::vector<PlottingPosition> all;
   double survival = 1;
@@ -111,9 +111,11 @@ std::vector<PlottingPosition> plotting_positions(std::span<const Response> respo
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const Response& y = responses[i];
     entries |= y.entry > -infinity;
-    intervals |= y.seen == Seen::below || y.seen == Seen::between;
-    const double from = y.seen == Seen::below ? -infinity : y.at;
-    const double to = y.seen == Seen::above ? infinity : y.seen == Seen::between ? y.until : y.at;
+    intervals |= y.seen == Censoring::left || y.seen == Censoring::interval;
+    const double from = y.seen == Censoring::left ? -infinity : y.at;
+    const double to = y.seen == Censoring::right      ? infinity
+                      : y.seen == Censoring::interval ? y.until
+                                                      : y.at;
     alike[{from, to}] += counts[i];
   }
   if (!intervals) return by_kaplan_meier(responses, counts);

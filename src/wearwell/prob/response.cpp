@@ -31,16 +31,16 @@ T log_cdf_anywhere(double y, const T* s) {
 template <class F, class T>
 T log_known(const Response& y, const T* s) {
   if constexpr (Base<F>::counted) {
-    return y.seen == Seen::exactly ? F::log_density(y.at, s, y.trials) : T(std::nan(""));
+    return y.seen == Censoring::none ? F::log_density(y.at, s, y.trials) : T(std::nan(""));
   } else {
     switch (y.seen) {
-      case Seen::exactly:
+      case Censoring::none:
         return log_density_anywhere<F>(y.at, s);
-      case Seen::above:
+      case Censoring::right:
         return log_survival_anywhere<F>(y.at, s);
-      case Seen::below:
+      case Censoring::left:
         return log_cdf_anywhere<F>(y.at, s);
-      case Seen::between:
+      case Censoring::interval:
         break;
     }
     return families::log_between<F>(y.at, y.until, s);

@@ -7,16 +7,16 @@
 namespace wearwell {
 
 /// How much is known of an observation.
-enum class Seen {
-  exactly,
-  above,    ///< a run-out: larger than `at`
-  below,    ///< smaller than `at`
-  between,  ///< more than `at`, up to `until`
+enum class Censoring {
+  none,
+  right,     ///< a run-out: larger than `at`
+  left,      ///< smaller than `at`
+  interval,  ///< more than `at`, up to `until`
 };
 
 /// One observation, in SI.
 struct Response {
-  Seen seen = Seen::exactly;
+  Censoring seen = Censoring::none;
   double at = 0;
   double until = 0;
   /// It would not have been seen below that (left truncation).
@@ -27,7 +27,7 @@ struct Response {
 /// A log density or log probability with its derivatives by the slots.
 struct ResponseTerm {
   double value = 0;
-  double slope[most_response_slots] = {};
+  double slope[most_response_parameters] = {};
 };
 
 /// Of one observation, natural logarithm; -infinity where the slots lie outside their kind or the

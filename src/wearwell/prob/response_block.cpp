@@ -7,8 +7,9 @@
 namespace wearwell {
 namespace {
 
-using Rows = void (*)(const ResponseColumn&, std::size_t begin, std::span<const SlotValues> slots,
-                      std::span<double> value, std::span<double> slope);
+using Rows = void (*)(const ResponseColumn&, std::size_t begin,
+                      std::span<const ParameterValues> slots, std::span<double> value,
+                      std::span<double> slope);
 
 // Of a row whose slots lie outside their kind.
 void refuse(std::size_t i, std::size_t slots, std::span<double> value, std::span<double> slope) {
@@ -19,8 +20,9 @@ void refuse(std::size_t i, std::size_t slots, std::span<double> value, std::span
 
 // Exact observations of a family of two slots, by its formula of a row.
 template <class F, bool sloped>
-void exact_rows(const ResponseColumn& column, std::size_t begin, std::span<const SlotValues> slots,
-                std::span<double> value, std::span<double> slope) {
+void exact_rows(const ResponseColumn& column, std::size_t begin,
+                std::span<const ParameterValues> slots, std::span<double> value,
+                std::span<double> slope) {
   const std::size_t n = value.size();
   const double* at = (F::positive ? column.log_at : column.at).data() + begin;
   for (std::size_t i = 0; i < n; ++i) {
@@ -58,7 +60,7 @@ ResponseColumn::ResponseColumn(std::vector<Response> responses) : rows(std::move
   plain = true;
   bool all_positive = true;
   for (const Response& each : rows) {
-    plain = plain && each.seen == Seen::exactly && each.entry == -infinity && each.trials == 0;
+    plain = plain && each.seen == Censoring::none && each.entry == -infinity && each.trials == 0;
     all_positive = all_positive && each.at > 0;
   }
   if (!plain) return;
@@ -68,7 +70,7 @@ ResponseColumn::ResponseColumn(std::vector<Response> responses) : rows(std::move
 }
 
 void log_responses(ResponseFamily family, const ResponseColumn& column, std::size_t begin,
-                   std::span<const SlotValues> slots, std::span<double> value,
+                   std::span<const ParameterValues> slots, std::span<double> value,
                    std::span<double> slope) {
   const std::size_t n = value.size();
   const bool sloped = !slope.empty();
@@ -77,7 +79,7 @@ void log_responses(ResponseFamily family, const ResponseColumn& column, std::siz
   if (exact.value && column.plain && (logs || !form_of(family).positive)) {
     return (sloped ? exact.sloped : exact.value)(column, begin, slots, value, slope);
   }
-  double s[most_response_slots] = {};
+  double s[most_response_parameters] = {};
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < slots.size(); ++k) s[k] = slots[k][i];
     if (!sloped) {

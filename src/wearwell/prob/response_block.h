@@ -8,7 +8,7 @@
 namespace wearwell {
 
 /// A slot's values over rows: one for each, or one for all.
-struct SlotValues {
+struct ParameterValues {
   const double* at = nullptr;
   bool uniform = false;
 
@@ -29,7 +29,7 @@ struct ResponseColumn {
 /// `slope` its derivatives, `slope[s * value.size() + i]` of slot s. `slots` has at least those of the
 /// family; what is beyond them has no meaning.
 void log_responses(ResponseFamily family, const ResponseColumn& column, std::size_t begin,
-                   std::span<const SlotValues> slots, std::span<double> value,
+                   std::span<const ParameterValues> slots, std::span<double> value,
                    std::span<double> slope);
 
 }  // namespace wearwell

@@ -8,9 +8,11 @@ namespace wearwell::families {
 struct SmallestExtremeValue : OnLine {
   static constexpr std::string_view name = "smallest-extreme-value";
   static constexpr std::string_view title = "smallest extreme value";
-  static constexpr auto slots = std::to_array<SlotForm>({{"location", place}, {"scale", size}});
-  static constexpr StandardLaw standard = StandardLaw::smallest_extreme_value;
-  static constexpr Paper paper = {"smallest-extreme-value", StandardLaw::smallest_extreme_value};
+  static constexpr auto slots =
+      std::to_array<ParameterForm>({{"location", place}, {"scale", size}});
+  static constexpr StandardDistribution standard = StandardDistribution::smallest_extreme_value;
+  static constexpr Paper paper = {"smallest-extreme-value",
+                                  StandardDistribution::smallest_extreme_value};
 
   template <class Y, class T>
   static auto z(const Y& y, const T* s) {

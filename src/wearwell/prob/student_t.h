@@ -61,7 +61,7 @@ Dual<N> log_survival(const Dual<N>& df, const Dual<N>& t) {
 struct StudentT : OnLine {
   static constexpr std::string_view name = "student-t";
   static constexpr std::string_view title = "Student t";
-  static constexpr auto slots = std::to_array<SlotForm>(
+  static constexpr auto slots = std::to_array<ParameterForm>(
       {{"df", number, false, "{} degrees of freedom"}, {"location", place}, {"scale", size}});
 
   template <class Y, class T>

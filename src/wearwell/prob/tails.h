@@ -7,9 +7,9 @@ namespace wearwell::families {
 /// P(X <= x), P(X > x) and their inverses of one of Boost's distributions with a location and a
 /// scale, which are taken out of its hands: SI values as small as 1e-13 would meet its argument
 /// checks or underflow.
-template <class Distribution>
+template <class QuantityDistribution>
 struct Tails {
-  Distribution distribution;
+  QuantityDistribution distribution;
   double location = 0;
   double scale = 1;
 
@@ -35,7 +35,7 @@ struct Tails {
   }
 };
 
-template <class Distribution>
-Tails(Distribution, double, double) -> Tails<Distribution>;
+template <class QuantityDistribution>
+Tails(QuantityDistribution, double, double) -> Tails<QuantityDistribution>;
 
 }  // namespace wearwell::families

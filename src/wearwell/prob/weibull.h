@@ -7,9 +7,9 @@ namespace wearwell::families {
 /// P(Y > y) = exp(-(y/scale)^shape): the logarithm has the smallest extreme value law.
 struct Weibull : OnPositive {
   static constexpr std::string_view name = "weibull";
-  static constexpr auto slots = std::to_array<SlotForm>({{"scale", size}, {"shape", number}});
-  static constexpr StandardLaw standard = StandardLaw::smallest_extreme_value;
-  static constexpr Paper paper = {"Weibull", StandardLaw::smallest_extreme_value};
+  static constexpr auto slots = std::to_array<ParameterForm>({{"scale", size}, {"shape", number}});
+  static constexpr StandardDistribution standard = StandardDistribution::smallest_extreme_value;
+  static constexpr Paper paper = {"Weibull", StandardDistribution::smallest_extreme_value};
 
   template <class U, class T>
   static auto z(const U& log_y, const T* s) {

@@ -13,7 +13,7 @@ namespace wearwell::prognosis {
 /// What `wearwell fit` leaves for those who go on from it, state.bin (docs/how-to/state.md): the study with its data, and
 /// the posterior as nodes.
 struct CarriedState {
-  std::string model;    ///< key: "law"
+  std::string model;    ///< key: "formula"
   bool trusted = true;  ///< whether the fit was
   Source source;        ///< the study file, and its tables as they were read
   /// Names, as columns of the posterior; none of a study without one (a clutch campaign).

@@ -38,7 +38,7 @@ bool is_idle(const TomlReader& root, const std::string& name) {
   return true;
 }
 
-void read_law_roles(const TomlReader& root, const Table& table, DataRoles& roles) {
+void read_formula_roles(const TomlReader& root, const Table& table, DataRoles& roles) {
   const TomlReader likelihood = root.required_table("likelihood");
   const std::vector<std::string> measured = likelihood.keys();
   roles.measured = columns_of(roles, measured);
@@ -46,7 +46,7 @@ void read_law_roles(const TomlReader& root, const Table& table, DataRoles& roles
   const auto along = predict ? predict->text("along") : std::nullopt;
   if (along) roles.axis = column_of(roles, *along);
   std::vector<std::string> candidates;
-  if (const auto varies = root.table("varies")) candidates = varies->keys();
+  if (const auto random_effects = root.table("random_effects")) candidates = random_effects->keys();
   for (const DataRoles::Named& each : roles.used) {
     if (holds_words(table.column(each.column))) roles.words.push_back(each.column);
   }
@@ -83,8 +83,8 @@ DataRoles data_roles(const TomlReader& root, const Table& table) {
   }
   const std::string model = root.required_text("model");
   roles.words = columns_of(roles, {"bearing", "contact", "label", "part", "status"});
-  if (model == "law") {
-    read_law_roles(root, table, roles);
+  if (model == "formula") {
+    read_formula_roles(root, table, roles);
   } else if (model == "archard-joint") {
     roles.one = true;
     roles.noun = "inspection";

@@ -20,7 +20,7 @@ std::string percent(double share) {
   return fmt::format("{:.3g} %", 100 * share);
 }
 
-std::string costs_in_words(const DecisionsReport& report) {
+std::string costs_text(const DecisionsReport& report) {
   const Shown shown{report};
   const Question& question = report.question;
   std::string text =
@@ -59,7 +59,7 @@ std::string answer(const DecisionsReport& report) {
   return text + ".";
 }
 
-std::string worth_in_words(const DecisionsReport& report) {
+std::string worth_text(const DecisionsReport& report) {
   const Shown shown{report};
   const WorthReport& asked = *report.worth;
   const InspectionWorth& worth = asked.worth;
@@ -85,7 +85,7 @@ std::vector<std::string> cells(const Table& table, const std::vector<present::Ce
     const std::string* text = std::get_if<std::string>(&row[c]);
     const auto said = [&](double x) {
       return std::isinf(x) ? std::string("never")
-                           : present::in_words(x, table.columns[c].format, Script::terminal);
+                           : present::description(x, table.columns[c].format, Script::terminal);
     };
     words.push_back(number  ? said(*number)
                     : range ? fmt::format("{} to {}", said(range->low), said(range->high))
@@ -173,7 +173,7 @@ std::vector<Check> decision_checks(const DecisionsReport& report) {
 
 std::string decisions_text(const DecisionsReport& report) {
   std::string text = wrapped(printable(report.lives.title), 0, 2) +
-                     wrapped(printable(costs_in_words(report)), 2, 4) + "\n" +
+                     wrapped(printable(costs_text(report)), 2, 4) + "\n" +
                      wrapped(printable(answer(report)), 0, 2) + table_text(policies_table(report));
   if (!report.decisions.units.empty()) {
     Table units = units_table(report);
@@ -181,7 +181,7 @@ std::string decisions_text(const DecisionsReport& report) {
   }
   if (!report.decisions.months.empty())
     text += table_text(months_table(report)) + wrapped(printable(how_counted(report)), 2, 2);
-  if (report.worth) text += "\n" + wrapped(printable(worth_in_words(report)), 0, 2);
+  if (report.worth) text += "\n" + wrapped(printable(worth_text(report)), 0, 2);
   const std::vector<Check> checks = decision_checks(report);
   if (!checks.empty()) text += "\nChecks\n";
   static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
@@ -197,7 +197,7 @@ std::string decisions_text(const DecisionsReport& report) {
 std::vector<present::Section> decisions_sections(const DecisionsReport& report) {
   present::Section policy{"policy", "Policy"};
   policy.add(present::Prose{answer(report), true});
-  policy.add(present::Prose{html::capital(costs_in_words(report)) + "."});
+  policy.add(present::Prose{html::capital(costs_text(report)) + "."});
   for (const Check& check : decision_checks(report))
     policy.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,
                                 check.detail + ". " + check.advice});
@@ -209,7 +209,7 @@ std::vector<present::Section> decisions_sections(const DecisionsReport& report) 
     units.add(present::Prose{
         "Replace after: the moment that costs least, held against what use costs the fleet in the "
         "long run. Waiting saves: against replacing now."});
-    if (report.worth) units.add(present::Prose{worth_in_words(report)});
+    if (report.worth) units.add(present::Prose{worth_text(report)});
     units.add(units_table(report));
     sections.push_back(units);
   }

@@ -34,22 +34,22 @@ class Asked {
         column_(column),
         history_(history) {}
 
-  std::unique_ptr<TrackedUnit> after(double value, double* surprise = nullptr) const {
+  std::unique_ptr<TrackedUnit> after(double value, double* p_value = nullptr) const {
     auto unit = tracker_.restore(saved_);
     Reading reading = reading_;
     reading.numbers[column_] = value;
-    const Taken taken = unit->take(reading, history_);
+    const UpdateResult taken = unit->take(reading, history_);
     if (!taken.problem.empty() || !taken.counted)
       throw InputError(
           fmt::format("the reading ahead is not one that this unit takes: {}",
                       taken.problem.empty() ? "it does not count" : printable(taken.problem)));
-    if (surprise) *surprise = taken.surprise;
+    if (p_value) *p_value = taken.p_value;
     return unit;
   }
-  double surprise(double value) const {
-    double told = 0;
-    after(value, &told);
-    return told;
+  double p_value(double value) const {
+    double reported = 0;
+    after(value, &reported);
+    return reported;
   }
 
  private:
@@ -65,21 +65,21 @@ double middle(const Asked& asked, double guess, double width) {
   double low = guess - width, high = guess + width;
   constexpr double golden = 0.61803398874989485;
   // Outward until the guess is between; the surprise falls to both sides.
-  for (int i = 0; i < 60 && asked.surprise(low) > 0.01; ++i) low -= (high - low);
-  for (int i = 0; i < 60 && asked.surprise(high) > 0.01; ++i) high += (high - low);
+  for (int i = 0; i < 60 && asked.p_value(low) > 0.01; ++i) low -= (high - low);
+  for (int i = 0; i < 60 && asked.p_value(high) > 0.01; ++i) high += (high - low);
   double a = high - golden * (high - low), b = low + golden * (high - low);
-  double at_a = asked.surprise(a), at_b = asked.surprise(b);
+  double at_a = asked.p_value(a), at_b = asked.p_value(b);
   for (int i = 0; i < 50; ++i) {
     if (at_a >= at_b) {
       high = b;
       b = a;
       at_b = at_a;
-      at_a = asked.surprise(a = high - golden * (high - low));
+      at_a = asked.p_value(a = high - golden * (high - low));
     } else {
       low = a;
       a = b;
       at_a = at_b;
-      at_b = asked.surprise(b = low + golden * (high - low));
+      at_b = asked.p_value(b = low + golden * (high - low));
     }
   }
   return (low + high) / 2;
@@ -88,13 +88,13 @@ double middle(const Asked& asked, double guess, double width) {
 // The reading of this two-sided probability on one side of the middle.
 double reading_at(const Asked& asked, double from, double step, double two_sided) {
   double inside = from, outside = from + step;
-  for (int i = 0; i < 60 && asked.surprise(outside) > two_sided; ++i) {
+  for (int i = 0; i < 60 && asked.p_value(outside) > two_sided; ++i) {
     inside = outside;
     outside = from + (step *= 2);
   }
   for (int i = 0; i < 30; ++i) {
     const double at = (inside + outside) / 2;
-    (asked.surprise(at) > two_sided ? inside : outside) = at;
+    (asked.p_value(at) > two_sided ? inside : outside) = at;
   }
   return (inside + outside) / 2;
 }

@@ -127,7 +127,7 @@ std::string shown(const Column& column, std::size_t row) {
   return column.is_number ? fmt::format("{:.6g}", column.numbers[row]) : column.text[row];
 }
 
-std::string measured_in_words(const Table& table, const DataRoles& roles, std::size_t row) {
+std::string measured_text(const Table& table, const DataRoles& roles, std::size_t row) {
   std::vector<std::string> words;
   for (const std::string& each : roles.measured)
     words.push_back(fmt::format("{} = {}", each, shown(table.column(each), row)));
@@ -155,14 +155,14 @@ void compare(const Table& before, const Table& after, JoinedData& joined) {
   std::unordered_map<std::string, std::string> known;  // what was measured at a place
   for (std::size_t i = 0; i < before.rows; ++i) {
     // Where several readings a place are the rule, another one says nothing.
-    if (!known.emplace(key(before, at, i), measured_in_words(before, roles, i)).second) return;
+    if (!known.emplace(key(before, at, i), measured_text(before, roles, i)).second) return;
   }
   for (const std::size_t row : joined.fresh) {
-    const std::string now = measured_in_words(after, roles, row);
+    const std::string now = measured_text(after, roles, row);
     const auto [there, is_new] = known.emplace(key(after, at, row), now);
     if (is_new) continue;
     joined.contradictions.push_back(
-        {row, place_in_words(after, roles, row),
+        {row, place_text(after, roles, row),
          fmt::format("{}, where {} is known already", now, there->second)});
   }
 }
@@ -257,7 +257,7 @@ Table asked_anew(const TableSection& section, const Table& before, const Table& 
 
 }  // namespace
 
-std::string place_in_words(const Table& table, const DataRoles& roles, std::size_t row) {
+std::string place_text(const Table& table, const DataRoles& roles, std::size_t row) {
   std::string words;
   if (roles.unit) words = roles.noun + " " + cell_word(table.column(*roles.unit), row);
   if (roles.axis) {

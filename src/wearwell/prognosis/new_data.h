@@ -47,7 +47,7 @@ Table read_new_data(const Source& source, const std::filesystem::path& file);
 const Table& data_table(const Source& source);
 
 /// Whose a row is and where: "laser 5 at hours = 250".
-std::string place_in_words(const Table& table, const DataRoles& roles, std::size_t row);
+std::string place_text(const Table& table, const DataRoles& roles, std::size_t row);
 
 /// The rows in canonical order.
 Table in_order(const Table& table, const DataRoles& roles);

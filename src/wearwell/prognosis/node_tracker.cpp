@@ -43,9 +43,9 @@ class NodeUnit final : public TrackedUnit {
   bool is_refused() const { return !refusal_.empty(); }
   Eigen::Index columns() const { return nodes_.values.cols(); }
 
-  Taken take(const Reading& reading, const History& history) override;
+  UpdateResult take(const Reading& reading, const History& history) override;
   Forecast forecast() const override;
-  std::vector<LevelAhead> ahead(std::span<const double> places) const override;
+  std::vector<ForecastBand> ahead(std::span<const double> places) const override;
   std::size_t readings() const override { return readings_; }
   std::string save() const override;
   void load(ByteReader& from, Eigen::Index columns);
@@ -55,12 +55,12 @@ class NodeUnit final : public TrackedUnit {
     return nodes_.values.row(static_cast<Eigen::Index>(i)).data();
   }
   double place(const Reading& reading) const { return reading.numbers[model_->axis]; }
-  std::optional<NodeCourse> course() const {
-    return model_->course(unit_, last_.numbers.empty() ? nullptr : &last_);
+  std::optional<DegradationPath> degradation_path() const {
+    return model_->degradation_path(unit_, last_.numbers.empty() ? nullptr : &last_);
   }
   bool lay_with(const Reading& reading, const History& history);
   void weigh();
-  double surprise(const NodeReading& law) const;
+  double p_value(const NodeReading& reading_at) const;
 
   Model model_;
   std::string unit_, refusal_;
@@ -118,7 +118,7 @@ bool NodeUnit::lay_with(const Reading& reading, const History& history) {
 }
 
 // Two-sided, by few nodes that stand for all where that will do.
-double NodeUnit::surprise(const NodeReading& law) const {
+double NodeUnit::p_value(const NodeReading& reading_at) const {
   double before = 0, below = 0;
   std::size_t drawn = 0;
   for (std::size_t i = 0; i < weight_.size() && drawn < most_sampled; ++i) {
@@ -128,22 +128,22 @@ double NodeUnit::surprise(const NodeReading& law) const {
            before > (static_cast<double>(drawn) + 0.5) / static_cast<double>(most_sampled);
          ++drawn)
       own += 1.0 / most_sampled;
-    if (own > 0) below += own * law.cdf(node(i));
+    if (own > 0) below += own * reading_at.cdf(node(i));
   }
   const double sampled = 2 * std::min(below, 1 - below);
   if (sampled > doubtful) return sampled;
   double lower = 0, upper = 0;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     if (!(weight_[i] > negligible)) continue;
-    const double share = law.cdf(node(i));
+    const double share = reading_at.cdf(node(i));
     lower += weight_[i] * share;
     upper += weight_[i] * (1 - share);
   }
   return std::clamp(2 * std::min(lower, upper), 0.0, 1.0);
 }
 
-Taken NodeUnit::take(const Reading& reading, const History& history) {
-  Taken taken;
+UpdateResult NodeUnit::take(const Reading& reading, const History& history) {
+  UpdateResult taken;
   if (reading.numbers.size() != model_->columns.size() ||
       reading.labels.size() != model_->labels.size())
     throw InputError(fmt::format("a reading has {} numbers and {} labels: {} and {} are expected",
@@ -151,13 +151,13 @@ Taken NodeUnit::take(const Reading& reading, const History& history) {
                                  model_->columns.size(), model_->labels.size()));
   taken.problem = refusal_.empty() ? model_->problem(reading) : refusal_;
   if (!taken.problem.empty()) return taken;
-  const NodeReading law = model_->reading(reading);
-  taken.surprise = surprise(law);
+  const NodeReading reading_at = model_->reading(reading);
+  taken.p_value = p_value(reading_at);
   std::vector<double> after = nodes_.log_weight;
   bool any = false;
   for (std::size_t i = 0; i < after.size(); ++i) {
     if (!(after[i] > -infinity)) continue;
-    const double own = law.log_density(node(i));
+    const double own = reading_at.log_density(node(i));
     after[i] = own < infinity ? after[i] + own : -infinity;
     any |= after[i] > -infinity;
   }
@@ -172,27 +172,27 @@ Taken NodeUnit::take(const Reading& reading, const History& history) {
   }
   ++readings_;
   taken.counted = true;
-  taken.contradicts = taken.surprise < hardly_possible;
+  taken.contradicts = taken.p_value < hardly_possible;
   return taken;
 }
 
 Forecast NodeUnit::forecast() const {
   Forecast forecast;
   forecast.effective = effective_;
-  const std::optional<NodeCourse> course =
-      is_refused() ? std::optional<NodeCourse>() : this->course();
-  if (!course) {  // nothing says how it goes on
+  const std::optional<DegradationPath> degradation_path =
+      is_refused() ? std::optional<DegradationPath>() : this->degradation_path();
+  if (!degradation_path) {  // nothing says how it goes on
     forecast.level05 = forecast.level50 = forecast.level95 = forecast.passed =
         std::numeric_limits<double>::quiet_NaN();
     return forecast;
   }
-  forecast.now = course->now;
+  forecast.now = degradation_path->now;
   std::vector<double> level, level_weight, life, life_weight;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     if (!(weight_[i] > negligible)) continue;
-    level.push_back(course->level(node(i), forecast.now));
+    level.push_back(degradation_path->level(node(i), forecast.now));
     level_weight.push_back(weight_[i]);
-    const double end = course->end(node(i));
+    const double end = degradation_path->end(node(i));
     if (!(end > forecast.now)) {
       forecast.passed += weight_[i];
       continue;
@@ -210,17 +210,17 @@ Forecast NodeUnit::forecast() const {
   return forecast;
 }
 
-std::vector<LevelAhead> NodeUnit::ahead(std::span<const double> places) const {
-  const std::optional<NodeCourse> course =
-      is_refused() ? std::optional<NodeCourse>() : this->course();
-  if (!course) return {};
-  if (!places.empty() && places.front() < course->now)
+std::vector<ForecastBand> NodeUnit::ahead(std::span<const double> places) const {
+  const std::optional<DegradationPath> degradation_path =
+      is_refused() ? std::optional<DegradationPath>() : this->degradation_path();
+  if (!degradation_path) return {};
+  if (!places.empty() && places.front() < degradation_path->now)
     throw std::invalid_argument("a path ahead begins where the unit is");
-  std::vector<LevelAhead> path;
+  std::vector<ForecastBand> path;
   std::vector<double> level(weight_.size());
   for (const double at : places) {
     for (std::size_t i = 0; i < level.size(); ++i)
-      level[i] = weight_[i] > negligible ? course->level(node(i), at) : 0;
+      level[i] = weight_[i] > negligible ? degradation_path->level(node(i), at) : 0;
     const std::vector<double> q = weighted_quantiles(level, weight_, std::array{0.05, 0.5, 0.95});
     path.push_back({at, q[0], q[1], q[2]});
   }

@@ -24,7 +24,7 @@ struct NodeReading {
 };
 
 /// How a unit goes on from where it is.
-struct NodeCourse {
+struct DegradationPath {
   double now = 0;  ///< along the axis, SI
   /// Where along the axis a node's path reaches the limit: at most `now` where that is behind it, infinite where it
   /// never does.
@@ -52,7 +52,8 @@ struct NodeModel {
   std::function<NodeCloud(const std::string& unit, std::span<const Reading> readings)> lay;
   /// `last`: its farthest reading since the study; null where there is none. Nothing where no reading and no word of the
   /// study says how it goes on.
-  std::function<std::optional<NodeCourse>(const std::string& unit, const Reading* last)> course;
+  std::function<std::optional<DegradationPath>(const std::string& unit, const Reading* last)>
+      degradation_path;
 };
 
 /// What follows the units of such a trade.

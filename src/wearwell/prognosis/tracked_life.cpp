@@ -40,10 +40,10 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
   if (const std::string why = tracker.refusal(name); !why.empty())
     throw InputError(fmt::format("--unit: {}", why));
   const auto unit = tracker.begin(name);
-  const Unit& told = tracker.axis().unit;
-  UnitLife life{.of = tracker.noun() + " " + name, .at = "until it breaks", .unit = told.text};
+  const Unit& reported = tracker.axis().unit;
+  UnitLife life{.of = tracker.noun() + " " + name, .at = "until it breaks", .unit = reported.text};
   life.name = "remaining useful life";
-  const double seen = from_si(told, unit->forecast().now);
+  const double seen = from_si(reported, unit->forecast().now);
   if (question.survived) {
     const double survived = along_life("--survived", *question.survived, life.unit);
     if (survived < seen * (1 - 1e-12))
@@ -55,23 +55,24 @@ UnitLife tracked_life(const Tracker& tracker, const std::string& name,
         {}};
     for (std::size_t c = 0; c < reading.numbers.size(); ++c)
       if (tracker.columns()[c].name == tracker.axis().name)
-        reading.numbers[c] = to_si(told, survived);
-    const Taken taken = unit->take(reading, [](const auto&) {});
+        reading.numbers[c] = to_si(reported, survived);
+    const UpdateResult taken = unit->take(reading, [](const auto&) {});
     if (!taken.problem.empty())
       throw InputError(fmt::format("--survived: {}: {}", printable(life.of), taken.problem));
-    life.passed = 1 - taken.surprise;
+    life.passed = 1 - taken.p_value;
   }
   const Forecast forecast = unit->forecast();
   if (std::isnan(forecast.passed))
     throw InputError(fmt::format("nothing is known of the life of {}", printable(life.of)));
-  life.from = from_si(told, forecast.now);
+  life.from = from_si(reported, forecast.now);
   life.numerical_error = relative_error(forecast.remaining, tracker.probability_error());
   for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
     life.share.push_back(percent / 100);
-    life.life.push_back(from_si(told, forecast.remaining.quantile(percent / 100)));
+    life.life.push_back(from_si(reported, forecast.remaining.quantile(percent / 100)));
   }
   if (const double never = never_ending(forecast.remaining); never > 1e-9) life.never = never;
-  answer(question, life, [&](double until) { return forecast.remaining.cdf(to_si(told, until)); });
+  answer(question, life,
+         [&](double until) { return forecast.remaining.cdf(to_si(reported, until)); });
   return life;
 }
 

@@ -26,12 +26,12 @@ struct Reading {
 };
 
 /// What became of a reading.
-struct Taken {
+struct UpdateResult {
   bool counted = false;      ///< the state has moved
   bool contradicts = false;  ///< counted, but hardly possible given what the unit showed before
   /// Its place in its predictive distribution: a two-sided probability; below 1e-4 it contradicts. 1 of a
   /// reading that was late where rows depend on those before.
-  double surprise = 0;
+  double p_value = 0;
   std::string problem = {};  ///< why it was not counted: "force is missing"
 };
 
@@ -56,7 +56,7 @@ struct InPopulations {
 
 /// What the limit is of at a place ahead, SI: quantiles over all that is not known of the unit, and over
 /// the chance to come where increments are random. NaN where too much of it is no number there.
-struct LevelAhead {
+struct ForecastBand {
   double at = 0;  ///< along the axis
   double level05 = 0, level50 = 0, level95 = 0;
 };
@@ -81,11 +81,11 @@ class TrackedUnit {
   virtual ~TrackedUnit() = default;
   /// Takes a reading that was not taken before; a repeated one is the caller's to find. `history` has all
   /// readings taken before this one.
-  virtual Taken take(const Reading& reading, const History& history) = 0;
+  virtual UpdateResult take(const Reading& reading, const History& history) = 0;
   virtual Forecast forecast() const = 0;
   /// The path ahead at these places, ascending, none before where the unit is now: whatever becomes of it, so
   /// a path that has passed the limit goes on. Dearer than a forecast.
-  virtual std::vector<LevelAhead> ahead(std::span<const double> places) const = 0;
+  virtual std::vector<ForecastBand> ahead(std::span<const double> places) const = 0;
   /// The same forecast population by population; dearer than a forecast. Nothing where only that is at hand: of a model that
   /// does not take them apart, or of a unit whose readings left the populations behind that all have in common.
   virtual std::optional<InPopulations> in_populations(const History& history) const {

@@ -31,7 +31,7 @@ double probit(double p) {
 // Of a study with one life: that of a joint, or of a new bearing.
 UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
                     const LifeQuestion& question) {
-  const LifeLaw law = request.law(posterior);
+  const LifeDistribution distribution = request.distribution(posterior);
   UnitLife life{.of = request.of.empty() ? "joint" : request.of,
                 .at = fmt::format("to {:.6g} {}", request.limit.value, request.limit.unit.text),
                 .unit = request.unit_name};
@@ -48,7 +48,7 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
   }
   life.name = from > 0 ? "remaining useful life" : "life";
   if (from > 0) life.from = from;
-  const double before = from > 0 ? law.cdf(from) : 0;
+  const double before = from > 0 ? distribution.cdf(from) : 0;
   if (from > 0) life.passed = before;
   if (before > 1 - 1e-3)
     throw InputError(fmt::format(
@@ -58,10 +58,10 @@ UnitLife of_request(const LifeRequest& request, const WeightedDraws& posterior,
   for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
     const double p = percent / 100;
     life.share.push_back(p);
-    life.life.push_back(std::max(0.0, law.quantile(before + p * (1 - before)) - from));
+    life.life.push_back(std::max(0.0, distribution.quantile(before + p * (1 - before)) - from));
   }
   answer(question, life,
-         [&](double until) { return (law.cdf(from + until) - before) / (1 - before); });
+         [&](double until) { return (distribution.cdf(from + until) - before) / (1 - before); });
   return life;
 }
 
@@ -204,7 +204,7 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
   double from = 0, gone = 0;
   if (question.survived && from_beginning) {
     from = along_life("--survived", *question.survived, life.unit);
-    gone = known.law.cdf(to_si(mine.unit, from));
+    gone = known.distribution.cdf(to_si(mine.unit, from));
     if (gone > 1 - 1e-3)
       throw InputError(
           fmt::format("--survived: hardly any {} comes to {}", life.of, *question.survived));
@@ -217,7 +217,8 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
   double before = 0;
   for (const double percent : life_percentages(question.risk.value_or(life.risk))) {
     const double p = percent / 100;
-    const double value = from_si(mine.unit, known.law.quantile(gone + p * (1 - gone))) - from;
+    const double value =
+        from_si(mine.unit, known.distribution.quantile(gone + p * (1 - gone))) - from;
     if (std::isnan(value))
       throw InputError(fmt::format("of the {} of {} nothing is known: hardly any comes so far",
                                    life.name, life.of));
@@ -226,10 +227,10 @@ UnitLife described(const QuantityRequest& mine, const PredictiveLife& known,
     life.life.push_back(before);
   }
   constexpr double hardly = 1e-9, for_ever = 1e300;
-  const double never = (1 - known.law.cdf(for_ever)) / (1 - gone);
+  const double never = (1 - known.distribution.cdf(for_ever)) / (1 - gone);
   if (from_beginning && never > hardly) life.never = never;
   answer(question, life, [&](double until) {
-    return (known.law.cdf(to_si(mine.unit, from + until)) - gone) / (1 - gone);
+    return (known.distribution.cdf(to_si(mine.unit, from + until)) - gone) / (1 - gone);
   });
   return life;
 }
@@ -293,26 +294,27 @@ UnitLife unit_life(const Source& source, const ReadAsked& read, const WeightedDr
     if (study.life->of.empty() && !question.unit.empty() && question.unit != name)
       throw InputError(fmt::format(
           "--unit: this study is of one joint, called '{}' (data.joint): leave it out. Joints that "
-          "wear each at its own pace are a study of model \"law\" with [varies.UNIT]",
+          "wear each at its own pace are a study of model \"formula\" with [random_effects.UNIT]",
           printable(name)));
     return of_request(*study.life, posterior, question);
   }
-  const bool law = study.model == "law";
+  const bool distribution = study.model == "formula";
   std::vector<std::pair<std::string, std::string>> keys;
-  if (law && question.survived)
+  if (distribution && question.survived)
     keys.emplace_back("survived", nlohmann::json(*question.survived).dump());
   auto asked = read(with_wishes(source, keys));
   const std::vector<QuantityRequest> requests = lives_asked(require_posterior_study(*asked));
   const QuantityRequest mine = chosen(requests, question);
-  if (law && question.survived) require_ahead(mine, requests, *question.survived);
-  if (law && to_a_limit(source) && (is_new(mine) || mine.of.find(' ') != std::string::npos)) {
+  if (distribution && question.survived) require_ahead(mine, requests, *question.survived);
+  if (distribution && to_a_limit(source) &&
+      (is_new(mine) || mine.of.find(' ') != std::string::npos)) {
     const nlohmann::json only =
         is_new(mine) ? nlohmann::json::array() : nlohmann::json{label_of(mine)};
     keys.emplace_back("lives_of", only.dump());
     asked = read(with_wishes(source, keys));
   }
   const PosteriorStudy& of_one = require_posterior_study(*asked);
-  return described(mine, life_of(mine, of_one, posterior), question, !law);
+  return described(mine, life_of(mine, of_one, posterior), question, !distribution);
 }
 
 }  // namespace wearwell::prognosis

@@ -15,8 +15,8 @@
 namespace wearwell::prognosis {
 namespace {
 
-constexpr int judged_draws = 400, judged_dear = 100;
-constexpr std::size_t most_told = 5;  // in a sentence; the table has all
+constexpr int judged_draws = 400, judged_expensive = 100;
+constexpr std::size_t most_reported = 5;  // in a sentence; the table has all
 
 // Points of the posterior, evenly by their weight.
 std::vector<Eigen::Index> evenly(const WeightedDraws& draws, int most) {
@@ -45,24 +45,26 @@ Check check_of(const JoinedData& joined, const std::string& files) {
   if (joined.counted > 0 && joined.fresh.empty())
     detail += "; data.sql leaves them out, so that nothing is new to the study";
   if (joined.contradictions.empty()) return {"new-data", Verdict::pass, detail, ""};
-  std::vector<std::string> told;
+  std::vector<std::string> reported;
   for (const Contradiction& each : joined.contradictions) {
-    if (told.size() < most_told) told.push_back(fmt::format("{}: {}", each.place, each.why));
+    if (reported.size() < most_reported)
+      reported.push_back(fmt::format("{}: {}", each.place, each.why));
   }
-  const std::size_t more = joined.contradictions.size() - told.size();
-  detail += fmt::format("; {} what was known: {}{}",
-                        joined.contradictions.size() == 1
-                            ? "1 contradicts"
-                            : fmt::format("{} contradict", joined.contradictions.size()),
-                        fmt::join(told, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
+  const std::size_t more = joined.contradictions.size() - reported.size();
+  detail +=
+      fmt::format("; {} what was known: {}{}",
+                  joined.contradictions.size() == 1
+                      ? "1 contradicts"
+                      : fmt::format("{} contradict", joined.contradictions.size()),
+                  fmt::join(reported, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
   return {
       "new-data", Verdict::warn, detail,
       "They count all the same. Look at them: a typing error, a reading of another unit, another "
       "gauge, or an event that the model does not describe."};
 }
 
-TradeAddition addition_of(const JoinedData& joined, const std::string& files) {
-  TradeAddition added;
+PresetAddition addition_of(const JoinedData& joined, const std::string& files) {
+  PresetAddition added;
   nlohmann::ordered_json update = {{"files", files},
                                    {"rows_before", joined.before},
                                    {"counted", joined.counted},
@@ -84,7 +86,7 @@ TradeAddition addition_of(const JoinedData& joined, const std::string& files) {
   return added;
 }
 
-void add(TradeAddition own, TradeAddition& all) {
+void add(PresetAddition own, PresetAddition& all) {
   for (auto& [key, value] : own.body.items()) all.body[key] = value;
   for (auto& [section, blocks] : own.blocks) {
     auto& to = all.blocks[section];
@@ -107,7 +109,7 @@ std::optional<std::vector<Contradiction>> hardly_possible(const PosteriorStudy& 
   std::size_t of_effects = 0;
   for (const UnitEffect& effect : study.fit_data->effects) of_effects += effect.of.size();
   const std::vector<Eigen::Index> points =
-      evenly(before, study.fit_data->cheap ? judged_draws : judged_dear);
+      evenly(before, study.fit_data->cheap ? judged_draws : judged_expensive);
   std::vector<std::vector<NormalScore>> scores(points.size());
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t p) {
     scores[p] = study.fit_data->scores(before.values.row(points[p]).data());
@@ -122,8 +124,7 @@ std::optional<std::vector<Contradiction>> hardly_possible(const PosteriorStudy& 
     const double p = 2 * std::min(below, above) / static_cast<double>(points.size());
     if (!(p * static_cast<double>(joined.fresh.size()) < least)) continue;
     found.push_back(
-        {row, "",
-         fmt::format("as far off as that has a probability of {}", probability_in_words(p))});
+        {row, "", fmt::format("as far off as that has a probability of {}", probability_text(p))});
   }
   return found;
 }
@@ -144,7 +145,7 @@ void judge_new_data(const PosteriorStudy& study, const WeightedDraws& before, Jo
       known->why += ", and " + each.why;
       continue;
     }
-    each.place = place_in_words(data_table(joined.source), joined.roles, each.row);
+    each.place = place_text(data_table(joined.source), joined.roles, each.row);
     joined.contradictions.push_back(std::move(each));
   }
 }
@@ -159,7 +160,7 @@ PosteriorStudy updated_study(const PosteriorStudy& study, JoinedData joined,
     return checks;
   };
   updated.addition = [shared, files, own = study.addition](const Fit& fit) {
-    TradeAddition all = own ? own(fit) : TradeAddition();
+    PresetAddition all = own ? own(fit) : PresetAddition();
     add(addition_of(*shared, files), all);
     return all;
   };
@@ -168,7 +169,7 @@ PosteriorStudy updated_study(const PosteriorStudy& study, JoinedData joined,
 
 void add_new_data(const JoinedData& joined, const std::string& files, Result& result) {
   const Check check = check_of(joined, files);
-  const TradeAddition added = addition_of(joined, files);
+  const PresetAddition added = addition_of(joined, files);
   result.header.checks.insert(result.header.checks.begin(), check);
   for (const auto& [key, value] : added.body.items()) result.body[key] = value;
   if (!result.sections.empty()) {
@@ -180,11 +181,13 @@ void add_new_data(const JoinedData& joined, const std::string& files, Result& re
     result.sections.push_back(std::move(section));
   }
   if (!result.text) return;
-  const std::string told =
+  const std::string reported =
       wrapped((check.verdict == Verdict::pass ? "New data: " : "New data, WARN: ") +
                   printable(check.detail),
               0, 2);
-  result.text = [told, own = result.text](const TerminalStyle& style) { return own(style) + told; };
+  result.text = [reported, own = result.text](const TerminalStyle& style) {
+    return own(style) + reported;
+  };
 }
 
 }  // namespace wearwell::prognosis

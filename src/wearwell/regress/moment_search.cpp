@@ -51,16 +51,16 @@ void MomentSearch::dive(int depth) {
     }
     --left_;
     if (!tighten(node)) return;
-    int dearest = 0;
+    int most_expensive = 0;
     for (int t = 1; t < submodel.count(); ++t) {
-      if (node.relaxation.cost(t) > node.relaxation.cost(dearest)) dearest = t;
+      if (node.relaxation.cost(t) > node.relaxation.cost(most_expensive)) most_expensive = t;
     }
     Node& with = nodes_[depth + 1];
     with.bound = node.bound;
-    join(node, dearest, with);
+    join(node, most_expensive, with);
     offer(with);
     dive(depth + 1);
-    remove(node, dearest);
+    remove(node, most_expensive);
   }
 }
 

@@ -63,7 +63,7 @@ class Clauses {
     if (summary.passed_beyond_risk()) {
       all.push_back(fmt::format(
           "the limit of {} is already passed with a probability of {}; {} are tolerated", limit,
-          probability_in_words(life.passed), given(100 * summary.risk, "%")));
+          probability_text(life.passed), given(100 * summary.risk, "%")));
     }
     all.push_back(fmt::format(
         "the {}{} reaches {} after {} (median); {}, one in ten before {}", result.quantity,
@@ -103,7 +103,7 @@ class Clauses {
   void headline(const QuantitySummary& each) {
     const QuantityQuantiles& q = each.best();
     const std::string of =
-        each.of == "specimen" ? "" : " of " + item_in_words(each.of, q.bound.has_value());
+        each.of == "specimen" ? "" : " of " + item_text(each.of, q.bound.has_value());
     const std::string name = numbers(each.name), at = numbers(behind(each.at));
     const std::string what = fmt::format("the {}{}{}", name, of, at);
     if (q.bound) {
@@ -118,7 +118,7 @@ class Clauses {
       const bool low = each.safe_end.value_or(0.05) < 0.5;
       all.push_back(fmt::format("design with a {} of {}{}{}, the {} 5 % (median {})", name,
                                 value(each, low ? q.q05 : q.q95),
-                                of.empty() ? "" : " for " + item_in_words(each.of), at,
+                                of.empty() ? "" : " for " + item_text(each.of), at,
                                 low ? "lower" : "upper", value(each, q.q50)));
     }
   }
@@ -126,7 +126,7 @@ class Clauses {
   void prediction(const PosteriorSummary& result) {
     const PredictionSummary& p = result.predictions.back();
     all.push_back(
-        fmt::format("at {}{}{} the {}{} is {}; {}", given_in_words(p.at, script_), hard_space,
+        fmt::format("at {}{}{} the {}{} is {}; {}", given_text(p.at, script_), hard_space,
                     p.at_word(), result.quantity, p.mean_of.empty() ? "" : " of the " + p.mean_of,
                     number(p.best().mean, p.unit), interval(p.best().ci05, p.best().ci95, p.unit)));
   }
@@ -149,18 +149,18 @@ class Clauses {
   static constexpr const char* hard_space = "\u00a0";
 
   std::string joined(const std::string& text, const std::string& unit_text) const {
-    const std::string u = unit_in_words(unit_text, script_);
+    const std::string u = unit_description(unit_text, script_);
     return u.empty() ? text : text + hard_space + u;
   }
 
-  std::string numbers(const std::string& text) const { return numbers_in_words(text, script_); }
+  std::string numbers(const std::string& text) const { return numbers_text(text, script_); }
 
   std::string number(double x, const std::string& unit_text) const {
-    return joined(number_in_words(x, 3, script_), unit_text);
+    return joined(shown_number(x, 3, script_), unit_text);
   }
 
   std::string given(double x, const std::string& unit_text) const {
-    return joined(given_in_words(x, script_), unit_text);
+    return joined(given_text(x, script_), unit_text);
   }
 
   // "18 200 to 26 600 cycles (90 %)"
@@ -170,13 +170,13 @@ class Clauses {
     if (is_life && !finite)
       return fmt::format("{} to {} (90{}%)", lifetime(low, unit_text), lifetime(high, unit_text),
                          hard_space);
-    return fmt::format("{} (90{}%)", joined(range_in_words(low, high, 3, script_), unit_text),
+    return fmt::format("{} (90{}%)", joined(range_text(low, high, 3, script_), unit_text),
                        hard_space);
   }
 
   std::string lifetime(double x, const std::string& unit_text) const {
     if (std::isinf(x) && x > 0) return "never";
-    return joined(in_words(x, life_format(unit_text, 3), script_), unit_text);
+    return joined(description(x, life_format(unit_text, 3), script_), unit_text);
   }
 
   std::string value(const QuantitySummary& each, double x) const {
@@ -222,7 +222,7 @@ std::optional<NaturalParameter> of_logarithm(const ParameterSummary& parameter) 
       std::pow(10, x.q05), std::pow(10, x.q50), std::pow(10, x.q95)};
 }
 
-std::string item_in_words(const std::string& of, bool is_kind) {
+std::string item_text(const std::string& of, bool is_kind) {
   const auto begins = [&](const char* word) { return of.starts_with(word); };
   if (begins("new ")) return "a " + of;
   if (begins("median ")) return "the " + of;
@@ -292,7 +292,7 @@ std::string default_priors(const std::vector<ParameterSummary>& parameters) {
   return names;
 }
 
-std::string standard_error_in_words(const Loo& loo) {
+std::string standard_error_text(const Loo& loo) {
   return loo.observations() < 2 ? "of one observation without a standard error"
                                 : fmt::format("standard error {:.2f}", loo.se());
 }

@@ -24,7 +24,7 @@ struct NaturalParameter {
 std::optional<NaturalParameter> of_logarithm(const ParameterSummary& parameter);
 
 /// "a new bearing", "the median bearing", "machine 12"; of a kind of items, "the softer spring".
-std::string item_in_words(const std::string& of, bool is_kind = false);
+std::string item_text(const std::string& of, bool is_kind = false);
 
 /// A parameter as the title of a figure: "k, wear coefficient", "median machine's rate", and its name alone where its meaning is not
 /// stated.
@@ -44,6 +44,6 @@ std::string results_title(const std::vector<QuantitySummary>& quantities);
 std::string default_priors(const std::vector<ParameterSummary>& parameters);
 
 /// Of elpd, "standard error 1.23"; of one observation there is none.
-std::string standard_error_in_words(const Loo& loo);
+std::string standard_error_text(const Loo& loo);
 
 }  // namespace wearwell

@@ -48,8 +48,8 @@ bool may_be_of(const RoleForm& form, const std::string& unit) {
 }  // namespace
 
 ColumnRoles::ColumnRoles(const Table& table, std::string file, const TableChoices& choices,
-                         bool trade_named)
-    : table_(table), file_(std::move(file)), choices_(choices), trade_named_(trade_named) {}
+                         bool preset_named)
+    : table_(table), file_(std::move(file)), choices_(choices), preset_named_(preset_named) {}
 
 bool ColumnRoles::is_free(const Column& column) const {
   if (std::find(used_.begin(), used_.end(), &column) != used_.end()) return false;
@@ -164,7 +164,7 @@ std::vector<ColumnRoles::Match> ColumnRoles::matches(const RoleForm& form) const
       if (auto each = match_by_unit(column, form)) found.push_back(*each);
     }
   }
-  if (found.empty() && trade_named_) look(true);
+  if (found.empty() && preset_named_) look(true);
   const auto rank = [](const Match& each) { return std::pair(each.word, !each.whole); };
   std::stable_sort(found.begin(), found.end(),
                    [&](const Match& a, const Match& b) { return rank(a) < rank(b); });
@@ -334,8 +334,8 @@ std::string ColumnRoles::data_section() const {
   return text;
 }
 
-FirstStudy ColumnRoles::study(std::string reading, ReadingFit fit, std::string text) const {
-  FirstStudy study{std::move(text), taken, guesses, unstated, questions, fit, std::move(reading)};
+Scaffold ColumnRoles::study(std::string reading, ReadingFit fit, std::string text) const {
+  Scaffold study{std::move(text), taken, guesses, unstated, questions, fit, std::move(reading)};
   for (const auto& [role, heading] : choices_.columns) {
     if (!roles_.contains(role)) study.fit = ReadingFit::none;
   }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "wearwell/input/table.h"
-#include "wearwell/study/first_study.h"
 #include "wearwell/study/role_words.h"
+#include "wearwell/study/scaffold.h"
 
 namespace wearwell {
 
@@ -17,9 +17,9 @@ namespace wearwell {
 /// headings (study/role_words.h), or by units. A column has one role.
 class ColumnRoles {
  public:
-  /// `trade_named`: the user has said which reading; then what stands in brackets and is of another dimension is an
+  /// `preset_named`: the user has said which reading; then what stands in brackets and is of another dimension is an
   /// error of the heading, and no sign of another role.
-  ColumnRoles(const Table& table, std::string file, const TableChoices& choices, bool trade_named);
+  ColumnRoles(const Table& table, std::string file, const TableChoices& choices, bool preset_named);
 
   struct Found {
     const Column* column = nullptr;
@@ -73,7 +73,7 @@ class ColumnRoles {
   std::vector<TableQuestion> questions;
 
   /// The study of that text, with these and the headings that nobody asked for.
-  FirstStudy study(std::string reading, ReadingFit fit, std::string text) const;
+  Scaffold study(std::string reading, ReadingFit fit, std::string text) const;
 
  private:
   struct Match {
@@ -94,7 +94,7 @@ class ColumnRoles {
   const Table& table_;
   std::string file_;
   const TableChoices& choices_;
-  bool trade_named_;
+  bool preset_named_;
   std::vector<const Column*> used_;
   std::vector<std::string> unused_statuses_;
   std::set<std::string> roles_;  ///< that were asked for

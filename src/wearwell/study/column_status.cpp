@@ -76,9 +76,9 @@ std::optional<std::string> ColumnRoles::take_status(bool of_lives) {
     for (std::size_t i = 0; i < table_.rows; ++i) {
       const std::string word = cell_word(*column, i);
       if (word.empty()) continue;
-      const Seen seen = seen_in(table_, LifeStatus{column->name, code}, i);
-      if (seen == Seen::exactly) failed = word;
-      if (seen == Seen::above) went_on = word;
+      const Censoring seen = seen_in(table_, LifeStatus{column->name, code}, i);
+      if (seen == Censoring::none) failed = word;
+      if (seen == Censoring::right) went_on = word;
     }
     const std::string ends =
         failed.empty() ? "none is a failure" : fmt::format("{} is a failure", failed);

@@ -172,7 +172,7 @@ void rank(Comparison& comparison) {
   }
 }
 
-std::string weights_in_words(const Comparison& comparison) {
+std::string weights_text(const Comparison& comparison) {
   std::vector<std::string> shares;
   for (const auto& each : comparison.studies)
     shares.push_back(fmt::format("{} {:.3f}", each.name, each.weight));
@@ -235,9 +235,9 @@ std::string comparison_text(const Comparison& comparison) {
       text_table(rows);
   if (comparison.comparable) {
     const std::string unit =
-        DensityUnit::in_words(comparison.studies.front().result.loo->density_unit);
+        DensityUnit::description(comparison.studies.front().result.loo->density_unit);
     if (!unit.empty()) out += wrapped(printable("Log densities (elpd, AIC, BIC): " + unit), 2, 4);
-    out += wrapped(printable(weights_in_words(comparison)), 2, 4);
+    out += wrapped(printable(weights_text(comparison)), 2, 4);
   }
   if (!comparison.obstacle.empty()) out += wrapped(printable(comparison.obstacle), 2, 4);
 

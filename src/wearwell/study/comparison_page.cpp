@@ -55,7 +55,7 @@ Section verdict_section(const Comparison& comparison) {
     }
     section.add(std::move(table));
     const std::string data_unit =
-        DensityUnit::in_words(comparison.studies.front().result.loo->density_unit);
+        DensityUnit::description(comparison.studies.front().result.loo->density_unit);
     section.add(Prose{fmt::format(
         "elpd is the expected log predictive density, summed over the observations (natural "
         "logarithm{}); larger is better. Weights are those of the mixture that predicts best "

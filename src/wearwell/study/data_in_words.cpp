@@ -24,7 +24,7 @@ std::string one_unit(const DataColumn& column) {
   if (unit == column.si || (column.unit.scale == 1 && unit == column.si + "s")) return "-";
   // "1000 = 1000 rev", where the unit is a number itself.
   const bool is_number = unit.front() >= '0' && unit.front() <= '9';
-  const std::string one = is_number ? numbers_in_words(unit, Script::terminal) : "1 " + unit;
+  const std::string one = is_number ? numbers_text(unit, Script::terminal) : "1 " + unit;
   return fmt::format("{} = {}{}", one, plain_given(column.unit.scale),
                      column.si == "1" ? "" : " " + column.si);
 }
@@ -40,7 +40,7 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-std::string columns_in_words(const std::vector<DataColumn>& columns) {
+std::string columns_text(const std::vector<DataColumn>& columns) {
   std::vector<std::vector<std::string>> rows = {
       {"column", "rows", "smallest", "median", "largest", "unit", "one unit"}};
   for (const DataColumn& column : columns) {

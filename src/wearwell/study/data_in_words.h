@@ -10,6 +10,6 @@ namespace wearwell {
 /// What was read of each column, in the units in which it was written: how many rows, the smallest
 /// value, the median and the largest, and what one unit was taken to be. A table of lines, indented by
 /// two; empty without columns.
-std::string columns_in_words(const std::vector<DataColumn>& columns);
+std::string columns_text(const std::vector<DataColumn>& columns);
 
 }  // namespace wearwell

@@ -18,7 +18,7 @@ struct DensityUnit {
   double total = 0;  ///< added to the logarithm of the whole likelihood
 
   /// What follows a log density in a sentence: "data in km"; empty where it has no unit.
-  static std::string in_words(const std::string& text) {
+  static std::string description(const std::string& text) {
     return text.empty() || text == "1" ? "" : "data in " + text;
   }
 };

@@ -17,17 +17,17 @@ namespace wearwell {
 namespace {
 
 // A family with its parameters in the unit of the parameter: "lognormal, median 3, sd of the logarithm 0.5".
-std::string family_in_words(const Parameter& parameter) {
+std::string family_text(const Parameter& parameter) {
   const Family& family = parameter.prior.family;
   const ResponseForm& form = form_of(family.id);
   std::string words(form.title);
   for (std::size_t i = 0; i < form.slots.size(); ++i) {
-    const SlotForm& slot = form.slots[i];
+    const ParameterForm& slot = form.slots[i];
     const double si = family.parameter[i];
     const std::string number =
-        slot.kind == SlotKind::place  ? fmt::format("{:.6g}", from_si(parameter.unit, si))
-        : slot.kind == SlotKind::size ? fmt::format("{:.6g}", si / parameter.unit.scale)
-                                      : fmt::format("{:.4g}", si);
+        slot.kind == ParameterKind::place  ? fmt::format("{:.6g}", from_si(parameter.unit, si))
+        : slot.kind == ParameterKind::size ? fmt::format("{:.6g}", si / parameter.unit.scale)
+                                           : fmt::format("{:.4g}", si);
     words += ", ";
     words += slot.phrase.empty() ? fmt::format("{} {}", slot.name, number)
                                  : fmt::format(fmt::runtime(slot.phrase), number);
@@ -35,34 +35,35 @@ std::string family_in_words(const Parameter& parameter) {
   return words;
 }
 
-std::string rows_in_words(const PosteriorStudy& study) {
+std::string rows_text(const PosteriorStudy& study) {
   return plain_given(static_cast<double>(study.data_rows));
 }
 
 }  // namespace
 
-std::string prior_in_words(const Parameter& parameter) {
-  const Law& law = parameter.prior;
-  std::string words = family_in_words(parameter);
+std::string prior_text(const Parameter& parameter) {
+  const Distribution& distribution = parameter.prior;
+  std::string words = family_text(parameter);
   const auto value = [&](double si) { return fmt::format("{:.6g}", from_si(parameter.unit, si)); };
-  if (std::isfinite(law.lower) && std::isfinite(law.upper)) {
-    words += fmt::format(", between {} and {}", value(law.lower), value(law.upper));
-  } else if (std::isfinite(law.lower)) {
-    words += ", above " + value(law.lower);
-  } else if (std::isfinite(law.upper)) {
-    words += ", below " + value(law.upper);
+  if (std::isfinite(distribution.lower) && std::isfinite(distribution.upper)) {
+    words +=
+        fmt::format(", between {} and {}", value(distribution.lower), value(distribution.upper));
+  } else if (std::isfinite(distribution.lower)) {
+    words += ", above " + value(distribution.lower);
+  } else if (std::isfinite(distribution.upper)) {
+    words += ", below " + value(distribution.upper);
   }
   return parameter.unit.text == "1" ? words : words + " " + parameter.unit.text;
 }
 
-std::string study_in_words(const PosteriorStudy& study) {
+std::string study_description(const PosteriorStudy& study) {
   std::string out = fmt::format("{}\n  {}\n\nData\n  {}: {} rows of {}\n", printable(study.title),
-                                powers_in_words(study.equation, Script::terminal), study.data_file,
-                                rows_in_words(study), study.quantity);
+                                powers_text(study.equation, Script::terminal), study.data_file,
+                                rows_text(study), study.quantity);
   if (!study.data_layout.text.empty()) out += fmt::format("  {}\n", study.data_layout.text);
-  out += columns_in_words(study.data_columns);
+  out += columns_text(study.data_columns);
   for (const std::string& note : study.data_notes)
-    out += fmt::format("  {}\n", powers_in_words(note, Script::terminal));
+    out += fmt::format("  {}\n", powers_text(note, Script::terminal));
   out += "\nUnknowns\n";
   std::size_t width = 0;
   for (const Parameter& p : study.parameters) width = std::max(width, p.name.size());
@@ -70,13 +71,13 @@ std::string study_in_words(const PosteriorStudy& study) {
     const Parameter& p = study.parameters[i];
     out += fmt::format("  {:<{}}  {}{}\n  {:<{}}  prior: {}\n", p.name, width, study.meanings[i],
                        p.unit.text == "1" ? "" : fmt::format(" [{}]", p.unit.text), "", width,
-                       powers_in_words(prior_in_words(p), Script::terminal) +
+                       powers_text(prior_text(p), Script::terminal) +
                            (p.is_default ? " (default: state what you know)" : ""));
   }
   out += "\nWill be fitted\n";
   out += study.stages && study.data_rows <= most_stages
-             ? fmt::format("  after each of 1, 2, ... {} rows\n", rows_in_words(study))
-             : fmt::format("  from all {} rows\n", rows_in_words(study));
+             ? fmt::format("  after each of 1, 2, ... {} rows\n", rows_text(study))
+             : fmt::format("  from all {} rows\n", rows_text(study));
   FitSettings settings = fit_settings(study, {});
   const std::string note = method_note(study, {});
   if (!note.empty()) settings.method = Method::nuts;
@@ -106,9 +107,9 @@ std::string study_in_words(const PosteriorStudy& study) {
   }
   for (const QuantityRequest& q : quantities) {
     const std::string what = q.name + (q.unit.text == "1" ? "" : " [" + q.unit.text + "]");
-    out += fmt::format("  {} of {}{}{}\n", numbers_in_words(what, Script::terminal),
-                       item_in_words(q.of, q.credible_level.has_value()),
-                       q.at.empty() ? "" : " " + numbers_in_words(q.at, Script::terminal),
+    out += fmt::format("  {} of {}{}{}\n", numbers_text(what, Script::terminal),
+                       item_text(q.of, q.credible_level.has_value()),
+                       q.at.empty() ? "" : " " + numbers_text(q.at, Script::terminal),
                        q.credible_level && !q.name.ends_with("remaining useful life")
                            ? fmt::format("; at least, with {:.4g} % confidence (credible), "
                                          "and of the next one",

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 void require_new(const fs::path& folder) {
-  heal_folder(behind_links(folder));
+  recover_folder(behind_links(folder));
   std::error_code error;
   if (fs::exists(folder, error) &&
       !(fs::is_directory(folder, error) && fs::is_empty(folder, error)))
@@ -34,7 +34,7 @@ fs::path write_example(const Model& model, const fs::path& folder) {
   return folder / model.example.front().name;
 }
 
-fs::path write_first_study(const FirstStudy& study, const fs::path& data, const fs::path& folder) {
+fs::path write_scaffold(const Scaffold& study, const fs::path& data, const fs::path& folder) {
   require_new(folder);
   StagedFolder staged(folder);
   std::ifstream stream(data, std::ios::binary);

@@ -12,7 +12,7 @@ namespace wearwell {
 std::filesystem::path write_example(const Model& model, const std::filesystem::path& folder);
 
 /// The same of a first study and a copy of its data, which it names `data`.
-std::filesystem::path write_first_study(const FirstStudy& study, const std::filesystem::path& data,
-                                        const std::filesystem::path& folder);
+std::filesystem::path write_scaffold(const Scaffold& study, const std::filesystem::path& data,
+                                     const std::filesystem::path& folder);
 
 }  // namespace wearwell

@@ -286,8 +286,8 @@ std::vector<PredictiveDraws> predictive_draws(const PosteriorStudy& study,
         const double z = rng.normal();  // one item, wherever it is measured
         for (const PredictionRequest* request : requests[q]) {
           const double mean = request->item ? request->item(x.data(), z) : request->mean(x.data());
-          const ObservationLaw law(request->family, mean, request->sd(x.data()));
-          const double t = law.location + law.scale * rng.normal();
+          const ObservationDistribution distribution(request->family, mean, request->sd(x.data()));
+          const double t = distribution.location + distribution.scale * rng.normal();
           all[q].values.push_back(from_si(
               request->unit, request->family == ObservationFamily::lognormal ? std::exp(t) : t));
         }

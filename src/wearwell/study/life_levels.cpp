@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "wearwell/predict/item_mixture.h"
-#include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_distribution.h"
 
 namespace wearwell {
 
@@ -56,11 +56,11 @@ QuantityGroup b_lives_of_one(const LifeRequest& life, const std::string& of, con
   for (const double percent : levels.percents) {
     group.requests.push_back(b_life_request(percent, levels, all));
   }
-  group.from_draws = [levels, law_of = life.law](const WeightedDraws& draws) {
-    const LifeLaw law = law_of(draws);
+  group.from_draws = [levels, law_of = life.distribution](const WeightedDraws& draws) {
+    const LifeDistribution distribution = law_of(draws);
     std::vector<QuantityQuantiles> found;
     for (const double percent : levels.percents) {
-      found.push_back(b_life(law, law.quantile(percent / 100), levels));
+      found.push_back(b_life(distribution, distribution.quantile(percent / 100), levels));
     }
     return found;
   };
@@ -77,8 +77,8 @@ QuantityGroup b_lives_of_items(const QuantityRequest& life, const std::string& o
     std::vector<QuantityQuantiles> found;
     for (const double percent : levels.percents) {
       const double p = life.increasing ? percent / 100 : 1 - percent / 100;
-      const double z = quantile(StandardLaw::normal, p);
-      const Distribution known(draws, [&](const double* x) {
+      const double z = quantile(StandardDistribution::normal, p);
+      const QuantityDistribution known(draws, [&](const double* x) {
         const double spread = life.scatter ? std::exp(z * life.scatter(x)) : 1;
         return life.value(life.driver(x) * spread);
       });

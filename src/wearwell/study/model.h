@@ -8,7 +8,7 @@
 #include "wearwell/input/source.h"
 #include "wearwell/input/study_keys.h"
 #include "wearwell/input/toml_reader.h"
-#include "wearwell/study/first_study.h"
+#include "wearwell/study/scaffold.h"
 #include "wearwell/study/study.h"
 
 namespace wearwell::prognosis {
@@ -29,7 +29,7 @@ struct ExampleFile {
 /// A trade's only door: what the commands know of it.
 struct Model {
   std::string_view key;                  ///< in study files: model = "archard-joint"
-  std::string_view trade;                ///< for `wearwell new`: "joint"
+  std::string_view preset;               ///< for `wearwell new`: "joint"
   std::span<const ExampleFile> example;  ///< the study first, then its data
   /// Reads the study's own part of the file; the caller refuses keys that were never asked for.
   /// Throws InputError.
@@ -38,7 +38,7 @@ struct Model {
   StudyKeys (*keys)() = nullptr;
   /// A study of a table whose columns have these roles; nothing where it is of another trade. May be
   /// null.
-  std::optional<FirstStudy> (*first_study)(ColumnRoles& roles) = nullptr;
+  std::optional<Scaffold> (*scaffold)(ColumnRoles& roles) = nullptr;
   /// Follows single units on line, from what a fit of this model left (prognosis/tracker.h). May be null.
   std::unique_ptr<const prognosis::Tracker> (*track)(const prognosis::CarriedState& state) =
       nullptr;

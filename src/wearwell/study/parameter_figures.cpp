@@ -44,7 +44,7 @@ Figure belief_figure(const ParameterSummary& p, const ParameterPlots& plots) {
                                {colour::posterior, "after the data (exact)"}));
   }
   return {"belief-" + p.name, titled(p),
-          fmt::format("Prior: {}.", html::raised(powers_in_words(p.prior, Script::page)) +
+          fmt::format("Prior: {}.", html::raised(powers_text(p.prior, Script::page)) +
                                         (p.prior_is_default ? " (default)" : "")),
           plot::plot(fmt::format("Density of {} before and after the data", p.name),
                      {scale.title(p.name)}, {"Density", false, 0.0, {}, {}, false}, marks)};

@@ -39,7 +39,7 @@ std::vector<double> spaced(Range range, int intervals) {
 }
 
 // The probability of each interval over its width, at its middle.
-Curve density_curve(const Distribution& distribution, const std::vector<double>& edges) {
+Curve density_curve(const QuantityDistribution& distribution, const std::vector<double>& edges) {
   Curve curve;
   double below = distribution.cdf(edges.front());
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
@@ -71,7 +71,7 @@ Range within_bounds(const Parameter& parameter, Range range) {
 }
 
 // Nearly all of the posterior, and of the prior where that does not squeeze the posterior.
-Range range_of(const Parameter& parameter, const Distribution& posterior) {
+Range range_of(const Parameter& parameter, const QuantityDistribution& posterior) {
   Range range{from_si(parameter.unit, posterior.quantile(0.0005)),
               from_si(parameter.unit, posterior.quantile(0.9995))};
   const double margin = 0.05 * (range.high - range.low);
@@ -133,7 +133,7 @@ ParameterPlots plot_parameter(const PosteriorStudy& study, std::size_t i, const 
 std::optional<DensityGrid> joint_density(const Posterior& posterior, const Fit& fit) {
   if (posterior.dimension() != 2 || !fit.exact) return {};
   const Parameter &a = posterior.parameters()[0], &b = posterior.parameters()[1];
-  const auto centres = [&](const Parameter& parameter, const Distribution& marginal) {
+  const auto centres = [&](const Parameter& parameter, const QuantityDistribution& marginal) {
     const auto edges =
         spaced(within_bounds(parameter, {from_si(parameter.unit, marginal.quantile(0.003)),
                                          from_si(parameter.unit, marginal.quantile(0.997))}),
@@ -175,7 +175,7 @@ History predict_all(const std::vector<PredictionRequest>& requests, const Weight
 }
 
 Curve life_curve(const LifeRequest& request, const Fit& fit) {
-  const LifeLaw lives = request.law(best(fit));
+  const LifeDistribution lives = request.distribution(best(fit));
   // Components that hardly ever reach the limit have no finite upper quantiles.
   double end = request.now;
   for (const double p : {0.995, 0.95, 0.75, 0.5, 0.25, 0.1}) {
@@ -299,7 +299,7 @@ Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const 
     plots.replicated = predict_all(observed, thinned(best(fit)));
     plots.history_note = study.history_note;
   }
-  if (study.exhibits) plots.exhibits = study.exhibits(fit);
+  if (study.figures) plots.figures = study.figures(fit);
   if (study.life) {
     plots.life = life_curve(*study.life, fit);
     plots.limit = from_si(study.history.front().unit, study.life->limit.si());
@@ -309,7 +309,7 @@ Plots plot_study(const PosteriorStudy& study, const Posterior& posterior, const 
 
 std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index index,
                                    const std::vector<WeightedDraws>& stages) {
-  std::vector<Distribution> all;
+  std::vector<QuantityDistribution> all;
   for (const WeightedDraws& draws : stages)
     all.emplace_back(draws, [&](const double* x) { return from_si(parameter.unit, x[index]); });
   Range range{INFINITY, -INFINITY};
@@ -320,7 +320,7 @@ std::vector<Curve> stage_densities(const Parameter& parameter, Eigen::Index inde
   const double margin = 0.15 * (range.high - range.low);
   range = within_bounds(parameter, {range.low - margin, range.high + margin});
   std::vector<Curve> curves;
-  for (const Distribution& each : all) {
+  for (const QuantityDistribution& each : all) {
     // Where little of a wide posterior is seen, few points carry it.
     const double seen = each.cdf(range.high) - each.cdf(range.low);
     const int intervals = std::clamp(static_cast<int>(seen * curve_points), 6, curve_points);

@@ -60,7 +60,7 @@ struct Plots {
   std::vector<DataFile> files;
   double seconds = 0;  ///< that the study took
   /// What the trade shows beyond that, by section: "predictions", "parameters" or "fit".
-  std::map<std::string, std::vector<html::Figure>> exhibits;
+  std::map<std::string, std::vector<html::Figure>> figures;
 };
 
 }  // namespace wearwell

@@ -34,8 +34,8 @@ std::string given_with_unit(double x, const std::string& unit_text) {
   return u.empty() ? given(x) : given(x) + "\u00a0" + u;
 }
 
-std::string life_in_words(double x, const std::string& unit_text, int digits = 3) {
-  return in_words(x, life_format(unit_text, digits));
+std::string life_text(double x, const std::string& unit_text, int digits = 3) {
+  return description(x, life_format(unit_text, digits));
 }
 
 // The answers, one line each.
@@ -45,19 +45,19 @@ void add_answers(Section& section, const PosteriorSummary& result) {
 }
 
 // What the trade shows in a section.
-std::vector<html::Figure> exhibits_of(const std::string& section, const Plots& plots) {
-  const auto found = plots.exhibits.find(section);
-  return found == plots.exhibits.end() ? std::vector<html::Figure>() : found->second;
+std::vector<html::Figure> figures_of(const std::string& section, const Plots& plots) {
+  const auto found = plots.figures.find(section);
+  return found == plots.figures.end() ? std::vector<html::Figure>() : found->second;
 }
 
-void add_exhibits(Section& section, const Plots& plots) {
-  if (auto figures = exhibits_of(section.id, plots); !figures.empty())
+void add_figures(Section& section, const Plots& plots) {
+  if (auto figures = figures_of(section.id, plots); !figures.empty())
     section.add(Figures{std::move(figures)});
 }
 
 void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) {
   const Life& life = summary.best();
-  tiles.push_back({"Life B10", life_in_words(life.b10, summary.unit), unit(summary.unit),
+  tiles.push_back({"Life B10", life_text(life.b10, summary.unit), unit(summary.unit),
                    fmt::format("one in ten reaches {} earlier",
                                given_with_unit(summary.limit, summary.limit_unit))});
   if (summary.passed_beyond_risk()) {
@@ -66,7 +66,7 @@ void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) 
                                  given(100 * summary.risk))});
   }
   tiles.push_back({summary.now > 0 ? "Inspect again within" : "Inspect within",
-                   life_in_words(life.inspect_within, summary.unit), unit(summary.unit),
+                   life_text(life.inspect_within, summary.unit), unit(summary.unit),
                    fmt::format("{}; {} % risk of reaching the limit before",
                                summary.now > 0 ? fmt::format("after {}, unless the limit is passed",
                                                              given(summary.now))
@@ -77,12 +77,12 @@ void add_life_tiles(const LifeSummary& summary, std::vector<html::Tile>& tiles) 
 html::Tile headline_tile(const QuantitySummary& each) {
   const QuantityQuantiles& q = each.best();
   const std::string where =
-      numbers_in_words(each.of + (each.at.empty() ? "" : " ") + each.at, Script::page);
+      numbers_text(each.of + (each.at.empty() ? "" : " ") + each.at, Script::page);
   if (q.bound) {
     return {html::capital(each.name) + ", at least", number(*q.bound, 3), unit(each.unit),
             fmt::format("{}, with {} % confidence", where, given(100 * *each.credible_level))};
   }
-  if (each.is_life) return {"Life B10", life_in_words(q.b10, each.unit), unit(each.unit), where};
+  if (each.is_life) return {"Life B10", life_text(q.b10, each.unit), unit(each.unit), where};
   return {html::capital(each.name) + ", to design with",
           number(each.safe_end.value_or(0.05) < 0.5 ? q.q05 : q.q95, 3), unit(each.unit), where};
 }
@@ -120,7 +120,7 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
   }
   section.add(present::Tiles{std::move(tiles)});
   std::vector<html::Figure> figures = answer_figures(result, plots);
-  for (const html::Figure& each : exhibits_of(section.id, plots)) figures.push_back(each);
+  for (const html::Figure& each : figures_of(section.id, plots)) figures.push_back(each);
   if (!figures.empty()) section.add(Figures{std::move(figures)});
   if (!result.method_note.empty()) section.add(Prose{result.method_note + "."});
   if (const std::string defaults = default_priors(result.parameters); !defaults.empty()) {
@@ -135,7 +135,7 @@ Section verdict_section(const PosteriorSummary& result, const Plots& plots) {
 Section prediction_section(const PosteriorSummary& result, const Plots& plots) {
   Section section{"predictions", "Predictions"};
   std::vector<html::Figure> figures = prediction_figures(result, plots);
-  for (const html::Figure& each : exhibits_of(section.id, plots)) figures.push_back(each);
+  for (const html::Figure& each : figures_of(section.id, plots)) figures.push_back(each);
   if (!figures.empty()) section.add(Figures{std::move(figures)});
   if (!result.predictions.empty()) section.add(prediction_table(result));
   if (result.life) section.add(life_table(*result.life));
@@ -167,7 +167,7 @@ void add_mode(const ModeSummary& mode, Section& section) {
         "Moolgavkar 1988). It need not be symmetric, and does not change with the way in which a "
         "parameter is written."});
   }
-  const std::string data_unit = DensityUnit::in_words(mode.density_unit);
+  const std::string data_unit = DensityUnit::description(mode.density_unit);
   section.add(Prose{fmt::format(
       "Log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f} ({} observations{}{}). "
       "Standard errors are those of the curvature there; a parameter on its bound counts as known.",
@@ -183,7 +183,7 @@ Section parameter_section(const PosteriorSummary& result, const Plots& plots) {
   if (result.mode) add_mode(*result.mode, section);
   if (!result.stages.empty()) section.add(stage_table(result));
   section.add(Figures{parameter_figures(result, plots)});
-  add_exhibits(section, plots);
+  add_figures(section, plots);
   return section;
 }
 
@@ -219,17 +219,17 @@ Section fit_section(const PosteriorSummary& result, const Plots& plots) {
   if (result.pointwise) section.add(pointwise_table(*result.pointwise));
   if (result.loo) {
     const Loo& loo = result.loo->loo;
-    const std::string data_unit = DensityUnit::in_words(result.loo->density_unit);
+    const std::string data_unit = DensityUnit::description(result.loo->density_unit);
     section.add(
         Prose{fmt::format("Leave-one-out: expected log predictive density {:.2f}, {}, {:.1f} "
                           "effective parameters (natural logarithms{}). Pareto k up to {:.2f} "
                           "is good.",
-                          loo.elpd(), standard_error_in_words(loo), loo.p_loo(),
+                          loo.elpd(), standard_error_text(loo), loo.p_loo(),
                           data_unit.empty() ? "" : ", " + data_unit, loo.threshold)});
     section.add(Details{fmt::format("Every {} left out", result.loo->observation),
                         {{loo_table(*result.loo)}}});
   }
-  add_exhibits(section, plots);
+  add_figures(section, plots);
   return section;
 }
 
@@ -250,9 +250,9 @@ Section method_section(const PosteriorSummary& result, const Plots& plots) {
                               result.chains, given(result.draws), given(result.warmup))},
        {"Seed", fmt::format("{}", result.seed)}}};
   if (result.log_evidence)
-    facts.facts.emplace_back(
-        "Log evidence",
-        fmt::format("{:.4f} {}", *result.log_evidence, DensityUnit::in_words(result.density_unit)));
+    facts.facts.emplace_back("Log evidence",
+                             fmt::format("{:.4f} {}", *result.log_evidence,
+                                         DensityUnit::description(result.density_unit)));
   for (const DataFile& file : plots.files)
     facts.facts.emplace_back(file.name, "SHA-1 " + file.sha1);
   facts.facts.emplace_back("Time taken", fmt::format("{:.2f} s", plots.seconds));

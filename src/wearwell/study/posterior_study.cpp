@@ -65,9 +65,9 @@ void read_sampler(const TomlReader& root, PosteriorStudy& study) {
 
 }  // namespace
 
-std::string PosteriorStudy::in_words() const {
+std::string PosteriorStudy::description() const {
   require_posterior(*this);
-  return study_in_words(*this);
+  return study_description(*this);
 }
 
 Result PosteriorStudy::run(const RunOptions& options, const Monitor& monitor) const {
@@ -75,7 +75,7 @@ Result PosteriorStudy::run(const RunOptions& options, const Monitor& monitor) co
 }
 
 std::unique_ptr<const Study> read_posterior_study(const TomlReader& root, const Source& source,
-                                                  ReadTrade read_trade) {
+                                                  ReadPreset read_preset) {
   auto study = std::make_unique<PosteriorStudy>();
   study->file = source.study;
   study->title = root.text("title").value_or(valid_utf8(source.study.path.stem().string()));
@@ -85,7 +85,7 @@ std::unique_ptr<const Study> read_posterior_study(const TomlReader& root, const 
   if (const auto update = root.table("update"))
     study->stages = update->choice("stages", {"row"}).has_value();
   const ReadFile data_read(source.folder() / study->data_file);
-  read_trade(root, source, *study);
+  read_preset(root, source, *study);
   if (!table_in_memory(data, source)) study->data_sha1 = data_read.sha1();
   read_sampler(root, *study);
   return study;

@@ -53,7 +53,7 @@ struct LifeRequest {
   Quantity limit;
   double now = 0;   ///< the last inspection; 0 of an item that is new
   double risk = 0;  ///< tolerated at the next inspection
-  std::function<LifeLaw(const WeightedDraws& draws)> law;
+  std::function<LifeDistribution(const WeightedDraws& draws)> distribution;
   std::string of = {};  ///< "new bearing", where items differ
 };
 
@@ -78,7 +78,7 @@ struct QuantityRequest {
 
 /// The predictive distribution of a life, SI, from where it counts on, given that the unit came so far.
 struct PredictiveLife {
-  LifeLaw law;
+  LifeDistribution distribution;
   double survival = 1;  ///< the predictive probability that it came so far
   std::optional<double> numerical_error =
       {};  ///< QuantityQuantiles::numerical_error, of its quantiles
@@ -108,7 +108,7 @@ inline constexpr int max_iterations = 10'000'000;
 /// A study of a posterior as the engine sees it: whatever the trade, parameters with priors, a
 /// likelihood of the first data sets, and what to predict.
 struct PosteriorStudy : Study {
-  std::string in_words() const override;
+  std::string description() const override;
   Result run(const RunOptions& options, const Monitor& monitor) const override;
 
   std::string title, model, equation;
@@ -149,18 +149,18 @@ struct PosteriorStudy : Study {
   /// both may be empty.
   std::function<std::vector<Check>(const Fit&)> checks;
   std::function<CoverageTable(const WeightedDraws&)> coverage;  ///< of single tests; may be empty
-  std::function<std::map<std::string, std::vector<html::Figure>>(const Fit&)> exhibits;
-  std::function<TradeAddition(const Fit&)> addition;  ///< may be empty
-  SamplerChoice sampler;                              ///< as the study file says
+  std::function<std::map<std::string, std::vector<html::Figure>>(const Fit&)> figures;
+  std::function<PresetAddition(const Fit&)> addition;  ///< may be empty
+  SamplerChoice sampler;                               ///< as the study file says
   NutsSettings nuts;
   MetropolisSettings metropolis;
 };
 
 /// What a trade reads of a study file and its data, beyond what all studies of a posterior have.
-using ReadTrade = void (*)(const TomlReader& root, const Source& source, PosteriorStudy& study);
+using ReadPreset = void (*)(const TomlReader& root, const Source& source, PosteriorStudy& study);
 
-/// Title, data, stages and sampler, and with `read_trade` the rest. Throws InputError.
+/// Title, data, stages and sampler, and with `read_preset` the rest. Throws InputError.
 std::unique_ptr<const Study> read_posterior_study(const TomlReader& root, const Source& source,
-                                                  ReadTrade read_trade);
+                                                  ReadPreset read_preset);
 
 }  // namespace wearwell

@@ -131,7 +131,7 @@ struct ModeQuantity {
   ProfileSummary profile;
 };
 
-/// One parameter at the mode of the posterior (infer/natural_mode.h).
+/// One parameter at the mode of the posterior (infer/constrained_mode.h).
 struct ModeParameter {
   std::string name;
   std::string unit;
@@ -190,7 +190,7 @@ inline bool is_count(const std::string& unit) {
 }
 
 /// "12 %", "less than 0.01 %".
-inline std::string probability_in_words(double p) {
+inline std::string probability_text(double p) {
   constexpr double least = 1e-4;
   if (std::isnan(p)) return "unknown";
   if (p < least) return "less than 0.01 %";
@@ -224,7 +224,7 @@ struct QuadratureSummary {
 };
 
 /// What a trade adds to its result beside what all studies have.
-struct TradeAddition {
+struct PresetAddition {
   nlohmann::ordered_json body = {};  ///< keys of summary.json
   /// At the end of the section of the report that has this id.
   std::map<std::string, std::vector<present::Block>> blocks = {};
@@ -270,7 +270,7 @@ struct PosteriorSummary {
   std::string quantity{};  ///< what is measured and predicted, "worn volume"
   std::string curve{};     ///< the law with its numbers, a clause; empty where it has no use
   std::shared_ptr<const Fit> fit{};  ///< nodes and pooled draws, for what is asked later; no draws
-  TradeAddition added{};
+  PresetAddition added{};
   NothingSeen nothing_seen{};
 };
 

@@ -5,8 +5,8 @@
 
 #include "wearwell/base/error.h"
 #include "wearwell/base/nearest.h"
-#include "wearwell/study/first_study.h"
 #include "wearwell/study/model.h"
+#include "wearwell/study/scaffold.h"
 
 namespace wearwell {
 namespace {

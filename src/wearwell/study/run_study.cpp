@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "wearwell/bayes/posterior.h"
+#include "wearwell/infer/constrained_mode.h"
 #include "wearwell/infer/fit.h"
-#include "wearwell/infer/natural_mode.h"
 #include "wearwell/infer/psis_loo.h"
 #include "wearwell/infer/trust.h"
 #include "wearwell/input/fingerprint.h"
@@ -139,7 +139,7 @@ PosteriorSummary described(const PosteriorStudy& study, const FitSettings& setti
   result.parameters = summarize_parameters(posterior, fit);
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
     result.parameters[i].meaning = study.meanings[i];
-    result.parameters[i].prior = prior_in_words(study.parameters[i]);
+    result.parameters[i].prior = prior_text(study.parameters[i]);
     result.parameters[i].prior_is_default = study.parameters[i].is_default;
   }
   result.nothing_seen = study.nothing_seen;
@@ -264,9 +264,9 @@ PosteriorSummary run_study(const PosteriorStudy& study, const SamplerChoice& cho
   std::optional<Plots> plots;
   if (with_plots) plots = plot_study(study, posterior, final);
   std::optional<LooSummary> loo = left_out_one_by_one(study, posterior, final, monitor.stop);
-  const NaturalMode natural = natural_mode(posterior, final);
-  for (Shortfall& each : later_shortfalls(whole, final, natural)) {
-    final.shortfalls.push_back(std::move(each));
+  const NaturalMode natural = constrained_mode(posterior, final);
+  for (StageDiagnostic& each : later_stage_diagnostics(whole, final, natural)) {
+    final.stage_diagnostics.push_back(std::move(each));
   }
 
   PosteriorSummary result = described(study, settings, posterior, final);

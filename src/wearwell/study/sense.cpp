@@ -81,7 +81,7 @@ Check limit_check(const LifeSummary& life) {
   Findings findings("limit");
   const std::string passed = fmt::format(
       "after {} {} the limit is already passed with a probability of {}; {} % is tolerated",
-      plain_given(life.now), life.unit, probability_in_words(life.best().passed), 100 * life.risk);
+      plain_given(life.now), life.unit, probability_text(life.best().passed), 100 * life.risk);
   if (life.passed_beyond_risk()) {
     findings.add(Verdict::fail, passed,
                  "Do not wait for the next inspection: replace or measure now. The interval to the "
@@ -107,7 +107,7 @@ Check sense_check(const PosteriorSummary& result) {
   }
   for (const QuantitySummary& each : result.quantities) {
     const QuantityQuantiles& q = each.best();
-    sense.interval(fmt::format("{} of {}{}{}", each.name, item_in_words(each.of),
+    sense.interval(fmt::format("{} of {}{}{}", each.name, item_text(each.of),
                                each.at.empty() ? "" : " ", each.at),
                    each.unit, q.q05, q.q95,
                    {q.q50, q.b1, q.b10, q.b50, q.predictive.value_or(0), q.bound.value_or(0)},

@@ -32,7 +32,7 @@ class Study {
   virtual ~Study() = default;
 
   /// What will be fitted, in words and units. Throws InputError where running it would.
-  virtual std::string in_words() const = 0;
+  virtual std::string description() const = 0;
 
   /// Fits, checks and predicts. One seed gives the same numbers to the bit, however many threads
   /// there are. Throws InputError when data and options do not go together, and `Cancelled`.

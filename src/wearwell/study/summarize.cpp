@@ -75,7 +75,9 @@ QuantityQuantiles quantiles(const QuantityRequest& request, const WeightedDraws&
       return items.quantile(p);
     };
   } else {
-    driver = [known = Distribution(draws, request.driver)](double p) { return known.quantile(p); };
+    driver = [known = QuantityDistribution(draws, request.driver)](double p) {
+      return known.quantile(p);
+    };
   }
   const auto quantile = [&](double p) {
     return from_si(request.unit, request.value(driver(request.increasing ? p : 1 - p)));
@@ -153,7 +155,7 @@ std::vector<ParameterSummary> summarize_parameters(const Posterior& posterior, c
   tbb::parallel_for(std::size_t{0}, summaries.size(), [&](std::size_t i) {
     const Parameter& parameter = posterior.parameters()[i];
     const Function value = [&, i](const double* x) { return from_si(parameter.unit, x[i]); };
-    const Distribution drawn(fit.pooled, value);
+    const QuantityDistribution drawn(fit.pooled, value);
     const Diagnostics& d = fit.diagnostics[i];
     ParameterSummary summary{.name = parameter.name,
                              .unit = parameter.unit.text,
@@ -197,7 +199,7 @@ PosteriorSummary asked_later(const PosteriorStudy& asked, const PosteriorSummary
               fingerprint(asked.quantity, asked.observed) == fitted.data_fingerprint;
   for (std::size_t i = 0; same && i < asked.parameters.size(); ++i) {
     same = asked.parameters[i].name == fitted.parameters[i].name &&
-           prior_in_words(asked.parameters[i]) == fitted.parameters[i].prior;
+           prior_text(asked.parameters[i]) == fitted.parameters[i].prior;
   }
   if (!same || !fitted.fit)
     throw InputError("what is asked later must be of the same data, law and priors as the fit");
@@ -222,7 +224,7 @@ std::vector<QuantitySummary> summarize_quantities(const PosteriorStudy& study, c
 
 LifeSummary summarize(const LifeRequest& request, const Fit& fit) {
   const auto life = [&](const WeightedDraws& draws) {
-    return predict_life(request.law(draws), request.now, request.risk);
+    return predict_life(request.distribution(draws), request.now, request.risk);
   };
   LifeSummary summary{.unit = request.unit_name,
                       .limit = request.limit.value,

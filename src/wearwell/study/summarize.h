@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "wearwell/bayes/posterior.h"
+#include "wearwell/infer/constrained_mode.h"
 #include "wearwell/infer/fit.h"
-#include "wearwell/infer/natural_mode.h"
 #include "wearwell/study/posterior_study.h"
 #include "wearwell/study/posterior_summary.h"
 

@@ -27,7 +27,7 @@ namespace {
 
 // Words of the program as people read them.
 std::string shown(const std::string& words) {
-  return numbers_in_words(words, Script::terminal);
+  return numbers_text(words, Script::terminal);
 }
 
 // The better of the two: quadrature where there is one.
@@ -83,7 +83,7 @@ std::string mode_lines(const ModeSummary& mode) {
                                 q.at.empty() ? "" : " ", shown(q.at)),
                     plain_number(q.value), "-", profile_ends(q.profile)});
   }
-  const std::string unit = DensityUnit::in_words(mode.density_unit);
+  const std::string unit = DensityUnit::description(mode.density_unit);
   return text_table(rows) + fmt::format("  log-likelihood {:.3f}, AIC {:.2f}, BIC {:.2f}{}{}\n",
                                         mode.log_likelihood, mode.aic, mode.bic,
                                         unit.empty() ? "" : ", " + printable(unit),
@@ -92,11 +92,11 @@ std::string mode_lines(const ModeSummary& mode) {
 
 std::string loo_lines(const LooSummary& summary) {
   const Loo& loo = summary.loo;
-  const std::string unit = DensityUnit::in_words(summary.density_unit);
+  const std::string unit = DensityUnit::description(summary.density_unit);
   return wrapped(
       fmt::format("each {} from all others: elpd {:.2f} ({}{}), effective "
                   "parameters {:.1f}{}",
-                  printable(summary.observation), loo.elpd(), standard_error_in_words(loo),
+                  printable(summary.observation), loo.elpd(), standard_error_text(loo),
                   unit.empty() ? "" : ", " + printable(unit), loo.p_loo(),
                   loo.by_quadrature ? "" : fmt::format(", Monte Carlo error {:.2g}", loo.error)),
       2, 4);
@@ -243,7 +243,7 @@ std::string life_lines(const LifeSummary& summary) {
   const std::string unit = printable(summary.unit);
   const auto count = [&](double x, int digits = 4) {
     if (std::isnan(x)) return std::string("unknown");
-    return in_words(x, life_format(summary.unit, digits), Script::terminal);
+    return description(x, life_format(summary.unit, digits), Script::terminal);
   };
   const std::string lives = fmt::format(
       "{}{} to {} {}: B1 {}, B10 {}, B50 {}; {} to {} (90 %)", unit, printable(of_whom(summary)),
@@ -251,7 +251,7 @@ std::string life_lines(const LifeSummary& summary) {
       count(life.b50), count(life.q05), count(life.q95));
   const std::string passed = fmt::format(
       "after {} {} the limit is already passed with a probability of {}{}",
-      plain_given(summary.now), unit, probability_in_words(life.passed),
+      plain_given(summary.now), unit, probability_text(life.passed),
       summary.passed_beyond_risk()
           ? fmt::format(": more than the {} % that are tolerated", plain_given(100 * summary.risk))
           : "");
@@ -276,7 +276,7 @@ std::string check_lines(const std::vector<Check>& checks, bool colour) {
   std::string out;
   for (const Check& check : checks) {
     const std::string detail =
-        wrapped(printable(powers_in_words(check.detail, Script::terminal)), indent);
+        wrapped(printable(powers_text(check.detail, Script::terminal)), indent);
     out += fmt::format("  {}  {:<{}} {}", painted(check.verdict, colour), printable(check.name),
                        name_width, detail.substr(std::min(indent, detail.size() - 1)));
     if (!check.advice.empty()) out += wrapped("-> " + printable(check.advice), indent, indent + 3);
@@ -295,7 +295,7 @@ std::string answer_lines(const PosteriorSummary& result) {
 
 std::string terminal_summary(const PosteriorSummary& result, const TerminalStyle& style) {
   std::string out = wrapped(printable(result.title), 0, 2) +
-                    wrapped(printable(powers_in_words(result.equation, Script::terminal)), 2, 4) +
+                    wrapped(printable(powers_text(result.equation, Script::terminal)), 2, 4) +
                     wrapped(fmt::format("{}: {} rows{}", printable(result.data_file),
                                         plain_given(static_cast<double>(result.data_rows)),
                                         printable(remarks_suffix(result.data_remarks))),

@@ -29,7 +29,7 @@ constexpr double coldest = 173, hottest = 2273;  // K, of a machine part
 // Two units in one column differ by a thousand, mostly; conditions of one study do not.
 constexpr double widest = 300;
 
-std::string in_words(const DataColumn& column, double si) {
+std::string description(const DataColumn& column, double si) {
   const std::string unit = column.unit.text == "1" ? column.si : column.unit.text;
   return fmt::format("{:.4g} {}", from_si(column.unit, si), unit);
 }
@@ -58,8 +58,8 @@ void look_at(const DataColumn& column, Findings& findings) {
   const auto [low, high] = std::minmax_element(positive.begin(), positive.end());
   if (column.si == "K") {
     if (*low < coldest || *high > hottest)
-      add(fmt::format("{} to {} is no temperature of a machine", in_words(column, *low),
-                      in_words(column, *high)));
+      add(fmt::format("{} to {} is no temperature of a machine", description(column, *low),
+                      description(column, *high)));
     return;
   }
   const auto parts = std::count_if(positive.begin(), positive.end(), below_one);
@@ -69,11 +69,11 @@ void look_at(const DataColumn& column, Findings& findings) {
   for (const Sizes& size : sizes) {
     const bool way = column.endless && size.si == "m";
     if (way || size.si != column.si || (largest >= size.least && largest <= size.most)) continue;
-    add(fmt::format("the largest value is {}; no machine has that", in_words(column, largest)));
+    add(fmt::format("the largest value is {}; no machine has that", description(column, largest)));
   }
   if (column.condition && *high >= widest * *low)
     add(fmt::format("from {} to {} is a factor of {:.3g}, as of two units in one column",
-                    in_words(column, *low), in_words(column, *high), *high / *low));
+                    description(column, *low), description(column, *high), *high / *low));
 }
 
 }  // namespace

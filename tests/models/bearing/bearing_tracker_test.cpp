@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "models/tracked_trade.h"
+#include "models/tracked_preset.h"
 #include "support/followed_unit.h"
 #include "wearwell/base/error.h"
 
@@ -46,7 +46,7 @@ pressure = "1 MPa"
 )toml" + likelihood +
          R"toml(
 [prior]
-k = { law = "lognormal", median = "1e-6 mm^3/(N m)", log_sd = 2.5 }
+k = { distribution = "lognormal", median = "1e-6 mm^3/(N m)", log_sd = 2.5 }
 )toml" + prior +
          R"toml(
 [predict]
@@ -56,8 +56,8 @@ limit = "80 um"
 )toml" + speed;
 }
 
-const std::string scatter = "k_scatter = { law = \"half-normal\", scale = 1 }\n";
-const std::string sigma = "sigma = { law = \"half-normal\", scale = \"5 um\" }\n";
+const std::string scatter = "k_scatter = { distribution = \"half-normal\", scale = 1 }\n";
+const std::string sigma = "sigma = { distribution = \"half-normal\", scale = \"5 um\" }\n";
 
 std::vector<double> numbers(double clearance, double revolutions, double depth) {
   return {clearance * um, revolutions, depth * um};
@@ -80,7 +80,7 @@ class OfBearing : public testing::TestWithParam<int> {
 };
 
 TEST_P(OfBearing, ASeenBearingGoesOnAsTheFitSays) {
-  const TrackedTrade known(study(), headings, rows);
+  const TrackedPreset known(study(), headings, rows);
   for (const std::string name : {"A", "B", "E"}) {
     SCOPED_TRACE(name);
     const prognosis::UnitLife life = known.life({.unit = name});
@@ -93,7 +93,7 @@ TEST_P(OfBearing, ASeenBearingGoesOnAsTheFitSays) {
 }
 
 TEST_P(OfBearing, ReadingsOneByOneAreTheFitOfAll) {
-  const TrackedTrade known(study(), headings, rows);
+  const TrackedPreset known(study(), headings, rows);
   FollowedUnit bearing(*known.tracker, "Z");
   const Forecast fresh = bearing.unit->forecast();
   expect_life(fresh, known.life({}), 1, 0.01);
@@ -103,9 +103,9 @@ TEST_P(OfBearing, ReadingsOneByOneAreTheFitOfAll) {
   for (const auto& [revolutions, depth] : shown) {
     ASSERT_TRUE(bearing.take(numbers(28, revolutions, depth)).counted);
     all.push_back({"Z", "28", std::to_string(revolutions), std::to_string(depth)});
-    const bool dear = GetParam() == 1 || GetParam() == 2;
-    if (dear && all.size() < rows.size() + shown.size()) continue;
-    const TrackedTrade fitted(study(), headings, all);
+    const bool expensive = GetParam() == 1 || GetParam() == 2;
+    if (expensive && all.size() < rows.size() + shown.size()) continue;
+    const TrackedPreset fitted(study(), headings, all);
     SCOPED_TRACE(revolutions);
     const Forecast forecast = bearing.unit->forecast();
     const prognosis::UnitLife life = fitted.life({.unit = "Z"});
@@ -121,14 +121,14 @@ INSTANTIATE_TEST_SUITE_P(Laws, OfBearing, testing::Values(0, 1, 2, 3));
 
 TEST(BearingTracker, ALateReadingOfASeenBearing) {
   const std::string study = study_with("depth_error = \"2 um\"", scatter);
-  const TrackedTrade known(study, headings, rows);
+  const TrackedPreset known(study, headings, rows);
   FollowedUnit bearing(*known.tracker, "B");
   ASSERT_TRUE(bearing.take(numbers(35, 300'000, 60.5)).counted);
   ASSERT_TRUE(bearing.take(numbers(35, 250'000, 50.2)).counted);
   Rows all = rows;
   all.push_back({"B", "35", "250000", "50.2"});
   all.push_back({"B", "35", "300000", "60.5"});
-  const TrackedTrade fitted(study, headings, all);
+  const TrackedPreset fitted(study, headings, all);
   const Forecast forecast = bearing.unit->forecast();
   EXPECT_EQ(forecast.now, 300'000);
   expect_life(forecast, fitted.life({.unit = "B"}), 1, 0.008);
@@ -140,7 +140,7 @@ TEST(BearingTracker, ALateReadingOfASeenBearing) {
 TEST(BearingTracker, LivesInHoursWhereTheSpeedIsKnown) {
   const std::string study =
       study_with("depth_error = \"2 um\"", scatter, "speed = \"60 rpm\"\nlife_of = \"B\"\n");
-  const TrackedTrade known(study, headings, rows);
+  const TrackedPreset known(study, headings, rows);
   const prognosis::UnitLife asked = known.life({.unit = "B"}), said = known.life({});
   EXPECT_EQ(asked.unit, "h");
   EXPECT_NEAR(*asked.from, 200'000 / 3600.0, 1e-9);
@@ -154,7 +154,7 @@ TEST(BearingTracker, LivesInHoursWhereTheSpeedIsKnown) {
 
 TEST(BearingTracker, RefusesWhatIsNoReading) {
   const std::string study = study_with("depth_error = \"2 um\"", scatter);
-  const TrackedTrade known(study, headings, rows);
+  const TrackedPreset known(study, headings, rows);
   FollowedUnit bearing(*known.tracker, "Z");
   EXPECT_THAT(bearing.take({std::nan(""), 1e5, 1e-5}).problem, HasSubstr("clearance is missing"));
   EXPECT_THAT(bearing.take(numbers(30, -5, 20)).problem, HasSubstr("revolutions must be positive"));

@@ -120,11 +120,11 @@ TEST(SeenBearing, RateIsThatOfBruteForce) {
   const WearModel model{ObservationFamily::normal, sigma, true};
   const WeightedDraws draws =
       lattice(model, data, *wear_likelihood(model, data, data.depth.size()));
-  const OwnRate rate = own_rate(model, inspections_of(data, 3), guess(data).k, draws);
-  const prognosis::WeightedLives law(rate.log_k, rate.weight);
+  const BearingRate rate = bearing_rate(model, inspections_of(data, 3), guess(data).k, draws);
+  const prognosis::WeightedLives curve(rate.log_k, rate.weight);
   const BruteForce brute(data, draws);
   for (const double p : {0.001, 0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99, 0.999})
-    EXPECT_NEAR(brute.cdf(law.quantile(p)), p, 0.002 * std::sqrt(p * (1 - p)) + 5e-5) << p;
+    EXPECT_NEAR(brute.cdf(curve.quantile(p)), p, 0.002 * std::sqrt(p * (1 - p)) + 5e-5) << p;
 }
 
 TEST(SeenBearing, NodesComeToTheIntegralOfTheFit) {
@@ -132,7 +132,7 @@ TEST(SeenBearing, NodesComeToTheIntegralOfTheFit) {
   for (const ObservationFamily family : {ObservationFamily::normal, ObservationFamily::lognormal}) {
     for (std::size_t b = 0; b < 4; ++b) {
       const Inspections own = inspections_of(data, b);
-      const Inspected inspected(family, depth_laws(own.duty, 1.5e-15), own.duty, own.depth);
+      const Inspected inspected(family, depth_functions(own.duty, 1.5e-15), own.duty, own.depth);
       for (const double scatter : {1e-4, 0.02, 0.3, 3.0}) {
         for (const double s : {1e-8, 1e-6, 1e-4}) {
           double sum = 0, top = -INFINITY;

@@ -150,7 +150,7 @@ RC_GTEST_PROP(WearLikelihood, IntegralIsThatOfBruteForce, ()) {
   const bool mistyped = *rc::gen::arbitrary<bool>();
   for (int i = 0; i < rows; ++i) {
     Duty duty{Contact::stationary, 0.01, *between(1e-5, 1e-4), 1e6, *between(5e4, 5e5)};
-    const double depth = depth_laws({duty}, truth).front().depth(std::log(truth));
+    const double depth = depth_functions({duty}, truth).front().depth(std::log(truth));
     if (mistyped && i == 0) duty.revolutions *= *rc::gen::arbitrary<bool>() ? 0.1 : 10;
     data.duty.push_back(duty);
     data.depth.push_back(depth * *between(0.7, 1.4));
@@ -166,7 +166,7 @@ RC_GTEST_PROP(WearLikelihood, IntegralIsThatOfBruteForce, ()) {
   const double x[] = {k, scatter};
   const double value = scattered->value(x);
   // A top farther out than brute force looks is above what that finds.
-  const double limit = depth_laws(data.duty, truth).front().limit();
+  const double limit = depth_functions(data.duty, truth).front().limit();
   if (value < -300 || limit - std::log(k) < 8 * scatter) return;
   RC_ASSERT(std::abs(value - brute_force(*alike, k, scatter)) < 2e-6 * std::max(1.0, -value));
 }
@@ -217,7 +217,7 @@ TEST(WearLikelihood, OfTheFirstInspectionsKnowsNoOthers) {
 TEST(WearGuess, IsExactForExactData) {
   Inspections data = example();
   for (std::size_t i = 0; i < data.depth.size(); ++i) {
-    data.depth[i] = depth_laws({data.duty[i]}, 3e-15).front().depth(std::log(3e-15));
+    data.depth[i] = depth_functions({data.duty[i]}, 3e-15).front().depth(std::log(3e-15));
   }
   const WearGuess start = guess(data);
   EXPECT_NEAR(start.k / 3e-15, 1, 1e-8);

@@ -133,11 +133,11 @@ TEST_F(CampaignTables, MissingCyclesAreRefusedOrFilled) {
   EXPECT_EQ(refused(std::string(as_written) + "missing_cycles = 'refuse'\n"), refused(as_written));
   // `check` says what `fit` would.
   const ClutchStudy unfilled = study(as_written);
-  EXPECT_EQ(message_of<InputError>([&] { study_in_words(unfilled); }), refused(as_written));
+  EXPECT_EQ(message_of<InputError>([&] { study_description(unfilled); }), refused(as_written));
 
   const ClutchStudy filled = study(std::string(as_written) + "missing_cycles = 'fill'\n");
   EXPECT_EQ(filled.campaign.cycles.size(), whole.cycles.size());
-  EXPECT_THAT(study_in_words(filled),
+  EXPECT_THAT(study_description(filled),
               HasSubstr("were not logged; each counts as the cycle before it"));
   EXPECT_THAT(filled.campaign.filled, SizeIs(15));
   // What a cycle too few or too many of its kind could do to a block is its scatter over the root of

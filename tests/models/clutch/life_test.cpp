@@ -56,8 +56,8 @@ TEST(Life, AnIntervalMayHaveNoEnd) {
   model.plate_sd = 0.6;
   const Life unknown = predict_life(model, duty, {1});
   EXPECT_TRUE(std::isinf(unknown.levels[0].full.high));
-  EXPECT_TRUE(in_words(unknown.levels[0].full).ends_with(" to never"));
-  EXPECT_EQ(in_words({28520, 36700}), "28\u202f520 to 36\u202f700");
+  EXPECT_TRUE(description(unknown.levels[0].full).ends_with(" to never"));
+  EXPECT_EQ(description({28520, 36700}), "28\u202f520 to 36\u202f700");
 }
 
 // A level that the recursion reaches with the last cycle of a repetition is reached then: by one

@@ -17,7 +17,8 @@ inline std::vector<SnLaw> bent_laws() {
     law.second_slope = SecondSlope::haibach;
     laws.push_back(law);
     law.second_slope = SecondSlope::infinite;
-    for (const auto limit : {StandardLaw::normal, StandardLaw::smallest_extreme_value}) {
+    for (const auto limit :
+         {StandardDistribution::normal, StandardDistribution::smallest_extreme_value}) {
       law.limit = limit;
       laws.push_back(law);
     }

@@ -22,7 +22,7 @@ SnLaw plain(MeanStress correction = MeanStress::none) {
 
 SnLaw limited() {
   SnLaw law = plain();
-  law.limit = StandardLaw::normal;
+  law.limit = StandardDistribution::normal;
   return law;
 }
 

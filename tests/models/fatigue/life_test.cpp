@@ -18,7 +18,8 @@ std::vector<SnLaw> all_laws() {
     laws.push_back(law);
   }
   for (const auto family : {LifeFamily::log10_normal, LifeFamily::weibull}) {
-    for (const auto limit : {StandardLaw::normal, StandardLaw::smallest_extreme_value}) {
+    for (const auto limit :
+         {StandardDistribution::normal, StandardDistribution::smallest_extreme_value}) {
       SnLaw law;
       law.family = family;
       law.limit = limit;
@@ -85,7 +86,7 @@ TEST(Life, QuantileUndoesSurvival) {
 // Some items never fail: where the limit is higher than the stress.
 TEST(Life, HasNoEndBelowTheLimit) {
   SnLaw law;
-  law.limit = StandardLaw::normal;
+  law.limit = StandardDistribution::normal;
   const double x[] = {9.35, -0.15, 9, 0.3, 8.45, 0.06};  // the median limit is 282 MPa
   EXPECT_EQ(life_quantile(law, x, {200e6, 0}, 0.5), INFINITY);
   EXPECT_TRUE(std::isfinite(life_quantile(law, x, {400e6, 0}, 0.5)));
@@ -108,7 +109,7 @@ TEST(Life, AllowedStressLastsAsLongAsItShould) {
 TEST(Life, AllowedStressOfParametersWithoutEnd) {
   SnLaw law;
   law.correction = MeanStress::none;
-  law.limit = StandardLaw::normal;
+  law.limit = StandardDistribution::normal;
   for (const double a : {1e18, 400., -400., -1e18}) {
     const double x[] = {a, -0.1, 0.3, 8.4, 0.05};
     EXPECT_EQ(log10_reversed_allowed(law, x, 1e6, 0.9), std::copysign(INFINITY, a)) << a;

@@ -18,7 +18,7 @@ namespace {
 SnResult posterior(int draws, bool limit = false) {
   SnResult result;
   result.law.correction = MeanStress::goodman;
-  if (limit) result.law.limit = StandardLaw::normal;
+  if (limit) result.law.limit = StandardDistribution::normal;
   result.parameters = {"log10_a", "b", "log10_Sut", "sigma"};
   result.stress_unit = read_unit("MPa", "Pa");
   result.tested = {200e6, 450e6, 0, 350e6, 1e4, 2e6, 25, 22};
@@ -152,7 +152,7 @@ TEST(LoadLife, BoundsOfAKnownCurve) {
   LoadQuestion question;
   question.sum = {0.5, 2};
   const LoadLife life = load_life(result, history, question);
-  const double z = quantile(StandardLaw::normal, 0.1);
+  const double z = quantile(StandardDistribution::normal, 0.1);
   const double b10 =
       0.5 *
       std::pow(10, -BlockDamage(result.law, result.posterior.values.row(0).data(), {}, history)

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "models/tracked_trade.h"
+#include "models/tracked_preset.h"
 #include "support/followed_unit.h"
 #include "wearwell/base/error.h"
 #include "wearwell/input/toml_reader.h"
@@ -49,14 +49,14 @@ mean_stress = "none"
 }
 
 const std::string line =
-    "log10_a = { law = \"normal\", mean = \"3.3 log10(MPa)\", sd = 0.3 }\n"
-    "b = { law = \"normal\", mean = -0.1, sd = 0.04 }\n"
-    "sigma = { law = \"half-normal\", scale = 0.3 }\n";
+    "log10_a = { distribution = \"normal\", mean = \"3.3 log10(MPa)\", sd = 0.3 }\n"
+    "b = { distribution = \"normal\", mean = -0.1, sd = 0.04 }\n"
+    "sigma = { distribution = \"half-normal\", scale = 0.3 }\n";
 const std::string below_a_limit =
-    "log10_a = { law = \"normal\", mean = \"3.6 log10(MPa)\", sd = 0.3 }\n"
-    "b = { law = \"normal\", mean = -0.2, sd = 0.06 }\n"
-    "sigma = { law = \"half-normal\", scale = 0.3 }\n"
-    "log10_limit = { law = \"normal\", mean = \"2.48 log10(MPa)\", sd = 0.05 }\n";
+    "log10_a = { distribution = \"normal\", mean = \"3.6 log10(MPa)\", sd = 0.3 }\n"
+    "b = { distribution = \"normal\", mean = -0.2, sd = 0.06 }\n"
+    "sigma = { distribution = \"half-normal\", scale = 0.3 }\n"
+    "log10_limit = { distribution = \"normal\", mean = \"2.48 log10(MPa)\", sd = 0.05 }\n";
 
 struct Chosen {
   const char* law;
@@ -96,8 +96,8 @@ void expect_same(const Forecast& forecast, const std::function<double(double)>& 
   }
 }
 
-SnLaw law_of(const TrackedTrade& trade) {
-  return read_sn_law(TomlReader::parse(trade.state.source.study));
+SnLaw law_of(const TrackedPreset& preset) {
+  return read_sn_law(TomlReader::parse(preset.state.source.study));
 }
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -105,40 +105,41 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 TEST(PartTracker, IsTheSumOverAllNodes) {
   for (const Chosen& each : chosen()) {
     SCOPED_TRACE(each.likelihood);
-    const TrackedTrade trade(part_study(each.law, each.likelihood, *each.prior), headings,
-                             part_rows);
-    ASSERT_TRUE(trade.tracker);
-    EXPECT_THAT(std::vector(trade.tracker->seen().begin(), trade.tracker->seen().end()),
+    const TrackedPreset preset(part_study(each.law, each.likelihood, *each.prior), headings,
+                               part_rows);
+    ASSERT_TRUE(preset.tracker);
+    EXPECT_THAT(std::vector(preset.tracker->seen().begin(), preset.tracker->seen().end()),
                 testing::ElementsAre("h", "i"));
-    const SnLaw law = law_of(trade);
-    FollowedUnit seen(*trade.tracker, "h");
+    const SnLaw law = law_of(preset);
+    FollowedUnit seen(*preset.tracker, "h");
     EXPECT_EQ(seen.unit->forecast().now, 2e6);
     expect_same(
         seen.unit->forecast(),
-        [&](double r) { return ended(law, trade.state.posterior, under(350), 2e6, 2e6, r); }, 2e-3);
+        [&](double r) { return ended(law, preset.state.posterior, under(350), 2e6, 2e6, r); },
+        2e-3);
     EXPECT_TRUE(seen.take({3.5e6, none}).counted);
     expect_same(
         seen.unit->forecast(),
-        [&](double r) { return ended(law, trade.state.posterior, under(350), 2e6, 3.5e6, r); },
+        [&](double r) { return ended(law, preset.state.posterior, under(350), 2e6, 3.5e6, r); },
         2e-3);
-    FollowedUnit fresh(*trade.tracker, "new");
+    FollowedUnit fresh(*preset.tracker, "new");
     EXPECT_TRUE(std::isnan(fresh.unit->forecast().passed));  // its stress is not known
     EXPECT_THAT(fresh.take({1e5, none}).problem, HasSubstr("alternating_stress is missing"));
-    const double chance = 1 - ended(law, trade.state.posterior, under(400), 0, 0, 4e5);
-    EXPECT_NEAR(fresh.take({4e5, 400e6}).surprise, chance, 2e-3);
+    const double chance = 1 - ended(law, preset.state.posterior, under(400), 0, 0, 4e5);
+    EXPECT_NEAR(fresh.take({4e5, 400e6}).p_value, chance, 2e-3);
     expect_same(
         fresh.unit->forecast(),
-        [&](double r) { return ended(law, trade.state.posterior, under(400), 0, 4e5, r); }, 2e-3);
+        [&](double r) { return ended(law, preset.state.posterior, under(400), 0, 4e5, r); }, 2e-3);
   }
 }
 
 // The study's own run-out is in the posterior: with it taken out of the data and followed instead it comes to the same.
 TEST(PartTracker, ARunoutCountsOnce) {
   const std::string study = part_study("", "log10-normal", line);
-  const TrackedTrade whole(study, headings, part_rows);
+  const TrackedPreset whole(study, headings, part_rows);
   PartRows others = part_rows;
   others.erase(others.begin() + 7);
-  const TrackedTrade without(study, headings, others);
+  const TrackedPreset without(study, headings, others);
   FollowedUnit known(*whole.tracker, "h"), fresh(*without.tracker, "h");
   EXPECT_TRUE(fresh.take({2e6, 350e6}).counted);
   for (const double n : {2e6, 3e6, 6e6}) {
@@ -153,14 +154,14 @@ TEST(PartTracker, ARunoutCountsOnce) {
 TEST(PartTracker, LifeWithoutEndIsTold) {
   PartRows rows = part_rows;
   rows.push_back({"250", "3000000", "runout", "k"});
-  const TrackedTrade trade(part_study("curve = \"stromeyer\"", "log10-normal", below_a_limit),
-                           headings, rows);
-  const SnLaw law = law_of(trade);
+  const TrackedPreset preset(part_study("curve = \"stromeyer\"", "log10-normal", below_a_limit),
+                             headings, rows);
+  const SnLaw law = law_of(preset);
   const auto truth = [&](double n, double r) {
-    return ended(law, trade.state.posterior, under(250), 3e6, n, r);
+    return ended(law, preset.state.posterior, under(250), 3e6, n, r);
   };
   const prognosis::UnitLife life =
-      prognosis::tracked_life(*trade.tracker, "k", {.unit = "k", .survived = "4e6 cycles"});
+      prognosis::tracked_life(*preset.tracker, "k", {.unit = "k", .survived = "4e6 cycles"});
   ASSERT_TRUE(life.never);
   const double never = 1 - truth(4e6, StressLives::most_cycles);
   EXPECT_GT(never, 0.01);
@@ -190,7 +191,7 @@ WeightedDraws scattered(const std::vector<double>& middle, const std::vector<dou
 }
 
 void expect_sums(const SnLaw& law, const WeightedDraws& draws) {
-  const FewPoints few(draws, 1000);
+  const ThinnedPosterior few(draws, 1000);
   for (const double mpa : {260.0, 300.0, 400.0}) {
     const StressLives lives(law, few, under(mpa));
     for (const double n : {0.0, 1e5, 1e7}) {
@@ -212,7 +213,7 @@ TEST(StressLives, OfARandomLimitAreItsIntegral) {
   law.correction = MeanStress::none;
   for (const auto family : {LifeFamily::log10_normal, LifeFamily::weibull}) {
     law.family = family;
-    law.limit = StandardLaw::normal;
+    law.limit = StandardDistribution::normal;
     expect_sums(law, scattered({9.6, -0.25, 0.2, 8.4, 0.03}, {0.04, 0.01, 0.05, 0.03, 0.01}));
   }
 }
@@ -222,7 +223,7 @@ TEST(StressLives, BelowAKneeHaveNoEnd) {
   law.correction = MeanStress::none;
   law.curve = SnCurve::knee;
   law.second_slope = SecondSlope::infinite;
-  law.limit = StandardLaw::normal;
+  law.limit = StandardDistribution::normal;
   expect_sums(law, scattered({8, 5.8, 0.2, 8.45, 0.04}, {1, 0.1, 0.05, 0.03, 0.02}));
 }
 
@@ -239,11 +240,11 @@ TEST(StressLives, OfCurvesThatBend) {
 }
 
 TEST(PartTracker, OrderAndStatesChangeNoBit) {
-  const TrackedTrade trade(part_study("", "weibull", line), headings, part_rows);
-  FollowedUnit in_order(*trade.tracker, "x"), late(*trade.tracker, "x");
+  const TrackedPreset preset(part_study("", "weibull", line), headings, part_rows);
+  FollowedUnit in_order(*preset.tracker, "x"), late(*preset.tracker, "x");
   for (const double n : {1e5, 2e5, 3e5}) in_order.take({n, 420e6});
   for (const double n : {3e5, 1e5, 2e5}) EXPECT_TRUE(late.take({n, 420e6}).counted);
-  const auto restored = trade.tracker->restore(in_order.unit->save());
+  const auto restored = preset.tracker->restore(in_order.unit->save());
   for (const auto* other : {late.unit.get(), restored.get()}) {
     EXPECT_EQ(other->save(), in_order.unit->save());
     EXPECT_EQ(other->forecast().remaining.quantile(0.5),
@@ -251,18 +252,18 @@ TEST(PartTracker, OrderAndStatesChangeNoBit) {
   }
   std::string damaged = in_order.unit->save();
   damaged.back() ^= 1;
-  EXPECT_THROW(trade.tracker->restore(damaged), InputError);
+  EXPECT_THROW(preset.tracker->restore(damaged), InputError);
 }
 
 // Population by population, mixed by likelihood, it is the forecast.
 TEST(PartTracker, PopulationsTogetherAreTheForecast) {
-  const TrackedTrade trade(part_study("", "log10-normal", line), headings, part_rows);
-  FollowedUnit seen(*trade.tracker, "i");
+  const TrackedPreset preset(part_study("", "log10-normal", line), headings, part_rows);
+  FollowedUnit seen(*preset.tracker, "i");
   seen.take({5e6, none});
   const Forecast forecast = seen.unit->forecast();
   const auto apart = seen.unit->in_populations([](const auto&) {});
   ASSERT_TRUE(apart);
-  const std::vector<double> before = trade.tracker->populations();
+  const std::vector<double> before = preset.tracker->populations();
   for (const double p : {0.05, 0.5, 0.95}) {
     const double r = forecast.remaining.quantile(p);
     double sum = 0, all = 0;
@@ -276,22 +277,22 @@ TEST(PartTracker, PopulationsTogetherAreTheForecast) {
 }
 
 TEST(PartTracker, SaysWhatCannotBe) {
-  const TrackedTrade trade(part_study("", "log10-normal", line), headings, part_rows);
-  EXPECT_THAT(trade.tracker->refusal("c"), HasSubstr("row 3 of data.csv, where it broke"));
-  FollowedUnit seen(*trade.tracker, "h");
+  const TrackedPreset preset(part_study("", "log10-normal", line), headings, part_rows);
+  EXPECT_THAT(preset.tracker->refusal("c"), HasSubstr("row 3 of data.csv, where it broke"));
+  FollowedUnit seen(*preset.tracker, "h");
   EXPECT_THAT(seen.take({3e6, 360e6}).problem, HasSubstr("not, as before, under 350 MPa"));
   EXPECT_THAT(seen.take({none, 350e6}).problem, HasSubstr("life is missing"));
   EXPECT_THAT(seen.take({-1, 350e6}).problem, HasSubstr("0 or more"));
-  FollowedUnit fresh(*trade.tracker, "z");
+  FollowedUnit fresh(*preset.tracker, "z");
   EXPECT_TRUE(fresh.take({3e6, 500e6}).contradicts);
   const auto life = [&](const std::string& survived) {
-    return prognosis::tracked_life(*trade.tracker, "h", {.unit = "h", .survived = survived});
+    return prognosis::tracked_life(*preset.tracker, "h", {.unit = "h", .survived = survived});
   };
   EXPECT_THROW(life("1e6 cycles"), InputError);
-  EXPECT_THROW(prognosis::tracked_life(*trade.tracker, "c", {.unit = "c"}), InputError);
+  EXPECT_THROW(prognosis::tracked_life(*preset.tracker, "c", {.unit = "c"}), InputError);
   PartRows twice = part_rows;
   twice[9][3] = "i";
-  EXPECT_THROW(TrackedTrade(part_study("", "log10-normal", line), headings, twice), InputError);
+  EXPECT_THROW(TrackedPreset(part_study("", "log10-normal", line), headings, twice), InputError);
 }
 
 // What a study asks for beside lives changes none of them.
@@ -301,8 +302,8 @@ TEST(PartTracker, SurvivalThatIsAskedForIsNoCondition) {
         "", "log10-normal", line,
         "[predict]\n" + more + "[predict.stress]\nshaft = { alternating_stress = \"400 MPa\" }\n");
   };
-  const TrackedTrade plain(study(""), headings, part_rows);
-  const TrackedTrade asked(study("survival_to = \"5e5 cycles\"\n"), headings, part_rows);
+  const TrackedPreset plain(study(""), headings, part_rows);
+  const TrackedPreset asked(study("survival_to = \"5e5 cycles\"\n"), headings, part_rows);
   const prognosis::UnitLife a = plain.life({.unit = "shaft"}), b = asked.life({.unit = "shaft"});
   EXPECT_FALSE(a.passed);
   EXPECT_FALSE(b.passed);

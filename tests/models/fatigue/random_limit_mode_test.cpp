@@ -78,7 +78,8 @@ TEST(RandomLimitMode, OfTheLaminatePanelAsInR) {
     SnLaw law;
     law.correction = MeanStress::none;
     law.family = row[0] == "normal" ? LifeFamily::log10_normal : LifeFamily::weibull;
-    law.limit = row[1] == "normal" ? StandardLaw::normal : StandardLaw::smallest_extreme_value;
+    law.limit = row[1] == "normal" ? StandardDistribution::normal
+                                   : StandardDistribution::smallest_extreme_value;
     const Minimum mode = climb(*sn_likelihood(law, tests, tests.size()));
     const Paper found = in_papers_words(mode.position);
     for (std::size_t i = 0; i < found.size(); ++i) {

@@ -14,8 +14,9 @@ namespace {
 
 // tests/golden/random_limit.py: the law as printed, integrated over the limit with 25 digits.
 TEST(RandomLimit, TenDigitsOfTheIntegral) {
-  const std::map<std::string, StandardLaw> laws = {{"normal", StandardLaw::normal},
-                                                   {"sev", StandardLaw::smallest_extreme_value}};
+  const std::map<std::string, StandardDistribution> laws = {
+      {"normal", StandardDistribution::normal},
+      {"sev", StandardDistribution::smallest_extreme_value}};
   const std::map<std::string, Outcome> outcomes = {{"failure", Outcome::failure},
                                                    {"runout", Outcome::runout},
                                                    {"left", Outcome::left},
@@ -44,7 +45,8 @@ TEST(RandomLimit, TenDigitsOfTheIntegral) {
 // stress, lives that no item without a limit has.
 TEST(RandomLimit, TheLatticeAgreesWithAdaptiveIntegration) {
   Rng rng(20261122, 1);
-  constexpr auto normal = StandardLaw::normal, extreme = StandardLaw::smallest_extreme_value;
+  constexpr auto normal = StandardDistribution::normal,
+                 extreme = StandardDistribution::smallest_extreme_value;
   int reached = 0, all = 0;
   for (int i = 0; i < 3000; ++i) {
     const double s = 8.5 + rng.uniform(-0.3, 0.3);

@@ -53,7 +53,7 @@ TEST(SnCurve, TheSecondSlopeBeginsAtTheKnee) {
 // A second slope without bound is a horizontal limit that does not scatter.
 TEST(SnCurve, ASteepSecondSlopeIsAHorizontalLimit) {
   SnLaw horizontal = law_of(SnCurve::knee, SecondSlope::infinite);
-  horizontal.limit = StandardLaw::normal;
+  horizontal.limit = StandardDistribution::normal;
   EXPECT_NEAR(likelihood(law_of(SnCurve::knee), {6, 5.9, 8.45, 1e7, 0.3}, some_tests()),
               likelihood(horizontal, {6, 5.9, 0.3, 8.45, 1e-6}, some_tests()), 1e-9);
 }
@@ -61,7 +61,8 @@ TEST(SnCurve, ASteepSecondSlopeIsAHorizontalLimit) {
 // By force: over items whose limits are their own, a life above the limit and none below.
 TEST(SnCurve, AScatteringKneeIsTheIntegralOverItems) {
   SnLaw law = law_of(SnCurve::knee, SecondSlope::infinite);
-  for (const auto limit : {StandardLaw::normal, StandardLaw::smallest_extreme_value}) {
+  for (const auto limit :
+       {StandardDistribution::normal, StandardDistribution::smallest_extreme_value}) {
     law.limit = limit;
     const std::vector<double> x = {6, 5.9, 0.3, 8.45, 0.06};
     for (const double stress : {230e6, 282e6, 350e6}) {
@@ -88,7 +89,7 @@ TEST(SnCurve, StromeyersCurveBetweenItsNeighbours) {
   EXPECT_NEAR(likelihood(stromeyer, {9.4, -0.15, -20, 0.3}, some_tests()),
               likelihood(law_of(SnCurve::basquin), {9.4, -0.15, 0.3}, some_tests()), 1e-10);
   SnLaw random = law_of(SnCurve::basquin);
-  random.limit = StandardLaw::normal;
+  random.limit = StandardDistribution::normal;
   EXPECT_NEAR(likelihood(stromeyer, {9.6, -0.25, 8.3, 0.3}, some_tests()),
               likelihood(random, {9.6, -0.25, 0.3, 8.3, 1e-7}, some_tests()), 1e-7);
 }
@@ -219,7 +220,8 @@ TEST_F(CurveStudy, DriversOfOtherDimensions) {
   EXPECT_EQ(study("um/m", "curve = \"strain-life\"\n"), "1");
   EXPECT_NE(study("kN", asked + "320 MPa\" }\n").find("MPa"), std::string::npos);
   EXPECT_NE(
-      study("um/m", "[prior]\nlog10_a = { law = \"normal\", mean = \"3 log10(MPa)\", sd = 1 }\n")
+      study("um/m",
+            "[prior]\nlog10_a = { distribution = \"normal\", mean = \"3 log10(MPa)\", sd = 1 }\n")
           .find("log10(MPa)"),
       std::string::npos);
   EXPECT_NE(study("MPa", "curve = \"strain-life\"\n").find("needs strains"), std::string::npos);

@@ -29,7 +29,8 @@ std::vector<SnLaw> all_laws() {
     }
   }
   for (const auto family : {LifeFamily::log10_normal, LifeFamily::weibull}) {
-    for (const auto limit : {StandardLaw::normal, StandardLaw::smallest_extreme_value}) {
+    for (const auto limit :
+         {StandardDistribution::normal, StandardDistribution::smallest_extreme_value}) {
       SnLaw law;
       law.family = family;
       law.limit = limit;
@@ -205,7 +206,7 @@ TEST(SnLikelihood, NothingBeyondTheStrength) {
 TEST(SnLikelihood, ALowLimitIsNoLimit) {
   SnLaw law;
   SnLaw limited = law;
-  limited.limit = StandardLaw::normal;
+  limited.limit = StandardDistribution::normal;
   const LifeTests tests = some_tests();
   const double x[] = {9.35, -0.15, 9, 0.3, 0, 0.05};
   EXPECT_NEAR(sn_likelihood(limited, tests, 5)->value(x),

@@ -57,10 +57,10 @@ Check check(const PosteriorSummary& result, const std::string& name) {
 // to zero and the likelihood stops falling, at any sigma that is allowed.
 TEST_F(SnTrust, NormalScatterOfLifeAsPrintedIsImproperUnderFlatPriors) {
   const PosteriorSummary bounded_sigma = run("normal", R"toml(
-log10_a   = { law = "flat", unit = "log10(MPa)" }
-b         = { law = "uniform", lower = -0.1, upper = -0.06 }
-log10_Sut = { law = "uniform", lower = "3.1 log10(MPa)", upper = "5.2 log10(MPa)" }
-sigma     = { law = "uniform", lower = "0.01e5", upper = "6e5" }
+log10_a   = { distribution = "flat", unit = "log10(MPa)" }
+b         = { distribution = "uniform", lower = -0.1, upper = -0.06 }
+log10_Sut = { distribution = "uniform", lower = "3.1 log10(MPa)", upper = "5.2 log10(MPa)" }
+sigma     = { distribution = "uniform", lower = "0.01e5", upper = "6e5" }
 )toml");
   const Check improper = check(bounded_sigma, "proper-posterior");
   EXPECT_EQ(improper.verdict, Verdict::fail);
@@ -69,16 +69,17 @@ sigma     = { law = "uniform", lower = "0.01e5", upper = "6e5" }
   EXPECT_THAT(improper.detail, HasSubstr("which has no finite integral; every number depends on "
                                          "where it was cut"));
   EXPECT_THAT(improper.advice, HasSubstr("The data alone do not hold log10_a"));
-  EXPECT_THAT(improper.advice,
-              HasSubstr("log10_a = { law = \"normal\", mean = \"... log10(MPa)\", sd = ... }"));
+  EXPECT_THAT(
+      improper.advice,
+      HasSubstr("log10_a = { distribution = \"normal\", mean = \"... log10(MPa)\", sd = ... }"));
   EXPECT_FALSE(bounded_sigma.trusted);
   EXPECT_FALSE(bounded_sigma.loo);
 
   const PosteriorSummary all_flat = run("normal", R"toml(
-log10_a   = { law = "flat", unit = "log10(MPa)" }
-b         = { law = "flat" }
-log10_Sut = { law = "flat", lower = "3.1 log10(MPa)", unit = "log10(MPa)" }
-sigma     = { law = "flat" }
+log10_a   = { distribution = "flat", unit = "log10(MPa)" }
+b         = { distribution = "flat" }
+log10_Sut = { distribution = "flat", lower = "3.1 log10(MPa)", unit = "log10(MPa)" }
+sigma     = { distribution = "flat" }
 )toml");
   EXPECT_EQ(check(all_flat, "proper-posterior").verdict, Verdict::fail);
   EXPECT_THAT(check(all_flat, "proper-posterior").detail, HasSubstr("improper"));
@@ -89,10 +90,10 @@ sigma     = { law = "flat" }
 // mode, where a search along the gradient fails.
 TEST_F(SnTrust, TheCutOfEveryBoundIsExamined) {
   const PosteriorSummary result = run("log10-normal", R"toml(
-log10_a   = { law = "uniform", lower = "2 log10(MPa)", upper = "4 log10(MPa)" }
-b         = { law = "uniform", lower = -0.1, upper = -0.06 }
-log10_Sut = { law = "uniform", lower = "3.1 log10(MPa)", upper = "5.2 log10(MPa)" }
-sigma     = { law = "uniform", lower = 0.01, upper = 0.6 }
+log10_a   = { distribution = "uniform", lower = "2 log10(MPa)", upper = "4 log10(MPa)" }
+b         = { distribution = "uniform", lower = -0.1, upper = -0.06 }
+log10_Sut = { distribution = "uniform", lower = "3.1 log10(MPa)", upper = "5.2 log10(MPa)" }
+sigma     = { distribution = "uniform", lower = 0.01, upper = 0.6 }
 )toml");
   const Check cut = check(result, "prior-bounds");
   EXPECT_EQ(cut.verdict, Verdict::warn);
@@ -133,11 +134,11 @@ fatigue_limit = "random"
 [likelihood]
 family = "log10-normal"
 [prior]
-log10_a       = { law = "normal", mean = "3 log10(MPa)", sd = 0.5 }
-b             = { law = "normal", mean = -0.15, sd = 0.1 }
-sigma         = { law = "half-normal", scale = 0.5 }
-log10_limit   = { law = "normal", mean = "2.4 log10(MPa)", sd = 0.1 }
-sigma_limit   = { law = "half-normal", scale = 0.1 }
+log10_a       = { distribution = "normal", mean = "3 log10(MPa)", sd = 0.5 }
+b             = { distribution = "normal", mean = -0.15, sd = 0.1 }
+sigma         = { distribution = "half-normal", scale = 0.5 }
+log10_limit   = { distribution = "normal", mean = "2.4 log10(MPa)", sd = 0.1 }
+sigma_limit   = { distribution = "half-normal", scale = 0.1 }
 )toml");
   const PosteriorSummary result = run_study(read_posterior_study(study), {}, {.threads = 2});
   ASSERT_TRUE(result.mode);

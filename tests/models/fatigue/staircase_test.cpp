@@ -41,7 +41,8 @@ TEST(DixonMood, SaysWhereItDoesNotApply) {
 
 // The probabilities of both ends sum to 1, and the gradient is that of differences.
 TEST(StaircaseLikelihood, IsThatOfTheLimit) {
-  for (const StandardLaw law : {StandardLaw::normal, StandardLaw::smallest_extreme_value}) {
+  for (const StandardDistribution law :
+       {StandardDistribution::normal, StandardDistribution::smallest_extreme_value}) {
     const double x[] = {std::log10(300e6), 0.03};
     const auto fails = staircase_likelihood(law, {{310e6, true, 1}});
     const auto holds = staircase_likelihood(law, {{310e6, false, 1}});

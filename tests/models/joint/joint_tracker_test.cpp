@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "models/tracked_trade.h"
+#include "models/tracked_preset.h"
 #include "support/followed_unit.h"
 #include "wearwell/base/error.h"
 
@@ -31,8 +31,8 @@ work_per_cycle = "5.966 N m"
 family = ")toml" +
          family + R"toml("
 [prior]
-k = { law = "lognormal", median = "1e-3 mm^3/(N m)", log_sd = 1.5 }
-sigma = { law = "half-normal", scale = "8 mm^3" }
+k = { distribution = "lognormal", median = "1e-3 mm^3/(N m)", log_sd = 1.5 }
+sigma = { distribution = "half-normal", scale = "8 mm^3" }
 )toml" + more +
          R"toml([predict]
 limit = "100 mm^3"
@@ -58,11 +58,11 @@ class OfJoint : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(OfJoint, InspectionsOneByOneAreTheFitOfAll) {
-  const TrackedTrade known(study, {"cycles", "volume"}, first(2));
+  const TrackedPreset known(study, {"cycles", "volume"}, first(2));
   FollowedUnit joint(*known.tracker, "joint");
   for (std::size_t i = 2; i < 5; ++i) {
     ASSERT_TRUE(joint.take(numbers(i)).counted) << i;
-    const TrackedTrade all(study, {"cycles", "volume"}, first(i + 1));
+    const TrackedPreset all(study, {"cycles", "volume"}, first(i + 1));
     SCOPED_TRACE(i);
     const Forecast forecast = joint.unit->forecast();
     EXPECT_EQ(forecast.now, std::stod(rows[i][0]));
@@ -72,7 +72,7 @@ TEST_P(OfJoint, InspectionsOneByOneAreTheFitOfAll) {
 }
 
 TEST_P(OfJoint, LateReadingsAndSavedStatesChangeNothing) {
-  const TrackedTrade known(study, {"cycles", "volume"}, first(2));
+  const TrackedPreset known(study, {"cycles", "volume"}, first(2));
   FollowedUnit late(*known.tracker, "joint");
   for (const std::size_t i : {4, 2, 3}) {
     ASSERT_TRUE(late.take(numbers(i)).counted) << i;
@@ -80,7 +80,7 @@ TEST_P(OfJoint, LateReadingsAndSavedStatesChangeNothing) {
     late.unit = known.tracker->restore(bytes);
     EXPECT_EQ(late.unit->save(), bytes);
   }
-  const TrackedTrade all(study, {"cycles", "volume"}, first(5));
+  const TrackedPreset all(study, {"cycles", "volume"}, first(5));
   const Forecast forecast = late.unit->forecast();
   EXPECT_EQ(forecast.now, 10'000);
   expect_life(forecast, all.life({}), 1, 0.01);
@@ -89,26 +89,26 @@ TEST_P(OfJoint, LateReadingsAndSavedStatesChangeNothing) {
 INSTANTIATE_TEST_SUITE_P(Families, OfJoint, testing::Values("normal", "lognormal"));
 
 TEST(JointTracker, FollowsVolumesBeforeAnyWorkToo) {
-  const std::string study =
-      study_with("normal", "V0 = { law = \"normal\", mean = \"0 mm^3\", sd = \"10 mm^3\" }\n");
-  const TrackedTrade known(study, {"cycles", "volume"}, first(3));
+  const std::string study = study_with(
+      "normal", "V0 = { distribution = \"normal\", mean = \"0 mm^3\", sd = \"10 mm^3\" }\n");
+  const TrackedPreset known(study, {"cycles", "volume"}, first(3));
   FollowedUnit joint(*known.tracker, "joint");
   ASSERT_TRUE(joint.take(numbers(3)).counted);
   ASSERT_TRUE(joint.take(numbers(4)).counted);
-  const TrackedTrade all(study, {"cycles", "volume"}, first(5));
+  const TrackedPreset all(study, {"cycles", "volume"}, first(5));
   expect_life(joint.unit->forecast(), all.life({}), 1, 0.01);
   const double places[] = {10'000, 20'585};
   const auto path = joint.unit->ahead(places);
   EXPECT_EQ(path[0].at, 10'000);
   EXPECT_LT(path[0].level50, path[1].level50);
   EXPECT_THROW(joint.unit->ahead(std::vector<double>{9'000}), std::invalid_argument);
-  const prognosis::Taken sixth = joint.take(numbers(5));
+  const prognosis::UpdateResult sixth = joint.take(numbers(5));
   EXPECT_FALSE(sixth.contradicts);
-  EXPECT_GT(sixth.surprise, 0.01);
+  EXPECT_GT(sixth.p_value, 0.01);
 }
 
 TEST(JointTracker, RefusesOtherJointsAndWhatIsNoReading) {
-  const TrackedTrade known(study_with("lognormal"), {"cycles", "volume"}, first(4));
+  const TrackedPreset known(study_with("lognormal"), {"cycles", "volume"}, first(4));
   EXPECT_THAT(known.tracker->refusal("J7"), HasSubstr("one joint, called 'joint'"));
   EXPECT_EQ(known.tracker->refusal("joint"), "");
   FollowedUnit other(*known.tracker, "J7");

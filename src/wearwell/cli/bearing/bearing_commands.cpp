@@ -30,7 +30,7 @@ struct Options {
 
 // Computed from numbers that were given, not estimated: so many digits, without zeros at their end.
 std::string digits(double x, int count) {
-  return numbers_in_words(fmt::format("{:.{}g}", x, count), Script::terminal);
+  return numbers_text(fmt::format("{:.{}g}", x, count), Script::terminal);
 }
 
 void print_text(const Answer& a) {

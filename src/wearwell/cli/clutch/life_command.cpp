@@ -80,7 +80,7 @@ void run(const LifeOptions& options) {
       {"worn [%]", "repetitions", "95 % scatter", "95 % full", "without run-in"}};
   for (const LifeAtLevel& at : life.levels)
     rows.push_back({plain_given(100 * at.level), plain_given(std::round(at.repetitions)),
-                    in_words(at.scatter), in_words(at.full),
+                    description(at.scatter), description(at.full),
                     plain_given(std::round(at.without_run_in))});
   fmt::print("{}", text_table(rows));
   rows = {{"worn [%]", "volume [mm^3]", "95 % scatter", "of it", "95 % full", "of it"}};

@@ -51,7 +51,7 @@ void print_table(const WearModel& model, const CycleSum& sum, bool full) {
     const auto half = [&](double sd) {
       return fmt::format("+- {} ({:.1f} %)", plain_number(2 * sd / mm3), 200 * sd / p.volume);
     };
-    rows.push_back({p.in_words(), plain_given(static_cast<double>(p.cycles)),
+    rows.push_back({p.description(), plain_given(static_cast<double>(p.cycles)),
                     plain_number(p.energy * 1e-6, 5), plain_number(p.volume / mm3, 5),
                     half(p.sd())});
     if (full) rows.back().push_back(half(p.full_sd(model.plate_sd)));
@@ -67,7 +67,7 @@ std::string checked_state(const CycleSum& sum, const std::string& fingerprint) {
     if (!std::isfinite(p.volume) || !std::isfinite(p.variance) || !std::isfinite(p.energy) ||
         !p.replicates.isFinite().all())
       throw InputError(
-          fmt::format("plate {} has no finite wear; its state is not written", p.in_words()));
+          fmt::format("plate {} has no finite wear; its state is not written", p.description()));
   }
   return state_text(sum.plates(), fingerprint);
 }

@@ -26,7 +26,7 @@ void run_sql(const SqlOptions& options) {
   if (std::filesystem::exists(options.result / "state.bin") &&
       !std::filesystem::exists(options.result / "model.json"))
     throw InputError(fmt::format(
-        "{} is of no clutch; a study of model \"law\" is printed by: wearwell export sql",
+        "{} is of no clutch; a study of model \"formula\" is printed by: wearwell export sql",
         options.result.string()));
   const IdentifiedModel read = read_identified_model(options.result);
   const fleet::Dialect dialect = fleet::read_dialect(options.dialect);

@@ -147,9 +147,9 @@ int run(const LoadLifeOptions& options) {
   }
   std::optional<ResultFolder> folder;
   if (!options.output.empty()) folder.emplace(options.output);
-  const bool dear = law.limit || law.scatter_grows;
+  const bool expensive = law.limit || law.scatter_grows;
   report.cycles =
-      reduced(report.block.cycles, dear ? most_cycles_with_limit : most_cycles, with_mean);
+      reduced(report.block.cycles, expensive ? most_cycles_with_limit : most_cycles, with_mean);
   report.result.posterior = summed_points(law, report.result.posterior);
   report.life = load_life(report.result, report.cycles, question);
   report.reduction = reduction(report.result, question.rule, report.block.cycles, report.cycles);

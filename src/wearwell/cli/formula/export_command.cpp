@@ -9,12 +9,12 @@
 #include "wearwell/base/error.h"
 #include "wearwell/base/printable.h"
 #include "wearwell/cli/option_rules.h"
-#include "wearwell/models/ownlaw/c_export.h"
-#include "wearwell/models/ownlaw/sql_export.h"
+#include "wearwell/models/formula_model/c_export.h"
+#include "wearwell/models/formula_model/sql_export.h"
 #include "wearwell/present/result_folder.h"
 #include "wearwell/present/text_table.h"
 
-namespace wearwell::ownlaw {
+namespace wearwell::formula_model {
 namespace {
 
 struct ExportOptions {
@@ -24,8 +24,8 @@ struct ExportOptions {
 
 int run_export(const ExportOptions& options) {
   const prognosis::CarriedState state = prognosis::read_state(options.result);
-  if (state.model != "law")
-    throw InputError(fmt::format("{}: a study of model \"{}\" is not exported to C; \"law\" is",
+  if (state.model != "formula")
+    throw InputError(fmt::format("{}: a study of model \"{}\" is not exported to C; \"formula\" is",
                                  options.result.string(), printable(state.model)));
   const CExport made = c_export(state, options.choice, WEARWELL_VERSION);
   const std::string& name = options.choice.name;
@@ -54,9 +54,10 @@ struct SqlOptions {
 
 int run_export_sql(SqlOptions& options) {
   const prognosis::CarriedState state = prognosis::read_state(options.result);
-  if (state.model != "law")
-    throw InputError(fmt::format("{}: a study of model \"{}\" is not printed as SQL; \"law\" is",
-                                 options.result.string(), printable(state.model)));
+  if (state.model != "formula")
+    throw InputError(
+        fmt::format("{}: a study of model \"{}\" is not printed as SQL; \"formula\" is",
+                    options.result.string(), printable(state.model)));
   options.choice.dialect = fleet::read_dialect(options.dialect);
   const SqlExport made = sql_export(state, options.choice);
   fmt::print("{}", fleet::comment(fmt::format("wearwell {}: {} [{}] of each row of {}, for {}",
@@ -78,7 +79,8 @@ void add_sql(CLI::App& command, int& exit_code) {
   CLI::App* sql = command.add_subcommand(
       "sql", "As SQL: a value of the law with its interval, for every row of a table");
   const auto options = std::make_shared<SqlOptions>();
-  sql->add_option("RESULT", options->result, "folder that wearwell fit wrote of a model \"law\"")
+  sql->add_option("RESULT", options->result,
+                  "folder that wearwell fit wrote of a model \"formula\"")
       ->required();
   sql->add_option("--dialect", options->dialect, "of the database")
       ->required()
@@ -120,7 +122,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
       "As C99 without allocation: readings in, wear and remaining useful life with quantiles out");
   const auto options = std::make_shared<ExportOptions>();
   c->add_option("RESULT", options->result,
-                "folder that wearwell fit wrote of a model \"law\" with a limit")
+                "folder that wearwell fit wrote of a model \"formula\" with a limit")
       ->required();
   c->add_option("-o,--output", options->output, "folder for header, source and test")->required();
   c->add_option("--name", options->choice.name, "begins the names of files and functions")
@@ -140,4 +142,4 @@ void add_export_command(CLI::App& app, int& exit_code) {
   c->callback([options, &exit_code] { exit_code = run_export(*options); });
 }
 
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell::formula_model

@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace wearwell::ownlaw {
+namespace wearwell::formula_model {
 
 /// wearwell export c: a unit on line as C99.
 void add_export_command(CLI::App& app, int& exit_code);
 
-}  // namespace wearwell::ownlaw
+}  // namespace wearwell::formula_model

@@ -45,8 +45,9 @@ Bearing UncertainBearing::mean() const {
 }
 
 bool UncertainBearing::is_exact() const {
-  return std::all_of(given.begin(), given.end(),
-                     [](const Given& g) { return g.value.law == Uncertain::Law::exact; });
+  return std::all_of(given.begin(), given.end(), [](const Given& g) {
+    return g.value.curve == Uncertain::Distribution::exact;
+  });
 }
 
 const std::string& BearingInputs::text(Input input) const {

@@ -23,11 +23,11 @@ using bearing::Duty;
 // The depth of one duty as a function of the wear rate; a bearing worn beyond its geometry stays
 // at the last depth that it has.
 std::function<double(double k)> depth_function(const Duty& duty, double k) {
-  const bearing::DepthLaw law = bearing::depth_laws({duty}, k).front();
-  return [law](double rate) { return law.depth(std::min(std::log(rate), law.limit())); };
+  const bearing::DepthFunction curve = bearing::depth_functions({duty}, k).front();
+  return [curve](double rate) { return curve.depth(std::min(std::log(rate), curve.limit())); };
 }
 
-std::string in_words(const Quantity& quantity) {
+std::string description(const Quantity& quantity) {
   return fmt::format("{:.6g} {}", quantity.value, quantity.unit.text);
 }
 
@@ -54,7 +54,7 @@ class Predictions {
       depth("revolutions", n.si(), fmt::format("after {:.6g} revolutions", n.si()));
     }
     for (const Quantity& time : times) {
-      depth("time", time.si() * need(speed_, "speed", "time").si(), "after " + in_words(time));
+      depth("time", time.si() * need(speed_, "speed", "time").si(), "after " + description(time));
     }
     const auto limit = positive_quantity(predict_, "limit", "m");
     const auto required = required_revolutions();
@@ -128,7 +128,7 @@ class Predictions {
     }
     if (!time) return {};
     required_key_ = "required_time";
-    required_words_ = in_words(*time);
+    required_words_ = description(*time);
     time_unit_ = time->unit;
     return time->si() * need(speed_, "speed", "required_time").si();
   }
@@ -171,12 +171,13 @@ class Predictions {
     const Function rate = [](const double* x) { return x[0]; };
     if (model_.has_scatter) {
       request.of = "new bearing";
-      request.law = [=, model = model_](const WeightedDraws& draws) {
-        return life_law(draws, constant, rate, [=](const double* x) { return model.scatter(x); });
+      request.distribution = [=, model = model_](const WeightedDraws& draws) {
+        return life_distribution(draws, constant, rate,
+                                 [=](const double* x) { return model.scatter(x); });
       };
     } else {
-      request.law = [=](const WeightedDraws& draws) {
-        return life_law(draws, [=](const double* x) { return constant / x[0]; });
+      request.distribution = [=](const WeightedDraws& draws) {
+        return life_distribution(draws, [=](const double* x) { return constant / x[0]; });
       };
     }
     study_.life = std::move(request);
@@ -227,9 +228,9 @@ class Predictions {
         risk,
         [going, model = model_, k = k_,
          own = bearing::inspections_of(data_.inspections, number)](const WeightedDraws& draws) {
-          return bearing::own_life_law(going, bearing::own_rate(model, own, k, draws));
+          return bearing::formula_life(going, bearing::bearing_rate(model, own, k, draws));
         },
-        fmt::format("bearing {} at {}", name, in_words(pressure))};
+        fmt::format("bearing {} at {}", name, description(pressure))};
   }
 
   void depth(const char* key, double revolutions, const std::string& when) {
@@ -243,13 +244,13 @@ class Predictions {
       most = std::max(most, seen.pressure * seen.revolutions);
     }
     study_.reaches.push_back(
-        {fmt::format("the depth {} at {}", when, in_words(pressure)),
+        {fmt::format("the depth {} at {}", when, description(pressure)),
          fmt::format("the largest pressure times revolutions of an inspection is {:.4g} {}",
                      from_si(data_.pressure_unit, most), data_.pressure_unit.text),
          pressure.si() * revolutions, most});
     add({"depth",
          "",
-         fmt::format("{} at {}", when, in_words(pressure)),
+         fmt::format("{} at {}", when, description(pressure)),
          data_.depth_unit,
          true,
          false,
@@ -266,11 +267,11 @@ class Predictions {
     } catch (const InputError& error) {
       predict_.fail("limit", error.what());
     }
-    const std::string to = "to " + in_words(limit);
+    const std::string to = "to " + description(limit);
     const auto& depths = data_.inspections.depth;
     const double deepest = *std::max_element(depths.begin(), depths.end());
     study_.reaches.push_back(
-        {"the limit of " + in_words(limit),
+        {"the limit of " + description(limit),
          fmt::format("the deepest measured is {:.4g} {}", from_si(data_.depth_unit, deepest),
                      data_.depth_unit.text),
          limit.si(), deepest});
@@ -281,7 +282,7 @@ class Predictions {
     }
     if (pressure_) {
       life(limit, wear / pressure_->si());
-      const std::string where = fmt::format("{} at {}", to, in_words(*pressure_));
+      const std::string where = fmt::format("{} at {}", to, description(*pressure_));
       const double rate = pressure_->si();
       const LifeLevels levels = read_life_levels(predict_);
       add({"life",
@@ -298,7 +299,7 @@ class Predictions {
         const double turns = speed_->si();
         add({"life",
              "",
-             fmt::format("{}, {}", where, in_words(*speed_)),
+             fmt::format("{}, {}", where, description(*speed_)),
              time_unit_,
              false,
              true,
@@ -324,7 +325,7 @@ class Predictions {
     const double per_rate = force_->si() * n / (2 * at.radius * wear);
     add({"length",
          "",
-         fmt::format("{} in {} under {}", to, required_words_, in_words(*force_)),
+         fmt::format("{} in {} under {}", to, required_words_, description(*force_)),
          read_unit("mm", "m"),
          true,
          false,

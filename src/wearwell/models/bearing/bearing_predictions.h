@@ -2,7 +2,7 @@
 
 #include "wearwell/input/toml_reader.h"
 #include "wearwell/models/bearing/bearing_data.h"
-#include "wearwell/models/bearing/depth_law.h"
+#include "wearwell/models/bearing/depth_function.h"
 #include "wearwell/models/bearing/wear_fit.h"
 #include "wearwell/study/posterior_study.h"
 

@@ -8,7 +8,7 @@
 #include "wearwell/base/error.h"
 #include "wearwell/input/prior.h"
 #include "wearwell/models/bearing/bearing_data.h"
-#include "wearwell/models/bearing/bearing_exhibits.h"
+#include "wearwell/models/bearing/bearing_figures.h"
 #include "wearwell/models/bearing/bearing_predictions.h"
 #include "wearwell/models/bearing/wear_fit.h"
 #include "wearwell/models/bearing/wear_scores.h"
@@ -65,7 +65,7 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const BearingData
   return parameters;
 }
 
-std::string in_words(const bearing::WearModel& model, const BearingData& data) {
+std::string description(const bearing::WearModel& model, const BearingData& data) {
   const std::string sd =
       model.depth_error
           ? fmt::format("{:.4g} {} (known)", from_si(data.depth_unit, *model.depth_error),
@@ -155,7 +155,7 @@ void read_bearing_study(const TomlReader& root, const Source& source, PosteriorS
   const bearing::WearModel model = bearing::read_wear_model(root);
   const BearingData data = read_bearing_data(root, source, model.family);
   study.parameters = read_parameters(root, data, model);
-  study.equation = in_words(model, data);
+  study.equation = description(model, data);
   study.data_rows = data.inspections.depth.size();
   study.quantity = "wear depth";
   study.observed = data.inspections.depth;
@@ -185,7 +185,7 @@ void read_bearing_study(const TomlReader& root, const Source& source, PosteriorS
     drawn = read_bearing_predictions(*predict, model, data, k, study);
   }
   add_bearing_history(model, data, drawn, k, study);
-  study.exhibits = [=](const Fit& fit) { return bearing_exhibits(data, drawn, fit); };
+  study.figures = [=](const Fit& fit) { return bearing_figures(data, drawn, fit); };
 }
 
 }  // namespace wearwell

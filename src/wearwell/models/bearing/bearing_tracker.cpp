@@ -19,7 +19,7 @@
 #include "wearwell/models/bearing/reading_rows.h"
 #include "wearwell/models/bearing/seen_bearing.h"
 #include "wearwell/models/bearing/wear_number.h"
-#include "wearwell/predict/few_points.h"
+#include "wearwell/predict/thinned_posterior.h"
 #include "wearwell/prognosis/node_tracker.h"
 
 namespace wearwell::bearing {
@@ -27,13 +27,13 @@ namespace {
 
 using prognosis::Reading;
 
-constexpr std::size_t few_points = 1000, many_points = 4000, points_alone = 2000;
+constexpr std::size_t thinned_posterior = 1000, many_points = 4000, points_alone = 2000;
 constexpr double least_few = 0.3;  // of the few points' effective number: then many are taken
 
 // Curves of one clearance over radius, as far as memory goes. Which of them are kept changes no bit.
 class Curves {
  public:
-  DepthLaw law(const Duty& duty) const {
+  DepthFunction curve(const Duty& duty) const {
     const std::lock_guard lock(lock_);
     const std::pair key(duty.contact, duty.clearance / duty.radius);
     auto at = curves_.find(key);
@@ -69,7 +69,7 @@ struct Population {
   BearingData data;
   ReadingRows rows;
   Ahead ahead;
-  FewPoints few, many;
+  ThinnedPosterior few, many;
   Curves curves;
 
   Population(const TomlReader& root, const prognosis::CarriedState& state)
@@ -77,7 +77,7 @@ struct Population {
         data(read_bearing_data(root, state.source, model.family)),
         rows(root, data, model.family),
         ahead(read_ahead(root, data)),
-        few(state.posterior, model.has_scatter ? few_points : points_alone),
+        few(state.posterior, model.has_scatter ? thinned_posterior : points_alone),
         many(state.posterior, many_points) {}
 
   std::optional<std::size_t> number(const std::string& unit) const {
@@ -108,7 +108,7 @@ struct Population {
 
 using Shared = std::shared_ptr<const Population>;
 
-double effective_of(const FewPoints& points) {
+double effective_of(const ThinnedPosterior& points) {
   double square = 0;
   for (const double each : points.weights) square += each * each;
   return 1 / square;
@@ -116,15 +116,15 @@ double effective_of(const FewPoints& points) {
 
 std::optional<Inspected> inspected(const Population& population, const Inspections& rows) {
   if (rows.depth.empty()) return {};
-  std::vector<DepthLaw> laws;
-  for (const Duty& each : rows.duty) laws.push_back(population.curves.law(each));
-  return Inspected(population.model.family, std::move(laws), rows.duty, rows.depth);
+  std::vector<DepthFunction> curves;
+  for (const Duty& each : rows.duty) curves.push_back(population.curves.curve(each));
+  return Inspected(population.model.family, std::move(curves), rows.duty, rows.depth);
 }
 
 prognosis::NodeCloud lay(const Population& population, const std::string& unit,
                          std::span<const Reading> readings) {
   Inspections rows = population.seen(unit);
-  OwnRows own;
+  BearingRows own;
   own.seen = inspected(population, rows);
   for (const Reading& each : readings) {
     ReadingRow row;
@@ -139,25 +139,26 @@ prognosis::NodeCloud lay(const Population& population, const std::string& unit,
   return std::move(grid.nodes);
 }
 
-prognosis::NodeReading reading_law(const Population& population, const Reading& reading) {
+prognosis::NodeReading reading_distribution(const Population& population, const Reading& reading) {
   ReadingRow row;
   population.rows.read(reading, row);
-  const DepthLaw law = population.curves.law(row.duty);
+  const DepthFunction curve = population.curves.curve(row.duty);
   const ObservationFamily family = population.model.family;
   const auto sigma = [model = population.model](const double* node) { return model.sigma(node); };
   const double at = family == ObservationFamily::normal ? row.depth : std::log(row.depth);
   return {[=](const double* node) {
-            if (!(node[0] <= law.limit())) return -infinity;
-            return log_density(family, at, law.depth(node[0]), sigma(node));
+            if (!(node[0] <= curve.limit())) return -infinity;
+            return log_density(family, at, curve.depth(node[0]), sigma(node));
           },
           [=](const double* node) {
-            if (!(node[0] <= law.limit())) return 0.0;
-            return ObservationLaw(family, law.depth(node[0]), sigma(node)).cdf(at);
+            if (!(node[0] <= curve.limit())) return 0.0;
+            return ObservationDistribution(family, curve.depth(node[0]), sigma(node)).cdf(at);
           }};
 }
 
-std::optional<prognosis::NodeCourse> course(const Shared& population, const std::string& unit,
-                                            const Reading* reading) {
+std::optional<prognosis::DegradationPath> degradation_path(const Shared& population,
+                                                           const std::string& unit,
+                                                           const Reading* reading) {
   const Ahead& ahead = population->ahead;
   std::optional<ReadingRow> last = population->last_seen(unit);
   ReadingRow row;
@@ -189,14 +190,14 @@ std::optional<prognosis::NodeCourse> course(const Shared& population, const std:
   }
   Duty one = duty;
   one.pressure = one.revolutions = 1;
-  const DepthLaw law = population->curves.law(one);
-  return prognosis::NodeCourse{
+  const DepthFunction curve = population->curves.curve(one);
+  return prognosis::DegradationPath{
       going.begin, [going](const double* node) { return life_at(going, node[0]); },
-      [going, law](const double* node, double at) {
+      [going, curve](const double* node, double at) {
         const double loading = going.now.pressure * going.now.revolutions +
                                going.pressure * (at - going.begin) / going.per_turn;
         if (!(loading > 0)) return 0.0;
-        return law.depth(std::min(node[0] + std::log(loading), law.limit()));
+        return curve.depth(std::min(node[0] + std::log(loading), curve.limit()));
       }};
 }
 
@@ -224,13 +225,13 @@ std::unique_ptr<const prognosis::Tracker> track_bearings(const prognosis::Carrie
     return population->rows.read(reading, row);
   };
   model.reading = [population](const Reading& reading) {
-    return reading_law(*population, reading);
+    return reading_distribution(*population, reading);
   };
   model.lay = [population](const std::string& unit, std::span<const Reading> readings) {
     return lay(*population, unit, readings);
   };
-  model.course = [population](const std::string& unit, const Reading* last) {
-    return course(population, unit, last);
+  model.degradation_path = [population](const std::string& unit, const Reading* last) {
+    return degradation_path(population, unit, last);
   };
   return prognosis::node_tracker(std::move(model));
 }

@@ -23,12 +23,12 @@ double whiten(const Memory& memory, Eigen::Ref<Eigen::MatrixXd> rows) {
   double variance = memory.share, log_determinant = 0;
   for (Index i = 0; i < rows.rows(); ++i) {
     const double seen = variance + 1 - memory.share;
-    const Eigen::RowVectorXd surprise = rows.row(i) - state;
+    const Eigen::RowVectorXd innovation = rows.row(i) - state;
     const double gain = variance / seen;
-    state = memory.phi * (state + gain * surprise);
+    state = memory.phi * (state + gain * innovation);
     variance = memory.phi * memory.phi * variance * (1 - gain) +
                (1 - memory.phi * memory.phi) * memory.share;
-    rows.row(i) = surprise / std::sqrt(seen);
+    rows.row(i) = innovation / std::sqrt(seen);
     log_determinant += std::log(seen);
   }
   return log_determinant;

@@ -38,10 +38,10 @@ std::optional<double> single_log_k(const Duty& duty, double depth) {
   return std::log(w / (duty.pressure * duty.revolutions));
 }
 
-Inspected::Inspected(ObservationFamily family, std::vector<DepthLaw> laws, std::vector<Duty> duties,
-                     std::vector<double> depths)
+Inspected::Inspected(ObservationFamily family, std::vector<DepthFunction> curves,
+                     std::vector<Duty> duties, std::vector<double> depths)
     : family_(family),
-      laws_(std::move(laws)),
+      curves_(std::move(curves)),
       duties_(std::move(duties)),
       depths_(std::move(depths)),
       limit_(infinity),
@@ -49,13 +49,13 @@ Inspected::Inspected(ObservationFamily family, std::vector<DepthLaw> laws, std::
       highest_(-infinity),
       peak_(-infinity) {
   double sum = 0;
-  for (std::size_t i = 0; i < laws_.size(); ++i) {
-    limit_ = std::min(limit_, laws_[i].limit());
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    limit_ = std::min(limit_, curves_[i].limit());
     const double own = single_log_k(duties_[i], depths_[i]).value_or(-infinity);
     lowest_ = std::min(lowest_, own);
     highest_ = std::max(highest_, own);
     if (std::isinf(own)) continue;
-    const double weight = std::pow(laws_[i].depth(Dual<1>(own, 0)).v[0], 2);
+    const double weight = std::pow(curves_[i].depth(Dual<1>(own, 0)).v[0], 2);
     sum += weight * own;
     information_ += weight;
   }
@@ -77,8 +77,8 @@ Inspected::Inspected(ObservationFamily family, std::vector<DepthLaw> laws, std::
 // Of the depths about those of ln k, with its slope by ln k.
 HermiteTable::Point Inspected::sum_of_squares(double log_k) const {
   HermiteTable::Point sum{0, 0};
-  for (std::size_t i = 0; i < laws_.size(); ++i) {
-    const DepthCurve::Point depth = laws_[i].depth_and_slope(log_k);
+  for (std::size_t i = 0; i < curves_.size(); ++i) {
+    const DepthCurve::Point depth = curves_[i].depth_and_slope(log_k);
     const double excess = depth.value - depths_[i];
     sum.value += excess * excess;
     sum.slope += 2 * excess * depth.slope;
@@ -131,15 +131,15 @@ void Inspected::find_wells() {
   }
   information_ = 0;
   if (std::isinf(peak_)) return;
-  for (const DepthLaw& law : laws_)
-    information_ += std::pow(law.depth_and_slope(std::min(peak_, limit_)).slope, 2);
+  for (const DepthFunction& curve : curves_)
+    information_ += std::pow(curve.depth_and_slope(std::min(peak_, limit_)).slope, 2);
 }
 
 Inspected::Point Inspected::at(double log_k, double sigma) const {
   if (!(log_k <= limit_)) return {-infinity, 0, 0};
   if (observations_) {
     const Dual<2> u(log_k, 0);
-    const auto mean = [&](std::size_t i) { return laws_[i].depth(u); };
+    const auto mean = [&](std::size_t i) { return curves_[i].depth(u); };
     const Dual<2> sum = observations_->log_likelihood(mean, Dual<2>(sigma, 1));
     if (!std::isfinite(sum.a)) return {-infinity, 0, 0};
     return {sum.a, sum.v[0], sum.v[1]};
@@ -168,8 +168,9 @@ RateShape Inspected::shape(double sigma) const {
     const double top = std::max(y, std::sqrt(sigma) * std::sqrt(y));
     shape.lowest = std::min(shape.lowest, log_k_of(duties_[i], y / wide, limit_));
     shape.highest = std::max(shape.highest, log_k_of(duties_[i], top * wide, limit_));
-    const LognormalByMoments<double> law(y, sigma);
-    shape.largest += lognormal_log_density(std::log(y), y, sigma) + 1 + 0.125 * law.zeta * law.zeta;
+    const LognormalByMoments<double> curve(y, sigma);
+    shape.largest +=
+        lognormal_log_density(std::log(y), y, sigma) + 1 + 0.125 * curve.zeta * curve.zeta;
   }
   return shape;
 }
@@ -178,7 +179,7 @@ double Inspected::largest_below(double log_k, double sigma) const {
   if (!observations_) return at(log_k, sigma).value;
   double sum = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    const double mean = laws_[i].depth(log_k);
+    const double mean = curves_[i].depth(log_k);
     const double here =
         mean > 0 ? lognormal_log_density(std::log(depths_[i]), mean, sigma) : -infinity;
     sum += std::max(here, log_density_far_below(depths_[i], sigma));
@@ -188,7 +189,7 @@ double Inspected::largest_below(double log_k, double sigma) const {
 
 std::vector<double> Inspected::pointwise(double log_k, double sigma) const {
   if (!(log_k <= limit_)) return std::vector<double>(size(), -infinity);
-  const auto mean = [&](std::size_t i) { return laws_[i].depth(log_k); };
+  const auto mean = [&](std::size_t i) { return curves_[i].depth(log_k); };
   return Observations(family_, depths_).pointwise(mean, sigma);
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "wearwell/bayes/observation.h"
-#include "wearwell/models/bearing/depth_law.h"
+#include "wearwell/models/bearing/depth_function.h"
 
 namespace wearwell::bearing {
 
@@ -30,7 +30,7 @@ class Inspected {
   };
 
   /// Throws InputError for a depth that the geometry excludes.
-  Inspected(ObservationFamily family, std::vector<DepthLaw> laws, std::vector<Duty> duties,
+  Inspected(ObservationFamily family, std::vector<DepthFunction> curves, std::vector<Duty> duties,
             std::vector<double> depths);
 
   std::size_t size() const { return depths_.size(); }
@@ -53,7 +53,7 @@ class Inspected {
   void find_wells();
 
   ObservationFamily family_;
-  std::vector<DepthLaw> laws_;
+  std::vector<DepthFunction> curves_;
   std::vector<Duty> duties_;
   std::vector<double> depths_;
   std::optional<Observations> observations_;  // for the lognormal family

@@ -1,7 +1,7 @@
 #include "wearwell/models/bearing/model.h"
 
-#include "wearwell/models/bearing/bearing_first.h"
 #include "wearwell/models/bearing/bearing_keys.h"
+#include "wearwell/models/bearing/bearing_scaffold.h"
 #include "wearwell/models/bearing/bearing_study.h"
 #include "wearwell/models/bearing/bearing_tracker.h"
 
@@ -19,14 +19,14 @@ Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::bearing_study},
                                             {"inspections.csv", resource::bearing_data}};
   return {.key = "bearing-wear",
-          .trade = "bearing",
+          .preset = "bearing",
           .example = example,
           .read =
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_bearing_study);
               },
           .keys = study_keys,
-          .first_study = first_study,
+          .scaffold = scaffold,
           .track = track_bearings};
 }
 

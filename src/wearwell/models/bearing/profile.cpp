@@ -286,9 +286,9 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
   const double middle = overlap.middle;
   const std::size_t n = window.x.size();
   const double spacing = (window.x.back() - window.x.front()) / static_cast<double>(n - 1);
-  const std::optional<double> told =
+  const std::optional<double> reported =
       best_shift(before, after, window, middle, spacing, overlap.farthest);
-  const double best = told.value_or(0);
+  const double best = reported.value_or(0);
   const auto moved = [&](double shift) {
     return [&before, at = middle + shift](double x) { return height_at(before, at + x); };
   };
@@ -296,9 +296,10 @@ WornArea worn_area(const Profile& before, const Profile& after, std::optional<do
   const double eps = 0.5 * spacing;
   const auto slope = [&](double x) {
     const double there = middle + x + best;
-    return told ? (height_at(before, there + eps) - height_at(before, there - eps)) / (2 * eps) : 0;
+    return reported ? (height_at(before, there + eps) - height_at(before, there - eps)) / (2 * eps)
+                    : 0;
   };
-  WornArea result = area_between(window, alignment, told ? 3 : 2, curvature, slope);
+  WornArea result = area_between(window, alignment, reported ? 3 : 2, curvature, slope);
   result.from = middle + window.x[window.left];
   result.to = middle + window.x[window.right - 1];
   result.shift = best;

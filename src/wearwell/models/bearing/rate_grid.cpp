@@ -41,7 +41,7 @@ double log_sum(const std::vector<RateNode>& nodes, double top) {
   return top + std::log(sum);
 }
 
-void look(const OwnRows& rows, std::size_t i, PointOf& point) {
+void look(const BearingRows& rows, std::size_t i, PointOf& point) {
   if (!rows.all) {
     constexpr double end = 5.6;
     point.from = point.log_k - end * point.scatter;
@@ -71,8 +71,8 @@ void look(const OwnRows& rows, std::size_t i, PointOf& point) {
   point.to = point.log_k + point.scatter * (to + spread);
 }
 
-std::vector<PointOf> points_of(const WearModel& model, const FewPoints& points,
-                               const OwnRows& rows) {
+std::vector<PointOf> points_of(const WearModel& model, const ThinnedPosterior& points,
+                               const BearingRows& rows) {
   const double seen = rows.seen ? static_cast<double>(rows.seen->size()) : 0;
   const double fresh = (rows.all ? static_cast<double>(rows.all->size()) : 0) - seen;
   std::vector<PointOf> all;
@@ -109,7 +109,7 @@ struct Nodes {
 };
 
 // Points of about one sigma.
-void lay_class(const std::span<const PointOf> points, const OwnRows& rows, double step,
+void lay_class(const std::span<const PointOf> points, const BearingRows& rows, double step,
                double most_nodes, double shift, Nodes& nodes) {
   double top = -infinity, sum = 0, sigma = 0, from = infinity, to = -infinity;
   for (const PointOf& each : points) top = std::max(top, each.total());
@@ -166,7 +166,8 @@ prognosis::NodeCloud cloud_of(const Nodes& nodes, bool with_sigma) {
 
 }  // namespace
 
-RateGrid rate_grid(const WearModel& model, const FewPoints& points, const OwnRows& rows) {
+RateGrid rate_grid(const WearModel& model, const ThinnedPosterior& points,
+                   const BearingRows& rows) {
   std::vector<PointOf> all = points_of(model, points, rows);
   RateGrid grid;
   double top = -infinity, sum = 0, square = 0, width = 0;

@@ -4,13 +4,13 @@
 
 #include "wearwell/models/bearing/inspected.h"
 #include "wearwell/models/bearing/wear_fit.h"
-#include "wearwell/predict/few_points.h"
+#include "wearwell/predict/thinned_posterior.h"
 #include "wearwell/prognosis/node_tracker.h"
 
 namespace wearwell::bearing {
 
 /// The inspections of one bearing: those that the posterior has, and all.
-struct OwnRows {
+struct BearingRows {
   std::optional<Inspected> seen, all;  ///< none where there is no row
 };
 
@@ -24,6 +24,6 @@ struct RateGrid {
   prognosis::NodeCloud nodes;
   double effective = 0;  ///< points that carry the sum: 1 / sum of squares
 };
-RateGrid rate_grid(const WearModel& model, const FewPoints& points, const OwnRows& rows);
+RateGrid rate_grid(const WearModel& model, const ThinnedPosterior& points, const BearingRows& rows);
 
 }  // namespace wearwell::bearing

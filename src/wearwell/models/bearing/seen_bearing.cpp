@@ -75,18 +75,18 @@ void add_share(const Share& share, const Inspected& inspected, double first, dou
 
 }  // namespace
 
-OwnRate own_rate(const WearModel& model, const Inspections& own, double k,
-                 const WeightedDraws& posterior) {
+BearingRate bearing_rate(const WearModel& model, const Inspections& own, double k,
+                         const WeightedDraws& posterior) {
   constexpr std::size_t places = 600;
   const DominantDraws dominant(posterior);
-  OwnRate rate;
+  BearingRate rate;
   if (!model.has_scatter) {
     for (const Eigen::Index row : dominant.rows)
       rate.log_k.push_back(std::log(posterior.values(row, 0)));
     rate.weight = dominant.weights;
     return rate;
   }
-  const Inspected inspected(model.family, depth_laws(own.duty, k), own.duty, own.depth);
+  const Inspected inspected(model.family, depth_functions(own.duty, k), own.duty, own.depth);
   std::vector<Share> shares;
   double from = INFINITY, to = -INFINITY;
   for (std::size_t i = 0; i < dominant.rows.size(); ++i) {
@@ -112,7 +112,7 @@ double life_at(const GoingOn& bearing, double log_k) {
   return bearing.begin + (loading - now) / bearing.pressure * bearing.per_turn;
 }
 
-LifeLaw own_life_law(const GoingOn& bearing, const OwnRate& rate) {
+LifeDistribution formula_life(const GoingOn& bearing, const BearingRate& rate) {
   std::vector<double> life;
   life.reserve(rate.log_k.size());
   for (const double log_k : rate.log_k) life.push_back(life_at(bearing, log_k));

@@ -18,7 +18,7 @@ std::size_t last_inspection(const Inspections& all, std::size_t bearing);
 
 /// The wear rate of one bearing that was inspected, over all that the posterior leaves open: ln k with
 /// weights.
-struct OwnRate {
+struct BearingRate {
   std::vector<double> log_k, weight;
 };
 
@@ -28,8 +28,8 @@ struct OwnRate {
 ///   p(z | own, x) = N(z; 0, 1) prod_i p(d_i | k exp(k_scatter z), sigma) / L_own(x),
 ///
 /// summed over them at even places of ln k; else the posterior's k. `k` is where searches start.
-OwnRate own_rate(const WearModel& model, const Inspections& own, double k,
-                 const WeightedDraws& posterior);
+BearingRate bearing_rate(const WearModel& model, const Inspections& own, double k,
+                         const WeightedDraws& posterior);
 
 /// How a bearing goes on that has come to `now`, where it has run `revolutions` under `pressure`.
 struct GoingOn {
@@ -45,6 +45,6 @@ struct GoingOn {
 double life_at(const GoingOn& bearing, double log_k);
 
 /// The law of its whole life. `lives.cdf(bearing.begin)` is the probability that its limit is behind it.
-LifeLaw own_life_law(const GoingOn& bearing, const OwnRate& rate);
+LifeDistribution formula_life(const GoingOn& bearing, const BearingRate& rate);
 
 }  // namespace wearwell::bearing

@@ -13,7 +13,7 @@
 namespace wearwell {
 namespace {
 
-using Law = Uncertain::Law;
+using Distribution = Uncertain::Distribution;
 
 std::string trimmed(std::string_view text) {
   return boost::algorithm::trim_copy(std::string(text));
@@ -49,7 +49,7 @@ Uncertain read_plus_minus(const std::string& left, const std::string& right, std
     result.mean = mean.si();
     result.sd = difference(sd);
   }
-  result.law = Law::normal;
+  result.distribution = Distribution::normal;
   return result;
 }
 
@@ -62,7 +62,7 @@ Uncertain read_factor(const std::string& left, const std::string& right, std::st
   if (!(factor > 1 && std::isfinite(factor)))
     throw InputError(fmt::format("'{} x/ {}': the factor must be more than 1", left, right));
   const double log_sd = std::log(factor), variance = log_sd * log_sd;
-  result.law = Law::lognormal;
+  result.distribution = Distribution::lognormal;
   result.unit = median.unit;
   result.centre = median.si();
   result.mean = result.centre * std::exp(variance / 2);
@@ -93,15 +93,15 @@ Uncertain read_law(const std::string& text, std::string_view si) {
   if (name == "uniform") {
     if (!(first.si() < second.si()))
       throw InputError(fmt::format("'~ {}': the first bound must be below the second", text));
-    result.law = Law::uniform;
+    result.distribution = Distribution::uniform;
     result.mean = (first.si() + second.si()) / 2;
     result.sd = (second.si() - first.si()) / std::sqrt(12);
     return result;
   }
-  result.law = name == "normal" ? Law::normal : Law::lognormal;
+  result.distribution = name == "normal" ? Distribution::normal : Distribution::lognormal;
   result.mean = first.si();
   result.sd = difference(second);
-  if (result.law == Law::lognormal && !(result.mean > 0))
+  if (result.distribution == Distribution::lognormal && !(result.mean > 0))
     throw InputError(fmt::format("'~ {}': the mean of a lognormal is above 0", text));
   return result;
 }
@@ -141,23 +141,23 @@ Uncertain read_uncertain(std::string_view text, std::string_view si) {
   }
   if (result.sd < 0)
     throw InputError(fmt::format("'{}' has a negative standard deviation", written));
-  if (result.sd == 0) result.law = Law::exact;
+  if (result.sd == 0) result.distribution = Distribution::exact;
   if (times_size == 0) result.centre = result.mean;
   result.text = written;
   return result;
 }
 
 double draw(const Uncertain& q, Rng& rng) {
-  switch (q.law) {
-    case Law::exact:
+  switch (q.distribution) {
+    case Distribution::exact:
       break;
-    case Law::normal:
+    case Distribution::normal:
       return q.mean + q.sd * rng.normal();
-    case Law::lognormal: {
+    case Distribution::lognormal: {
       const double variance = std::log1p(q.sd * q.sd / (q.mean * q.mean));  // of the logarithm
       return q.mean * std::exp(std::sqrt(variance) * rng.normal() - variance / 2);
     }
-    case Law::uniform:
+    case Distribution::uniform:
       return q.mean + q.sd * std::sqrt(12) * (rng.uniform() - 0.5);
   }
   return q.mean;

@@ -10,8 +10,8 @@ namespace wearwell {
 
 /// A quantity with the uncertainty that its user gives it.
 struct Uncertain {
-  enum class Law { exact, normal, lognormal, uniform };
-  Law law = Law::exact;
+  enum class Distribution { exact, normal, lognormal, uniform };
+  Distribution distribution = Distribution::exact;
   double mean = 0;    ///< SI
   double sd = 0;      ///< SI
   double centre = 0;  ///< SI: what an answer without uncertainty takes; mean, or the median of "x/"

@@ -92,7 +92,7 @@ std::shared_ptr<const LogDensity> wear_likelihood(const WearModel& model,
                                                   const Inspections& inspections,
                                                   std::size_t count) {
   const double k = guess(inspections).k;
-  const std::vector<DepthLaw> laws = depth_laws(inspections.duty, k);
+  const std::vector<DepthFunction> curves = depth_functions(inspections.duty, k);
   std::vector<std::vector<std::size_t>> rows;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t group = model.has_scatter ? inspections.bearing[i] : 0;
@@ -102,15 +102,15 @@ std::shared_ptr<const LogDensity> wear_likelihood(const WearModel& model,
   std::vector<Inspected> groups;
   for (const auto& each : rows) {
     if (each.empty()) continue;
-    std::vector<DepthLaw> own_laws;
+    std::vector<DepthFunction> own_curves;
     std::vector<Duty> duties;
     std::vector<double> depths;
     for (const std::size_t row : each) {
-      own_laws.push_back(laws[row]);
+      own_curves.push_back(curves[row]);
       duties.push_back(inspections.duty[row]);
       depths.push_back(inspections.depth[row]);
     }
-    groups.emplace_back(model.family, std::move(own_laws), std::move(duties), std::move(depths));
+    groups.emplace_back(model.family, std::move(own_curves), std::move(duties), std::move(depths));
   }
   return std::make_shared<WearLikelihood>(model, std::move(groups));
 }
@@ -131,12 +131,12 @@ WearGuess guess(const Inspections& inspections) {
   if (n == 0) throw InputError("no measured depth is positive; there is no wear to learn from");
   WearGuess result{wear / loading, 0, 0};
   result.scatter = std::sqrt(std::max(0.0, log_squares / n - std::pow(log_sum / n, 2)));
-  const std::vector<DepthLaw> laws = depth_laws(inspections.duty, result.k);
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    const double log_k = std::min(std::log(result.k), laws[i].limit());
-    result.sigma += std::pow(inspections.depth[i] - laws[i].depth(log_k), 2);
+  const std::vector<DepthFunction> curves = depth_functions(inspections.duty, result.k);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const double log_k = std::min(std::log(result.k), curves[i].limit());
+    result.sigma += std::pow(inspections.depth[i] - curves[i].depth(log_k), 2);
   }
-  result.sigma = std::sqrt(result.sigma / static_cast<double>(laws.size()));
+  result.sigma = std::sqrt(result.sigma / static_cast<double>(curves.size()));
   return result;
 }
 

@@ -6,7 +6,7 @@
 
 #include "wearwell/bayes/log_density.h"
 #include "wearwell/bayes/observation.h"
-#include "wearwell/models/bearing/depth_law.h"
+#include "wearwell/models/bearing/depth_function.h"
 
 namespace wearwell::bearing {
 

@@ -17,7 +17,7 @@ struct Grid {
 class BearingScores {
  public:
   BearingScores(const WearModel& model, const Inspections& inspections)
-      : model_(model), laws_(depth_laws(inspections.duty, guess(inspections).k)) {
+      : model_(model), curves_(depth_functions(inspections.duty, guess(inspections).k)) {
     for (const double d : inspections.depth) {
       at_.push_back(model.family == ObservationFamily::normal ? d : std::log(d));
     }
@@ -50,15 +50,15 @@ class BearingScores {
  private:
   // Of row i when its bearing's ln k is known; what no bearing survives is deeper than all.
   double score(std::size_t i, double log_k, double sigma) const {
-    if (!(log_k <= laws_[i].limit())) return -infinity;
-    return ObservationLaw(model_.family, laws_[i].depth(log_k), sigma).score(at_[i]);
+    if (!(log_k <= curves_[i].limit())) return -infinity;
+    return ObservationDistribution(model_.family, curves_[i].depth(log_k), sigma).score(at_[i]);
   }
 
   double log_density(std::size_t i, double log_k, double sigma) const {
-    if (!(log_k <= laws_[i].limit())) return -infinity;
-    const ObservationLaw law(model_.family, laws_[i].depth(log_k), sigma);
-    const double z = law.score(at_[i]);
-    return -0.5 * z * z - std::log(law.scale);
+    if (!(log_k <= curves_[i].limit())) return -infinity;
+    const ObservationDistribution curve(model_.family, curves_[i].depth(log_k), sigma);
+    const double z = curve.score(at_[i]);
+    return -0.5 * z * z - std::log(curve.scale);
   }
 
   double score_after(const std::vector<std::size_t>& rows, std::size_t j, double log_k,
@@ -114,7 +114,7 @@ class BearingScores {
   }
 
   WearModel model_;
-  std::vector<DepthLaw> laws_;
+  std::vector<DepthFunction> curves_;
   std::vector<double> at_;                      // depth, or its logarithm for the lognormal family
   std::vector<std::vector<std::size_t>> rows_;  // of each bearing
 };

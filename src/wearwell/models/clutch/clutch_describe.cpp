@@ -12,12 +12,12 @@
 namespace wearwell::clutch {
 namespace {
 
-std::string point_in_words(const OperatingPoint& at) {
+std::string point_text(const OperatingPoint& at) {
   return fmt::format("{:.6g} rpm, {:.6g} N m, {:.6g} degC, {:.6g} s", at.slip_speed / rpm,
                      at.torque, at.temperature, at.closing_time);
 }
 
-std::string data_in_words(const ClutchStudy& study, const ClutchResult& prepared) {
+std::string data_text(const ClutchStudy& study, const ClutchResult& prepared) {
   const Campaign& campaign = study.campaign;
   int points[3] = {};
   for (const DesignPoint& point : campaign.design) ++points[static_cast<int>(point.role)];
@@ -31,8 +31,7 @@ std::string data_in_words(const ClutchStudy& study, const ClutchResult& prepared
   if (study.layouts.empty()) out += fmt::format("  {}\n", fmt::join(files, ", "));
   for (std::size_t i = 0; i < study.layouts.size(); ++i)
     out += fmt::format("  {}: {}\n", files[i], study.layouts[i].text);
-  out +=
-      columns_in_words(study.data_columns.empty() ? cycle_columns(campaign) : study.data_columns);
+  out += columns_text(study.data_columns.empty() ? cycle_columns(campaign) : study.data_columns);
   out += fmt::format("  {} points of the factorial, {} beyond it, {} held out\n", points[0],
                      points[1], points[2]);
   out += fmt::format("  {} cycles of {} plates, {} weighings, {} samples of raw traces\n",
@@ -48,7 +47,7 @@ std::string data_in_words(const ClutchStudy& study, const ClutchResult& prepared
 
 }  // namespace
 
-std::string study_in_words(const ClutchStudy& study) {
+std::string study_description(const ClutchStudy& study) {
   std::set<int> run_in_plates;
   std::set<std::string> sequences;
   for (const Weighing& weighing : study.campaign.weighings) {
@@ -59,7 +58,7 @@ std::string study_in_words(const ClutchStudy& study) {
       "{}\n  volume of one cycle = g(Ec) w E, with g(Ec) = 1 + w1/w0 exp(-Ec/eps1) + w2/w0 "
       "exp(-Ec/eps2)\n  w = a cubic in ds = omega0^r t2^q, Td and Mz, or any part of it\n",
       study.title);
-  out += data_in_words(study, prepare_campaign(study));
+  out += data_text(study, prepare_campaign(study));
   out += "\nUnknowns\n";
   out += fmt::format(
       "  w0, w1, w2 [mm^3/MJ], eps1, eps2 [MJ]  run-in of {} plates together, a factor for each\n",
@@ -81,7 +80,7 @@ std::string study_in_words(const ClutchStudy& study) {
   for (const double level : study.levels) levels.push_back(100 * level);
   for (const auto& [name, at] : study.life_points)
     out += fmt::format("  cycles to {:g} % worn, {}: {}\n", fmt::join(levels, ", "), name,
-                       point_in_words(at));
+                       point_text(at));
   out += fmt::format(
       "  with 95 % intervals by the scatter of cycles alone, and by {} simulated repetitions of "
       "the fit (seed {}) as well\n",

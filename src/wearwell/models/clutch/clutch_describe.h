@@ -8,6 +8,6 @@ namespace wearwell::clutch {
 
 /// What `wearwell fit` would do, ending with a newline: laws, data, unknowns with their units, what
 /// is predicted.
-std::string study_in_words(const ClutchStudy& study);
+std::string study_description(const ClutchStudy& study);
 
 }  // namespace wearwell::clutch

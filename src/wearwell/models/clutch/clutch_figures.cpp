@@ -20,7 +20,7 @@ using Numbers = std::vector<double>;
 
 constexpr const char* w_title = "wear rate w [mm³/MJ]";
 
-Numbers told(const Eigen::VectorXd& w) {
+Numbers reported(const Eigen::VectorXd& w) {
   Numbers values;
   for (const double each : w) values.push_back(each / mm3_per_MJ);
   return values;
@@ -94,7 +94,7 @@ Figure exponent_figure(const ExponentSearch& search) {
 
 /// Figs. 13 and 14: measured against predicted.
 Figure parity_figure(const ClutchResult& r) {
-  const Numbers fitted = told(r.maps.front().fit.fitted), measured = told(r.points.w);
+  const Numbers fitted = reported(r.maps.front().fit.fitted), measured = reported(r.points.w);
   Numbers x, y, point;
   for (const ValidationPoint& p : r.validation.points) {
     x.push_back(p.predicted / mm3_per_MJ);
@@ -237,7 +237,7 @@ Figure sequence_figure(const SequenceResult& s) {
           fmt::format("Predicted cycle by cycle from the new plate. At the end predicted wear is "
                       "{}. The inner band is the scatter of cycles, the outer one all that "
                       "is uncertain (95 %).",
-                      error_in_words(s.final_error())),
+                      error_text(s.final_error())),
           plot::plot("Worn volume against cycles", {"cycles", false, 0.0},
                      {"worn volume [mm³]", false, 0.0},
                      {plot::area({{"x", x}, {"y", full_high}, {"y2", full_low}},

@@ -213,7 +213,7 @@ Check sequence_check(const std::vector<SequenceResult>& sequences) {
     const auto& last = s.weighings.back();
     const double z = (last.measured - last.predicted) / last.full_sd;
     const std::string text =
-        fmt::format("{}: predicted wear is {} at the end", s.name, error_in_words(s.final_error()));
+        fmt::format("{}: predicted wear is {} at the end", s.name, error_text(s.final_error()));
     good.push_back(text);
     if (std::abs(z) > 2)
       findings.add(std::abs(z) > 4 ? Verdict::fail : Verdict::warn,

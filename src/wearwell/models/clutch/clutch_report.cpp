@@ -25,11 +25,11 @@ using present::Table;
 
 constexpr const char* rate_unit = "mm^3/MJ";
 
-std::string percent_in_words(double share) {
+std::string percent_text(double share) {
   return html::given(100 * share) + "\u00a0%";
 }
 
-std::string cycles_in_words(double cycles) {
+std::string cycles_text(double cycles) {
   return html::given(std::round(cycles));
 }
 
@@ -45,8 +45,8 @@ Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
     const LifeAtLevel& at = each.life.levels.back();
     section.add(
         Prose{fmt::format("Operating point {}: {} worn after {} cycles; {} cycles (95\u00a0%).",
-                          each.name, percent_in_words(at.level), cycles_in_words(at.repetitions),
-                          in_words(at.full)),
+                          each.name, percent_text(at.level), cycles_text(at.repetitions),
+                          description(at.full)),
               true});
   }
   section.add(Prose{fmt::format("The wear rate follows {} terms of slip, temperature and torque; "
@@ -55,15 +55,15 @@ Section verdict_section(const ClutchStudy& study, const ClutchResult& r) {
                     true});
   for (const SequenceResult& s : r.sequences)
     section.add(Prose{fmt::format("The {} sequence: predicted wear is {} at its end.", s.name,
-                                  error_in_words(s.final_error())),
+                                  error_text(s.final_error())),
                       true});
   section.add(trust_callout(r.checks));
   std::vector<html::Tile> tiles;
   for (const NamedLife& each : r.lives) {
     const LifeAtLevel& at = each.life.levels.back();
     tiles.push_back(
-        {fmt::format("Life, {}", each.name), cycles_in_words(at.repetitions), "cycles",
-         fmt::format("to {} worn; {} (95\u00a0%)", percent_in_words(at.level), in_words(at.full))});
+        {fmt::format("Life, {}", each.name), cycles_text(at.repetitions), "cycles",
+         fmt::format("to {} worn; {} (95\u00a0%)", percent_text(at.level), description(at.full))});
   }
   tiles.push_back(
       {"R2p", fmt::format("{:.3f}", map.fit.r2p), "",

@@ -331,7 +331,7 @@ ClutchSql clutch_sql(const WearModel& model, const std::string& id, fleet::Diale
   sql.times = writer.times();
   sql.keep = writer.keep();
   sql.check = writer.check();
-  sql.offender = writer.offender();
+  sql.invalid_row = writer.invalid_row();
   sql.outlier = writer.outlier();
   sql.stream = writer.stream();
   sql.sorted = sql.stream + "\norder by unit, cycle";

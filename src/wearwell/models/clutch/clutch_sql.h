@@ -72,7 +72,7 @@ struct ClutchSql {
   /// SELECT: rows, rows without a value that can be, range of each input, largest energy, EnergyOutliers::count.
   std::string check;
   /// SELECT: of a row that has no value that can be: unit, cycle, the four inputs, energy.
-  std::string offender;
+  std::string invalid_row;
   /// SELECT: of the row with the most energy for its closing: unit, cycle, energy and its ratio to that of the closing.
   std::string outlier;
   /// For FixedSum. SELECT: unit, cycle and inputs in SI of all rows, in their order; the same by unit

@@ -261,7 +261,7 @@ std::string SqlWriter::outlier() const {
                      columns.text(), si(false));
 }
 
-std::string SqlWriter::offender() const {
+std::string SqlWriter::invalid_row() const {
   SqlColumns columns;
   columns.keep(fleet::text(dialect_, "unit"));
   columns.keep(fleet::real(dialect_, "cycle"));

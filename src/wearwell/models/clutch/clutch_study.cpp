@@ -198,7 +198,7 @@ ClutchStudy read_clutch_study(const TomlReader& root, const Source& source) {
   return study;
 }
 
-std::string error_in_words(double share) {
+std::string error_text(double share) {
   return fmt::format("{:.1f}\u00a0% {} the measured wear", 100 * std::abs(share),
                      share < 0 ? "below" : "above");
 }

@@ -71,7 +71,7 @@ struct SequenceResult {
 };
 
 /// Of a prediction that is off by this share: "1.4 % below the measured wear".
-std::string error_in_words(double share);
+std::string error_text(double share);
 
 /// Best R2p with a surrogate: of all points, and the mean over the temperature levels (Table A1).
 struct SurrogateResult {

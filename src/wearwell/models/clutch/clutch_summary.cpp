@@ -212,7 +212,7 @@ std::string answers_text(const ClutchResult& r) {
     const LifeAtLevel& at = each.life.levels.back();
     out += wrapped(fmt::format("Operating point {}: {} % worn after {} cycles; {} cycles (95 %).",
                                printable(each.name), plain_given(100 * at.level),
-                               plain_given(std::round(at.repetitions)), in_words(at.full)),
+                               plain_given(std::round(at.repetitions)), description(at.full)),
                    2, 4);
   }
   return out;
@@ -225,8 +225,8 @@ std::string lives_text(const ClutchResult& r) {
   for (const NamedLife& each : r.lives) {
     for (const LifeAtLevel& at : each.life.levels)
       rows.push_back({each.name, fmt::format("{:.0f} %", 100 * at.level),
-                      plain_given(std::round(at.repetitions)), in_words(at.scatter),
-                      in_words(at.full), plain_given(std::round(at.without_run_in))});
+                      plain_given(std::round(at.repetitions)), description(at.scatter),
+                      description(at.full), plain_given(std::round(at.without_run_in))});
   }
   return section("Life (cycles)", rows);
 }

@@ -182,13 +182,13 @@ void CycleSum::add(const CycleColumns& cycles, const Rates& rates, std::size_t f
     if (number <= p.last_number)
       throw InputError(
           fmt::format("row {}: plate {}, cycle {} follows cycle {}; cycles must ascend",
-                      first_row + at + 1, p.in_words(), number, p.last_number));
+                      first_row + at + 1, p.description(), number, p.last_number));
     const bool done = step(p, cycles, rates, i);
     if (!done && not_finite_ == NotFinite::refuse)
       throw InputError(fmt::format(
           "row {}: plate {}, cycle {}: the model gives no finite wear at slip speed {:.6g} rad/s, "
           "torque {:.6g} N m, temperature {:.6g} degC, closing time {:.6g} s, energy {:.6g} J",
-          first_row + at + 1, p.in_words(), number, cycles.slip_speed[i], cycles.torque[i],
+          first_row + at + 1, p.description(), number, cycles.slip_speed[i], cycles.torque[i],
           cycles.temperature[i], cycles.closing_time[i], cycles.energy[i]));
     p.last_number = number;
     if (done) {

@@ -34,7 +34,7 @@ struct PlateWear {
   long long skipped = 0;      ///< cycles without a finite number: left out (NotFinite::skip)
   Eigen::ArrayXd replicates;  ///< V of each replicate; empty when not asked for
 
-  std::string in_words() const { return name.empty() ? std::to_string(plate) : name; }
+  std::string description() const { return name.empty() ? std::to_string(plate) : name; }
   EnergyBalance balance() const { return {energy, closings}; }
   double sd() const { return std::sqrt(variance); }
   /// With the uncertainty of coefficients, exponents, terms, run-in (mean square of the replicates

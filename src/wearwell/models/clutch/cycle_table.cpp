@@ -67,14 +67,15 @@ std::vector<std::string> energy_problems(const CycleSum& sum) {
   std::vector<std::string> problems;
   for (const PlateWear& p : sum.plates()) {
     if (!p.balance().is_plausible())
-      problems.push_back(fmt::format("the energy of plate {} is {}. {}", printable(p.in_words()),
+      problems.push_back(fmt::format("the energy of plate {} is {}. {}", printable(p.description()),
                                      p.balance().description(), energy_advice));
     if (const EnergyOutliers& far = p.outliers; far.count > 0)
       problems.push_back(fmt::format(
           "plate {}: {} with more than {:g} times the energy of a closing, 1/2 x torque x slip "
           "speed x closing time; farthest off is cycle {}, {:.4g} J, {:.3g} times that. {}",
-          printable(p.in_words()), far.count == 1 ? "1 cycle" : fmt::format("{} cycles", far.count),
-          EnergyOutliers::most, far.worst_cycle, far.worst_energy, far.worst_ratio, energy_advice));
+          printable(p.description()),
+          far.count == 1 ? "1 cycle" : fmt::format("{} cycles", far.count), EnergyOutliers::most,
+          far.worst_cycle, far.worst_energy, far.worst_ratio, energy_advice));
   }
   return problems;
 }

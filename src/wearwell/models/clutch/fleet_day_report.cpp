@@ -16,7 +16,7 @@ namespace {
 
 /// "-" where the data have no calendar, or it ends.
 std::string day_after(const FleetDays& days, double count) {
-  const std::string day = day_in_words(days.now + count * FleetDays::day);
+  const std::string day = day_text(days.now + count * FleetDays::day);
   return day.empty() ? "-" : day;
 }
 
@@ -86,7 +86,7 @@ Table when_table(const FleetFindings& found) {
                 "days from {} on (UTC), the last of the data, at {:.4g} cycles a day in "
                 "the mean; each unit as between its first and its last row here, taken as "
                 "known",
-                day_in_words(days.now), days.mean);
+                day_text(days.now), days.mean);
   if (days.borrowed > 0)
     text += fmt::format("; {} units do not tell, and have the mean", days.borrowed);
   return when(text);
@@ -104,7 +104,7 @@ void add_days(nlohmann::ordered_json& body, const FleetCounts& counts, const Fle
     for (std::size_t l = 0; l < counts.levels().size(); ++l) {
       const UnitCount n = counts.reached(l, counts.horizons().size() + d);
       by_day.push_back({{"days_on", counts.days()[d]},
-                        {"date", day_in_words(days.now + counts.days()[d] * FleetDays::day)},
+                        {"date", day_text(days.now + counts.days()[d] * FleetDays::day)},
                         {"level", counts.levels()[l]},
                         {"units", n.expected},
                         {"low", n.low},

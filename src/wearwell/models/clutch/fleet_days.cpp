@@ -62,7 +62,7 @@ double FleetDays::of(const std::string& unit) {
   return mean;
 }
 
-std::string day_in_words(double seconds) {
+std::string day_text(double seconds) {
   constexpr double end = 253402300800.0;  // of the year 9999
   if (!(seconds >= 0 && seconds < end)) return "";
   const std::chrono::sys_days at{

@@ -31,6 +31,6 @@ struct FleetDays {
 };
 
 /// "2026-11-22", of seconds since 1970 (UTC); empty beyond the year 9999, and for NaN.
-std::string day_in_words(double seconds);
+std::string day_text(double seconds);
 
 }  // namespace wearwell::clutch

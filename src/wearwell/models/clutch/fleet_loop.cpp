@@ -82,7 +82,7 @@ class Loop {
   const long long total_;
   const Monitor& monitor_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::chrono::steady_clock::time_point told_ = start_;
+  std::chrono::steady_clock::time_point reported_ = start_;
   std::size_t most_units_;
 
   bool sorted_ = false, ordered_ = true, more_ = true;
@@ -187,8 +187,8 @@ bool Loop::take_chunk(Batch& batch) {
 void Loop::tell() {
   if (monitor_.stop.stop_requested()) throw Cancelled();
   const auto now = std::chrono::steady_clock::now();
-  if (!monitor_.progress || now - told_ < std::chrono::milliseconds(100)) return;
-  told_ = now;
+  if (!monitor_.progress || now - reported_ < std::chrono::milliseconds(100)) return;
+  reported_ = now;
   monitor_.progress({"cycles", static_cast<long long>(found.rows), total_,
                      std::chrono::duration<double>(now - start_).count()});
 }

@@ -25,9 +25,9 @@ struct FleetCheck {
 };
 
 /// "unit 7, cycle 4: torque is -1", of one row that no sum can take.
-std::string offender(fleet::Engine& engine, const ClutchSql& sql) {
+std::string invalid_row(fleet::Engine& engine, const ClutchSql& sql) {
   std::string found;
-  engine.rows(sql.offender, 1, [&](const fleet::Row& row) {
+  engine.rows(sql.invalid_row, 1, [&](const fleet::Row& row) {
     constexpr const char* names[] = {"cycle",       "slip_speed",   "torque",
                                      "temperature", "closing_time", "energy"};
     found = fmt::format("unit {}, cycle {}:", printable(row.texts.front()), row.numbers[0]);
@@ -46,7 +46,7 @@ std::string offender(fleet::Engine& engine, const ClutchSql& sql) {
 }
 
 /// "torque 20 .. 31 N m" in the table's own unit; databases take NaN for the largest number.
-std::string range_in_words(const char* name, const SqlColumn& column, double low, double high) {
+std::string range_text(const char* name, const SqlColumn& column, double low, double high) {
   const auto end = [&](double x) {
     return std::isfinite(x) ? fmt::format("{:.6g}", (x - column.offset) / column.scale)
                             : "not a number";
@@ -78,8 +78,8 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSour
     if (check.rows == 0) throw InputError(fmt::format("{} has no rows", engine.source()));
     check.ranges.clear();
     for (std::size_t i = 0; i < inputs.size(); ++i)
-      check.ranges += range_in_words(inputs[i].name, source.inputs[i], row.numbers[3 + 2 * i],
-                                     row.numbers[4 + 2 * i]) +
+      check.ranges += range_text(inputs[i].name, source.inputs[i], row.numbers[3 + 2 * i],
+                                 row.numbers[4 + 2 * i]) +
                       ", ";
     const double energy = row.numbers[3 + 2 * inputs.size()];
     check.ranges +=
@@ -96,7 +96,7 @@ FleetCheck check_rows(fleet::Engine& engine, const ClutchSql& sql, const SqlSour
         "cycles are whole numbers of at least 1, temperatures above absolute zero, all else "
         "positive "
         "(these are: {})",
-        engine.source(), refused, check.rows, offender(engine, sql), check.ranges));
+        engine.source(), refused, check.rows, invalid_row(engine, sql), check.ranges));
   check.outliers = outliers_of(engine, sql, outliers);
   return check;
 }
@@ -182,7 +182,7 @@ void try_shard(Shard& shard, const IdentifiedModel& model, const FleetRequest& r
   source.staged = engine.dialect() == fleet::Dialect::clickhouse;
   engine.begin();
   read_fleet_columns(request.columns, engine.columns(), engine.source(), source);
-  engine.refuse_torn_units(source.unit.name);
+  engine.refuse_split_units(source.unit.name);
   shard.sql = clutch_sql(model.model, model.id, engine.dialect(), source, full);
   shard.source = source;
   fleet::ColumnEngine* const columns = columns_of(engine, request);
@@ -266,7 +266,7 @@ void count_units(std::vector<Shard>& shards, std::size_t replicates, FleetDays& 
   }
 }
 
-void refuse_torn(const std::vector<UnitRow>& units) {
+void refuse_split(const std::vector<UnitRow>& units) {
   std::vector<const std::string*> names;
   for (const UnitRow& each : units) names.push_back(&each.unit);
   std::sort(names.begin(), names.end(), [](auto a, auto b) { return *a < *b; });
@@ -302,7 +302,7 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
         fleet::comment("Summed by a loop of the program's own. The statements give the same.") +
         found.statements;
   for (const Shard& shard : shards) {
-    found.engine += (found.engine.empty() ? "" : ", ") + shard.engine.in_words();
+    found.engine += (found.engine.empty() ? "" : ", ") + shard.engine.description();
     found.rows += shard.rows;
     found.outliers.add(shard.outliers);
     if (request.files.empty()) found.files.push_back(shard.engine.source());
@@ -320,7 +320,7 @@ Result find_fleet(const IdentifiedModel& model, const std::vector<fleet::Engine*
       found.days.known && request.days.empty() ? std::vector<double>{30, 90, 365} : request.days);
   count_units(shards, full ? model.model.replicates.size() : 0, found.days, counts, found.units,
               monitor);
-  refuse_torn(found.units);
+  refuse_split(found.units);
   worst_first(found.units);
   Result result = fleet_result(model.model, counts, found);
   for (const Shard& shard : shards) {

@@ -98,9 +98,9 @@ struct Knowledge {
 
 }  // namespace
 
-std::string in_words(const LifeInterval& interval) {
+std::string description(const LifeInterval& interval) {
   const auto cycles = [](double x) {
-    return std::isfinite(x) ? given_in_words(std::round(x), Script::terminal) : "never";
+    return std::isfinite(x) ? given_text(std::round(x), Script::terminal) : "never";
   };
   return cycles(interval.low) + " to " + cycles(interval.high);
 }

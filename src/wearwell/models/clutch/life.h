@@ -15,7 +15,7 @@ struct LifeInterval {
 };
 
 /// "28 520 to 36 700"; "never" for an end that is infinite.
-std::string in_words(const LifeInterval& interval);
+std::string description(const LifeInterval& interval);
 
 /// When a wear level is reached under a duty that repeats.
 struct LifeAtLevel {

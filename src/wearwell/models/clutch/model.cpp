@@ -29,7 +29,7 @@ class CampaignStudy : public Study {
  public:
   explicit CampaignStudy(ClutchStudy study) : study_(std::move(study)) {}
 
-  std::string in_words() const override { return study_in_words(study_); }
+  std::string description() const override { return study_description(study_); }
 
   Result run(const RunOptions& options, const Monitor& monitor) const override {
     if (options.sampler.any())
@@ -55,7 +55,7 @@ Model model() {
                                             {"design.csv", resource::clutch_design},
                                             {"truth.toml", resource::clutch_truth}};
   return {.key = "clutch-wear",
-          .trade = "clutch",
+          .preset = "clutch",
           .example = example,
           .read = [](const TomlReader& root, const Source& source) -> std::unique_ptr<const Study> {
             return std::make_unique<CampaignStudy>(read_clutch_study(root, source));

@@ -51,7 +51,7 @@ class SqlWriter {
   std::string times() const;
   std::string keep() const;
   std::string check() const;
-  std::string offender() const;
+  std::string invalid_row() const;
   std::string outlier() const;
   std::string stream() const;
   std::string known() const;

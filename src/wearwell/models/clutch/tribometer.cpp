@@ -133,15 +133,15 @@ void run_sequence(Plate& plate, const std::string& name, const Ranges& ranges, c
   const double half = 0.5 * (ranges.high.temperature - ranges.low.temperature);
   // An autoregression with a memory of 200 cycles, kept within the ranges.
   constexpr double memory = 0.995;
-  double wander = 0;
+  double drift = 0;
   for (int weighing = 1; weighing <= truth.sequence_weighings; ++weighing) {
     const double until = truth.worn_out * weighing / truth.sequence_weighings;
     while (plate.volume() < until) {
-      wander = memory * wander + std::sqrt(1 - memory * memory) * 0.5 * rng.normal();
-      wander = std::clamp(wander, -0.95, 0.95);
+      drift = memory * drift + std::sqrt(1 - memory * memory) * 0.5 * rng.normal();
+      drift = std::clamp(drift, -0.95, 0.95);
       OperatingPoint at{drawn(&OperatingPoint::slip_speed), drawn(&OperatingPoint::torque), middle,
                         drawn(&OperatingPoint::closing_time)};
-      if (name == "floating") at.temperature += half * wander;
+      if (name == "floating") at.temperature += half * drift;
       plate.close(at);
     }
     plate.weigh(Block::sequence, 0, name);

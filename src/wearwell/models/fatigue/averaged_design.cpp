@@ -46,7 +46,7 @@ Lives lives_of(const SnLaw& law, const LivesUnder& under, const WeightedDraws& p
   return lives;
 }
 
-std::string span_in_words(const SnResult& result, double low, double high) {
+std::string span_text(const SnResult& result, double low, double high) {
   return fmt::format("{:.6g} to {:.6g} {}", from_si(result.stress_unit, low),
                      from_si(result.stress_unit, high), result.stress_unit.text);
 }
@@ -61,16 +61,16 @@ void require_same_stresses(const WeightedModel& a, const WeightedModel& b) {
       !alike(x.alternating_high, y.alternating_high))
     throw InputError(
         fmt::format("{} and {} were tested under different alternating stresses: {} and {}", a.name,
-                    b.name, span_in_words(a.result, x.alternating_low, x.alternating_high),
-                    span_in_words(b.result, y.alternating_low, y.alternating_high)));
+                    b.name, span_text(a.result, x.alternating_low, x.alternating_high),
+                    span_text(b.result, y.alternating_low, y.alternating_high)));
   const bool both =
       a.result.law.correction != MeanStress::none && b.result.law.correction != MeanStress::none;
   const double size = slack * x.alternating_high;
   if (both &&
       !(std::abs(x.mean_low - y.mean_low) <= size && std::abs(x.mean_high - y.mean_high) <= size))
     throw InputError(fmt::format("{} and {} were tested under different mean stresses: {} and {}",
-                                 a.name, b.name, span_in_words(a.result, x.mean_low, x.mean_high),
-                                 span_in_words(b.result, y.mean_low, y.mean_high)));
+                                 a.name, b.name, span_text(a.result, x.mean_low, x.mean_high),
+                                 span_text(b.result, y.mean_low, y.mean_high)));
 }
 
 }  // namespace
@@ -143,9 +143,9 @@ std::vector<double> design_stresses(const std::vector<WeightedModel>& models) {
   const TestedSpan& tested = models.front().result.tested;
   const double low = tested.alternating_low, high = tested.alternating_high;
   if (!(high > low)) return {high};
-  const bool dear = std::any_of(models.begin(), models.end(),
-                                [](const auto& each) { return each.result.law.integrated(); });
-  const int count = dear ? 9 : 21;
+  const bool expensive = std::any_of(models.begin(), models.end(),
+                                     [](const auto& each) { return each.result.law.integrated(); });
+  const int count = expensive ? 9 : 21;
   std::vector<double> stresses;
   for (int i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / (count - 1);
@@ -167,7 +167,7 @@ StressLine design_line(const std::vector<WeightedModel>& models) {
         fmt::format("the tests of {} had mean stresses of {} and no one stress ratio: say which "
                     "the design is for, --mean-stress "
                     "or --stress-ratio",
-                    name, span_in_words(result, tested.mean_low, tested.mean_high)));
+                    name, span_text(result, tested.mean_low, tested.mean_high)));
   }
   return {};
 }

@@ -33,7 +33,7 @@ std::string number(double x) {
   return std::isinf(x) ? "no end" : plain_number(x);
 }
 
-std::string weights_in_words(const AveragedDesignReport& report) {
+std::string weights_text(const AveragedDesignReport& report) {
   std::vector<std::string> shares;
   for (const WeightedModel& each : report.from.models)
     shares.push_back(fmt::format("{} {:.3f}", each.name, each.weight));
@@ -45,7 +45,7 @@ std::string weights_in_words(const AveragedDesignReport& report) {
       fmt::join(shares, ", "));
 }
 
-std::string line_in_words(const AveragedDesignReport& report) {
+std::string line_text(const AveragedDesignReport& report) {
   const auto& models = report.from.models;
   if (std::all_of(models.begin(), models.end(),
                   [](const auto& each) { return each.result.law.correction == MeanStress::none; }))
@@ -120,7 +120,7 @@ html::Figure curves_figure(const AveragedDesignReport& report) {
       fmt::format("{}{}. The thick line is averaged over the models, the others are each model's "
                   "own, paler where "
                   "it has next to no weight.",
-                  report.question.levels.front().name, line_in_words(report)),
+                  report.question.levels.front().name, line_text(report)),
       plot::plot("Design curves of each model and their average",
                  {fmt::format("Life [{}]", html::unit(first.life_unit.text)), true},
                  {fmt::format("Alternating stress [{}]", html::unit(first.stress_unit.text)), true},
@@ -200,8 +200,8 @@ std::string averaged_design_text(const AveragedDesignReport& report) {
   }
   std::string text =
       fmt::format("Design curves averaged over {} models, life [{}]{}\n", report.from.models.size(),
-                  first.life_unit.text, line_in_words(report)) +
-      text_table(rows) + wrapped(printable(weights_in_words(report)), 2, 4);
+                  first.life_unit.text, line_text(report)) +
+      text_table(rows) + wrapped(printable(weights_text(report)), 2, 4);
   text += "\nChecks\n";
   static constexpr const char* words[] = {"pass", "WARN", "FAIL"};
   for (const Check& check : averaged_design_checks(report)) {
@@ -221,7 +221,7 @@ std::vector<present::Section> averaged_design_sections(const AveragedDesignRepor
       present::Prose{"The life that such a share of the items outlasts with such confidence, where "
                      "it is not known which of the "
                      "models is right. " +
-                         weights_in_words(report),
+                         weights_text(report),
                      true});
   for (const Check& check : averaged_design_checks(report)) {
     if (check.verdict == Verdict::pass) continue;

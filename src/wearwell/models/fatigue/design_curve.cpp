@@ -9,7 +9,7 @@
 #include "wearwell/models/fatigue/design_curve_points.h"
 #include "wearwell/models/fatigue/lives_under.h"
 #include "wearwell/models/fatigue/scatter_range.h"
-#include "wearwell/models/fatigue/sn_exhibits.h"
+#include "wearwell/models/fatigue/sn_figures.h"
 #include "wearwell/models/fatigue/sn_result.h"
 #include "wearwell/models/fatigue/standard_fit.h"
 #include "wearwell/present/plain.h"
@@ -37,7 +37,7 @@ std::string with_unit(const SnData& data, double si) {
 }
 
 // Which mean stress the curves have: where there are several among the tests, none of theirs need be it.
-std::string line_in_words(const SnLaw& law, const SnData& data) {
+std::string line_text(const SnLaw& law, const SnData& data) {
   if (law.correction == MeanStress::none) return "";
   const StressLine line = line_of_tests(law, data);
   if (line.ratio) return fmt::format(" at the tests' stress ratio R = {:.4g}", *line.ratio);
@@ -137,20 +137,20 @@ html::Figure curves_figure(const SnLaw& law, const SnData& data,
 }
 
 // ASTM E739's line log10 N = A + B log10 S in the table's own units.
-struct OwnUnits {
+struct StandardUnits {
   double a = 0, b = 0, sd = 0;
 };
-OwnUnits e739_line(const SnData& data, const fatigue::FittedLine& line) {
+StandardUnits e739_line(const SnData& data, const fatigue::FittedLine& line) {
   const double shift = std::log10(data.stress_unit.scale);
   return {line.intercept + line.slope * shift - std::log10(data.life_unit.scale), line.slope,
           line.sd};
 }
 
 // What E739 tells of the same tests, and the closed form of Owen's and ISO's curves.
-std::string e739_in_words(const SnData& data, const std::vector<CurvePoint>& points,
-                          const StandardFit& standard) {
+std::string e739_text(const SnData& data, const std::vector<CurvePoint>& points,
+                      const StandardFit& standard) {
   if (!standard.line) return "";
-  const OwnUnits e739 = e739_line(data, *standard.line);
+  const StandardUnits e739 = e739_line(data, *standard.line);
   const auto life = [&](const CurvePoint& at) {
     return fmt::format("{} at {}", plain_number(from_si(data.life_unit, at.band)),
                        with_unit(data, at.stress));
@@ -243,7 +243,7 @@ nlohmann::ordered_json json_of(const SnLaw& law, const SnData& data,
     }
   }
   if (standard.line) {
-    const OwnUnits e739 = e739_line(data, *standard.line);
+    const StandardUnits e739 = e739_line(data, *standard.line);
     Json band = Json::array();
     for (const CurvePoint& at : points)
       band.push_back({{"stress", from_si(data.stress_unit, at.stress)}, {"life", life(at.band)}});
@@ -285,21 +285,21 @@ StressLine line_of_tests(const SnLaw& law, const SnData& data) {
   return line;
 }
 
-TradeAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) {
-  TradeAddition added;
+PresetAddition sn_addition(const SnLaw& law, const SnData& data, const Fit& fit) {
+  PresetAddition added;
   added.body["fatigue"] = fatigue::sn_json(law, data);
   const WeightedDraws& all = fit.exact ? fit.exact->nodes : fit.pooled;
   const WeightedDraws draws = fatigue::curve_nodes(law, all, most_draws_with_limit);
   const StandardFit standard = standard_fit(law, data);
   const std::vector<CurvePoint> points = curve_points(law, data, draws, standard);
-  const std::string where = line_in_words(law, data);
+  const std::string where = line_text(law, data);
   std::string why = difference(law, standard);
   if (draws.values.rows() < all.values.rows() && law.integrated())
     why += fmt::format(
         " A limit that scatters takes long: the posterior's curves are read off {} draws, to some "
         "per cent.",
         draws.values.rows());
-  const std::string e739 = e739_in_words(data, points, standard);
+  const std::string e739 = e739_text(data, points, standard);
   std::vector<present::Block>& blocks = added.blocks["predictions"];
   blocks.push_back(
       {present::Prose{"Design curves" + where +

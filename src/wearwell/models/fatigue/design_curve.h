@@ -24,6 +24,6 @@ fatigue::StressLine line_of_tests(const fatigue::SnLaw& law, const SnData& data)
 /// What an S-N study adds to its result: under "fatigue" what `wearwell fatigue life` goes on from, under
 /// "design_curves" the curves with the standards' own numbers beside them, scatter ranges T_N and T_S,
 /// and why they differ; the same as tables and text.
-TradeAddition sn_addition(const fatigue::SnLaw& law, const SnData& data, const Fit& fit);
+PresetAddition sn_addition(const fatigue::SnLaw& law, const SnData& data, const Fit& fit);
 
 }  // namespace wearwell

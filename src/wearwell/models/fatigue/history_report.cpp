@@ -188,7 +188,7 @@ Table levels_table(const HistoryReport& report) {
   return table;
 }
 
-std::string counted_in_words(const HistoryReport& report) {
+std::string counted_text(const HistoryReport& report) {
   const bool half = report.rule.residual == Residual::half;
   return fmt::format("{} rainflow counting (ASTM E1049); {}",
                      report.rule.counting == Counting::three_point ? "Three-point" : "Four-point",
@@ -204,7 +204,7 @@ std::string history_text(const HistoryReport& report) {
                           report.column, counted.samples, counted.reversals,
                           plain_given(counted.lowest), with_unit(report, counted.highest)),
               0, 2);
-  text += wrapped(counted_in_words(report) + ".", 0, 2);
+  text += wrapped(counted_text(report) + ".", 0, 2);
   text += wrapped(
       fmt::format("{} cycles, {} of them closed; the largest range is {}{}", plain_given(cycles),
                   plain_given(counted.closed), with_unit(report, largest_range(counted.classes)),
@@ -219,7 +219,7 @@ std::string history_text(const HistoryReport& report) {
 std::vector<present::Section> history_sections(const HistoryReport& report) {
   present::Section count{"count", "Count"};
   const LoadHistory::Counted& counted = report.counted;
-  count.add(present::Prose{counted_in_words(report) + ".", true});
+  count.add(present::Prose{counted_text(report) + ".", true});
   count.add(present::Tiles{
       {{"Cycles", plain_given(cycles_in(counted.classes)), "",
         fmt::format("{} of them closed before the end", plain_given(counted.closed))},

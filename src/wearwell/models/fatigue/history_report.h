@@ -27,7 +27,7 @@ present::Table spectrum_table(const HistoryReport& report);
 present::Table levels_table(const HistoryReport& report);
 
 /// How it was counted, in a sentence.
-std::string counted_in_words(const HistoryReport& report);
+std::string counted_text(const HistoryReport& report);
 
 std::string history_text(const HistoryReport& report);
 std::vector<present::Section> history_sections(const HistoryReport& report);

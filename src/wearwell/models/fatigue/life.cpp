@@ -37,8 +37,9 @@ MixedLife life_of(const SnLaw& law, const double* x, double log10_reversed) {
 
 }  // namespace
 
-StandardLaw MixedLife::standard() const {
-  return family_ == LifeFamily::weibull ? StandardLaw::smallest_extreme_value : StandardLaw::normal;
+StandardDistribution MixedLife::standard() const {
+  return family_ == LifeFamily::weibull ? StandardDistribution::smallest_extreme_value
+                                        : StandardDistribution::normal;
 }
 
 void MixedLife::add(double weight, double center, double sigma) {
@@ -56,7 +57,7 @@ void MixedLife::add(double weight, double center, double sigma) {
 void MixedLife::merge() {
   // Of cells, in sigma. Normal laws keep the variance of what they were: then what is lost goes with the fourth power of how far
   // apart their middles lie, and in the tails with the square of the width in sigma; of others with the square of both.
-  const bool normal = standard() == StandardLaw::normal;
+  const bool normal = standard() == StandardDistribution::normal;
   const double width = normal ? 0.01 : 0.005, across = normal ? 10 * width : width;
   // Sums, weighted: of places from the cell's edge and of second moments about it, or of sigmas.
   struct Cell {
@@ -100,7 +101,7 @@ void MixedLife::merge() {
 
 MixedLife::Sums MixedLife::sums(double at) const {
   Sums sums;
-  const bool normal = standard() == StandardLaw::normal;
+  const bool normal = standard() == StandardDistribution::normal;
   for (std::size_t i = 0; i < weight_.size(); ++i) {
     const double z = (at - center_[i]) * inverse_sigma_[i];
     if (normal) {

@@ -36,7 +36,7 @@ class MixedLife {
     double cdf = 0, density = 0;
   };
   Sums sums(double at) const;
-  StandardLaw standard() const;
+  StandardDistribution standard() const;
 
   LifeFamily family_;
   std::vector<double> weight_, center_, inverse_sigma_;

@@ -137,7 +137,9 @@ class Trapezoid {
   // Steps in widths. The extreme value law is steeper on one side.
   double resolution() const {
     const LimitedLife<double>& item = log_f_.item;
-    return item.life == StandardLaw::normal && item.limit == StandardLaw::normal ? 0.5 : 0.4;
+    return item.life == StandardDistribution::normal && item.limit == StandardDistribution::normal
+               ? 0.5
+               : 0.4;
   }
 
   // Beyond which nothing is left, from the first of edges that are not negligible.

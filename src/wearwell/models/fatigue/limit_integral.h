@@ -14,7 +14,7 @@ inline const double log_decade = std::log(decade);
 
 /// What was seen of a life, given its centre: log of a density or probability, with its slopes by
 /// the centre and by sigma.
-struct Seen {
+struct LifeTerm {
   double value = 0;
   double by_center = 0, by_sigma = 0;
 };
@@ -24,7 +24,7 @@ class Observed {
   Observed(const LimitedLife<double>& item, Outcome outcome, double at, double until)
       : item_(item), outcome_(outcome), at_(at), until_(until), log_sigma_(std::log(item.sigma)) {}
 
-  Seen operator()(double center) const {
+  LifeTerm operator()(double center) const {
     const double z = (at_ - center) / item_.sigma;
     switch (outcome_) {
       case Outcome::runout:
@@ -40,14 +40,14 @@ class Observed {
       case Outcome::failure:
         break;
     }
-    Seen seen = by(z, log_density_and_slope(item_.life, z));
+    LifeTerm seen = by(z, log_density_and_slope(item_.life, z));
     seen.value -= log_sigma_;
     seen.by_sigma -= 1 / item_.sigma;
     return seen;
   }
 
  private:
-  Seen by(double z, const ValueAndSlope& y) const {
+  LifeTerm by(double z, const ValueAndSlope& y) const {
     return {y.value, -y.slope / item_.sigma, -y.slope * z / item_.sigma};
   }
 
@@ -75,7 +75,7 @@ struct Integrand {
     const double w = (item.log10_reversed + log_share / decade - item.location) / item.scale;
     const double center = (item.log10_reversed + log_rest / decade - item.log10_a) / item.b;
     const ValueAndSlope limit = log_density_and_slope(item.limit, w);
-    const Seen life = seen(center);
+    const LifeTerm life = seen(center);
     if (slopes) {
       *slopes = {
           1, limit.slope, limit.slope * w, life.by_center, life.by_center * center, life.by_sigma};

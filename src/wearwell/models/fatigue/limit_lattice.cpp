@@ -68,11 +68,11 @@ struct Share {
 
 /// `log_bound`: of a factor's place z its bound's logarithm, for a number or a block; `share` takes what the bound has
 /// left in `e`, an exponential that it asks for again.
-template <StandardLaw law, Role role>
+template <StandardDistribution law, Role role>
 struct Factor;
 
 template <>
-struct Factor<StandardLaw::normal, Role::density> {
+struct Factor<StandardDistribution::normal, Role::density> {
   template <class T>
   static T log_bound(T z, T& /*e*/) {
     return -0.5 * z * z;
@@ -119,7 +119,7 @@ class Mills {
 };
 
 template <>
-struct Factor<StandardLaw::normal, Role::below> {
+struct Factor<StandardDistribution::normal, Role::below> {
   template <class T>
   static T log_bound(T z, T& /*e*/) {
     const T below = at_most(z, 0);
@@ -135,8 +135,8 @@ struct Factor<StandardLaw::normal, Role::below> {
 };
 
 template <>
-struct Factor<StandardLaw::normal, Role::above> {
-  using Mirror = Factor<StandardLaw::normal, Role::below>;
+struct Factor<StandardDistribution::normal, Role::above> {
+  using Mirror = Factor<StandardDistribution::normal, Role::below>;
   template <class T>
   static T log_bound(T z, T& e) {
     return Mirror::log_bound(-z, e);
@@ -151,7 +151,7 @@ struct Factor<StandardLaw::normal, Role::above> {
 constexpr double far_above = 300;
 
 template <>
-struct Factor<StandardLaw::smallest_extreme_value, Role::density> {
+struct Factor<StandardDistribution::smallest_extreme_value, Role::density> {
   template <class T>
   static T log_bound(T z, T& e) {
     const T near = at_most(z, far_above);
@@ -162,7 +162,7 @@ struct Factor<StandardLaw::smallest_extreme_value, Role::density> {
 };
 
 template <>
-struct Factor<StandardLaw::smallest_extreme_value, Role::below> {
+struct Factor<StandardDistribution::smallest_extreme_value, Role::below> {
   template <class T>
   static T log_bound(T z, T& /*e*/) {
     return at_most(z, 0);
@@ -179,7 +179,7 @@ struct Factor<StandardLaw::smallest_extreme_value, Role::below> {
 };
 
 template <>
-struct Factor<StandardLaw::smallest_extreme_value, Role::above> {
+struct Factor<StandardDistribution::smallest_extreme_value, Role::above> {
   template <class T>
   static T log_bound(T z, T& e) {
     e = exponential(at_most(z, far_above));
@@ -543,9 +543,10 @@ Marks marks_of(const LimitedLife<double>& item, const Places& places, double at)
 template <Role of_limit, Role of_life, bool by_rest>
 std::optional<Sums> integral(const LimitedLife<double>& item, const Places& places,
                              const Marks& marks) {
-  constexpr auto normal = StandardLaw::normal, extreme = StandardLaw::smallest_extreme_value;
+  constexpr auto normal = StandardDistribution::normal,
+                 extreme = StandardDistribution::smallest_extreme_value;
   const std::span<const Mark> at(marks.at.data(), marks.count);
-  const auto by = [&]<StandardLaw limit, StandardLaw life>() {
+  const auto by = [&]<StandardDistribution limit, StandardDistribution life>() {
     return Lattice<Factor<limit, of_limit>, Factor<life, of_life>, by_rest>(places)(
         at, limit == extreme || life == extreme);
   };

@@ -94,7 +94,7 @@ std::string unit_in(const Column& column, const std::string& given, const std::s
 }
 
 // What the options make of a column.
-std::string options_in_words(const BlockChoice& choice) {
+std::string options_text(const BlockChoice& choice) {
   return (choice.signal.unit.empty() ? "" : fmt::format(" in {}", choice.signal.unit)) +
          (choice.scale.empty() ? "" : fmt::format(", times {}", choice.scale));
 }
@@ -125,7 +125,7 @@ Block counted_signal(const BlockChoice& choice) {
   }
   block.description = fmt::format(
       "{} samples of {}, column '{}'{}; {} rainflow counting, {}", counted.samples, file.source(),
-      file.column(), options_in_words(choice), counting_name(choice.rule.counting),
+      file.column(), options_text(choice), counting_name(choice.rule.counting),
       choice.rule.residual == Residual::half ? "the residual in half cycles"
                                              : "the history repeated");
   if (!choice.with_mean) {
@@ -195,7 +195,7 @@ class CountedTable {
     if (!(block.count > 0)) throw InputError(fmt::format("{} counts no cycle", table_.source));
     block.description =
         fmt::format("{} classes of counted cycles of {}, by {} '{}'{}", table_.rows, table_.source,
-                    size_ ? "the range" : "the amplitude", size.name, options_in_words(choice_));
+                    size_ ? "the range" : "the amplitude", size.name, options_text(choice_));
     if (const Column* mean = mean_ ? mean_ : ratio_; mean && !choice_.with_mean)
       block.description +=
           fmt::format("; '{}' is left out, since the study's law has no mean stress", mean->name);

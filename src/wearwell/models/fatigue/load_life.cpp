@@ -62,7 +62,7 @@ struct Drawn {
 };
 
 // Places of items, from tail to tail.
-std::vector<double> edges(StandardLaw law, std::size_t count) {
+std::vector<double> edges(StandardDistribution law, std::size_t count) {
   const double first = quantile(law, negligible), last = quantile(law, 1 - negligible);
   std::vector<double> at;
   for (std::size_t i = 0; i <= count; ++i)
@@ -106,7 +106,7 @@ class Draws {
 
   template <class Life>
   void add_items(double weight, const Life& life, Drawn& drawn) const {
-    const StandardLaw law = result_.law.standard();
+    const StandardDistribution law = result_.law.standard();
     double below = 0, before = clamped(life(places_.front()));
     for (std::size_t j = 1; j < places_.size(); ++j) {
       const double through = j + 1 == places_.size() ? 1 : cdf(law, places_[j]);
@@ -155,7 +155,8 @@ double log10_sum(const DamageSum& sum, std::size_t draw, std::size_t j) {
   const auto index = static_cast<double>(draw * sums_per_draw + j);
   const double p = std::modf((index + 0.5) * golden, &whole);
   return std::log10(sum.median) +
-         std::log10(sum.factor) * quantile(StandardLaw::normal, std::clamp(p, 1e-12, 1 - 1e-12));
+         std::log10(sum.factor) *
+             quantile(StandardDistribution::normal, std::clamp(p, 1e-12, 1 - 1e-12));
 }
 
 double power(double log10) {

@@ -24,7 +24,7 @@ std::string percent(double share) {
   return share > 0 && share < 0.001 ? "less than 0.1 %" : fmt::format("{:.3g} %", 100 * share);
 }
 
-std::string rule_in_words(const LoadLifeReport& report) {
+std::string rule_text(const LoadLifeReport& report) {
   static constexpr const char* words[] = {"no damage below the knee", "no knee",
                                           "slope 2k - 1 below the knee",
                                           "slope (k + 3.6)/2 down to half of the knee's stress"};
@@ -50,7 +50,7 @@ double largest(const LoadLifeReport& report) {
   return from_si(report.result.stress_unit, most);
 }
 
-std::string block_in_words(const LoadLifeReport& report) {
+std::string block_text(const LoadLifeReport& report) {
   std::string text =
       fmt::format("{}: {} cycles a block, amplitudes up to {:.6g} {}", report.block.description,
                   plain_given(report.block.count), largest(report), report.result.stress_unit.text);
@@ -222,9 +222,8 @@ std::string load_life_text(const LoadLifeReport& report) {
   const LoadLife& life = report.life;
   std::string text =
       wrapped(printable(report.result.title), 0, 2) +
-      wrapped(printable(powers_in_words(report.result.equation, Script::terminal)), 2, 4) +
-      wrapped(printable(block_in_words(report)), 2, 4) +
-      wrapped(printable(rule_in_words(report)), 2, 4);
+      wrapped(printable(powers_text(report.result.equation, Script::terminal)), 2, 4) +
+      wrapped(printable(block_text(report)), 2, 4) + wrapped(printable(rule_text(report)), 2, 4);
   std::vector<std::vector<std::string>> rows = {
       {"", fmt::format("at least, {:.4g} %", 100 * report.question.confidence), "5 %", "50 %",
        "95 %", "next one"}};
@@ -264,8 +263,8 @@ std::string load_life_text(const LoadLifeReport& report) {
 
 std::vector<present::Section> load_life_sections(const LoadLifeReport& report) {
   present::Section life{"life", "Life"};
-  life.add(present::Prose{block_in_words(report) + ".", true});
-  life.add(present::Prose{rule_in_words(report) + "."});
+  life.add(present::Prose{block_text(report) + ".", true});
+  life.add(present::Prose{rule_text(report) + "."});
   for (const Check& check : load_life_checks(report)) {
     if (check.verdict == Verdict::pass) continue;
     life.add(present::Callout{check.verdict == Verdict::warn ? "warn" : "fail", check.name,

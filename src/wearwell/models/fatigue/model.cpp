@@ -35,11 +35,11 @@ Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::fatigue_study},
                                             {"tests.csv", resource::fatigue_data}};
   return {.key = "sn",
-          .trade = "fatigue",
+          .preset = "fatigue",
           .example = example,
           .read = read,
           .keys = study_keys,
-          .first_study = first_study,
+          .scaffold = scaffold,
           .track = track_parts};
 }
 
@@ -47,24 +47,24 @@ Model staircase() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::staircase_study},
                                             {"tests.csv", resource::staircase_data}};
   return {.key = "staircase",
-          .trade = "staircase",
+          .preset = "staircase",
           .example = example,
           .read =
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_staircase_study);
               },
           .keys = staircase_keys,
-          .first_study = first_staircase};
+          .scaffold = first_staircase};
 }
 
 Model strain_life() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::strain_study},
                                             {"tests.csv", resource::strain_data}};
   return {.key = "sn",
-          .trade = "strain-life",
+          .preset = "strain-life",
           .example = example,
           .read = read,
-          .first_study = first_strain_study,
+          .scaffold = first_strain_study,
           .track = track_parts};
 }
 
@@ -72,7 +72,8 @@ Model spectrum() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::spectrum_study},
                                             {"tests.csv", resource::spectrum_data},
                                             {"loads.csv", resource::spectrum_loads}};
-  return {.key = "sn", .trade = "spectrum", .example = example, .read = read, .track = track_parts};
+  return {
+      .key = "sn", .preset = "spectrum", .example = example, .read = read, .track = track_parts};
 }
 
 }  // namespace fatigue

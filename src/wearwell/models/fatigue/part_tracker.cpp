@@ -44,7 +44,7 @@ struct Parts {
   SnLaw law;
   SnData data;
   PartReading reading;
-  FewPoints few;
+  ThinnedPosterior few;
   std::optional<Stress> ahead;             // of a part of which nothing is known yet
   std::vector<std::string> seen;           // run-outs
   std::map<std::string, std::size_t> row;  // of each part of the study
@@ -111,9 +111,9 @@ class PartUnit final : public prognosis::TrackedUnit {
     known_ = now_ = test.life;
   }
 
-  prognosis::Taken take(const Reading& reading, const prognosis::History& history) override;
+  prognosis::UpdateResult take(const Reading& reading, const prognosis::History& history) override;
   Forecast forecast() const override;
-  std::vector<prognosis::LevelAhead> ahead(std::span<const double> places) const override;
+  std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override;
   std::optional<prognosis::InPopulations> in_populations(
       const prognosis::History& history) const override;
   std::size_t readings() const override { return readings_; }
@@ -150,8 +150,8 @@ std::string PartUnit::problem_of(const Reading& reading, double& cycles,
     return fmt::format(
         "it runs under {} and not, as before, under {}: life under a stress that changes is a sum "
         "of damage (wearwell fatigue life)",
-        in_words(parts_->law, parts_->data, *stress),
-        in_words(parts_->law, parts_->data, *stress_));
+        description(parts_->law, parts_->data, *stress),
+        description(parts_->law, parts_->data, *stress_));
   return {};
 }
 
@@ -165,13 +165,13 @@ std::vector<double> PartUnit::weights(const StressLives& lives, double n, double
   return weight;
 }
 
-prognosis::Taken PartUnit::take(const Reading& reading, const prognosis::History&) {
-  prognosis::Taken taken;
+prognosis::UpdateResult PartUnit::take(const Reading& reading, const prognosis::History&) {
+  prognosis::UpdateResult taken;
   double cycles = 0;
   std::optional<Stress> stress;
   taken.problem = problem_of(reading, cycles, stress);
   if (!taken.problem.empty()) return taken;
-  taken.surprise = 1;  // of one that says less than is known
+  taken.p_value = 1;  // of one that says less than is known
   if (cycles > now_) {
     const auto lives = parts_->lives(*stress);
     double before = 0, after = 0;
@@ -181,19 +181,19 @@ prognosis::Taken PartUnit::take(const Reading& reading, const prognosis::History
       taken.problem = "no part that the population allows comes so far under that stress";
       return taken;
     }
-    taken.surprise = std::min(1.0, after / before);
+    taken.p_value = std::min(1.0, after / before);
     now_ = cycles;
   }
   stress_ = stress;
   bound_ = true;
   ++readings_;
   taken.counted = true;
-  taken.contradicts = taken.surprise < hardly_possible;
+  taken.contradicts = taken.p_value < hardly_possible;
   return taken;
 }
 
 // The share of its life that a part has used at a place: of long lives little.
-prognosis::LevelAhead used(const prognosis::WeightedLives& remaining, double now, double at) {
+prognosis::ForecastBand used(const prognosis::WeightedLives& remaining, double now, double at) {
   const auto level = [&](double p) { return at > 0 ? at / (now + remaining.quantile(p)) : 0; };
   return {at, level(0.95), level(0.5), level(0.05)};
 }
@@ -213,18 +213,18 @@ Forecast PartUnit::forecast() const {
   forecast.effective = sum * sum / square;
   forecast.now = now_;
   forecast.remaining = lives->remaining(weight, now_);
-  const prognosis::LevelAhead level = used(forecast.remaining, now_, now_);
+  const prognosis::ForecastBand level = used(forecast.remaining, now_, now_);
   forecast.level05 = level.level05;
   forecast.level50 = level.level50;
   forecast.level95 = level.level95;
   return forecast;
 }
 
-std::vector<prognosis::LevelAhead> PartUnit::ahead(std::span<const double> places) const {
+std::vector<prognosis::ForecastBand> PartUnit::ahead(std::span<const double> places) const {
   if (!places.empty() && places.front() < now_)
     throw std::invalid_argument("a path ahead begins where the unit is");
   const Forecast now = forecast();
-  std::vector<prognosis::LevelAhead> path;
+  std::vector<prognosis::ForecastBand> path;
   if (std::isnan(now.passed)) return path;
   for (const double at : places) path.push_back(used(now.remaining, now_, at));
   return path;

@@ -3,7 +3,7 @@
 #include "wearwell/math/dual.h"
 #include "wearwell/models/fatigue/life_test.h"
 #include "wearwell/models/fatigue/sn_law.h"
-#include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_distribution.h"
 
 namespace wearwell::fatigue {
 
@@ -13,7 +13,7 @@ namespace wearwell::fatigue {
 /// end.
 template <class T>
 struct LimitedLife {
-  StandardLaw life, limit;
+  StandardDistribution life, limit;
   T log10_reversed, log10_a, b, sigma;
   T location, scale;  ///< of the limit
 };

@@ -12,15 +12,15 @@ using fatigue::Outcome;
 
 namespace {
 
-Outcome outcome_of(Seen seen) {
+Outcome outcome_of(Censoring seen) {
   switch (seen) {
-    case Seen::exactly:
+    case Censoring::none:
       return Outcome::failure;
-    case Seen::above:
+    case Censoring::right:
       return Outcome::runout;
-    case Seen::below:
+    case Censoring::left:
       return Outcome::left;
-    case Seen::between:
+    case Censoring::interval:
       return Outcome::interval;
   }
   return Outcome::failure;
@@ -33,8 +33,8 @@ Outcome read_outcome(const Table& table, const LifeStatus& status, std::size_t r
 }
 
 Outcome read_outcome(const Table& table, const std::optional<LifeStatus>& status,
-                     const ColumnChoice& life, Seen seen, std::size_t row) {
-  if (!status || seen == Seen::exactly)
+                     const ColumnChoice& life, Censoring seen, std::size_t row) {
+  if (!status || seen == Censoring::none)
     return status ? read_outcome(table, *status, row) : outcome_of(seen);
   if (seen_in(table, *status, row) != seen)
     throw InputError(fmt::format("{}: '{}' is a limit, and column '{}' says '{}'; which is right?",

@@ -12,7 +12,7 @@ fatigue::Outcome read_outcome(const Table& table, const LifeStatus& status, std:
 /// How a test ended by its status or by its life, which may be a limit (">5000", `seen`); a failure where neither says
 /// it. Throws InputError where they contradict.
 fatigue::Outcome read_outcome(const Table& table, const std::optional<LifeStatus>& status,
-                              const ColumnChoice& life, Seen seen, std::size_t row);
+                              const ColumnChoice& life, Censoring seen, std::size_t row);
 
 /// Where the interval of a test ends [cycles]; 0 of a test that is none, whose cell is empty or repeats what its life says.
 /// Another number there has two readings. Throws InputError.

@@ -292,7 +292,7 @@ SnData read_sn_data(const TomlReader& root, const Source& source, MeanStress cor
   bool any_label = false;
   for (std::size_t i = 0; label && i < table.rows; ++i)
     any_label = any_label || !cell_word(table.column(label->column), i).empty();
-  const SeenNumbers seen = seen_numbers(table, life);
+  const CensoredNumbers seen = censored_numbers(table, life);
   const std::vector<double>& lives = seen.values;
   data.columns.push_back({"life", "cycle", life.unit, lives});
   const std::vector<double> counts = count ? si_numbers(table, *count) : std::vector<double>();

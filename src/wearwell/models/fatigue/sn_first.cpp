@@ -41,7 +41,7 @@ constexpr const char* asked =
 
 }  // namespace
 
-std::optional<FirstStudy> first_study(ColumnRoles& roles) {
+std::optional<Scaffold> scaffold(ColumnRoles& roles) {
   const bool extremes = roles.has({"max_stress"}) && roles.has({"min_stress"});
   if (!has_lives(roles) || !(extremes || roles.has({"alternating_stress"}))) return {};
   std::string columns;
@@ -74,7 +74,7 @@ std::optional<FirstStudy> first_study(ColumnRoles& roles) {
           "# Without [prior] weak defaults hold (docs/reference/priors.md). What you know makes a "
           "better "
           "answer:\n"
-          "# [prior]\n# b = {{ law = \"normal\", mean = -0.1, sd = 0.03 }}\n{}\n"
+          "# [prior]\n# b = {{ distribution = \"normal\", mean = -0.1, sd = 0.03 }}\n{}\n"
           "[predict]\n"
           "{}# b_lives = [1, 10]                       # when 1 and 10 % have failed\n"
           "# required_life = \"1e6 cycles\"            # which alternating stress lets\n"
@@ -83,13 +83,14 @@ std::optional<FirstStudy> first_study(ColumnRoles& roles) {
           means ? "goodman" : "none",
           means ? "                   # or gerber, soderberg, morrow, swt, walker, none"
                 : "                      # all tests at one mean stress or ratio",
-          means ? "# log10_Sut = { law = \"normal\", mean = \"3 log10(MPa)\", sd = 0.02 }    # the "
+          means ? "# log10_Sut = { distribution = \"normal\", mean = \"3 log10(MPa)\", sd = 0.02 } "
+                  "   # the "
                   "strength of a tensile test\n"
                 : "",
           asked));
 }
 
-std::optional<FirstStudy> first_strain_study(ColumnRoles& roles) {
+std::optional<Scaffold> first_strain_study(ColumnRoles& roles) {
   if (!has_lives(roles) || !roles.has({"strain"})) return {};
   const Found strain = roles.take("alternating_stress", {"strain"});
   std::string columns = ColumnRoles::line("alternating_stress", *strain);
@@ -108,7 +109,7 @@ std::optional<FirstStudy> first_strain_study(ColumnRoles& roles) {
           asked));
 }
 
-std::optional<FirstStudy> first_staircase(ColumnRoles& roles) {
+std::optional<Scaffold> first_staircase(ColumnRoles& roles) {
   if (!roles.has({"alternating_stress"}) || roles.has({"life", "cycles", "time"})) return {};
   const Found stress = roles.take("alternating_stress", {"alternating_stress"});
   const auto status = roles.take_status(true);

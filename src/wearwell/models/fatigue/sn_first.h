@@ -7,12 +7,12 @@
 namespace wearwell::fatigue {
 
 /// A study of lives under stresses, or nothing where the headings name none.
-std::optional<FirstStudy> first_study(ColumnRoles& roles);
+std::optional<Scaffold> scaffold(ColumnRoles& roles);
 
 /// A study of lives under strains.
-std::optional<FirstStudy> first_strain_study(ColumnRoles& roles);
+std::optional<Scaffold> first_strain_study(ColumnRoles& roles);
 
 /// A study of stresses and of what ended there, without lives: an up-and-down sequence.
-std::optional<FirstStudy> first_staircase(ColumnRoles& roles);
+std::optional<Scaffold> first_staircase(ColumnRoles& roles);
 
 }  // namespace wearwell::fatigue

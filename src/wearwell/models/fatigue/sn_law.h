@@ -4,7 +4,7 @@
 
 #include "wearwell/math/constants.h"
 #include "wearwell/models/fatigue/mean_stress.h"
-#include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_distribution.h"
 
 namespace wearwell::fatigue {
 
@@ -36,9 +36,10 @@ enum class SecondSlope { free, haibach, infinite };
 struct SnLaw {
   MeanStress correction = MeanStress::goodman;
   LifeFamily family = LifeFamily::log10_normal;
-  std::optional<double> strength;    ///< Pa, where it is known
-  std::optional<double> gamma;       ///< Walker's, where it is known
-  std::optional<StandardLaw> limit;  ///< the law of log10 of the fatigue limit, if there is one
+  std::optional<double> strength;  ///< Pa, where it is known
+  std::optional<double> gamma;     ///< Walker's, where it is known
+  std::optional<StandardDistribution>
+      limit;                         ///< the law of log10 of the fatigue limit, if there is one
   SnCurve curve = SnCurve::basquin;  ///< with a limit: basquin or knee
   SecondSlope second_slope = SecondSlope::free;
   /// sigma is the scatter at `scatter_at` cycles, and sigma (N/scatter_at)^growth at others.
@@ -79,9 +80,9 @@ struct SnLaw {
   bool bends() const { return limit || curve != SnCurve::basquin; }
   bool straight() const { return !bends() && !scatter_grows; }
 
-  StandardLaw standard() const {
-    return family == LifeFamily::weibull ? StandardLaw::smallest_extreme_value
-                                         : StandardLaw::normal;
+  StandardDistribution standard() const {
+    return family == LifeFamily::weibull ? StandardDistribution::smallest_extreme_value
+                                         : StandardDistribution::normal;
   }
   bool logarithmic() const { return family != LifeFamily::normal; }
 

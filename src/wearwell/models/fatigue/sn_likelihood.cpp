@@ -34,7 +34,7 @@ class SnLikelihood final : public LogDensity {
     }
     // An integral over the limit is worth the search; without one the sum of few keeps its order.
     const bool many = tests_.size() >= tests_are_many;
-    const bool summed = many && law_.straight() && law_.standard() == StandardLaw::normal;
+    const bool summed = many && law_.straight() && law_.standard() == StandardDistribution::normal;
     std::map<std::array<double, 5>, std::size_t> terms, levels;
     for (std::size_t i = 0; i < tests_.size(); ++i) {
       const LifeTest& test = tests_[i];
@@ -66,8 +66,8 @@ class SnLikelihood final : public LogDensity {
   double value_above(std::span<const double> x, double least) const override {
     if (!law_.integrated() || law_.scatter_grows) return value(x);
     const Shared<double> shared(law_, x.data());
-    const double peak =
-        (law_.standard() == StandardLaw::normal ? -half_log_two_pi : -1) - shared.log_sigma;
+    const double peak = (law_.standard() == StandardDistribution::normal ? -half_log_two_pi : -1) -
+                        shared.log_sigma;
     const auto most = [&](const Term& each) {
       return tests_[each.row].outcome == Outcome::failure
                  ? each.count * (peak + rows_[each.row].log_measure)
@@ -257,8 +257,8 @@ class SnLikelihood final : public LogDensity {
     }
     if (!law_.straight()) return bent(shared, i, reversed, law_.log10_life(shared.x, reversed));
     const T location = location_at(shared, reversed);
-    const StandardLaw standard = law_.standard();
-    if (test.outcome == Outcome::failure && standard == StandardLaw::normal) {
+    const StandardDistribution standard = law_.standard();
+    if (test.outcome == Outcome::failure && standard == StandardDistribution::normal) {
       return normal_log_density(row.at, location, shared.inverse_sigma, shared.log_sigma) +
              row.log_measure;
     }
@@ -288,7 +288,7 @@ class SnLikelihood final : public LogDensity {
       // Below a limit of all items life has no end.
       return T(scalar(location) > 0 && outcome == Outcome::runout ? 0 : -infinity);
     }
-    const StandardLaw standard = law_.standard();
+    const StandardDistribution standard = law_.standard();
     const T sigma = law_.sigma_at(shared.x, location);
     const T z = (row.at - location) / sigma;
     T reached(0);  // log of the share of items whose limit the stress reaches

@@ -237,7 +237,7 @@ std::vector<std::string> sn_meanings(const SnLaw& law) {
     words.emplace_back("logarithm of the median fatigue limit");
     words.emplace_back("scatter of the logarithm of the fatigue limit");
   }
-  if (law.limit == StandardLaw::smallest_extreme_value) {
+  if (law.limit == StandardDistribution::smallest_extreme_value) {
     words[words.size() - 2] = "logarithm of the fatigue limit that 63.2 % stay below";
   }
   return words;

@@ -36,7 +36,7 @@ const Unit& percent() {
   return unit;
 }
 
-std::string in_words(const Quantity& quantity) {
+std::string description(const Quantity& quantity) {
   return fmt::format("{:.6g}{}", quantity.value, after_number(quantity.unit));
 }
 
@@ -121,7 +121,7 @@ class LivesAt {
   const MixedLife& next() const { return next_; }
 
   // On the scale on which lives scatter.
-  Distribution quantile(double share) const {
+  QuantityDistribution quantile(double share) const {
     if (law_.limit) {
       return {draws_, [&](const double* x) { return life_quantile(law_, x, stress_, share); }};
     }
@@ -129,12 +129,12 @@ class LivesAt {
     return {draws_, [z](const double* x) { return x[0] + z * x[1]; }};
   }
 
-  Distribution survival(double life) const {
+  QuantityDistribution survival(double life) const {
     if (law_.limit) {
       return {draws_, [&](const double* x) { return fatigue::survival(law_, x, stress_, life); }};
     }
     const double at = law_.logarithmic() ? std::log10(life) : life;
-    const StandardLaw standard = law_.standard();
+    const StandardDistribution standard = law_.standard();
     return {draws_, [=](const double* x) { return 1 - cdf(standard, (at - x[0]) / x[1]); }};
   }
 
@@ -159,21 +159,21 @@ std::vector<QuantityQuantiles> at_point(const SnLaw& law, const WeightedDraws& d
   std::vector<QuantityQuantiles> all = {
       {of_next(0.05), of_next(0.5), of_next(0.95), of_next(0.01), of_next(0.1), of_next(0.5)}};
   for (const double percent_failed : predictions.percents) {
-    const Distribution at = lives.quantile(percent_failed / 100);
+    const QuantityDistribution at = lives.quantile(percent_failed / 100);
     const auto quantile = [&](double p) { return cycles(law, at.quantile(p)); };
     all.push_back({quantile(0.05), quantile(0.5), quantile(0.95), 0, 0, 0,
                    of_next(percent_failed / 100), quantile(1 - predictions.credible_level)});
   }
   for (const Quantity& to : predictions.survival_to) {
-    const Distribution share = lives.survival(to.si());
+    const QuantityDistribution share = lives.survival(to.si());
     all.push_back({share.quantile(0.05), share.quantile(0.5), share.quantile(0.95), 0, 0, 0,
                    1 - next.cdf(to.si()), share.quantile(1 - predictions.credible_level)});
   }
   return all;
 }
 
-Distribution allowed_distribution(const SnLaw& law, const WeightedDraws& draws,
-                                  const AllowedStress& allowed) {
+QuantityDistribution allowed_distribution(const SnLaw& law, const WeightedDraws& draws,
+                                          const AllowedStress& allowed) {
   const WeightedDraws stresses = reduced(draws, 1, [&](const double* x, double* y) {
     y[0] =
         alternating_allowed(law, x, allowed.line,
@@ -184,14 +184,14 @@ Distribution allowed_distribution(const SnLaw& law, const WeightedDraws& draws,
 
 QuantityQuantiles allowed_quantiles(const SnLaw& law, const WeightedDraws& draws,
                                     const AllowedStress& allowed, double credible_level) {
-  const Distribution stress = allowed_distribution(law, draws, allowed);
+  const QuantityDistribution stress = allowed_distribution(law, draws, allowed);
   QuantityQuantiles q{stress.quantile(0.05), stress.quantile(0.5), stress.quantile(0.95), 0, 0, 0};
   q.predictive = next_allowed(law, draws, allowed.line, allowed.life.si(), allowed.reliability);
   q.bound = stress.quantile(1 - credible_level);
   return q;
 }
 
-std::string in_words(const SnLaw& law, const SnData& data, const StressLine& line) {
+std::string description(const SnLaw& law, const SnData& data, const StressLine& line) {
   if (line.ratio) return fmt::format(", R = {:.6g}", *line.ratio);
   if (law.correction == MeanStress::none) return "";
   if (line.mean == 0) return ", fully reversed";
@@ -257,7 +257,7 @@ Check extrapolation(const SnLaw& law, const SnData& data, const SnPredictions& p
   for (const AllowedStress& allowed : predictions.allowed) {
     const double stress = allowed_distribution(law, fit.pooled, allowed).quantile(0.5);
     const std::string where =
-        fmt::format("{} at {:.6g} %", in_words(allowed.life), 100 * allowed.reliability);
+        fmt::format("{} at {:.6g} %", description(allowed.life), 100 * allowed.reliability);
     if (!tested.alternating.holds(stress)) {
       findings.add(Verdict::warn,
                    fmt::format("the allowed alternating stress for {}, in the median {:.4g} {}, "
@@ -277,7 +277,7 @@ Check extrapolation(const SnLaw& law, const SnData& data, const SnPredictions& p
     }
     if (allowed.life.si() > tested.life.high) {
       findings.add(Verdict::warn,
-                   fmt::format("no test lasted {} (they lasted {})", in_words(allowed.life),
+                   fmt::format("no test lasted {} (they lasted {})", description(allowed.life),
                                tested.life.in(data.life_unit)),
                    advice);
     }
@@ -320,7 +320,7 @@ Check few_tests(const SnData& data, const SnPredictions& predictions) {
 
 }  // namespace
 
-std::string in_words(const SnLaw& law, const SnData& data, const Stress& stress) {
+std::string description(const SnLaw& law, const SnData& data, const Stress& stress) {
   const auto value = [&](double si) { return from_si(data.stress_unit, si); };
   const std::string alternating =
       fmt::format("{:.5g}{}", value(stress.alternating), after_number(data.stress_unit));
@@ -342,7 +342,7 @@ std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {
   for (std::size_t i = 0; i < data.tests.size(); ++i) {
     const Stress& stress = data.tests[i].stress;
     const std::string name =
-        data.labels[i].empty() ? in_words(law, data, stress) : "type " + data.labels[i];
+        data.labels[i].empty() ? description(law, data, stress) : "type " + data.labels[i];
     const bool known = std::any_of(points.begin(), points.end(), [&](const StressPoint& point) {
       return point.name == name && same(point.stress, stress);
     });
@@ -353,7 +353,7 @@ std::vector<StressPoint> tested_points(const SnLaw& law, const SnData& data) {
   // A type that was tested under several stresses is one of each.
   for (StressPoint& point : points) {
     if (stresses[point.name] > 1) {
-      point.name += " at " + in_words(law, data, point.stress);
+      point.name += " at " + description(law, data, point.stress);
     }
   }
   return points;
@@ -467,7 +467,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     return result;
   };
   for (const StressPoint& point : predictions.points) {
-    const std::string words = in_words(law, data, point.stress);
+    const std::string words = description(law, data, point.stress);
     const std::string of = point.name == words ? "specimen" : point.name;
     const std::string at = of.ends_with(words) ? "" : "at " + words;
     QuantityGroup group;
@@ -485,7 +485,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
                                 [=](double life) { return cycles(law, life); }});
     }
     for (const Quantity& to : predictions.survival_to) {
-      group.requests.push_back(request("survival to " + in_words(to), of, at, percent()));
+      group.requests.push_back(request("survival to " + description(to), of, at, percent()));
     }
     group.from_draws = [=, stress = point.stress](const WeightedDraws& draws) {
       return at_point(law, draws, stress, predictions);
@@ -502,7 +502,7 @@ void add_sn_quantities(const SnLaw& law, const SnData& data, const SnPredictions
     QuantityRequest stress =
         request("allowed alternating stress", "specimen",
                 fmt::format("for {:.6g} % to outlast {}{}", 100 * allowed.reliability,
-                            in_words(allowed.life), in_words(law, data, allowed.line)),
+                            description(allowed.life), description(law, data, allowed.line)),
                 data.stress_unit);
     stress.headline = allowed.reliability == most_reliable;
     study.quantity_groups.push_back({{stress}, [=](const WeightedDraws& draws) {

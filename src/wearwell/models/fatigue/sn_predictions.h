@@ -65,6 +65,7 @@ std::vector<Check> sn_checks(const fatigue::SnLaw& law, const SnData& data,
                              const SnPredictions& predictions, const Fit& fit);
 
 /// "271.1 MPa about 1005.5 MPa": alternating and mean stress.
-std::string in_words(const fatigue::SnLaw& law, const SnData& data, const fatigue::Stress& stress);
+std::string description(const fatigue::SnLaw& law, const SnData& data,
+                        const fatigue::Stress& stress);
 
 }  // namespace wearwell

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// By the order of LifeFamily and of StandardLaw.
+// By the order of LifeFamily and of StandardDistribution.
 constexpr const char* families[] = {"log10-normal", "weibull", "normal"};
 constexpr const char* limit_families[] = {"normal", "smallest-extreme-value"};
 // Of SnCurve and SecondSlope.
@@ -57,8 +57,8 @@ SnLaw read_law(const JsonReader& json) {
   if (json.at("fatigue_limit").one_of({"none", "random"}) == "random")
     law.limit =
         json.at("limit_family").one_of({limit_families[0], limit_families[1]}) == limit_families[0]
-            ? StandardLaw::normal
-            : StandardLaw::smallest_extreme_value;
+            ? StandardDistribution::normal
+            : StandardDistribution::smallest_extreme_value;
   if (const auto curve = json.find("curve"))
     law.curve = chosen<SnCurve>(*curve, {curves[0], curves[1], curves[2], curves[3], curves[4]});
   if (const auto slope = json.find("second_slope"))
@@ -81,7 +81,8 @@ nlohmann::ordered_json sn_json(const SnLaw& law, const SnData& data) {
   Json json = {{"mean_stress", mean_stress_names()[static_cast<std::size_t>(law.correction)]},
                {"family", families[static_cast<int>(law.family)]},
                {"fatigue_limit", law.limit ? "random" : "none"}};
-  if (law.limit) json["limit_family"] = limit_families[*law.limit == StandardLaw::normal ? 0 : 1];
+  if (law.limit)
+    json["limit_family"] = limit_families[*law.limit == StandardDistribution::normal ? 0 : 1];
   if (law.curve != SnCurve::basquin) json["curve"] = curves[static_cast<int>(law.curve)];
   if (law.curve == SnCurve::knee)
     json["second_slope"] = second_slopes[static_cast<int>(law.second_slope)];

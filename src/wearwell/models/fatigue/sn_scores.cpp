@@ -9,7 +9,7 @@
 namespace wearwell::fatigue {
 namespace {
 
-double cdf_above(StandardLaw law, double z) {
+double cdf_above(StandardDistribution law, double z) {
   return std::exp(log_survival(law, z));
 }
 
@@ -33,7 +33,7 @@ double score(const SnLaw& law, const double* x, double log10_reversed, double li
         std::log(failing * failed),
         std::log(cdf_above(*law.limit, w) + failing * cdf_above(law.standard(), z)));
   }
-  if (law.standard() == StandardLaw::normal) return z;
+  if (law.standard() == StandardDistribution::normal) return z;
   return normal_score(log_cdf(law.standard(), z), log_survival(law.standard(), z));
 }
 

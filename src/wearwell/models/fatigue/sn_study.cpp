@@ -9,7 +9,7 @@
 #include "wearwell/input/prior.h"
 #include "wearwell/models/fatigue/design_curve.h"
 #include "wearwell/models/fatigue/sn_data.h"
-#include "wearwell/models/fatigue/sn_exhibits.h"
+#include "wearwell/models/fatigue/sn_figures.h"
 #include "wearwell/models/fatigue/sn_fit_data.h"
 #include "wearwell/models/fatigue/sn_likelihood.h"
 #include "wearwell/models/fatigue/sn_parameters.h"
@@ -65,7 +65,7 @@ void read_curve(const TomlReader& table, bool random_limit, SnLaw& law) {
   }
 }
 
-std::string curve_in_words(const SnLaw& law) {
+std::string curve_text(const SnLaw& law) {
   switch (law.curve) {
     case SnCurve::knee:
       return law.limit ? "N = N_D (S_f/S_D)^-k"
@@ -84,7 +84,7 @@ std::string curve_in_words(const SnLaw& law) {
   return law.limit ? "S_f - limit = a N^b" : "S_f = a N^b";
 }
 
-std::string in_words(const SnLaw& law) {
+std::string description(const SnLaw& law) {
   const std::string strength(strength_name(law.correction));
   std::string reversed;
   switch (law.correction) {
@@ -106,7 +106,7 @@ std::string in_words(const SnLaw& law) {
       reversed = "(S_m + S_a)^(1 - gamma) S_a^gamma";
       break;
   }
-  std::string words = fmt::format("S_f = {}, {}", reversed, curve_in_words(law));
+  std::string words = fmt::format("S_f = {}, {}", reversed, curve_text(law));
   if (law.strength) words += fmt::format(", {} = {:.6g} MPa", strength, *law.strength * 1e-6);
   if (law.gamma) words += fmt::format(", gamma = {:.4g}", *law.gamma);
   words += law.family == LifeFamily::log10_normal
@@ -119,7 +119,7 @@ std::string in_words(const SnLaw& law) {
     words += fmt::format(
         "; log10 of the limit is {} with location {} and scale sigma_limit, and no end of life "
         "below it",
-        *law.limit == StandardLaw::normal ? "normal" : "smallest extreme value",
+        *law.limit == StandardDistribution::normal ? "normal" : "smallest extreme value",
         law.curve == SnCurve::knee ? "log10_S_D" : "log10_limit");
   }
   return words;
@@ -168,12 +168,12 @@ QuantityGroup cyclic_curve(const TomlReader& root) {
   };
   return {{request("n'", Unit{"1", 1, 0}), request(modulus ? "K'" : "K'/E", stress)},
           [=](const WeightedDraws& draws) {
-            const Distribution n(draws, [](const double* x) { return x[1] / x[3]; });
-            const Distribution k(draws, [=](const double* x) {
+            const QuantityDistribution n(draws, [](const double* x) { return x[1] / x[3]; });
+            const QuantityDistribution k(draws, [=](const double* x) {
               return e * std::pow(10, x[0] - x[1] / x[3] * x[2]);
             });
             std::vector<QuantityQuantiles> both;
-            for (const Distribution* each : {&n, &k})
+            for (const QuantityDistribution* each : {&n, &k})
               both.push_back(
                   {each->quantile(0.05), each->quantile(0.5), each->quantile(0.95), 0, 0, 0});
             return both;
@@ -198,8 +198,8 @@ SnLaw read_sn_law(const TomlReader& root) {
   const std::vector<std::string> families = {"normal", "smallest-extreme-value"};
   const auto limit_family = table->choice("limit_family", families);
   if (limit == "random") {
-    law.limit =
-        limit_family == families[1] ? StandardLaw::smallest_extreme_value : StandardLaw::normal;
+    law.limit = limit_family == families[1] ? StandardDistribution::smallest_extreme_value
+                                            : StandardDistribution::normal;
   } else if (limit_family) {
     table->fail("limit_family", "needs fatigue_limit = \"random\"");
   }
@@ -271,7 +271,7 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
         "their own (data.sql = \"select ... limit 6\")");
   }
   study.parameters = sn_parameters(root, law, data);
-  study.equation = in_words(law);
+  study.equation = description(law);
   study.data_rows = data.tests.size();
   study.quantity = "life";
   for (const LifeTest& test : data.tests) {
@@ -305,7 +305,7 @@ void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy&
     };
   study.coverage = [=](const WeightedDraws& draws) { return sn_coverage(law, data, draws); };
   study.addition = [=](const Fit& fit) { return sn_addition(law, data, fit); };
-  study.exhibits = [=](const Fit& fit) { return sn_exhibits(law, data, predictions, fit); };
+  study.figures = [=](const Fit& fit) { return sn_figures(law, data, predictions, fit); };
   study.checks = [=](const Fit& fit) { return sn_checks(law, data, predictions, fit); };
 }
 

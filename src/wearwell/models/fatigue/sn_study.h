@@ -10,7 +10,7 @@ namespace wearwell {
 /// Reads `model = "sn"` (docs/reference/fatigue.md) into `study`, whose general parts are read already.
 void read_sn_study(const TomlReader& root, const Source& source, PosteriorStudy& study);
 
-/// The law that [law], [likelihood] and [conditions] of it choose. Throws InputError.
+/// The law that [formula], [likelihood] and [conditions] of it choose. Throws InputError.
 fatigue::SnLaw read_sn_law(const TomlReader& root);
 
 }  // namespace wearwell

@@ -11,7 +11,7 @@ namespace {
 
 class StaircaseLikelihood final : public LogDensity {
  public:
-  StaircaseLikelihood(StandardLaw limit, std::vector<StairTest> tests)
+  StaircaseLikelihood(StandardDistribution limit, std::vector<StairTest> tests)
       : limit_(limit), tests_(std::move(tests)) {
     for (const StairTest& test : tests_) log10_stress_.push_back(std::log10(test.stress));
   }
@@ -47,14 +47,14 @@ class StaircaseLikelihood final : public LogDensity {
     return sum;
   }
 
-  StandardLaw limit_;
+  StandardDistribution limit_;
   std::vector<StairTest> tests_;
   std::vector<double> log10_stress_;
 };
 
 }  // namespace
 
-std::shared_ptr<const LogDensity> staircase_likelihood(StandardLaw limit,
+std::shared_ptr<const LogDensity> staircase_likelihood(StandardDistribution limit,
                                                        std::vector<StairTest> tests) {
   return std::make_shared<StaircaseLikelihood>(limit, std::move(tests));
 }

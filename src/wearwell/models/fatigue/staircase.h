@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "wearwell/bayes/log_density.h"
-#include "wearwell/prob/standard_law.h"
+#include "wearwell/prob/standard_distribution.h"
 
 namespace wearwell::fatigue {
 
@@ -18,7 +18,7 @@ struct StairTest {
 
 /// The likelihood of log10 of the median (location) fatigue limit [Pa] and of its scale: a test fails
 /// when its item's limit lies below the stress. Terms are those of one test of each row.
-std::shared_ptr<const LogDensity> staircase_likelihood(StandardLaw limit,
+std::shared_ptr<const LogDensity> staircase_likelihood(StandardDistribution limit,
                                                        std::vector<StairTest> tests);
 
 /// Dixon and Mood's estimate (1948) from an up-and-down sequence with equal steps, in Pa.

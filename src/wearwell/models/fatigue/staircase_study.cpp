@@ -29,7 +29,7 @@ struct StairData {
   std::vector<StairTest> tests;
   std::string stress_si = "Pa";  // of a stress, or of what stands for it
   Unit unit;
-  StandardLaw limit = StandardLaw::normal;
+  StandardDistribution limit = StandardDistribution::normal;
   std::vector<double> reliabilities = {0.5, 0.9};
   double credible_level = 0.9;
 };
@@ -72,7 +72,7 @@ void read_wishes(const TomlReader& root, StairData& data) {
   if (const auto law = root.table("law")) {
     const std::vector<std::string> families = {"normal", "smallest-extreme-value"};
     if (law->choice("limit_family", families) == families[1])
-      data.limit = StandardLaw::smallest_extreme_value;
+      data.limit = StandardDistribution::smallest_extreme_value;
   }
   const auto predict = root.table("predict");
   if (!predict) return;
@@ -118,7 +118,7 @@ void add_limits(const StairData& data, PosteriorStudy& study) {
     request.headline = reliability == most;
     study.quantity_groups.push_back(
         {{request}, [=](const WeightedDraws& draws) {
-           const Distribution limit(
+           const QuantityDistribution limit(
                draws, [&](const double* x) { return log10_limit(data, x, reliability); });
            const auto at = [&](double p) { return std::pow(10, limit.quantile(p)); };
            QuantityQuantiles q{at(0.05), at(0.5), at(0.95), 0, 0, 0};
@@ -181,7 +181,8 @@ html::Figure failure_figure(const StairData& data, const WeightedDraws& all) {
     levels[test.stress].second += test.failed ? test.count : 0;
   }
   const double most = *std::max_element(data.reliabilities.begin(), data.reliabilities.end());
-  const Distribution limit(draws, [&](const double* x) { return log10_limit(data, x, most); });
+  const QuantityDistribution limit(draws,
+                                   [&](const double* x) { return log10_limit(data, x, most); });
   const double bound = std::pow(10, limit.quantile(1 - data.credible_level));
   const double low =
       std::min(0.95 * levels.begin()->first, std::max(bound, 0.5 * levels.begin()->first) / 1.03);
@@ -189,7 +190,7 @@ html::Figure failure_figure(const StairData& data, const WeightedDraws& all) {
   std::vector<double> x, low_share, middle, high_share, at, share, tests;
   for (int i = 0; i <= points; ++i) {
     const double stress = std::lerp(low, high, static_cast<double>(i) / points);
-    const Distribution fails(draws, [&](const double* p) {
+    const QuantityDistribution fails(draws, [&](const double* p) {
       return cdf(data.limit, (std::log10(stress) - p[0]) / p[1]);
     });
     x.push_back(from_si(data.unit, stress));
@@ -224,8 +225,8 @@ html::Figure failure_figure(const StairData& data, const WeightedDraws& all) {
                  320, true)};
 }
 
-TradeAddition addition(const StairData& data, const WeightedDraws& draws) {
-  TradeAddition added;
+PresetAddition addition(const StairData& data, const WeightedDraws& draws) {
+  PresetAddition added;
   const auto in_unit = [&](double si) { return from_si(data.unit, si); };
   const fatigue::DixonMood classical = fatigue::dixon_mood(data.tests);
   const std::string comparison =
@@ -307,7 +308,7 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
   study.meanings = {"logarithm of the median fatigue limit",
                     "scatter of the logarithm of the fatigue limit"};
   study.equation =
-      data.limit == StandardLaw::normal
+      data.limit == StandardDistribution::normal
           ? "a test fails when the stress is above its item's limit; log10 of the limit is normal"
           : "a test fails when the stress is above its item's limit; log10 of the limit has a "
             "smallest extreme value law";
@@ -329,7 +330,7 @@ void read_staircase_study(const TomlReader& root, const Source& source, Posterio
         data.limit, {data.tests.begin(), data.tests.begin() + static_cast<std::ptrdiff_t>(rows)});
   };
   add_limits(data, study);
-  study.exhibits = [=](const Fit& fit) {
+  study.figures = [=](const Fit& fit) {
     return std::map<std::string, std::vector<html::Figure>>{
         {"verdict", {failure_figure(data, fit.exact ? fit.exact->nodes : fit.pooled)}}};
   };

@@ -14,13 +14,13 @@ namespace {
 constexpr std::size_t slices_of_a_point = 40;
 
 // One law of life among those that a point's lives are mixed of; `share` of its parts follow it.
-struct PartLaw {
+struct LifeComponent {
   double share, center, sigma;
 };
 
 // Of one point of the posterior.
 struct PointLives {
-  std::vector<PartLaw> laws;
+  std::vector<LifeComponent> laws;
   double endless = 0;  // the share whose life has no end
   bool defined = true;
 };
@@ -52,7 +52,7 @@ double log_survival_of(const SnLaw& law, const PointLives& lives, double log10_l
     return log_survival_and_slope(law.standard(), (at - lives.laws[0].center) / lives.laws[0].sigma)
         .value;
   double sum = lives.endless;
-  for (const PartLaw& each : lives.laws)
+  for (const LifeComponent& each : lives.laws)
     sum += each.share *
            std::exp(log_survival_and_slope(law.standard(), (at - each.center) / each.sigma).value);
   return sum > 0 ? std::log(sum) : -infinity;
@@ -66,9 +66,9 @@ std::vector<double> places_of(const SnLaw& law, const std::vector<PointLives>& p
   constexpr double finest = 0.002, coarsest = 0.05;
   const double end = std::log10(StressLives::most_cycles);
   double low = infinity, high = -infinity, least = infinity;
-  const bool skewed = law.standard() == StandardLaw::smallest_extreme_value;
+  const bool skewed = law.standard() == StandardDistribution::smallest_extreme_value;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (const PartLaw& each : points[i].laws) {
+    for (const LifeComponent& each : points[i].laws) {
       if (!(weight[i] * each.share > light)) continue;
       double from = each.center - (skewed ? 2.5 * far : far) * each.sigma;
       double until = each.center + far * each.sigma, sigma = each.sigma;
@@ -95,7 +95,7 @@ std::vector<double> places_of(const SnLaw& law, const std::vector<PointLives>& p
 
 }  // namespace
 
-StressLives::StressLives(const SnLaw& law, const FewPoints& points, const Stress& stress)
+StressLives::StressLives(const SnLaw& law, const ThinnedPosterior& points, const Stress& stress)
     : points_(points.weights.size()) {
   std::vector<PointLives> lives(points_);
   tbb::parallel_for(std::size_t{0}, points_, [&](std::size_t i) {

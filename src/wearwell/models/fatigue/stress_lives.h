@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wearwell/models/fatigue/sn_law.h"
-#include "wearwell/predict/few_points.h"
+#include "wearwell/predict/thinned_posterior.h"
 #include "wearwell/prognosis/weighted_lives.h"
 
 namespace wearwell::fatigue {
@@ -18,7 +18,7 @@ class StressLives {
  public:
   /// Nothing is known of points at which the law has no life under that stress: `undefined` is their weight, and
   /// they have no life at all, as in the likelihood.
-  StressLives(const SnLaw& law, const FewPoints& points, const Stress& stress);
+  StressLives(const SnLaw& law, const ThinnedPosterior& points, const Stress& stress);
 
   /// Lives beyond that have no end, cycles.
   static constexpr double most_cycles = 1e15;

@@ -72,19 +72,19 @@ void read_work(const TomlReader& root, const TomlReader& columns, const Source& 
   if (constant || profile) {
     data.work_per_cycle = constant ? constant->si() : read_profile(*profile, source);
     if (!(*data.work_per_cycle > 0)) conditions->fail("work_per_cycle", "must be positive");
-    data.work_in_words =
+    data.work_text =
         constant ? fmt::format("cycles x {:.6g} {}", constant->value, constant->unit.text)
                  : fmt::format("cycles x {:.6g} N m (from the profile)", *data.work_per_cycle);
     for (const double c : data.cycles) data.inspections.work.push_back(c * *data.work_per_cycle);
   } else if (work) {
-    data.work_in_words = fmt::format("column '{}'", work->column);
+    data.work_text = fmt::format("column '{}'", work->column);
     data.inspections.work = si_numbers(table, *work);
     for (std::size_t i = 0; i < table.rows; ++i) {
       require(data.inspections.work[i] >= 0, table, *work, i, "0 or more");
     }
     data.columns.push_back({"work", "N m", work->unit, data.inspections.work});
   } else if (force) {
-    data.work_in_words = fmt::format("'{}' x '{}'", force->column, slip->column);
+    data.work_text = fmt::format("'{}' x '{}'", force->column, slip->column);
     const auto f = si_numbers(table, *force), s = si_numbers(table, *slip);
     for (std::size_t i = 0; i < table.rows; ++i) data.inspections.work.push_back(f[i] * s[i]);
     data.columns.push_back({"force", "N", force->unit, f, true});

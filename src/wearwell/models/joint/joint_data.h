@@ -19,7 +19,7 @@ struct JointData {
   std::vector<double> cycles;
   Unit volume_unit;
   std::optional<double> work_per_cycle;  ///< J, where it is constant
-  std::string work_in_words;
+  std::string work_text;
   std::optional<PointwiseTable> pointwise;
   std::vector<DataColumn> columns;
   TableLayout layout;

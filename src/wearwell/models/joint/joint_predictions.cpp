@@ -15,12 +15,12 @@ double largest(const std::vector<double>& values) {
 }
 
 // Friction work against cycles. Where the work per cycle is constant, it is so past and to come.
-struct Course {
+struct CycleWork {
   std::optional<double> rate;  // J a cycle, of what comes
   WorkHistory history;
 };
 
-Course read_course(const std::optional<TomlReader>& predict, const JointData& data) {
+CycleWork read_cycle_work(const std::optional<TomlReader>& predict, const JointData& data) {
   std::optional<double> rate = data.work_per_cycle;
   if (predict && !rate) {
     if (const auto future = predict->quantity("work_per_cycle", "N m/cycle")) {
@@ -49,52 +49,52 @@ struct Volumes {
   }
 };
 
-void need_rate(const TomlReader& predict, const Course& course, const char* key) {
-  if (!course.rate)
+void need_rate(const TomlReader& predict, const CycleWork& cycle_work, const char* key) {
+  if (!cycle_work.rate)
     predict.fail(key, "needs the work of future cycles; give predict.work_per_cycle");
 }
 
 // The curve ends after the last inspection or prediction, or somewhat after the limit.
-void add_curve(const std::optional<TomlReader>& predict, const Course& course,
+void add_curve(const std::optional<TomlReader>& predict, const CycleWork& cycle_work,
                const Volumes& volumes, const JointData& data, PosteriorStudy& study) {
   constexpr int points = 32;
   double end = largest(data.cycles);
-  if (predict && course.rate) {
+  if (predict && cycle_work.rate) {
     for (const Quantity& cycles : predict->quantities("cycles", "cycle")) {
       end = std::max(end, cycles.si());
     }
     if (const auto limit = predict->quantity("limit", "m^3")) {
       const double k = least_squares(data.inspections).k;
-      const double reached = course.history.cycles_at(limit->si() / k);
+      const double reached = cycle_work.history.cycles_at(limit->si() / k);
       if (reached > 0) end = std::max(end, std::min(reached, 3 * end));
     }
     end *= 1.1;
   }
   for (int i = 0; i <= points; ++i) {
     const double cycles = end * std::max<double>(i, 1e-3) / points;
-    study.history.push_back(volumes.at(cycles, course.history.work_at(cycles), {}));
+    study.history.push_back(volumes.at(cycles, cycle_work.history.work_at(cycles), {}));
   }
 }
 
-void add_volumes(const TomlReader& predict, const Course& course, const Volumes& volumes,
+void add_volumes(const TomlReader& predict, const CycleWork& cycle_work, const Volumes& volumes,
                  const JointData& data, PosteriorStudy& study) {
   const double seen = largest(data.cycles);
   for (const Quantity& cycles : predict.quantities("cycles", "cycle")) {
-    need_rate(predict, course, "cycles");
+    need_rate(predict, cycle_work, "cycles");
     if (!(cycles.si() >= 0)) predict.fail("cycles", "must be 0 or more");
     std::optional<double> measured;
     for (std::size_t i = 0; i < data.cycles.size(); ++i) {
       if (data.cycles[i] == cycles.si()) measured = data.inspections.volume[i];
     }
     study.predictions.push_back(
-        volumes.at(cycles.si(), course.history.work_at(cycles.si()), measured));
+        volumes.at(cycles.si(), cycle_work.history.work_at(cycles.si()), measured));
     study.reaches.push_back({fmt::format("the prediction at {:.6g} cycles", cycles.si()),
                              fmt::format("the last inspection was after {:.6g} cycles", seen),
                              cycles.si(), seen});
   }
 }
 
-void add_life(const TomlReader& predict, const Course& course, const Archard& law,
+void add_life(const TomlReader& predict, const CycleWork& cycle_work, const Archard& law,
               const JointData& data, PosteriorStudy& study) {
   const auto risk = predict.quantity("risk", "1");
   if (risk && !(risk->si() > 0 && risk->si() < 1))
@@ -106,7 +106,7 @@ void add_life(const TomlReader& predict, const Course& course, const Archard& la
     }
     return;
   }
-  need_rate(predict, course, "limit");
+  need_rate(predict, cycle_work, "limit");
   const LifeLevels levels = read_life_levels(predict);
   if (!(limit->si() > 0)) predict.fail("limit", "must be positive");
   const double most = largest(data.inspections.volume);
@@ -122,9 +122,9 @@ void add_life(const TomlReader& predict, const Course& course, const Archard& la
       *limit,
       largest(data.cycles),
       risk ? risk->si() : 0.01,
-      [law, history = course.history, limit = limit->si()](const WeightedDraws& draws) {
-        return life_law(draws,
-                        [&](const double* x) { return history.cycles_at(law.work_at(x, limit)); });
+      [law, history = cycle_work.history, limit = limit->si()](const WeightedDraws& draws) {
+        return life_distribution(
+            draws, [&](const double* x) { return history.cycles_at(law.work_at(x, limit)); });
       }};
   if (levels.percents.empty()) return;
   study.quantity_groups.push_back(b_lives_of_one(
@@ -136,7 +136,7 @@ void add_life(const TomlReader& predict, const Course& course, const Archard& la
 void add_predictions(const TomlReader& root, const Archard& law, ObservationFamily family,
                      const JointData& data, PosteriorStudy& study) {
   const auto predict = root.table("predict");
-  const Course course = read_course(predict, data);
+  const CycleWork cycle_work = read_cycle_work(predict, data);
   const Volumes volumes{law, family, data.volume_unit};
   study.stage_predictions = [volumes, cycles = data.cycles,
                              inspections = data.inspections](std::size_t rows) {
@@ -146,10 +146,10 @@ void add_predictions(const TomlReader& root, const Archard& law, ObservationFami
     }
     return requests;
   };
-  add_curve(predict, course, volumes, data, study);
+  add_curve(predict, cycle_work, volumes, data, study);
   if (!predict) return;
-  add_volumes(*predict, course, volumes, data, study);
-  add_life(*predict, course, law, data, study);
+  add_volumes(*predict, cycle_work, volumes, data, study);
+  add_life(*predict, cycle_work, law, data, study);
 }
 
 }  // namespace wearwell::joint

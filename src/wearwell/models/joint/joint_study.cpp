@@ -52,13 +52,14 @@ std::vector<Parameter> read_parameters(const TomlReader& root, const JointData& 
   return parameters;
 }
 
-std::string in_words(const joint::Archard& law, ObservationFamily family, const JointData& data) {
+std::string description(const joint::Archard& law, ObservationFamily family,
+                        const JointData& data) {
   std::string mean = "k W";
   if (law.has_exponent) mean += " (W/W_ref)^(exponent - 1)";
   if (law.has_constant) mean = "V0 + " + mean;
   return fmt::format(
       "V = {}, W = {}{}; V measured with {} scatter of standard deviation sigma", mean,
-      data.work_in_words,
+      data.work_text,
       law.has_exponent ? fmt::format(", W_ref = {:.6g} N m", law.reference_work) : "",
       family == ObservationFamily::normal ? "normal" : "lognormal");
 }
@@ -88,7 +89,7 @@ void read_joint_study(const TomlReader& root, const Source& source, PosteriorStu
   const auto& work = data.inspections.work;
   const joint::Archard law = joint::read_law(root, data);
   study.parameters = read_parameters(root, data, law);
-  study.equation = in_words(law, family, data);
+  study.equation = description(law, family, data);
   study.data_rows = data.cycles.size();
   study.pointwise = data.pointwise;
   study.quantity = "worn volume";

@@ -15,7 +15,7 @@
 #include "wearwell/models/joint/archard.h"
 #include "wearwell/models/joint/joint_data.h"
 #include "wearwell/models/joint/joint_study.h"
-#include "wearwell/predict/few_points.h"
+#include "wearwell/predict/thinned_posterior.h"
 #include "wearwell/prognosis/node_tracker.h"
 #include "wearwell/study/inference_data.h"
 
@@ -38,7 +38,7 @@ struct Followed {
   ObservationFamily family;
   JointData data;
   std::vector<Parameter> parameters;
-  FewPoints few;
+  ThinnedPosterior few;
   Quantity limit;
   double rate = 0;  // J a cycle, to come
   std::vector<prognosis::ReadingColumn> columns;
@@ -110,7 +110,7 @@ struct Followed {
   }
 };
 
-NodeCloud cloud(const FewPoints& few) {
+NodeCloud cloud(const ThinnedPosterior& few) {
   NodeCloud cloud{few.values, {}};
   for (const double each : few.weights) cloud.log_weight.push_back(std::log(each));
   return cloud;
@@ -132,23 +132,24 @@ NodeCloud lay(const Followed& joint, std::span<const Reading> readings) {
   settings.method = Method::exact;
   const Fit fitted = fit(posterior, settings);
   if (!proper(fitted)) return {};
-  return cloud(FewPoints(fitted.exact ? fitted.exact->nodes : fitted.pooled, points));
+  return cloud(ThinnedPosterior(fitted.exact ? fitted.exact->nodes : fitted.pooled, points));
 }
 
-prognosis::NodeReading reading_law(const Followed& joint, const Reading& reading) {
+prognosis::NodeReading reading_distribution(const Followed& joint, const Reading& reading) {
   Inspection inspection;
   joint.read(reading, inspection);
   const bool normal = joint.family == ObservationFamily::normal;
   const double at = normal ? inspection.volume : std::log(inspection.volume);
-  return {[=, law = joint.law, family = joint.family](const double* x) {
-            return log_density(family, at, law.mean_volume(x, inspection.work), x[1]);
-          },
-          [=, law = joint.law, family = joint.family](const double* x) {
-            return ObservationLaw(family, law.mean_volume(x, inspection.work), x[1]).cdf(at);
-          }};
+  return {
+      [=, law = joint.law, family = joint.family](const double* x) {
+        return log_density(family, at, law.mean_volume(x, inspection.work), x[1]);
+      },
+      [=, law = joint.law, family = joint.family](const double* x) {
+        return ObservationDistribution(family, law.mean_volume(x, inspection.work), x[1]).cdf(at);
+      }};
 }
 
-prognosis::NodeCourse course(const Followed& joint, const Reading* last) {
+prognosis::DegradationPath degradation_path(const Followed& joint, const Reading* last) {
   const Inspection now = joint.last(last);
   return {now.cycles,
           [now, law = joint.law, rate = joint.rate, limit = joint.limit.si()](const double* x) {
@@ -181,19 +182,19 @@ std::unique_ptr<const prognosis::Tracker> track_joint(const prognosis::CarriedSt
                         : fmt::format(
                               "the study is of one joint, called '{}' (data.joint), and "
                               "says nothing of '{}': joints that wear each at its own pace "
-                              "are a study of model \"law\" with [varies.UNIT]",
+                              "are a study of model \"formula\" with [random_effects.UNIT]",
                               printable(only), printable(unit));
   };
   model.problem = [joint](const Reading& reading) {
     Inspection inspection;
     return joint->read(reading, inspection);
   };
-  model.reading = [joint](const Reading& reading) { return reading_law(*joint, reading); };
+  model.reading = [joint](const Reading& reading) { return reading_distribution(*joint, reading); };
   model.lay = [joint](const std::string&, std::span<const Reading> readings) {
     return lay(*joint, readings);
   };
-  model.course = [joint](const std::string&, const Reading* last) {
-    return std::optional(course(*joint, last));
+  model.degradation_path = [joint](const std::string&, const Reading* last) {
+    return std::optional(degradation_path(*joint, last));
   };
   return prognosis::node_tracker(std::move(model));
 }

@@ -1,7 +1,7 @@
 #include "wearwell/models/joint/model.h"
 
-#include "wearwell/models/joint/joint_first.h"
 #include "wearwell/models/joint/joint_keys.h"
+#include "wearwell/models/joint/joint_scaffold.h"
 #include "wearwell/models/joint/joint_study.h"
 #include "wearwell/models/joint/joint_tracker.h"
 
@@ -19,14 +19,14 @@ Model model() {
   static constexpr ExampleFile example[] = {{"study.toml", resource::joint_study},
                                             {"joint_wear.csv", resource::joint_data}};
   return {.key = "archard-joint",
-          .trade = "joint",
+          .preset = "joint",
           .example = example,
           .read =
               [](const TomlReader& root, const Source& source) {
                 return read_posterior_study(root, source, read_joint_study);
               },
           .keys = study_keys,
-          .first_study = first_study,
+          .scaffold = scaffold,
           .track = track_joint};
 }
 

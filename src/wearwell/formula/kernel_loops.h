@@ -1,0 +1,277 @@
+#pragma once
+
+// The loops of all operations. Included by kernels.cpp for the vectors that every machine has, and
+// by kernels_avx2.cpp for wider ones; all is local to the source that includes it.
+
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+
+#include "wearwell/formula/kernels.h"
+#include "wearwell/formula/operations.h"
+
+namespace wearwell::formula {
+namespace {
+
+// One of three arguments chosen by template, so that a uniform one is read once.
+template <bool Uniform>
+inline double get(const double* a, std::size_t i) {
+  return a[Uniform ? 0 : i];
+}
+
+// Sums in eight lanes, whose order no compiler and no vector changes.
+template <class T>
+inline double lane_sum(std::size_t n, const T& term) {
+  double lane[8] = {};
+  std::size_t i = 0;
+  for (; i + 8 <= n; i += 8)
+    for (std::size_t j = 0; j < 8; ++j) lane[j] += term(i + j);
+  for (std::size_t j = 0; i < n; ++i, ++j) lane[j] += term(i);
+  return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+// Gives term(i), or its sum, to an argument. The term is guarded: no adjoint, no gift.
+template <bool Uniform, class T>
+inline void give(double* to, const double* __restrict g, std::size_t n, bool first,
+                 const T& slope) {
+  if (to == nullptr) return;
+  const auto term = [&](std::size_t i) {
+    const double product = g[i] * slope(i);
+    return g[i] == 0 ? 0.0 : product;
+  };
+  if constexpr (Uniform) {
+    *to += lane_sum(n, term);
+  } else {
+    double* __restrict out = to;
+    if (first)
+      for (std::size_t i = 0; i < n; ++i) out[i] = term(i);
+    else
+      for (std::size_t i = 0; i < n; ++i) out[i] += term(i);
+  }
+}
+
+template <class F, bool A>
+struct UnaryLoop {
+  static void forward(const double* __restrict a, const double*, const double*,
+                      double* __restrict y, std::size_t n, double) {
+    for (std::size_t i = 0; i < n; ++i) y[i] = F::f(get<A>(a, i));
+  }
+  static void reverse(const double* a, const double*, const double*, const double* y,
+                      const double* g, double* ga, double*, double*, std::size_t n, double,
+                      unsigned first) {
+    give<A>(ga, g, n, first & 1u, [=](std::size_t i) { return F::da(get<A>(a, i), y[i]); });
+  }
+};
+
+template <class F, bool A, bool B>
+struct BinaryLoop {
+  static void forward(const double* a, const double* b, const double*, double* __restrict y,
+                      std::size_t n, double) {
+    for (std::size_t i = 0; i < n; ++i) y[i] = F::f(get<A>(a, i), get<B>(b, i));
+  }
+  static void reverse(const double* a, const double* b, const double*, const double* y,
+                      const double* g, double* ga, double* gb, double*, std::size_t n, double,
+                      unsigned first) {
+    give<A>(ga, g, n, first & 1u,
+            [=](std::size_t i) { return F::da(get<A>(a, i), get<B>(b, i), y[i]); });
+    give<B>(gb, g, n, first & 2u,
+            [=](std::size_t i) { return F::db(get<A>(a, i), get<B>(b, i), y[i]); });
+  }
+};
+
+// a^extra by squaring. Small exponents are known while compiling, so that their loops are vector code.
+template <bool A>
+struct WholePowerLoop {
+  static double raise(double a, unsigned n) {
+    double result = 1;
+    for (; n > 0; n >>= 1, a *= a)
+      if (n & 1u) result *= a;
+    return result;
+  }
+  static double f(double a, int n) {
+    const double y = raise(a, static_cast<unsigned>(n < 0 ? -n : n));
+    return n < 0 ? 1 / y : y;
+  }
+  template <class Loop>
+  static void with_exponent(double extra, const Loop& loop) {
+    const int n = static_cast<int>(extra);
+    switch (n) {
+      case -2:
+        return loop(std::integral_constant<int, -2>());
+      case -1:
+        return loop(std::integral_constant<int, -1>());
+      case 2:
+        return loop(std::integral_constant<int, 2>());
+      case 3:
+        return loop(std::integral_constant<int, 3>());
+      case 4:
+        return loop(std::integral_constant<int, 4>());
+      default:
+        return loop(n);
+    }
+  }
+  static void forward(const double* __restrict a, const double*, const double*,
+                      double* __restrict y, std::size_t n, double extra) {
+    with_exponent(extra, [=](auto exponent) {
+      for (std::size_t i = 0; i < n; ++i) y[i] = f(get<A>(a, i), exponent);
+    });
+  }
+  static void reverse(const double* a, const double*, const double*, const double*, const double* g,
+                      double* ga, double*, double*, std::size_t n, double extra, unsigned first) {
+    with_exponent(extra, [=](auto exponent) {
+      give<A>(ga, g, n, first & 1u, [=](std::size_t i) {
+        return static_cast<double>(exponent) * f(get<A>(a, i), exponent - 1);
+      });
+    });
+  }
+};
+
+// a^b where c = log a is known; a and c depend on no parameter.
+template <bool A, bool B, bool C>
+struct PowerLogLoop {
+  static void forward(const double*, const double* __restrict b, const double* __restrict c,
+                      double* __restrict y, std::size_t n, double) {
+    for (std::size_t i = 0; i < n; ++i) y[i] = powered(get<B>(b, i), get<C>(c, i));
+  }
+  static void reverse(const double*, const double* b, const double* c, const double* y,
+                      const double* g, double*, double* gb, double*, std::size_t n, double,
+                      unsigned first) {
+    give<B>(gb, g, n, first & 2u,
+            [=](std::size_t i) { return power_by_exponent(get<B>(b, i), y[i], get<C>(c, i)); });
+  }
+};
+
+template <bool A, bool B, bool C>
+struct WhereLoop {
+  static void forward(const double* a, const double* b, const double* c, double* __restrict y,
+                      std::size_t n, double) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double yes = get<B>(b, i), no = get<C>(c, i);
+      y[i] = get<A>(a, i) != 0 ? yes : no;
+    }
+  }
+  static void reverse(const double* a, const double*, const double*, const double*, const double* g,
+                      double*, double* gb, double* gc, std::size_t n, double, unsigned first) {
+    give<B>(gb, g, n, first & 2u, [=](std::size_t i) { return get<A>(a, i) != 0 ? 1.0 : 0.0; });
+    give<C>(gc, g, n, first & 4u, [=](std::size_t i) { return get<A>(a, i) != 0 ? 0.0 : 1.0; });
+  }
+};
+
+template <class Loop>
+Kernels kernels_in() {
+  return {Loop::forward, Loop::reverse};
+}
+
+template <class F>
+Kernels unary(unsigned uniform) {
+  return uniform & 1u ? kernels_in<UnaryLoop<F, true>>() : kernels_in<UnaryLoop<F, false>>();
+}
+
+template <class F>
+Kernels binary(unsigned uniform) {
+  switch (uniform & 3u) {
+    case 0:
+      return kernels_in<BinaryLoop<F, false, false>>();
+    case 1:
+      return kernels_in<BinaryLoop<F, true, false>>();
+    case 2:
+      return kernels_in<BinaryLoop<F, false, true>>();
+    default:
+      return kernels_in<BinaryLoop<F, true, true>>();
+  }
+}
+
+template <template <bool, bool, bool> class Loop>
+Kernels ternary(unsigned uniform) {
+  switch (uniform & 7u) {
+    case 0:
+      return kernels_in<Loop<false, false, false>>();
+    case 1:
+      return kernels_in<Loop<true, false, false>>();
+    case 2:
+      return kernels_in<Loop<false, true, false>>();
+    case 3:
+      return kernels_in<Loop<true, true, false>>();
+    case 4:
+      return kernels_in<Loop<false, false, true>>();
+    case 5:
+      return kernels_in<Loop<true, false, true>>();
+    case 6:
+      return kernels_in<Loop<false, true, true>>();
+    default:
+      return kernels_in<Loop<true, true, true>>();
+  }
+}
+
+[[maybe_unused]] Kernels local_kernels(Op op, unsigned uniform) {
+  switch (op) {
+    case Op::add:
+      return binary<Add>(uniform);
+    case Op::subtract:
+      return binary<Subtract>(uniform);
+    case Op::multiply:
+      return binary<Multiply>(uniform);
+    case Op::divide:
+      return binary<Divide>(uniform);
+    case Op::negate:
+      return unary<Negate>(uniform);
+    case Op::power:
+      return binary<Power>(uniform);
+    case Op::whole_power:
+      return uniform & 1u ? kernels_in<WholePowerLoop<true>>()
+                          : kernels_in<WholePowerLoop<false>>();
+    case Op::power_log:
+      return ternary<PowerLogLoop>(uniform);
+    case Op::exp:
+      return unary<Exp>(uniform);
+    case Op::log:
+      return unary<Log>(uniform);
+    case Op::log10:
+      return unary<Log10>(uniform);
+    case Op::sqrt:
+      return unary<Sqrt>(uniform);
+    case Op::abs:
+      return unary<Abs>(uniform);
+    case Op::min:
+      return binary<Min>(uniform);
+    case Op::max:
+      return binary<Max>(uniform);
+    case Op::erf:
+      return unary<Erf>(uniform);
+    case Op::tanh:
+      return unary<Tanh>(uniform);
+    case Op::sin:
+      return unary<Sin>(uniform);
+    case Op::cos:
+      return unary<Cos>(uniform);
+    case Op::atan:
+      return unary<Atan>(uniform);
+    case Op::log1p:
+      return unary<Log1p>(uniform);
+    case Op::expm1:
+      return unary<Expm1>(uniform);
+    case Op::growth:
+      return unary<Growth>(uniform);
+    case Op::less:
+      return binary<Less>(uniform);
+    case Op::less_equal:
+      return binary<LessEqual>(uniform);
+    case Op::equal:
+      return binary<Equal>(uniform);
+    case Op::unequal:
+      return binary<Unequal>(uniform);
+    case Op::both:
+      return binary<Both>(uniform);
+    case Op::either:
+      return binary<Either>(uniform);
+    case Op::opposite:
+      return unary<Opposite>(uniform);
+    case Op::where:
+      return ternary<WhereLoop>(uniform);
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+}  // namespace wearwell::formula

@@ -1,0 +1,298 @@
+#include "wearwell/formula/reading.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/printable.h"
+#include "wearwell/formula/naming.h"
+#include "wearwell/formula/rules.h"
+
+namespace wearwell::formula {
+namespace {
+
+constexpr int deepest = 200;  // brackets, signs and powers within each other
+
+// Recursive descent; from loose to tight: or, and, not, a comparison, + -, * /, a sign in front, ^.
+class Reader : Naming {
+ public:
+  Reader(Graph& graph, const Text& text, const std::vector<Token>& tokens, const Names& names)
+      : Naming(graph, text, tokens, names) {}
+
+  int run() {
+    const Term all = alternative();
+    if (here().kind != Token::end) leftover();
+    rules_.demand_value(all);
+    return all.node;
+  }
+
+ private:
+  struct Deeper {
+    explicit Deeper(Reader& reader) : reader_(reader) {
+      if (++reader_.depth_ > deepest)
+        complain(reader_.text_, reader_.here().at,
+                 fmt::format("more than {} brackets or signs within each other", deepest),
+                 "give parts of the expression names of their own");
+    }
+    ~Deeper() { --reader_.depth_; }
+    Deeper(const Deeper&) = delete;
+    Deeper& operator=(const Deeper&) = delete;
+    Reader& reader_;
+  };
+
+  Term alternative() {
+    Term left = conjunction();
+    while (is_word("or")) {
+      const std::size_t at = tokens_[at_++].at;
+      left = rules_.logic(Op::either, left, conjunction(), at);
+    }
+    return left;
+  }
+
+  Term conjunction() {
+    Term left = opposite();
+    while (is_word("and")) {
+      const std::size_t at = tokens_[at_++].at;
+      left = rules_.logic(Op::both, left, opposite(), at);
+    }
+    return left;
+  }
+
+  Term opposite() {
+    if (!is_word("not")) return comparison();
+    const Deeper deeper(*this);
+    const std::size_t at = tokens_[at_++].at;
+    return rules_.opposite(opposite(), at);
+  }
+
+  bool is_comparison() const {
+    return here().kind == Token::sign && (here().text[0] == '<' || here().text[0] == '>' ||
+                                          here().text == "==" || here().text == "!=");
+  }
+
+  Term comparison() {
+    const Term left = sum();
+    if (!is_comparison()) return left;
+    const Token& sign = tokens_[at_++];
+    const Term right = sum();
+    if (is_comparison())
+      complain(text_, here().at, "two comparisons in one", "write: a < b and b < c");
+    return rules_.comparison(sign.text, left, right, sign.at);
+  }
+
+  Term sum() {
+    Term left = product();
+    while (is_sign("+") || is_sign("-")) {
+      const Token& sign = tokens_[at_++];
+      left = rules_.sum(sign.text == "+" ? Op::add : Op::subtract, left, product(), sign.at);
+    }
+    return left;
+  }
+
+  Term product() {
+    Term left = signed_();
+    while (is_sign("*") || is_sign("/")) {
+      const Token& sign = tokens_[at_++];
+      left = rules_.product(sign.text == "*" ? Op::multiply : Op::divide, left, signed_(), sign.at);
+    }
+    return left;
+  }
+
+  Term signed_() {
+    if (!is_sign("-") && !is_sign("+")) return power();
+    const Deeper deeper(*this);
+    const Token& sign = tokens_[at_++];
+    Term operand = signed_();
+    if (sign.text == "-") return rules_.negative(operand, sign.at);
+    rules_.demand_value(operand);
+    operand.at = sign.at;
+    return operand;
+  }
+
+  Term power() {
+    const Term base = primary();
+    if (!is_sign("^")) return base;
+    const Deeper deeper(*this);
+    const std::size_t at = tokens_[at_++].at;
+    return rules_.power(base, signed_(), at);
+  }
+
+  Term primary() {
+    const Token& token = here();
+    switch (token.kind) {
+      case Token::number:
+        return number();
+      case Token::name:
+        return name();
+      case Token::quotation: {
+        ++at_;
+        Term term{-1, token.at, end_of_last(), Term::quotation};
+        term.quoted = token.text;
+        return term;
+      }
+      case Token::sign:
+        if (token.text == "(") return brackets();
+        break;
+      case Token::unit:
+      case Token::end:
+        break;
+    }
+    expected();
+  }
+
+  [[noreturn]] void expected() {
+    const Token& token = here();
+    if (token.kind == Token::end) {
+      if (!open_.empty()) complain(text_, open_.back(), "a '(' is never closed");
+      complain(text_, token.at, "the expression ends too early",
+               "a number, a name or a bracket is missing");
+    }
+    if (token.text == ")" && at_ > 0 && tokens_[at_ - 1].text == "(")
+      complain(text_, token.at, "nothing stands between the brackets");
+    if (token.text == ")" && open_.empty()) complain(text_, token.at, "a ')' without a '('");
+    if (token.text == "[") complain(text_, token.at, "a unit stands behind a number, as in 1 [mm]");
+    complain(text_, token.at,
+             fmt::format("'{}' where a number, a name or a bracket should be", token.text));
+  }
+
+  Term brackets() {
+    const Deeper deeper(*this);
+    const std::size_t open = tokens_[at_++].at;
+    open_.push_back(open);
+    Term term = alternative();
+    if (is_sign(","))
+      complain(text_, here().at, "a comma outside of a function",
+               "the decimal sign is a point, a product is written with *");
+    close(open);
+    term.at = open;
+    term.end = end_of_last();
+    return term;
+  }
+
+  void close(std::size_t open) {
+    if (!is_sign(")")) {
+      if (here().kind == Token::end) complain(text_, open, "a '(' is never closed");
+      leftover();
+    }
+    ++at_;
+    open_.pop_back();
+  }
+
+  // What may not stand behind a complete expression.
+  [[noreturn]] void leftover() {
+    const Token& token = here();
+    const std::string seen = printable(shortened(token.text, 30));
+    if (token.kind == Token::sign && token.text == ")")
+      complain(text_, token.at, "a ')' without a '('");
+    if (token.kind == Token::sign && token.text == ",")
+      complain(text_, token.at, "a comma outside of a function",
+               "the decimal sign is a point, a product is written with *");
+    if (token.kind == Token::sign && token.text == "[")
+      complain(text_, token.at, "a unit stands behind a number only",
+               "multiply by one of it: (...) * 1 [mm]");
+    if (token.kind == Token::sign && token.text == "]")
+      complain(text_, token.at, "a ']' without a '['");
+    if (token.kind == Token::unit)
+      complain(text_, token.at, "two units behind one number", "write one: 1 [N m]");
+    complain(text_, token.at, fmt::format("a sign is missing before '{}'", seen),
+             "a product is written with *");
+  }
+
+  Term number() {
+    const Token& token = tokens_[at_++];
+    Node node;
+    node.value = token.value;
+    if (here().kind == Token::unit) {
+      const Token& unit = tokens_[at_++];
+      const AnyUnit any = unit_of(unit, token.text);
+      node.value = to_si(any.unit, token.value);
+      node.powers = graph_.intern(any.powers);
+      if (!std::isfinite(node.value))
+        complain(text_, token.at, "a quantity that is infinite in SI");
+    } else {
+      node.any = token.value == 0;
+    }
+    return {graph_.add(node), token.at, end_of_last()};
+  }
+
+  AnyUnit unit_of(const Token& token, const std::string& number) {
+    AnyUnit any;
+    if (token.text.find_first_not_of(" ") == token.text.npos)
+      complain(text_, token.at, "brackets without a unit", "a pure number has none");
+    try {
+      any = read_any_unit(token.text);
+    } catch (const InputError& error) {
+      complain(text_, token.at + 1, error.what());
+    }
+    if (any.unit.offset != 0) {
+      double value = 0;
+      value = std::stod(number);
+      complain(text_, token.at,
+               fmt::format("'{} [{}]' is a temperature, {:.6g} K, or a difference of {:.6g} K",
+                           number, any.unit.text, to_si(any.unit, value), any.unit.scale * value),
+               "write it in [K], or name it in [constants]");
+    }
+    return any;
+  }
+
+  Term name() {
+    const Token& token = here();
+    const Function* function = find_function(token.text);
+    const bool called = ahead().kind == Token::sign && ahead().text == "(";
+    if (function != nullptr) {
+      if (!called)
+        complain(text_, token.at, fmt::format("'{}' is a function", token.text),
+                 fmt::format("its arguments stand in brackets: {}(...)", token.text));
+      return call(*function);
+    }
+    if (token.text == "pi") {
+      ++at_;
+      return {graph_.constant(std::numbers::pi), token.at, end_of_last()};
+    }
+    if (is_word_of_language(token.text)) {
+      complain(text_, token.at,
+               fmt::format("'{}' where a number, a name or a bracket should be", token.text));
+    }
+    Term term = named(token);
+    if (called) {
+      complain(text_, ahead().at, fmt::format("'{}' is no function", token.text),
+               fmt::format("a product is written {} * (...)", token.text));
+    }
+    return term;
+  }
+
+  Term call(const Function& function) {
+    const Deeper deeper(*this);
+    const std::size_t start = tokens_[at_++].at, open = tokens_[at_++].at;
+    open_.push_back(open);
+    std::vector<Term> arguments;
+    if (!is_sign(")")) {
+      arguments.push_back(alternative());
+      while (is_sign(",")) {
+        ++at_;
+        arguments.push_back(alternative());
+      }
+    }
+    close(open);
+    if (arguments.empty()) complain(text_, start, fmt::format("{} has no argument", function.name));
+    Term term = rules_.call(function, arguments, start, end_of_last());
+    term.at = start;
+    term.end = end_of_last();
+    return term;
+  }
+
+  int depth_ = 0;
+  std::vector<std::size_t> open_;
+};
+
+}  // namespace
+
+int read_expression(Graph& graph, const Text& text, const std::vector<Token>& tokens,
+                    const Names& names) {
+  return Reader(graph, text, tokens, names).run();
+}
+
+}  // namespace wearwell::formula

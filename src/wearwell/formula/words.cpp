@@ -1,0 +1,34 @@
+#include "wearwell/formula/words.h"
+
+#include <algorithm>
+#include <array>
+
+namespace wearwell::formula {
+
+const std::vector<Function>& functions() {
+  static const std::vector<Function> all = {
+      {"exp", Op::exp, 1, Rule::pure},       {"log", Op::log, 1, Rule::pure},
+      {"log10", Op::log10, 1, Rule::pure},   {"log1p", Op::log1p, 1, Rule::pure},
+      {"expm1", Op::expm1, 1, Rule::pure},   {"sqrt", Op::sqrt, 1, Rule::root},
+      {"abs", Op::abs, 1, Rule::same},       {"min", Op::min, 2, Rule::same},
+      {"max", Op::max, 2, Rule::same},       {"pow", Op::power, 2, Rule::power},
+      {"erf", Op::erf, 1, Rule::pure},       {"tanh", Op::tanh, 1, Rule::pure},
+      {"sin", Op::sin, 1, Rule::angle},      {"cos", Op::cos, 1, Rule::angle},
+      {"atan", Op::atan, 1, Rule::to_angle}, {"where", Op::where, 3, Rule::where},
+      {"cum", Op::cum, 1, Rule::cum}};
+  return all;
+}
+
+const Function* find_function(std::string_view name) {
+  const auto at = std::find_if(functions().begin(), functions().end(),
+                               [&](const Function& each) { return name == each.name; });
+  return at == functions().end() ? nullptr : &*at;
+}
+
+bool is_word_of_language(std::string_view name) {
+  constexpr std::array others = {"and", "or", "not", "pi"};
+  return find_function(name) != nullptr ||
+         std::find(others.begin(), others.end(), name) != others.end();
+}
+
+}  // namespace wearwell::formula

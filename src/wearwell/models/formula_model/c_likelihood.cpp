@@ -1,0 +1,58 @@
+#include "wearwell/models/formula_model/c_likelihood.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wearwell/base/error.h"
+#include "wearwell/formula/c_text.h"
+
+namespace wearwell::formula_model {
+std::size_t measured_column(const FormulaModel& model, std::size_t m) {
+  const auto at = std::find_if(model.data.numbers.begin(), model.data.numbers.end(),
+                               [&](const auto& c) { return c.name == model.measured[m].column; });
+  return static_cast<std::size_t>(at - model.data.numbers.begin());
+}
+
+void refuse_formula(const FormulaModel& model) {
+  for (const char* name : {"status", "lower", "upper", "entry", "count"})
+    if (model.data.number(name) || model.data.label(name))
+      throw InputError(fmt::format(
+          "the study has a column '{}': readings that are more than one exact number (censored, "
+          "truncated, counted) are not exported to C",
+          name));
+  for (const Measured& each : model.measured) {
+    if (each.process)
+      throw InputError(
+          fmt::format("'{}' grows in random steps ({}): such a process is not exported to C",
+                      each.column, each.form->name));
+    if (each.trials || !each.form->c_density)
+      throw InputError(
+          fmt::format("'{}' is of the {} family, which is not exported to C; normal and lognormal "
+                      "are",
+                      each.column, each.form->name));
+  }
+}
+
+void add_likelihood(const FormulaModel& model, std::string& functions, std::string& sum,
+                    std::string& measured) {
+  for (std::size_t m = 0; m < model.measured.size(); ++m) {
+    const Measured& each = model.measured[m];
+    std::string slot[most_response_parameters] = {"0", "0", "0"};
+    for (std::size_t o = 0; o < each.wanted.size(); ++o) {
+      const std::string name =
+          fmt::format("measured_{}_{}", m, each.form->slots[each.slot[o]].name);
+      functions += formula::c_function(model.lines, each.wanted[o], model.row_symbols, name);
+      slot[each.slot[o]] = name + "(number, label, parameter, effect)";
+    }
+    const std::size_t column = measured_column(model, m);
+    sum += fmt::format(
+        "  if (!isnan(number[{}])) {{ /* {} */\n    const double y = number[{}];\n"
+        "    const double a = {};\n    const double b = {};\n    double value;\n    {{\n{}    }}\n"
+        "    sum += isfinite(value) ? value : -INFINITY;\n  }}\n",
+        column, each.column, column, slot[0], slot[1], each.form->c_density);
+    measured += fmt::format("{}!isnan(at->number[{}])", m == 0 ? "" : " || ", column);
+  }
+}
+
+}  // namespace wearwell::formula_model

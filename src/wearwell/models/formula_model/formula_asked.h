@@ -1,0 +1,36 @@
+#pragma once
+
+#include "wearwell/models/formula_model/formula_conditions.h"
+#include "wearwell/models/formula_model/formula_likelihood.h"
+#include "wearwell/study/posterior_study.h"
+
+namespace wearwell::formula_model {
+
+/// What [predict] says of everything that it asks for.
+struct Asked {
+  const TomlReader& predict;
+  std::shared_ptr<const FormulaModel> model;
+  std::shared_ptr<const BearingRows> rows;
+  Conditions given, common;   ///< predict.given; with what is the same in all rows
+  std::string noun;           ///< "machine"
+  std::vector<double> start;  ///< parameters where searches start
+
+  Asked(const TomlReader& table, std::shared_ptr<const FormulaModel> formula_model,
+        std::shared_ptr<const BearingRows> own_rows);
+
+  const NumberColumn& axis() const { return *model->data.number(*model->along); }
+  /// "machine 5"; of a study without units the noun.
+  std::string unit(std::size_t u) const;
+  /// Where the last row of a unit lies along the axis, SI.
+  double last_place(std::size_t u) const;
+};
+
+/// "50 km"; "a, b", either of which may be empty.
+std::string description(const Quantity& quantity);
+std::string joined(const std::string& a, const std::string& b);
+
+/// A request whose numbers a group computes.
+QuantityRequest request(const std::string& name, const std::string& of, const std::string& at,
+                        const Unit& unit);
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/models/formula_model/formula_model.h"
+
+namespace wearwell::formula_model {
+
+/// Under which conditions something is asked: values of columns and labels.
+struct Conditions {
+  std::map<std::string, double> numbers;  ///< SI
+  std::map<std::string, int> labels;      ///< index of the level
+  std::string words;                      ///< "force = 20 N"
+  /// Numbers that nobody said, and that need not be the same in all rows: those of a unit's last row.
+  std::set<std::string> of_last_row = {};
+};
+
+/// Reads predict.given or a table like it. Throws InputError.
+Conditions read_conditions(const TomlReader& table, const FormulaModel& model);
+
+/// Those of a unit's last row, where `given` does not say otherwise.
+Conditions conditions_of_unit(const FormulaModel& model, std::size_t unit, const Conditions& given);
+
+/// Columns that are the same in all rows, where `given` does not say otherwise.
+Conditions common_conditions(const FormulaModel& model, const Conditions& given);
+
+/// Where an expression needs a condition that is neither given nor the same in all rows.
+[[noreturn]] void fail_without_condition(const FormulaModel& model, const TomlReader& table,
+                                         const std::string& key, const std::string& column);
+[[noreturn]] void fail_without_label(const TomlReader& table, const std::string& key,
+                                     const formula::LabelSymbol& label);
+
+}  // namespace wearwell::formula_model

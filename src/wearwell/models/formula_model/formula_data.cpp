@@ -1,0 +1,362 @@
+#include "wearwell/models/formula_model/formula_data.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/unit_hint.h"
+#include "wearwell/base/unit_system.h"
+#include "wearwell/input/cell_text.h"
+#include "wearwell/input/columns.h"
+#include "wearwell/input/heading.h"
+#include "wearwell/math/constants.h"
+
+// Longer than others: columns, and what each cell of a measured one says.
+namespace wearwell::formula_model {
+namespace {
+
+template <class Columns>
+auto find(const Columns& columns, const std::string& name) {
+  const auto at = std::find_if(columns.begin(), columns.end(),
+                               [&](const auto& each) { return each.name == name; });
+  return at == columns.end() ? nullptr : &*at;
+}
+
+LabelColumn read_labels(const Table& table, const std::string& name, const Column& column) {
+  LabelColumn result{name, column.name, {}, {}};
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const std::string text = label_word(table, column, i);
+    const auto at = std::find(result.levels.begin(), result.levels.end(), text);
+    result.at.push_back(static_cast<int>(at - result.levels.begin()));
+    if (at == result.levels.end()) result.levels.push_back(text);
+  }
+  return result;
+}
+
+// SI, NaN where the cell is empty. `limit` [SI]: what "<LOD" stands for, NaN where the study does not say it.
+NumberColumn read_numbers(const Table& table, const std::string& name, const Column& column,
+                          formula::AnyUnit unit, double limit) {
+  bool any_empty = false, any_limit = false;
+  std::vector<double> values;
+  std::vector<Censoring> seen(table.rows, Censoring::none);
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    const CellValue cell = cell_value(table, column, i);
+    if (cell.unstated && std::isnan(limit))
+      refuse_unstated_limit(table, column, i,
+                            fmt::format("{} = {{ column = \"{}\", unit = \"{}\", detection_limit = "
+                                        "\"0.05 {}\" }}",
+                                        name, column.name, unit.unit.text, unit.unit.text));
+    values.push_back(cell.unstated ? from_si(unit.unit, limit) : cell.number);
+    if (cell.sign) seen[i] = cell.sign == '<' ? Censoring::left : Censoring::right;
+    any_limit |= cell.sign != 0;
+    any_empty |= std::isnan(values.back());
+  }
+  if (!any_limit) seen.clear();
+  if (!any_empty && !any_limit) {
+    values = si_numbers(table, column.name, unit.unit);
+    return {name, column.name, std::move(unit), std::move(values)};
+  }
+  for (double& each : values) {
+    if (!std::isnan(each)) each = to_si(unit.unit, each);
+  }
+  return {name, column.name, std::move(unit), std::move(values), std::move(seen)};
+}
+
+bool is_text(const Column& column) {
+  if (column.is_number) return false;
+  return std::any_of(column.text.begin(), column.text.end(), [](const std::string& text) {
+    return text.find_first_of("0123456789") == std::string::npos && !text.empty() &&
+           !is_missing_mark(text) && !cell_text(text);
+  });
+}
+
+// One measured column with what the others say of it.
+class ObservedReader {
+ public:
+  ObservedReader(const FormulaData& data, const std::string& name, const ResponseForm& form,
+                 const SpecialColumns& special, const std::optional<std::string>& trials)
+      : data_(data), form_(form), exact_(data.number(name)) {
+    const auto column = [&](const std::optional<std::string>& each) {
+      return each ? data.number(*each) : nullptr;
+    };
+    lower_ = column(special.lower);
+    upper_ = column(special.upper);
+    entry_ = column(special.entry);
+    count_ = column(special.count);
+    trials_ = column(trials);
+    if (data.status) status_ = &*data.status;
+    for (const NumberColumn* each : {lower_, upper_, entry_, count_, trials_}) {
+      if (each) data.require_values(*each);
+    }
+  }
+
+  Observed read(bool may_lack) {
+    Observed all;
+    for (std::size_t i = 0; i < data_.table.rows; ++i) {
+      if (may_lack && exact_ && std::isnan(exact_->values[i])) continue;
+      const Response response = row(i);
+      all.rows.push_back(i);
+      all.responses.push_back(response);
+      all.counts.push_back(count(i));
+      all.failures += response.seen != Censoring::right;
+    }
+    return all;
+  }
+
+ private:
+  const NumberColumn& need(const NumberColumn* column, std::size_t i, const char* what) const {
+    if (!column) {
+      throw InputError(fmt::format("{}: an interval needs the columns data.columns.lower and upper",
+                                   place(data_.table, status_->column, i)));
+    }
+    if (std::isnan(column->values[i])) {
+      throw InputError(
+          fmt::format("{}: no value; {}", place(data_.table, column->column, i), what));
+    }
+    return *column;
+  }
+
+  void demand(bool good, const NumberColumn& column, std::size_t i, const char* allowed) const {
+    if (good) return;
+    throw InputError(fmt::format("{}: {:.10g} {} must be {}", place(data_.table, column.column, i),
+                                 from_si(column.unit.unit, column.values[i]), column.unit.unit.text,
+                                 allowed));
+  }
+
+  int count(std::size_t i) const {
+    if (!count_) return 1;
+    const double n = count_->values[i];
+    demand(n >= 1 && n == std::floor(n) && n <= 1e6, *count_, i, "a whole number from 1");
+    return static_cast<int>(n);
+  }
+
+  // Between two values, of which an empty one is none.
+  Response between(std::size_t i) const {
+    if (!lower_ || !upper_) {
+      const NumberColumn* there = lower_ ? lower_ : upper_;
+      throw InputError(fmt::format(
+          "{}: an interval needs both data.columns.lower and upper",
+          there ? place(data_.table, there->column, i) : place(data_.table, status_->column, i)));
+    }
+    double a = lower_->values[i], b = upper_->values[i];
+    if (std::isnan(a) && std::isnan(b)) {
+      throw InputError(fmt::format("{}: neither this nor the upper end has a value",
+                                   place(data_.table, lower_->column, i)));
+    }
+    if (std::isnan(a) || (form_.positive && a <= 0)) return {Censoring::left, b};
+    if (std::isnan(b) || b == infinity) return {Censoring::right, a};
+    demand(b >= a, *upper_, i, "no less than the lower end");
+    if (a == b) return {Censoring::none, a};
+    return {Censoring::interval, a, b};
+  }
+
+  // An end beside a row that is no interval says the same or nothing; else there are two readings.
+  void refuse_other_ends(const Response& y, std::size_t i) const {
+    const auto refuse = [&](const NumberColumn* end, bool open) {
+      if (!end || open || std::isnan(end->values[i]) || end->values[i] == y.at) return;
+      demand(false, *end, i,
+             status_ ? "empty where the status is not interval"
+                     : "empty where there is a measured value, which is read as exact");
+    };
+    refuse(lower_, y.seen == Censoring::left && lower_ && lower_->values[i] <= 0);
+    refuse(upper_, y.seen == Censoring::right && upper_ && upper_->values[i] == infinity);
+  }
+
+  // By its cell, "<0.5", or by its status; both may say it, alike.
+  Censoring seen_of(std::size_t i) const {
+    const Censoring said = status_ ? seen_in(data_.table, *status_, i) : Censoring::none;
+    if (!exact_ || exact_->seen.empty() || exact_->seen[i] == Censoring::none) return said;
+    if (status_ && said != exact_->seen[i])
+      throw InputError(fmt::format(
+          "{}: '{}' is a limit, and column '{}' says '{}'; which is right?",
+          place(data_.table, exact_->column, i), data_.table.column(exact_->column).text[i],
+          status_->column, cell_word(data_.table.column(status_->column), i)));
+    return exact_->seen[i];
+  }
+
+  Response row(std::size_t i) const {
+    const bool has_exact = exact_ && !std::isnan(exact_->values[i]);
+    const Censoring seen = seen_of(i);
+    Response y;
+    if (seen == Censoring::interval || (!status_ && lower_ && !has_exact)) {
+      y = between(i);
+    } else {
+      if (!exact_) {
+        throw InputError(fmt::format("{}: the study names no column of the observed value itself",
+                                     place(data_.table, status_->column, i)));
+      }
+      y = {seen, need(exact_, i, "what was observed is missing").values[i]};
+      refuse_other_ends(y, i);
+    }
+    if (form_.positive && exact_ && y.seen != Censoring::interval) {
+      demand(y.at > 0, *exact_, i, fmt::format("positive for the {} family", form_.name).c_str());
+    }
+    if (form_.counted) {
+      if (y.seen != Censoring::none) {
+        throw InputError(fmt::format("{}: a count of the {} family is never censored",
+                                     place(data_.table, exact_ ? exact_->column : "", i),
+                                     form_.name));
+      }
+      demand(y.at >= 0 && y.at == std::floor(y.at), *exact_, i, "a whole number, 0 or more");
+    }
+    if (trials_) {
+      y.trials = need(trials_, i, "how many trials were there?").values[i];
+      demand(y.trials >= 1 && y.trials == std::floor(y.trials), *trials_, i,
+             "a whole number from 1");
+      demand(y.at <= y.trials, *exact_, i, "no more than the number of trials");
+    }
+    if (entry_ && !std::isnan(entry_->values[i]) && !(form_.positive && entry_->values[i] <= 0)) {
+      y.entry = entry_->values[i];
+      const double last = y.seen == Censoring::interval ? y.until : y.at;
+      demand(y.entry < last, *entry_, i,
+             "less than what was observed (it is where watching began)");
+      if (y.seen == Censoring::left) {
+        demand(false, *entry_, i, "empty for a left-censored row: it ended after watching began");
+      }
+      if (y.seen == Censoring::interval) y.at = std::max(y.at, y.entry);
+    }
+    return y;
+  }
+
+  const FormulaData& data_;
+  const ResponseForm& form_;
+  const NumberColumn *exact_, *lower_ = nullptr, *upper_ = nullptr, *entry_ = nullptr,
+                              *count_ = nullptr, *trials_ = nullptr;
+  const LifeStatus* status_ = nullptr;
+};
+
+}  // namespace
+
+const NumberColumn* FormulaData::number(const std::string& name) const {
+  return find(numbers, name);
+}
+
+const LabelColumn* FormulaData::label(const std::string& name) const {
+  return find(labels, name);
+}
+
+void FormulaData::require_values(const NumberColumn& column) const {
+  for (std::size_t i = 0; i < column.seen.size(); ++i) {
+    if (column.seen[i] != Censoring::none)
+      static_cast<void>(cell_number(table, table.column(column.column), i));  // refuses it
+  }
+}
+
+void FormulaData::require_complete(const NumberColumn& column) const {
+  require_values(column);
+  for (std::size_t i = 0; i < table.rows; ++i) {
+    if (std::isfinite(column.values[i])) continue;
+    throw InputError(fmt::format(
+        "{}: {}", place(table, column.column, i),
+        std::isnan(column.values[i]) ? "no value (empty or NaN)" : "the value is infinite"));
+  }
+}
+
+namespace {
+
+// Whether the table has a unit for the column: in a row of units, or in square brackets in the
+// heading.
+bool says_unit(const Column& column) {
+  return !column.unit.empty() || read_heading(column.name, "").certain;
+}
+
+formula::AnyUnit written_unit(const Table& table, const Column& column, const std::string& name) {
+  if (!says_unit(column)) return formula::read_any_unit("1");
+  const bool row = !column.unit.empty();
+  const Heading heading = read_heading(column.name, "");
+  const std::string text = row ? bare_unit(column.unit) : heading.unit;
+  try {
+    return formula::read_any_unit(text);
+  } catch (const InputError& error) {
+    throw InputError(
+        no_unit_of(table, column, name, "1", error.what() + unit_hint(text, std::nullopt)));
+  }
+}
+
+// Empty where the unit has a root of something.
+std::string si_of(const formula::AnyUnit& unit) {
+  const bool whole = std::all_of(unit.powers.begin(), unit.powers.end(),
+                                 [](const auto& each) { return each.second.denominator() == 1; });
+  return whole ? formula::si_text(unit.powers) : std::string();
+}
+
+// What "<LOD" stands for in a column of this unit, SI; NaN where the study does not say it.
+double detection_limit(const TomlReader& choice, const formula::AnyUnit& unit) {
+  const std::string si = si_of(unit);
+  if (!choice.text("detection_limit") || si.empty()) return NAN;
+  return choice.required_quantity("detection_limit", si).si();
+}
+
+}  // namespace
+
+FormulaData read_own_data(const TomlReader& root, const Source& source,
+                          const std::vector<std::string>& label_names) {
+  const TomlReader section = root.required_table("data");
+  const TomlReader columns = section.required_table("columns");
+  FormulaData data{read_table(section, source), {}, {}, {}};
+  data.status = read_life_status(columns, data.table);
+  const auto is_label = [&](const std::string& name) {
+    return std::find(label_names.begin(), label_names.end(), name) != label_names.end();
+  };
+  for (const std::string& name : columns.keys()) {
+    std::string heading;
+    std::optional<formula::AnyUnit> unit;
+    const std::optional<TomlReader> in_table =
+        columns.is_text(name) ? std::nullopt : std::optional(columns.required_table(name));
+    if (columns.is_text(name)) {
+      heading = columns.required_text(name);
+    } else {
+      const TomlReader& choice = *in_table;
+      heading = choice.required_text("column");
+      if (const auto text = choice.text("unit")) {
+        try {
+          unit = formula::read_any_unit(*text);
+        } catch (const InputError& error) {
+          choice.fail("unit", error.what());
+        }
+      }
+    }
+    const Column* const column = &study_column(columns, name, heading, data.table);
+    if (is_label(name) && unit) {
+      columns.fail(name, "has a unit, but the study uses it as a label; keep one of the two");
+    }
+    const bool words = is_text(*column) || (name == "status" && !column->is_number);
+    if (is_label(name) || (!unit && words)) {
+      data.labels.push_back(read_labels(data.table, name, *column));
+    } else {
+      if (!unit) {
+        unit = written_unit(data.table, *column, name);
+      } else if (const std::string si = si_of(*unit); !si.empty() && says_unit(*column)) {
+        unit->unit = column_unit(data.table, *column, si, unit->unit);  // refuses what contradicts
+      }
+      const double limit = in_table ? detection_limit(*in_table, *unit) : NAN;
+      data.numbers.push_back(read_numbers(data.table, name, *column, std::move(*unit), limit));
+    }
+  }
+  if (data.table.rows == 0) throw InputError(fmt::format("{} has no rows", data.table.source));
+  return data;
+}
+
+SpecialColumns special_columns(const FormulaData& data) {
+  SpecialColumns special;
+  const auto take = [&](const char* name, std::optional<std::string>& to) {
+    if (data.number(name) || data.label(name)) to = name;
+  };
+  take("status", special.status);
+  take("lower", special.lower);
+  take("upper", special.upper);
+  take("entry", special.entry);
+  take("count", special.count);
+  return special;
+}
+
+Observed read_observed(const FormulaData& data, const std::string& name, const ResponseForm& form,
+                       const SpecialColumns& special, const std::optional<std::string>& trials,
+                       bool may_lack) {
+  return ObservedReader(data, name, form, special, trials).read(may_lack);
+}
+
+}  // namespace wearwell::formula_model

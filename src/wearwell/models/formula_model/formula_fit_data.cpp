@@ -1,0 +1,281 @@
+#include "wearwell/models/formula_model/formula_fit_data.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cmath>
+
+#include "wearwell/base/rng.h"
+#include "wearwell/math/constants.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+// Of one value; of normal laws without their distribution function.
+double place(ResponseFamily family, double value, const double* slots, double trials) {
+  constexpr double log_half = -0.693147180559945309;
+  const bool sized = slots[1] > 0 && std::isfinite(slots[0]) && std::isfinite(slots[1]);
+  if (family == ResponseFamily::normal && sized) return (value - slots[0]) / slots[1];
+  if (family == ResponseFamily::lognormal && sized && slots[0] > 0 && value > 0) {
+    return (std::log(value) - std::log(slots[0])) / slots[1];
+  }
+  const double below = log_cdf(family, value, slots, trials);
+  // The smaller tail tells.
+  if (below < log_half) return normal_score(below, 0);
+  return normal_score(below, log_survival(family, value, slots, trials));
+}
+
+// Places of observations in their laws; of a count those of its ends.
+NormalScore score(const Measured& measured, const Response& y, const double* slots) {
+  const ResponseFamily family = measured.form->family;
+  // Of what would not have been seen below its entry, given that it was: log P(Y > value | Y > entry).
+  const double entered = y.entry > -infinity ? log_survival(family, y.entry, slots, y.trials) : 0;
+  const auto at = [&](double value) {
+    if (!(y.entry > -infinity)) return place(family, value, slots, y.trials);
+    const double above =
+        value > y.entry ? log_survival(family, value, slots, y.trials) - entered : 0;
+    return normal_score(std::log(-std::expm1(above)), above);
+  };
+  if (measured.form->counted) {
+    const double high = y.trials > 0 && y.at >= y.trials ? infinity : at(y.at);
+    return {y.at > 0 ? at(y.at - 1) : -infinity, high};
+  }
+  switch (y.seen) {
+    case Censoring::none: {
+      const double z = at(y.at);
+      return {z, z};
+    }
+    case Censoring::right:
+      return {at(y.at), infinity};
+    case Censoring::left:
+      return {-infinity, at(y.at)};
+    case Censoring::interval:
+      break;
+  }
+  return {at(y.at), at(y.until)};
+}
+
+// The same lots for the same parameters, whoever asks.
+Rng lots_at(const double* x, std::size_t count) {
+  std::uint64_t stream = 14695981039346656037ULL;
+  for (std::size_t i = 0; i < count; ++i) {
+    stream = (stream ^ std::bit_cast<std::uint64_t>(x[i])) * 1099511628211ULL;
+    stream ^= stream >> 29;
+  }
+  constexpr std::uint64_t seed = 20261122;
+  return Rng(seed, stream);
+}
+
+// One of the nodes of each unit, by lot.
+std::vector<double> drawn_effects(const BearingRows& rows, const double* x) {
+  const std::size_t d = rows.model().effects.size(), units = rows.model().units.size();
+  std::vector<double> z(units * d);
+  if (d == 0) return z;
+  const latent::UnitIntegrals& integrals = rows.integrate(x);
+  Rng rng = lots_at(x, rows.model().parameters.size());
+  for (std::size_t u = 0; u < units; ++u) {
+    double left = rng.uniform();
+    for (const latent::Sweep& sweep : integrals.sweeps) {
+      if (!(sweep.weight[u] > 0)) continue;
+      for (std::size_t e = 0; e < d; ++e) z[u * d + e] = sweep.z[u * d + e];
+      left -= sweep.weight[u];
+      if (left < 0) break;
+    }
+  }
+  return z;
+}
+
+// Of the observations of column c.
+void add_scores(UnitRows& units, const std::vector<double>& z, std::size_t c,
+                const std::vector<double>& slots, std::vector<NormalScore>& scores) {
+  const Measured& column = units.model().measured[c];
+  if (column.process) {
+    const std::vector<NormalScore> steps = units.step_scores(z, c);
+    scores.insert(scores.end(), steps.begin(), steps.end());
+    return;
+  }
+  for (std::size_t i = 0; i < column.observed.responses.size(); ++i) {
+    scores.push_back(
+        score(column, column.observed.responses[i], &slots[i * most_response_parameters]));
+  }
+}
+
+// The columns that any expression depends on, where all observations have them.
+std::vector<Driver> drivers_of(const FormulaModel& model) {
+  std::vector<Driver> all;
+  for (std::size_t c = 0; c < model.row_symbols.columns.size(); ++c) {
+    const std::string& name = model.row_symbols.columns[c].name;
+    bool used = false, whole = true;
+    Driver driver{name, {}};
+    for (const Measured& measured : model.measured) {
+      used |= measured.program.uses_column(c);
+      for (const std::size_t row : measured.observed.rows) {
+        driver.value.push_back(model.data.number(name)->values[row]);
+        whole &= std::isfinite(driver.value.back());
+      }
+    }
+    if (used && whole) all.push_back(std::move(driver));
+  }
+  return all;
+}
+
+// Labels that the study names, where they tell observations apart.
+std::vector<Label> labels_of(const FormulaModel& model) {
+  std::vector<Label> all;
+  for (const LabelColumn& column : model.data.labels) {
+    Label label{column.name, {}};
+    for (const Measured& measured : model.measured) {
+      for (const std::size_t row : measured.observed.rows)
+        label.level.push_back(static_cast<std::size_t>(column.at[row]));
+    }
+    all.push_back(std::move(label));
+  }
+  return all;
+}
+
+// What was measured exactly, as it was written; of processes nothing, whose readings lean on each other.
+MeasuredValues measured_values(const FormulaModel& model) {
+  MeasuredValues values;
+  for (const Measured& measured : model.measured) {
+    for (const Response& each : measured.observed.responses) {
+      const bool exact =
+          each.seen == Censoring::none && !measured.form->counted && !measured.process;
+      values.value.push_back(exact ? from_si(measured.unit, each.at) : NAN);
+      values.unit.push_back(measured.unit.scale);
+    }
+  }
+  return values;
+}
+
+// The slot that says where a family lies, or else how large its values are.
+std::size_t place_slot(const ResponseForm& form) {
+  for (const ParameterKind kind : {ParameterKind::place, ParameterKind::size}) {
+    for (std::size_t s = 0; s < form.slots.size(); ++s) {
+      if (form.slots[s].kind == kind && !form.slots[s].optional) return s;
+    }
+  }
+  return 0;
+}
+
+// All that is told column by column, as one.
+std::vector<double> joined(const std::vector<std::vector<double>>& columns) {
+  std::vector<double> all;
+  for (const auto& column : columns) all.insert(all.end(), column.begin(), column.end());
+  return all;
+}
+
+std::vector<double> fitted_places(const BearingRows& rows, const double* x) {
+  const std::vector<double> z = drawn_effects(rows, x);
+  UnitRows& units = rows.mine().rows;
+  units.move_to(x);
+  const std::vector<std::vector<double>> slots = units.each_slot(z);
+  std::vector<double> places;
+  for (std::size_t c = 0; c < slots.size(); ++c) {
+    const Measured& measured = rows.model().measured[c];
+    const std::size_t slot = place_slot(*measured.form);
+    for (std::size_t i = slot; i < slots[c].size(); i += most_response_parameters)
+      places.push_back(measured.process ? NAN : slots[c][i]);
+  }
+  return places;
+}
+
+std::vector<double> log_densities(const BearingRows& rows, const double* x) {
+  const std::vector<double> z = drawn_effects(rows, x);
+  UnitRows& units = rows.mine().rows;
+  units.move_to(x);
+  return joined(units.each_term(z));
+}
+
+Remedies remedies_of(const FormulaModel& model) {
+  const Measured& first = model.measured.front();
+  const ResponseFamily family = first.form->family;
+  Remedies remedies;
+  remedies.life = !model.along && model.measured.size() == 1 && first.form->positive &&
+                  !first.form->counted && !first.process && !first.program.has_paths();
+  if (first.process || first.form->counted) return remedies;
+  if (family == ResponseFamily::normal) {
+    remedies.scatter =
+        "A scatter that grows with the mean: try family = \"lognormal\", or a standard deviation "
+        "that is an "
+        "expression of what it follows.";
+    remedies.heavy_tails =
+        "Look at the outermost rows for mistakes; if there are none, try longer tails: family = "
+        "\"student-t\".";
+  } else {
+    remedies.scatter =
+        "Let the scatter (or shape) be an expression of what it follows; where it grows, look for "
+        "a second failure "
+        "mode.";
+  }
+  return remedies;
+}
+
+}  // namespace
+
+std::optional<FitData> fit_data(std::shared_ptr<const BearingRows> rows) {
+  const FormulaModel& model = rows->model();
+  FitData data;
+  for (const Measured& measured : model.measured) {
+    for (const Response& each : measured.observed.responses) {
+      if (each.entry > -infinity && measured.process) return {};
+    }
+    const std::vector<int>& counts = measured.observed.counts;
+    data.counts.insert(data.counts.end(), counts.begin(), counts.end());
+  }
+  data.scores = [rows](const double* x) {
+    const std::vector<double> z = drawn_effects(*rows, x);
+    UnitRows& units = rows->mine().rows;
+    units.move_to(x);
+    std::vector<NormalScore> scores;
+    const std::vector<std::vector<double>> slots = units.each_slot(z);
+    for (std::size_t c = 0; c < slots.size(); ++c) add_scores(units, z, c, slots[c], scores);
+    const std::size_t d = rows->model().effects.size();
+    for (std::size_t e = 0; e < d; ++e) {
+      for (std::size_t i = e; i < z.size(); i += d) scores.push_back({z[i], z[i]});
+    }
+    for (const DrawnEffect& each : rows->model().drawn) {
+      for (std::size_t i = 0; i < each.seen; ++i) {
+        scores.push_back({x[each.first + i], x[each.first + i]});
+      }
+    }
+    return scores;
+  };
+  data.drivers = drivers_of(model);
+  data.labels = labels_of(model);
+  data.fitted = [rows](const double* x) { return fitted_places(*rows, x); };
+  if (!model.has_process()) {
+    data.measured = measured_values(model);
+    data.measured.log_density = [rows](const double* x) { return log_densities(*rows, x); };
+  }
+  data.remedies = remedies_of(model);
+  for (std::size_t c = 0; model.measured.size() > 1 && c < model.measured.size(); ++c)
+    data.column.insert(data.column.end(), model.measured[c].observed.rows.size(), c);
+  if (model.measured.size() > 1) data.noun = "observation";
+  // Readings of one column follow each other: those of another may lie off the other way.
+  for (std::size_t c = 0; c < model.measured.size(); ++c) {
+    if (model.measured.size() == 1 && !model.by_unit()) break;
+    for (const std::size_t row : model.measured[c].observed.rows) {
+      data.unit.push_back(c * model.units.size() + model.unit_of_row[row]);
+    }
+  }
+  if (!model.by_unit()) return data;
+  data.terms = false;  // factors of the likelihood are units
+  for (const Effect& effect : model.effects) {
+    UnitEffect named{effect.name, {}};
+    for (const std::string& unit : model.units) {
+      named.of.push_back(fmt::format("{} {}", *model.label, unit));
+    }
+    data.effects.push_back(std::move(named));
+  }
+  for (const DrawnEffect& effect : model.drawn) {
+    const bool of_units = model.label == effect.label;
+    UnitEffect named{of_units ? effect.name : effect.name + " of " + effect.label, {}};
+    for (const std::string& level : model.data.label(effect.label)->levels) {
+      named.of.push_back(fmt::format("{} {}", effect.label, level));
+    }
+    data.effects.push_back(std::move(named));
+  }
+  return data;
+}
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/models/formula_model/formula_path.h"
+
+namespace wearwell::formula_model {
+
+/// "1/h" of "h", "1/(1e6 cycles)" of "1e6 cycles".
+std::string per_unit(const Unit& unit);
+
+/// A life as a family of a likelihood gives it, under conditions: what follows from it over a posterior.
+class LifeDistribution {
+ public:
+  /// `slots` has the outputs of the measured column.
+  LifeDistribution(std::shared_ptr<const Path> slots, const Measured& measured);
+
+  /// The next one: all that is unknown averaged in.
+  class Next {
+   public:
+    double cdf(double life) const;
+    double quantile(double p) const;
+    /// What remains to one that has come to `from`: the share p of such.
+    double quantile(double p, double from) const;
+
+   private:
+    friend class LifeDistribution;
+    struct Component {
+      double weight, slot[most_response_parameters];
+    };
+    ResponseFamily family_;
+    bool positive_ = true;
+    std::vector<Component> components_;
+    double middle_ = 1;
+  };
+  /// Over all points of a posterior, or of few where items differ: then all functions below take a share of the points that is
+  /// below 1, to see how far what they give depends on these.
+  bool over_all() const;
+  Next next(const WeightedDraws& draws, double share_of_points = 1) const;
+
+  /// A number over a posterior; where it is interpolated with its relative error (predict/interpolated.h).
+  struct Known {
+    QuantityDistribution distribution;
+    std::optional<double> misfit = {};
+  };
+  /// The life by which a share p of all has failed.
+  Known quantile(const WeightedDraws& draws, double p, double share_of_points = 1) const;
+  /// The same of those that have come to `from`, from there on, given that one has.
+  Known quantile_beyond(const WeightedDraws& draws, double p, double from,
+                        double share_of_points = 1) const;
+  /// The share of all that outlasts a life.
+  Known survival(const WeightedDraws& draws, double life, double share_of_points = 1) const;
+  /// The rate at which those fail that have come so far, per SI unit of life.
+  Known hazard(const WeightedDraws& draws, double life, double share_of_points = 1) const;
+  /// The median life over that of `other`.
+  Known ratio(const WeightedDraws& draws, const LifeDistribution& other,
+              double share_of_points = 1) const;
+
+ private:
+  class AtPoint;
+  WeightedDraws points(const WeightedDraws& draws, double share_of_points = 1) const;
+  template <class Value>
+  Known over(const WeightedDraws& draws, const Value& value, double share_of_points = 1) const;
+
+  std::shared_ptr<const Path> slots_;
+  ResponseFamily family_;
+  bool positive_;
+  std::vector<std::size_t> slot_;
+};
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,334 @@
+#include "wearwell/models/formula_model/formula_predictions.h"
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+
+#include "wearwell/base/error.h"
+#include "wearwell/formula/no_columns.h"
+#include "wearwell/models/formula_model/formula_asked.h"
+#include "wearwell/models/formula_model/formula_figures.h"
+#include "wearwell/models/formula_model/formula_life.h"
+#include "wearwell/models/formula_model/formula_limit.h"
+#include "wearwell/models/formula_model/formula_path_ahead.h"
+#include "wearwell/models/formula_model/formula_reader.h"
+#include "wearwell/study/life_levels.h"
+#include "wearwell/study/numerical_error.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+// What is asked of a life of which the likelihood is.
+struct AskedOfLife {
+  std::shared_ptr<const LifeDistribution> life, fast;  // under the conditions, and those of a test
+  LifeLevels levels;
+  std::optional<Quantity> survived;
+  std::vector<Quantity> survival, hazard;
+
+  // Over all of the posterior, none of which waits for another.
+  std::vector<std::function<LifeDistribution::Known()>> known(const WeightedDraws& draws,
+                                                              double points) const {
+    std::vector<std::function<LifeDistribution::Known()>> all;
+    for (const double percent : levels.percents) {
+      all.push_back([=, &draws, this] { return life->quantile(draws, percent / 100, points); });
+    }
+    for (std::size_t k = 0; survived && k < levels.percents.size(); ++k) {
+      all.push_back([=, &draws, this] {
+        return life->quantile_beyond(draws, levels.percents[k] / 100, survived->si(), points);
+      });
+    }
+    for (const Quantity& each : survival) {
+      all.push_back([=, &draws, this] { return life->survival(draws, each.si(), points); });
+    }
+    for (const Quantity& each : hazard) {
+      all.push_back([=, &draws, this] { return life->hazard(draws, each.si(), points); });
+    }
+    if (fast) all.push_back([=, &draws, this] { return life->ratio(draws, *fast, points); });
+    return all;
+  }
+
+  // The life of the next one, and what remains to it where it has survived.
+  std::vector<QuantityQuantiles> of_next(const LifeDistribution::Next& next) const {
+    const auto quantiles = [](const auto& q) {
+      return QuantityQuantiles{q(0.05), q(0.5), q(0.95), q(0.01), q(0.1), q(0.5)};
+    };
+    std::vector<QuantityQuantiles> all = {quantiles([&](double p) { return next.quantile(p); })};
+    if (survived)
+      all.push_back(quantiles([&](double p) { return next.quantile(p, survived->si()); }));
+    return all;
+  }
+
+  std::vector<QuantityQuantiles> answers(const WeightedDraws& draws) const {
+    std::vector<QuantityQuantiles> found = answers(draws, 1);
+    if (!life->over_all()) estimate_numerical_errors(found, answers(draws, fewer_points));
+    return found;
+  }
+
+  std::vector<QuantityQuantiles> answers(const WeightedDraws& draws, double points) const {
+    const auto asked = known(draws, points);
+    std::vector<QuantityQuantiles> found(asked.size());
+    LifeDistribution::Next next;
+    tbb::parallel_for(std::size_t{0}, asked.size() + 1, [&](std::size_t i) {
+      if (i == 0) {
+        next = life->next(draws, points);
+        return;
+      }
+      const LifeDistribution::Known known = asked[i - 1]();
+      const QuantityDistribution& of = known.distribution;
+      found[i - 1] = {of.quantile(0.05), of.quantile(0.5), of.quantile(0.95), 0, 0, 0};
+      found[i - 1].bound = of.quantile(1 - levels.credible_level);
+      found[i - 1].numerical_error = known.misfit;
+    });
+    std::vector<QuantityQuantiles> all;
+    auto answer = found.begin();
+    const auto add = [&](std::optional<double> predictive) {
+      all.push_back(*answer++);
+      all.back().predictive = predictive;
+      if (!predictive) all.back().bound = {};
+    };
+    const std::vector<QuantityQuantiles> lives = of_next(next);
+    all.push_back(lives.front());
+    for (const double percent : levels.percents) add(next.quantile(percent / 100));
+    if (survived) {
+      all.push_back(lives.back());
+      for (const double percent : levels.percents)
+        add(next.quantile(percent / 100, survived->si()));
+    }
+    for (const Quantity& each : survival) add(1 - next.cdf(each.si()));
+    while (answer != found.end()) add({});
+    return all;
+  }
+
+  std::vector<PredictiveLife> lives(const WeightedDraws& draws) const {
+    const auto next = std::make_shared<const LifeDistribution::Next>(life->next(draws));
+    std::vector<PredictiveLife> all = {{{[next](double x) { return next->cdf(x); },
+                                         [next](double p) { return next->quantile(p); }}}};
+    std::vector<QuantityQuantiles> errors;
+    if (!life->over_all()) {
+      errors = of_next(*next);
+      estimate_numerical_errors(errors, of_next(life->next(draws, fewer_points)));
+    }
+    if (!errors.empty()) all.front().numerical_error = errors.front().numerical_error;
+    if (!survived) return all;
+    const double from = survived->si(), gone = next->cdf(from);
+    all.push_back({{[=](double x) { return (next->cdf(from + x) - gone) / (1 - gone); },
+                    [=](double p) { return next->quantile(p, from); }},
+                   1 - gone});
+    if (!errors.empty()) all.back().numerical_error = errors.back().numerical_error;
+    return all;
+  }
+};
+
+class Predictions {
+ public:
+  Predictions(const TomlReader& predict, std::shared_ptr<const FormulaModel> model,
+              std::shared_ptr<const BearingRows> rows, PosteriorStudy& study)
+      : predict_(predict),
+        asked_(predict, model, std::move(rows)),
+        model_(std::move(model)),
+        study_(study),
+        common_(asked_.common),
+        given_words_(asked_.given.words),
+        noun_(asked_.noun) {}
+
+  void read() {
+    const bool asks_along = predict_.has("at") || predict_.has("limit");
+    if (asks_along && !model_->along) {
+      predict_.fail(predict_.has("limit") ? "limit" : "at",
+                    "needs predict.along: the column that is the axis of wear and life");
+    }
+    if (predict_.has("units") && !predict_.has("at")) {
+      predict_.fail("units", "needs predict.at: where measurements of these units are to come");
+    }
+    if (predict_.has("limit")) {
+      read_limit(asked_, study_);
+      for (const char* key : {"survival_to", "hazard_at", "accelerated"}) {
+        if (predict_.has(key)) {
+          predict_.fail(key,
+                        "is for a likelihood of a life; beside predict.limit lives are "
+                        "those to the limit");
+        }
+      }
+    } else if (!model_->along) {
+      read_life();
+    } else {
+      for (const char* key : {"b_lives", "credible_level", "survived", "lives_of"}) {
+        if (predict_.has(key)) {
+          predict_.fail(key, "needs predict.limit: what is reached at the end of a life");
+        }
+      }
+    }
+    if (predict_.has("at")) read_path(asked_, study_);
+    if (asks_along) add_path_figures(asked_, study_);
+    read_quantities();
+  }
+
+ private:
+  // ---- Lives of which the likelihood is.
+
+  std::shared_ptr<const LifeDistribution> life_distribution(const Measured& measured,
+                                                            const char* key,
+                                                            const Conditions& conditions) const {
+    return std::make_shared<const LifeDistribution>(
+        make_path(model_, predict_, key, measured.wanted, false, conditions), measured);
+  }
+
+  void read_life() {
+    const Measured& measured = model_->measured.front();
+    LifeLevels levels = read_life_levels(predict_);
+    if (levels.percents.empty()) levels.percents = {1, 10};
+    const std::vector<double>& percents = levels.percents;
+    const std::string si = formula::si_text(measured.powers);
+    std::vector<Quantity> survival = predict_.quantities("survival_to", si);
+    const auto survived = predict_.quantity("survived", si);
+    if (survived && std::none_of(survival.begin(), survival.end(), [&](const Quantity& each) {
+          return each.si() == survived->si();
+        })) {
+      survival.push_back(*survived);
+    }
+    const std::vector<Quantity> hazard = predict_.quantities("hazard_at", si);
+    if (measured.form->counted) {
+      for (const char* key :
+           {"b_lives", "credible_level", "survival_to", "survived", "hazard_at", "accelerated"}) {
+        if (predict_.has(key)) predict_.fail(key, "is for lives, not for counts");
+      }
+      return;
+    }
+    const auto life = life_distribution(measured, predict_.has("given") ? "given" : "", common_);
+    std::shared_ptr<const LifeDistribution> fast;
+    std::string fast_words;
+    if (const auto accelerated = predict_.table("accelerated")) {
+      const Conditions conditions = read_conditions(*accelerated, *model_);
+      fast_words = conditions.words;
+      fast = life_distribution(measured, "accelerated", common_conditions(*model_, conditions));
+    }
+    QuantityGroup group;
+    const std::string what = measured.form->positive ? "life" : measured.column;
+    group.requests.push_back(request(what, "new " + noun_, given_words_, measured.unit));
+    group.requests.back().is_life = true;
+    group.requests.back().safe_end = 0.05;
+    const auto bounded = [&](const std::string& name, const std::string& at, const Unit& unit) {
+      group.requests.push_back(request(name, noun_, at, unit));
+      group.requests.back().credible_level = levels.credible_level;
+      group.requests.back().safe_end = 0.05;
+    };
+    for (const double percent : percents) {
+      bounded(b_life_name(percent), given_words_, measured.unit);
+    }
+    if (survived) {
+      const std::string from =
+          joined(given_words_, fmt::format("from {} on", description(*survived)));
+      group.requests.push_back(
+          request("remaining useful life", "new " + noun_, from, measured.unit));
+      group.requests.back().is_life = true;
+      group.requests.back().safe_end = 0.05;
+      for (const double percent : percents) {
+        bounded(b_life_name(percent, "remaining useful life"), from, measured.unit);
+      }
+    }
+    for (const Quantity& each : survival) {
+      bounded("survival to " + description(each), given_words_, Unit{"%", 0.01, 0});
+    }
+    const Unit rate{per_unit(measured.unit), 1 / measured.unit.scale, 0};
+    for (const Quantity& each : hazard) {
+      group.requests.push_back(
+          request("hazard at " + description(each), noun_, given_words_, rate));
+    }
+    if (fast) {
+      group.requests.push_back(request("acceleration factor", noun_,
+                                       fmt::format("{} over {}", given_words_, fast_words),
+                                       Unit{"1", 1, 0}));
+    }
+    const AskedOfLife of_life{life, fast, levels, survived, survival, hazard};
+    group.from_draws = [of_life](const WeightedDraws& draws) { return of_life.answers(draws); };
+    group.lives = [of_life](const WeightedDraws& draws) { return of_life.lives(draws); };
+    study_.quantity_groups.push_back(std::move(group));
+  }
+
+  // ---- Functions of the parameters.
+
+  void read_quantities() {
+    const auto table = predict_.table("quantities");
+    if (!table) return;
+    for (const std::string& name : table->keys()) {
+      std::string text;
+      std::optional<std::string> unit;
+      const bool plain = table->is_text(name);
+      if (plain) {
+        text = table->required_text(name);
+      } else {
+        const TomlReader own = table->required_table(name);
+        text = own.required_text("value");
+        unit = own.required_text("unit");
+      }
+      const formula::Wanted wanted{"[predict.quantities] " + name, text, {}, {}, true};
+      const auto program = std::make_shared<const formula::Program>(
+          compile_at(*table, name, model_->written, wanted, model_->symbols));
+      const formula::Powers& powers = program->outputs()[0].powers;
+      Unit shown{powers.empty() ? "1" : formula::description(powers), 1, 0};
+      if (unit) {
+        try {
+          const formula::AnyUnit own = formula::read_any_unit(*unit);
+          if (own.powers != powers) {
+            throw InputError(fmt::format("'{}' is {}, but {} is {}", *unit,
+                                         formula::description(own.powers), name,
+                                         formula::description(powers)));
+          }
+          shown = own.unit;
+        } catch (const InputError& error) {
+          table->required_table(name).fail("unit", error.what());
+        }
+      }
+      study_.quantities.push_back({name,
+                                   "population",
+                                   "",
+                                   shown,
+                                   true,
+                                   false,
+                                   [](double y) { return y; },
+                                   function_of(program),
+                                   {}});
+    }
+  }
+
+  Function function_of(std::shared_ptr<const formula::Program> program) const {
+    struct Own {
+      formula::Data data;
+      formula::Workspace workspace;
+    };
+    auto own = std::make_shared<tbb::enumerable_thread_specific<std::unique_ptr<Own>>>();
+    const std::size_t size = model_->parameters.size();
+    return [=, model = model_](const double* x) {
+      std::unique_ptr<Own>& mine = own->local();
+      if (!mine) {
+        mine.reset(
+            new Own{formula::bind_no_columns(*program, model->symbols), program->workspace(1)});
+      }
+      program->forward(mine->data, 0, 1, {{x, size}, {}}, mine->workspace);
+      return mine->workspace.values(0)[0];
+    };
+  }
+
+  const TomlReader& predict_;
+  const Asked asked_;
+  std::shared_ptr<const FormulaModel> model_;
+  PosteriorStudy& study_;
+  const Conditions& common_;
+  const std::string &given_words_, &noun_;
+};
+
+}  // namespace
+
+void read_own_predictions(const TomlReader& root, std::shared_ptr<const FormulaModel> model,
+                          std::shared_ptr<const BearingRows> rows, PosteriorStudy& study) {
+  if (const auto predict = root.table("predict")) {
+    Predictions(*predict, std::move(model), std::move(rows), study).read();
+  }
+}
+
+}  // namespace wearwell::formula_model

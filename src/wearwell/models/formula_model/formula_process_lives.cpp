@@ -1,0 +1,244 @@
+#include "wearwell/models/formula_model/formula_process_lives.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/bayes/normal_score.h"
+#include "wearwell/math/quadrature.h"
+#include "wearwell/models/formula_model/effect_lines.h"
+#include "wearwell/models/formula_model/formula_drawn.h"
+#include "wearwell/models/formula_model/formula_first_passage.h"
+#include "wearwell/predict/thinned_posterior.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+constexpr std::size_t most_points = 400, most_points_of_next = 2000;
+constexpr double least_share = 1e-6;  // of a unit's posterior: nodes with less are left out
+
+// Where a path stands that readings do not tell exactly: nodes of the normal law below `highest`. What they are summed
+// for changes with z over 1/`ratio`: where that is far, and nothing is cut off, the rule of Gauss and Hermite has few nodes
+// (Abramowitz and Stegun 25.4.46), errors below 1e-5 of a distribution function.
+struct Standings {
+  static constexpr std::size_t most = 16;
+  std::size_t count = most;
+  double z[most], weight[most];
+
+  Standings(double highest, double ratio) {
+    constexpr double uncut = 6, few = 0.2, some = 0.6;
+    if (highest > uncut && ratio < few) {
+      take({0, 1.7320508075688772}, {2.0 / 3, 1.0 / 6});
+    } else if (highest > uncut && ratio < some) {
+      take({0, 1.3556261799742659, 2.8569700138728056},
+           {8.0 / 15, 0.22207592200561264, 0.011257411327720689});
+    } else {
+      below(highest);
+    }
+  }
+
+ private:
+  // The middle node, and those on both sides of it.
+  void take(std::initializer_list<double> nodes, std::initializer_list<double> weights) {
+    count = 0;
+    const double* share = weights.begin();
+    for (const double node : nodes) {
+      for (const double side : {1.0, -1.0}) {
+        if (node == 0 && side < 0) continue;
+        z[count] = side * node;
+        weight[count++] = *share;
+      }
+      ++share;
+    }
+  }
+
+  void below(double highest) {
+    static const GaussLegendre rule = gauss_legendre(16);
+    constexpr double lowest = -5.5;
+    const double half = 0.5 * (std::min(highest, -lowest) - lowest);
+    double sum = 0;
+    for (std::size_t k = 0; k < 16; ++k) {
+      z[k] = lowest + half * (1 + rule.node[k]);
+      weight[k] = rule.weight[k] * std::exp(-0.5 * z[k] * z[k]);
+      sum += weight[k];
+    }
+    for (double& each : weight) each /= sum;
+  }
+};
+
+// One thread's part: some points of the posterior, one after the other.
+class Part {
+ public:
+  Part(const BearingRows& rows, const ProcessLimit& limit)
+      : rows_(rows),
+        limit_(limit),
+        form_(*rows.model().measured[limit.column].process),
+        table_(ScoreTable::passages(form_.process)),
+        effects_(rows.model().effects.size()),
+        fresh_(lines_of_new_unit(effects_, 0.5, 5)),
+        new_units_(rows.model()) {
+    const LimitedPath& path = limit.path;
+    sign_ = path.rising ? 1 : -1;
+    if (path.next) next_.emplace(*path.next, path.rising, path.begin, path.scale);
+    for (const LimitedPath::SeenUnit& each : path.seen) {
+      ahead_.emplace_back(*each.ahead, path.rising, path.begin, path.scale);
+    }
+    found.remaining.resize(path.seen.size());
+    found.passed.assign(path.seen.size(), 0);
+  }
+
+  void add(const double* x, double weight) {
+    if (next_) add_next(x, weight);
+    if (!limit_.path.seen.empty()) add_seen(x, weight);
+  }
+
+  LimitedLives found;
+
+ private:
+  void add_next(const double* x, double weight) {
+    CellMixture units;
+    NormalLines along;
+    for (std::size_t k = 0; k < new_units_.count(); ++k) {
+      next_->at().move_to(new_units_.at(k, x, rows_.model().parameters.size()));
+      for (std::size_t i = 0; i < fresh_.count(); ++i) {
+        const double* z = effects_ > 0 ? &fresh_.z[i * effects_] : nullptr;
+        const double share = weight * new_units_.share(k) * fresh_.share[i];
+        add_passage(*next_, z, 0, sign_ * limit_.path.limit, scale_at(*next_, z, limit_.path.begin),
+                    share, false, units);
+        if (!limit_.path.shares.empty())
+          along.add(share, ScoreTable::first_score, ScoreTable::score_step, place_);
+      }
+    }
+    found.next.add(units);
+    if (!limit_.path.shares.empty()) found.add_shares(limit_.path, along, weight);
+  }
+
+  // The scale of a path at z; where its standard deviation is given, by what it is far along.
+  double scale_at(Crossing& crossing, const double* z, double from) {
+    const double place = std::max(from, limit_.path.begin + limit_.path.scale);
+    crossing.at().stand(1, z);
+    crossing.at().evaluate(1, z, &place);
+    const double mean = crossing.at().output(0, 0), spread = crossing.at().output(1, 0);
+    return form_.by_sd ? spread * spread / std::abs(mean) : spread;
+  }
+
+  // From where the mean is `mean` on, until the path of this scale has gone on by `distance` (upwards; all signs are
+  // those of a path that rises).
+  void add_passage(Crossing& crossing, const double* z, double mean, double distance, double scale,
+                   double weight, bool counted_from, CellMixture& to) {
+    constexpr int edges = ScoreTable::edges;
+    double level[edges + 1], means[edges];
+    place_.resize(edges + 1);
+    table_.look_up(distance, scale, means);
+    level[edges] = sign_ * mean;
+    for (int k = 0; k < edges; ++k) level[k] = sign_ * (mean + means[k]);
+    double same[latent::most_effects * (edges + 1)];
+    for (std::size_t i = 0; i < effects_ * (edges + 1); ++i) same[i] = z[i % effects_];
+    crossing.solve(edges + 1, effects_ > 0 ? same : nullptr, level, place_.data());
+    const double start = counted_from ? place_[edges] : 0;
+    place_.pop_back();
+    for (double& each : place_) each -= start;
+    to.add_curve(weight, ScoreTable::shares(), place_);
+  }
+
+  void add_seen(const double* x, double weight) {
+    for (Crossing& each : ahead_) each.at().move_to(x);
+    UnitRows& units = rows_.mine().rows;
+    units.move_to(x);
+    if (effects_ == 0) {
+      const std::vector<Standing> all = units.standings({}, limit_.column);
+      for (std::size_t u = 0; u < ahead_.size(); ++u)
+        add_unit(u, nullptr, all[limit_.path.seen[u].unit], weight);
+      return;
+    }
+    for (const latent::Sweep& sweep : rows_.integrate(x).sweeps) {
+      const auto& seen = limit_.path.seen;
+      const bool any = std::any_of(
+          seen.begin(), seen.end(),
+          [&](const LimitedPath::SeenUnit& each) { return sweep.weight[each.unit] > least_share; });
+      if (!any) continue;
+      const std::vector<Standing> all = units.standings(sweep.z, limit_.column);
+      for (std::size_t u = 0; u < ahead_.size(); ++u) {
+        const std::size_t unit = seen[u].unit;
+        if (!(sweep.weight[unit] > least_share)) continue;
+        add_unit(u, &sweep.z[unit * effects_], all[unit], weight * sweep.weight[unit]);
+      }
+    }
+  }
+
+  void add_unit(std::size_t u, const double* z, const Standing& stands, double weight) {
+    const double mean = sign_ * stands.mean, now = limit_.path.seen[u].now;
+    const double left = sign_ * (limit_.path.limit - stands.at);
+    const double sd = std::sqrt(stands.variance);
+    const double scale = scale_at(ahead_[u], z, now);
+    if (!stands.cells.empty()) {
+      for (const Standing::Cell& cell : stands.cells) {
+        // Evenly over the cell: what of it has not reached the limit, and its middle.
+        const double room = limit_.path.limit - cell.at, half = 0.5 * stands.width;
+        const double below = std::clamp((room + half) / stands.width, 0.0, 1.0);
+        const double share = weight * cell.share;
+        found.passed[u] += share * (1 - below);
+        const double distance = room + half * (1 - below);
+        if (!(below * cell.share > 1e-6 && distance > 0)) continue;
+        add_passage(ahead_[u], z, mean, distance, scale, share * below, true, found.remaining[u]);
+      }
+      return;
+    }
+    if (!(sd > 0)) {
+      if (left <= 0) {
+        found.passed[u] += weight;
+      } else {
+        add_passage(ahead_[u], z, mean, left, scale, weight, true, found.remaining[u]);
+      }
+      return;
+    }
+    const double below = normal_cdf(left / sd);  // it has not reached the limit
+    found.passed[u] += weight * (1 - below);
+    if (!(below > 1e-6)) return;
+    const Standings nodes(left / sd, sd / std::sqrt(scale * std::max(left, sd)));
+    for (std::size_t k = 0; k < nodes.count; ++k) {
+      const double distance = left - sd * nodes.z[k], share = below * nodes.weight[k];
+      if (!(distance > 0 && share > 1e-6)) continue;
+      add_passage(ahead_[u], z, mean, distance, scale, weight * share, true, found.remaining[u]);
+    }
+  }
+
+  const BearingRows& rows_;
+  const ProcessLimit& limit_;
+  const ProcessForm& form_;
+  const ScoreTable& table_;
+  std::size_t effects_;
+  const EffectLines fresh_;
+  NewUnits new_units_;
+  double sign_ = 1;
+  std::optional<Crossing> next_;
+  std::vector<Crossing> ahead_;
+  std::vector<double> place_;  // of each edge of the table, of the passage that was added last
+};
+
+}  // namespace
+
+LimitedLives process_lives(const BearingRows& rows, const ProcessLimit& limit,
+                           const WeightedDraws& draws, double share_of_points) {
+  ProcessLimit seen = limit, next = limit;
+  seen.path.next.reset();
+  next.path.seen.clear();
+  const auto some = [=](std::size_t most) {
+    return static_cast<std::size_t>(share_of_points * static_cast<double>(most));
+  };
+  LimitedLives lives;
+  if (!limit.path.seen.empty()) {
+    lives = sum_over(ThinnedPosterior(draws, some(most_points)), [&] { return Part(rows, seen); });
+  }
+  if (!limit.path.next) return lives;
+  // Lives of new units hang on the tail of what is known of the population.
+  const std::size_t most = rows.model().draws_units() ? most_points : most_points_of_next;
+  const ThinnedPosterior few(draws, some(most));
+  LimitedLives of_next = sum_over(few, [&] { return Part(rows, next); });
+  if (share_of_points == 1) of_next.spread_shares(limit.path, draws, few);
+  lives.next = std::move(of_next.next);
+  lives.by_share = std::move(of_next.by_share);
+  lives.share_misfit = std::move(of_next.share_misfit);
+  return lives;
+}
+
+}  // namespace wearwell::formula_model

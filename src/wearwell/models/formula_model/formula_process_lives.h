@@ -1,0 +1,19 @@
+#pragma once
+
+#include "wearwell/models/formula_model/formula_lives.h"
+
+namespace wearwell::formula_model {
+
+/// When the path of a process first reaches a limit.
+struct ProcessLimit {
+  std::size_t column = 0;  ///< of FormulaModel::measured
+  LimitedPath
+      path;  ///< of its mean (output 0) with its scale or sd (output 1); `limit` is the process's
+};
+
+/// Lives over a posterior: first passages of paths that begin at 0, and of those seen, given where they stand
+/// after their last row (not beyond the limit). `share_of_points` as of limited_lives.
+LimitedLives process_lives(const BearingRows& rows, const ProcessLimit& limit,
+                           const WeightedDraws& draws, double share_of_points = 1);
+
+}  // namespace wearwell::formula_model

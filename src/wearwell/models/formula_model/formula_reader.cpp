@@ -1,0 +1,704 @@
+#include "wearwell/models/formula_model/formula_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <regex>
+#include <set>
+
+#include "wearwell/base/error.h"
+#include "wearwell/base/nearest.h"
+#include "wearwell/input/prior.h"
+#include "wearwell/models/formula_model/fail_at_place.h"
+#include "wearwell/models/formula_model/formula_drawn.h"
+#include "wearwell/models/formula_model/formula_likelihood.h"
+#include "wearwell/models/formula_model/formula_order.h"
+#include "wearwell/models/formula_model/linear_form.h"
+
+// Longer than others: the sections of one study file, each of which needs the names of those before.
+namespace wearwell::formula_model {
+namespace {
+
+const std::vector<std::string> special_names = {"status", "lower", "upper", "entry", "count"};
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
+}
+
+struct Bounds {
+  double lower = -INFINITY, upper = INFINITY;
+
+  void take(double least, double most) {
+    lower = std::max(lower, least);
+    upper = std::min(upper, most);
+  }
+};
+
+// A likelihood as it is written, before anything is compiled.
+struct WrittenLikelihood {
+  std::string column;
+  const ResponseForm* form;
+  const ProcessForm* process;
+  std::optional<std::string> trials;
+  std::vector<std::pair<std::size_t, std::string>> slots;  // of the form, and the expression
+};
+
+// Keys of a prior whose values have the dimension of its parameter, whatever its law.
+const std::vector<std::string>& dimensional_keys() {
+  static const auto all = [] {
+    std::map<std::string, bool> slots;
+    for (const ResponseForm& form : prior_forms()) {
+      for (const ParameterForm& slot : form.slots) {
+        const bool dimensional =
+            slot.kind == ParameterKind::place || slot.kind == ParameterKind::size;
+        bool& always = slots.try_emplace(std::string(slot.name), true).first->second;
+        always = always && dimensional;
+      }
+    }
+    std::vector<std::string> keys = {"unit"};
+    for (const auto& [name, always] : slots)
+      if (always) keys.push_back(name);
+    keys.insert(keys.end(), {"lower", "upper"});
+    return keys;
+  }();
+  return all;
+}
+
+// "mean and sd", of each parameter form of a name.
+std::vector<std::string> needed_slots(const std::string& family) {
+  std::vector<std::string> ways;
+  const auto add = [&](const ResponseForm& form) {
+    if (form.name != family) return;
+    std::vector<std::string_view> needed;
+    for (const ParameterForm& slot : form.slots) {
+      if (!slot.optional) needed.push_back(slot.name);
+    }
+    std::string way = fmt::format("{}", fmt::join(needed, " and "));
+    if (ways.empty() || ways.back() != way) ways.push_back(std::move(way));
+  };
+  for (const ResponseForm& each : response_forms()) add(each);
+  for (const ProcessForm& each : process_forms()) add(each.form);
+  return ways;
+}
+
+class Reader {
+ public:
+  // Of more than two effects of the units, `integrated` are integrated out.
+  Reader(const TomlReader& root, const Source& source, std::size_t integrated)
+      : root_(root),
+        source_(source),
+        integrated_(integrated),
+        model_(std::make_shared<FormulaModel>()) {}
+
+  std::shared_ptr<FormulaModel> read() {
+    read_texts();
+    model_->data = read_own_data(root_, source_, label_names());
+    choose_units();
+    read_along();
+    read_symbols();
+    read_parameters();
+    add_drawn_effects(root_, drawn_, *model_);
+    read_effects();
+    compile_population();
+    compile_measured();
+    order_rows(*model_, root_);
+    require_rising(*model_);
+    require_status(*model_, root_);
+    require_failures(*model_);
+    return model_;
+  }
+
+ private:
+  // All that is written, since what a name stands for is seen by how it is used.
+  void read_texts() {
+    if (const auto lines = root_.table("formula")) {
+      for (const std::string& name : lines->keys()) {
+        model_->written.push_back({name, expression(*lines, name)});
+        texts_.push_back(model_->written.back().text);
+      }
+      model_->lines = model_->written;
+    }
+    const TomlReader likelihoods = root_.required_table("likelihood");
+    for (const std::string& column : likelihoods.keys()) {
+      written_.push_back(read_likelihood(likelihoods.required_table(column), column));
+    }
+    if (written_.empty()) {
+      root_.fail("likelihood", "is empty; give one table for each measured column");
+    }
+    if (const auto random_effects = root_.table("random_effects")) {
+      for (const std::string& label : random_effects->keys()) {
+        read_random_effects(random_effects->required_table(label), label);
+      }
+    }
+    if (const auto predict = root_.table("predict")) {
+      if (const auto quantities = predict->table("quantities")) {
+        for (const std::string& key : quantities->keys()) {
+          texts_.push_back(quantities->is_text(key)
+                               ? quantities->required_text(key)
+                               : quantities->required_table(key).required_text("value"));
+        }
+      }
+    }
+  }
+
+  WrittenLikelihood read_likelihood(const TomlReader& table, const std::string& column) {
+    std::vector<std::string> names;
+    for (const ResponseForm& form : response_forms()) {
+      if (names.empty() || names.back() != form.name) names.emplace_back(form.name);
+    }
+    for (const ProcessForm& each : process_forms()) {
+      if (names.back() != each.form.name) names.emplace_back(each.form.name);
+    }
+    const auto family = table.choice("family", names);
+    if (!family) table.fail("family", fmt::format("is missing: {}", fmt::join(names, ", ")));
+    // Not by table.has, after which a key that the form does not have counts as one that was asked for.
+    const std::vector<std::string> keys = table.keys();
+    const auto has = [&](std::string_view name) {
+      return std::find(keys.begin(), keys.end(), name) != keys.end();
+    };
+    const ResponseForm* form = given_form(response_forms(), *family, has);
+    const ProcessForm* process = nullptr;
+    for (const ProcessForm& each : process_forms()) {
+      if (process || form || !given_form({&each.form, 1}, *family, has)) continue;
+      process = &each;
+    }
+    if (process) form = &process->form;
+    if (!form) {
+      table.fail("family",
+                 fmt::format("{} needs {}", *family, fmt::join(needed_slots(*family), ", or ")));
+    }
+    WrittenLikelihood result{column, form, process, {}, {}};
+    for (std::size_t s = 0; s < form->slots.size(); ++s) {
+      const std::string name(form->slots[s].name);
+      if (!table.has(name)) continue;
+      result.slots.emplace_back(s, expression(table, name));
+      texts_.push_back(result.slots.back().second);
+    }
+    if (form->family == ResponseFamily::binomial) result.trials = table.required_text("trials");
+    return result;
+  }
+
+  void read_random_effects(const TomlReader& table, const std::string& label) {
+    WrittenEffects written{label, {}, {}};
+    for (const std::string& name : table.keys()) {
+      if (name == "correlation") continue;
+      const TomlReader effect = table.required_table(name);
+      const auto kind = effect.choice("distribution", {"lognormal", "normal"});
+      if (!kind) effect.fail("distribution", "is missing: \"lognormal\" or \"normal\"");
+      const bool lognormal = *kind == "lognormal";
+      const std::string key = lognormal ? "log_sd" : "sd";
+      if (!effect.has(key)) {
+        effect.fail(key,
+                    fmt::format("is missing: of a {} law it says how far units differ", *kind));
+      }
+      written.effects.push_back({name, expression(effect, key), lognormal});
+      texts_.push_back(written.effects.back().scatter);
+    }
+    if (written.effects.empty()) table.fail("", "names no parameter that varies");
+    if (table.has("correlation")) {
+      if (written.effects.size() != 2) table.fail("correlation", "needs two parameters that vary");
+      written.correlation = expression(table, "correlation");
+      texts_.push_back(*written.correlation);
+    }
+    varies_.push_back(std::move(written));
+  }
+
+  // Whether paths are integrated out themselves: then effects of their units are drawn.
+  bool has_hidden_paths() const {
+    return std::any_of(written_.begin(), written_.end(), [](const WrittenLikelihood& each) {
+      return each.process && each.process->process != Process::wiener &&
+             std::any_of(each.slots.begin(), each.slots.end(), [](const auto& slot) {
+               return slot.first == 2;  // noise
+             });
+    });
+  }
+
+  // Which label says of which unit a row is, and which effects are drawn.
+  void choose_units() {
+    if (varies_.empty()) return;
+    const std::size_t unit = label_of_units(root_, model_->data, varies_);
+    const WrittenEffects& units = varies_[unit];
+    model_->label = units.label;
+    correlation_ = units.correlation;
+    effects_ = units.effects;
+    if (effects_.size() > most_unit_effects) {
+      root_.required_table("random_effects")
+          .required_table(units.label)
+          .fail(effects_[most_unit_effects].name,
+                fmt::format("is one too many: at most {} parameters may vary from {} to {}",
+                            most_unit_effects, units.label, units.label));
+    }
+    for (std::size_t v = 0; v < varies_.size(); ++v) {
+      if (v != unit) drawn_.push_back(varies_[v]);
+    }
+    const bool hidden = has_hidden_paths();
+    if (effects_.size() <= latent_effects && !hidden) return;
+    const std::size_t kept = hidden                                 ? 0
+                             : effects_.size() == most_unit_effects ? latent_effects
+                                                                    : integrated_;
+    WrittenEffects rest{units.label, {}, {}};
+    if (hidden) std::swap(rest.correlation, correlation_);
+    rest.effects.assign(effects_.begin() + static_cast<std::ptrdiff_t>(kept), effects_.end());
+    effects_.resize(kept);
+    drawn_.push_back(std::move(rest));
+  }
+
+  // Where rows follow each other, the one column without a unit that no expression names says which
+  // of them belong together: otherwise it would be there for nothing.
+  std::optional<std::string> idle_column() const {
+    static const std::regex path(R"(\bcum\s*\(|\bd\s*\(\s*\w+\s*\)\s*/)");
+    bool follows = std::any_of(written_.begin(), written_.end(),
+                               [](const auto& each) { return each.process != nullptr; });
+    std::string all;
+    for (const std::string& text : texts_) all += text + "\n";
+    for (const formula::Line& line : model_->lines) all += line.name + "\n";
+    follows |= std::regex_search(all, path);
+    if (!follows) return {};
+    if (const auto predict = root_.table("predict")) {
+      all += predict->text("along").value_or("") + "\n";
+    }
+    for (const WrittenLikelihood& each : written_) {
+      all += each.column + "\n" + each.trials.value_or("") + "\n";
+    }
+    for (const std::string& each : special_names) all += each + "\n";
+    const TomlReader columns = root_.required_table("data").required_table("columns");
+    std::optional<std::string> found;
+    for (const std::string& name : columns.keys()) {
+      if (!columns.is_text(name) && columns.required_table(name).has("unit")) continue;
+      if (std::regex_search(all, std::regex("\\b" + name + "\\b"))) continue;
+      if (found) return {};
+      found = name;
+    }
+    return found;
+  }
+
+  std::vector<std::string> label_names() {
+    std::vector<std::string> names;
+    for (const WrittenEffects& each : varies_) names.push_back(each.label);
+    names.emplace_back("status");
+    if (const auto unit = idle_column(); unit && varies_.empty()) names.push_back(*unit);
+    static const std::regex indexed(R"(([A-Za-z_]\w*)\s*\[\s*([A-Za-z_]\w*)\s*\])");
+    static const std::regex compared(R"re(([A-Za-z_]\w*)\s*(==|!=)\s*")re");
+    static const std::regex compared_back(R"re("\s*(==|!=)\s*([A-Za-z_]\w*))re");
+    static const std::regex unit_before(R"([0-9.)]\s*$)");
+    for (const std::string& text : texts_) {
+      for (std::sregex_iterator it(text.begin(), text.end(), indexed), end; it != end; ++it) {
+        indexed_[(*it)[1]] = (*it)[2];
+        names.push_back((*it)[2]);
+      }
+      for (std::sregex_iterator it(text.begin(), text.end(), compared), end; it != end; ++it) {
+        names.push_back((*it)[1]);
+      }
+      for (std::sregex_iterator it(text.begin(), text.end(), compared_back), end; it != end; ++it) {
+        names.push_back((*it)[2]);
+      }
+    }
+    return names;
+  }
+
+  // The axis of wear and life; the rows of a unit lie along it.
+  void read_along() {
+    if (const auto predict = root_.table("predict")) model_->along = predict->text("along");
+    if (model_->along && !model_->data.number(*model_->along)) {
+      const std::vector<std::string> names = number_names();
+      root_.required_table("predict").fail(
+          "along", fmt::format("'{}' is no column of numbers under data.columns{}", *model_->along,
+                               names.empty() ? ""
+                                             : fmt::format(" (nearest: '{}')",
+                                                           nearest_name(*model_->along, names))));
+    }
+    if (model_->along) return;
+    static const std::regex rate(R"(d\(\s*\w+\s*\)\s*/\s*d\(\s*(\w+)\s*\))");
+    for (const formula::Line& line : model_->lines) {
+      std::smatch match;
+      if (std::regex_match(line.name, match, rate) && model_->data.number(match[1])) {
+        model_->along = match[1];
+      }
+    }
+  }
+
+  std::vector<std::string> number_names() const {
+    std::vector<std::string> names;
+    for (const NumberColumn& each : model_->data.numbers) names.push_back(each.name);
+    return names;
+  }
+
+  bool is_measured(const std::string& name) const {
+    return std::any_of(written_.begin(), written_.end(),
+                       [&](const auto& each) { return each.column == name; });
+  }
+
+  void read_symbols() {
+    for (const NumberColumn& column : model_->data.numbers) {
+      const bool special =
+          std::find(special_names.begin(), special_names.end(), column.name) != special_names.end();
+      model_->symbols.columns.push_back(
+          {column.name, column.unit.powers, special || is_measured(column.name)});
+    }
+    for (const LabelColumn& label : model_->data.labels) {
+      if (label.name != "status") model_->symbols.labels.push_back({label.name, label.levels});
+    }
+    if (const auto constants = root_.table("constants")) {
+      for (const std::string& name : constants->keys()) {
+        if (!constants->is_text(name)) {
+          model_->symbols.constants.push_back(
+              {name, {}, constants->required_quantity(name, "1").si()});
+          continue;
+        }
+        try {
+          const formula::AnyQuantity q = formula::read_any_quantity(constants->required_text(name));
+          model_->symbols.constants.push_back({name, q.powers, q.quantity.si()});
+        } catch (const InputError& error) {
+          constants->fail(name, error.what());
+        }
+      }
+    }
+  }
+
+  // What the places where a parameter stands alone say of its sign.
+  std::map<std::string, Bounds> natural_bounds() const {
+    std::map<std::string, Bounds> bounds;
+    for (const WrittenLikelihood& each : written_) {
+      for (const auto& [slot, text] : each.slots) {
+        std::string name = trimmed(text);
+        name = trimmed(name.substr(0, name.find('[')));
+        const ParameterKind kind = each.form->slots[slot].kind;
+        if (kind == ParameterKind::probability) bounds[name].take(0, 1);
+        if (kind == ParameterKind::size || kind == ParameterKind::number)
+          bounds[name].take(0, INFINITY);
+      }
+    }
+    for (const WrittenEffects& random_effects : varies_) {
+      for (const WrittenEffect& each : random_effects.effects) {
+        if (each.lognormal) bounds[each.name].take(0, INFINITY);
+        bounds[trimmed(each.scatter)].take(0, INFINITY);
+      }
+      if (random_effects.correlation) bounds[trimmed(*random_effects.correlation)].take(-1, 1);
+    }
+    return bounds;
+  }
+
+  formula::Powers powers_of_prior(const TomlReader& priors, const std::string& key) const {
+    const TomlReader table = priors.required_table(key);
+    for (const std::string& each : dimensional_keys()) {
+      if (!table.has(each) || !table.is_text(each)) continue;
+      try {
+        return each == "unit" ? formula::read_any_unit(table.required_text(each)).powers
+                              : formula::read_any_quantity(table.required_text(each)).powers;
+      } catch (const InputError& error) {
+        table.fail(each, error.what());
+      }
+    }
+    return {};
+  }
+
+  Parameter read_one(const TomlReader& priors, const std::string& key, const std::string& name,
+                     const formula::Powers& powers, const Bounds& bounds) const {
+    std::string si;
+    try {
+      si = formula::si_text(powers);
+    } catch (const InputError& error) {
+      priors.fail(key, error.what());
+    }
+    Parameter parameter = read_prior(priors, {key, si, bounds.lower, bounds.upper, 1});
+    parameter.name = name;
+    if (parameter.prior.proper) {
+      parameter.start = quantile(parameter.prior, 0.5);
+    } else if (parameter.prior.lower < parameter.unit.scale &&
+               parameter.unit.scale < parameter.prior.upper) {
+      parameter.start = parameter.scale = parameter.unit.scale;
+    }
+    return parameter;
+  }
+
+  void read_parameters() {
+    const TomlReader priors = root_.required_table("prior");
+    const std::map<std::string, Bounds> natural = natural_bounds();
+    const auto bounds_of = [&](const std::string& name) {
+      const auto at = natural.find(name);
+      return at == natural.end() ? Bounds() : at->second;
+    };
+    std::set<std::string> done;
+    for (const std::string& key : priors.keys()) {
+      const std::string base = trimmed(key.substr(0, key.find('[')));
+      const auto at = indexed_.find(base);
+      if (at == indexed_.end()) {
+        if (base != key) {
+          priors.fail(key, fmt::format("no expression writes {}[...]; a parameter of each level is "
+                                       "written as {}[material] where 'material' is a label",
+                                       base, base));
+        }
+        const formula::Powers powers = powers_of_prior(priors, key);
+        model_->parameters.push_back(read_one(priors, key, key, powers, bounds_of(key)));
+        model_->symbols.parameters.push_back({key, powers});
+        continue;
+      }
+      if (!done.insert(base).second) continue;
+      read_levels(priors, base, at->second, bounds_of(base));
+    }
+  }
+
+  // k[material]: one prior for all under `k` (or "k[material]"), or one each under "k[PTFE]".
+  void read_levels(const TomlReader& priors, const std::string& base, const std::string& label,
+                   const Bounds& bounds) {
+    const LabelColumn* column = model_->data.label(label);
+    if (!column) {
+      priors.fail(base, fmt::format("stands before [{}], and '{}' is no label under data.columns",
+                                    label, label));
+    }
+    if (std::any_of(drawn_.begin(), drawn_.end(),
+                    [&](const WrittenEffects& each) { return each.label == label; })) {
+      priors.fail(base,
+                  fmt::format("is one of each {} by itself, and [random_effects.{}] draws others "
+                              "from one law: one of the two",
+                              label, label));
+    }
+    std::optional<formula::Powers> powers;
+    const std::string common = priors.has(base) ? base : fmt::format("{}[{}]", base, label);
+    for (const std::string& level : column->levels) {
+      const std::string name = fmt::format("{}[{}]", base, level);
+      const std::string key = priors.has(name) ? name : common;
+      if (!priors.has(key)) {
+        priors.fail("", fmt::format("no prior for {}; give one for all levels as {}, or one each",
+                                    name, base));
+      }
+      const formula::Powers own = powers_of_prior(priors, key);
+      if (powers && *powers != own) {
+        priors.fail(key, fmt::format("is in {}, and of another level in {}",
+                                     formula::description(own), formula::description(*powers)));
+      }
+      powers = own;
+      model_->parameters.push_back(read_one(priors, key, name, own, bounds));
+    }
+    model_->symbols.parameters.push_back({base, *powers, formula::Scope::per_level, label});
+  }
+
+  void read_effects() {
+    model_->row_symbols = model_->symbols;
+    if (!model_->label) {
+      model_->shared.resize(model_->parameters.size());
+      std::iota(model_->shared.begin(), model_->shared.end(), 0);
+      return;
+    }
+    const TomlReader random_effects = root_.required_table("random_effects");
+    const TomlReader table = random_effects.required_table(*model_->label);
+    if (!model_->data.label(*model_->label)) {
+      random_effects.fail(*model_->label,
+                          "is no column under data.columns; what varies does so from label "
+                          "to label");
+    }
+    const std::vector<std::size_t> begin = formula::slots(model_->symbols);
+    std::set<std::size_t> own;
+    for (std::size_t s = 0; s < model_->symbols.parameters.size(); ++s) {
+      const formula::ParameterSymbol& symbol = model_->symbols.parameters[s];
+      const auto effect = std::find_if(effects_.begin(), effects_.end(),
+                                       [&](const auto& each) { return each.name == symbol.name; });
+      if (effect == effects_.end()) continue;
+      if (symbol.scope != formula::Scope::one) {
+        table.fail(symbol.name, "is one for each level of a label already; it cannot vary as well");
+      }
+      model_->effects.push_back({symbol.name, s, begin[s], effect->lognormal});
+      model_->row_symbols.parameters[s].scope = formula::Scope::per_row;
+      own.insert(begin[s]);
+    }
+    for (const WrittenEffect& effect : effects_) {
+      const bool known = std::any_of(model_->effects.begin(), model_->effects.end(),
+                                     [&](const Effect& each) { return each.name == effect.name; });
+      if (!known) table.fail(effect.name, "is no parameter: it has no prior");
+    }
+    for (std::size_t i = 0; i < model_->parameters.size(); ++i) {
+      if (!own.count(i)) model_->shared.push_back(i);
+    }
+    model_->units = model_->data.label(*model_->label)->levels;
+    if (model_->units.size() < 2) {
+      random_effects.fail(*model_->label,
+                          fmt::format("all rows of {} are of one {}; how it varies needs at "
+                                      "least 2",
+                                      model_->data.table.source, *model_->label));
+    }
+    put_drawn_effects_in_rows(*model_);
+  }
+
+  void compile_population() {
+    if (!model_->label) return;
+    const TomlReader table = root_.required_table("random_effects").required_table(*model_->label);
+    std::vector<formula::Wanted> wanted;
+    for (const Effect& effect : model_->effects) {
+      const auto written =
+          std::find_if(effects_.begin(), effects_.end(),
+                       [&](const WrittenEffect& each) { return each.name == effect.name; });
+      const formula::Powers powers =
+          effect.lognormal ? formula::Powers() : model_->symbols.parameters[effect.symbol].powers;
+      wanted.push_back({fmt::format("[random_effects.{}] {} {}", *model_->label, effect.name,
+                                    effect.lognormal ? "log_sd" : "sd"),
+                        written->scatter, powers,
+                        effect.lognormal ? "a logarithm's scatter" : effect.name, true});
+    }
+    if (correlation_) {
+      wanted.push_back({fmt::format("[random_effects.{}] correlation", *model_->label),
+                        *correlation_, formula::Powers(), "a correlation", true});
+      model_->correlated = true;
+    }
+    try {
+      model_->population = formula::compile({}, wanted, model_->symbols);
+    } catch (const InputError& error) {
+      fail_at_place(root_, table, error.what());
+    }
+  }
+
+  SpecialColumns allowed_special_columns() const {
+    const SpecialColumns special = special_columns(model_->data);
+    const auto process = std::find_if(written_.begin(), written_.end(),
+                                      [](const auto& each) { return each.process != nullptr; });
+    if (process != written_.end()) {
+      for (const auto& each :
+           {special.status, special.lower, special.upper, special.entry, special.count}) {
+        if (!each) continue;
+        root_.required_table("data").required_table("columns").fail(
+            *each, fmt::format("is not for a {}: each of its readings is one exact number",
+                               process->form->name));
+      }
+    }
+    if (written_.size() > 1 &&
+        (special.status || special.lower || special.upper || special.entry)) {
+      const TomlReader columns = root_.required_table("data").required_table("columns");
+      columns.fail(special.status  ? "status"
+                   : special.lower ? "lower"
+                   : special.upper ? "upper"
+                                   : "entry",
+                   "is not for a study of several measured columns: of which would it speak?");
+    }
+    return special;
+  }
+
+  void compile_measured() {
+    const TomlReader likelihoods = root_.required_table("likelihood");
+    const SpecialColumns special = allowed_special_columns();
+    for (const WrittenLikelihood& written : written_) {
+      const TomlReader table = likelihoods.required_table(written.column);
+      const NumberColumn* column = model_->data.number(written.column);
+      if (!column && special.lower) column = model_->data.number(*special.lower);
+      if (!column) {
+        std::vector<std::string> names = number_names();
+        likelihoods.fail(
+            written.column,
+            fmt::format("is no column of numbers under data.columns{}",
+                        names.empty() ? ""
+                                      : fmt::format(" (nearest: '{}')",
+                                                    nearest_name(written.column, names))));
+      }
+      Measured measured{written.column,
+                        column->unit.unit,
+                        column->unit.powers,
+                        written.form,
+                        written.process,
+                        written.trials,
+                        {},
+                        {},
+                        {},
+                        {}};
+      if (written.form->counted && !column->unit.powers.empty() && column->unit.unit.scale != 1) {
+        table.fail("family",
+                   fmt::format("{} is for counts; '{}' is measured in {}", written.form->name,
+                               written.column, column->unit.unit.text));
+      }
+      if (written.trials && !model_->data.number(*written.trials)) {
+        table.fail("trials", "must name a column of numbers under data.columns");
+      }
+      for (const auto& [slot, text] : written.slots) {
+        const ParameterForm& form = written.form->slots[slot];
+        const bool dimensional =
+            form.kind == ParameterKind::place || form.kind == ParameterKind::size;
+        measured.wanted.push_back({fmt::format("[likelihood.{}] {}", written.column, form.name),
+                                   text, dimensional ? column->unit.powers : formula::Powers(),
+                                   dimensional ? fmt::format("the column '{}'", written.column)
+                                               : fmt::format("a {}", form.name)});
+        measured.slot.push_back(slot);
+      }
+      try {
+        measured.program = formula::compile(model_->lines, measured.wanted, model_->row_symbols);
+      } catch (const InputError& error) {
+        fail_at_place(root_, table, error.what());
+      }
+      if (written.process) model_->data.require_values(*column);
+      const bool may_lack = written_.size() > 1;
+      measured.observed = read_observed(model_->data, written.column, *written.form, special,
+                                        written.trials, may_lack);
+      model_->measured.push_back(std::move(measured));
+    }
+    for (const NumberColumn& each : model_->data.numbers) {
+      const bool measured = std::any_of(model_->measured.begin(), model_->measured.end(),
+                                        [&](const Measured& m) { return m.column == each.name; });
+      if (!measured) model_->data.require_values(each);
+    }
+    for (std::size_t c = 0; c < model_->row_symbols.columns.size(); ++c) {
+      const bool used = std::any_of(model_->measured.begin(), model_->measured.end(),
+                                    [&](const Measured& m) { return m.program.uses_column(c); });
+      if (used)
+        model_->data.require_complete(*model_->data.number(model_->row_symbols.columns[c].name));
+    }
+    require_used_parameters();
+  }
+
+  // A parameter that nothing depends on is a mistake: its posterior would be its prior.
+  void require_used_parameters() const {
+    const TomlReader priors = root_.required_table("prior");
+    for (std::size_t s = 0; s < model_->symbols.parameters.size(); ++s) {
+      const bool measured =
+          std::any_of(model_->measured.begin(), model_->measured.end(),
+                      [&](const Measured& m) { return m.program.uses_parameter(s); });
+      if (measured || (model_->label && model_->population.uses_parameter(s))) continue;
+      const std::string& name = model_->symbols.parameters[s].name;
+      priors.fail(name, "has no part in any likelihood: nothing would be learnt of it");
+    }
+  }
+
+  static constexpr std::size_t latent_effects = 2, most_unit_effects = 4;
+  const TomlReader& root_;
+  const Source& source_;
+  std::size_t integrated_;
+  std::shared_ptr<FormulaModel> model_;
+  std::vector<std::string> texts_;
+  std::vector<WrittenLikelihood> written_;
+  std::vector<WrittenEffects> varies_;
+  std::vector<WrittenEffect> effects_;  // of the units, that are integrated out
+  std::vector<WrittenEffects> drawn_;
+  std::optional<std::string> correlation_;
+  std::map<std::string, std::string> indexed_;  // parameter -> label
+};
+
+}  // namespace
+
+std::string expression(const TomlReader& table, const std::string& key) {
+  if (table.is_text(key)) return table.required_text(key);
+  return fmt::format("{}", table.required_quantity(key, "1").si());
+}
+
+formula::Program compile_at(const TomlReader& table, const std::string& key,
+                            const std::vector<formula::Line>& lines, const formula::Wanted& wanted,
+                            const formula::Symbols& symbols) {
+  try {
+    return formula::compile(lines, {wanted}, symbols);
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
+  }
+}
+
+std::shared_ptr<FormulaModel> read_formula_model(const TomlReader& root, const Source& source) {
+  std::shared_ptr<FormulaModel> model = Reader(root, source, 2).read();
+  // Two effects in which paths are straight cost no more than one; else, of three, one alone is integrated out.
+  const auto drawn = std::ranges::count_if(
+      model->drawn, [&](const DrawnEffect& each) { return model->label == each.label; });
+  if (drawn != 1 || model->effects.empty() ||
+      is_linear(*model, bind_columns(*model, model->data.table.rows)))
+    return model;
+  return Reader(root, source, 1).read();
+}
+
+}  // namespace wearwell::formula_model

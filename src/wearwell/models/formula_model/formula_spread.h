@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/models/formula_model/formula_lives.h"
+#include "wearwell/predict/cell_mixture.h"
+
+namespace wearwell::formula_model {
+
+/// Where output 0 of a path is asked for: of a new unit, or of one seen.
+struct SpreadPath {
+  LimitedPath::SeenUnit path;  ///< `behind` and `now` of a seen one alone
+  std::optional<std::size_t> unit;
+  std::vector<double> places;  ///< along the axis, SI; of a seen one not before its last row
+  std::shared_ptr<const Path> trace = {};  ///< the rows of a seen one until now, if asked for
+  bool rising = true;                      ///< the next three as in LimitedPath
+  double begin = 0, scale = 1;
+};
+
+/// What is known of a path: over the posterior of the population and, given that, of the unit.
+struct Spread {
+  std::vector<CellMixture> traced;  ///< at each row of the unit
+  std::vector<CellMixture> ahead;   ///< at each place
+};
+struct Spreads {
+  std::vector<Spread> paths;
+  void add(const Spreads& other);  ///< of other points of the posterior
+};
+
+/// The spreads of all paths at once, over at most so many points of the posterior.
+std::vector<Spread> spreads(const BearingRows& rows, const std::vector<SpreadPath>& paths,
+                            const WeightedDraws& draws, std::size_t most_points);
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,261 @@
+#include "wearwell/models/formula_model/formula_study.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "wearwell/base/error.h"
+#include "wearwell/bayes/posterior.h"
+#include "wearwell/math/constants.h"
+#include "wearwell/models/formula_model/formula_density_unit.h"
+#include "wearwell/models/formula_model/formula_drawn.h"
+#include "wearwell/models/formula_model/formula_fit_data.h"
+#include "wearwell/models/formula_model/formula_likelihood.h"
+#include "wearwell/models/formula_model/formula_predictions.h"
+#include "wearwell/models/formula_model/formula_reader.h"
+#include "wearwell/models/formula_model/formula_start.h"
+#include "wearwell/models/formula_model/identified.h"
+#include "wearwell/models/formula_model/life_paper.h"
+
+namespace wearwell {
+namespace {
+
+using formula_model::BearingRows;
+using formula_model::Effect;
+using formula_model::FormulaModel;
+using formula_model::Measured;
+using formula_model::Observed;
+
+std::string description(const FormulaModel& model) {
+  std::vector<std::string> parts;
+  for (const Measured& each : model.measured) {
+    std::vector<std::string> slots;
+    for (std::size_t o = 0; o < each.wanted.size(); ++o) {
+      slots.push_back(
+          fmt::format("{} = {}", each.form->slots[each.slot[o]].name, each.program.text(o)));
+    }
+    parts.push_back(
+        fmt::format("{} is {} with {}", each.column, each.form->name, fmt::join(slots, ", ")));
+  }
+  for (std::size_t e = 0; e < model.effects.size(); ++e) {
+    const Effect& effect = model.effects[e];
+    parts.push_back(fmt::format("{} of each of {} {}s is {} about {} with {} {}", effect.name,
+                                model.units.size(), *model.label,
+                                effect.lognormal ? "lognormal" : "normal", effect.name,
+                                effect.lognormal ? "log_sd" : "sd", model.population.text(e)));
+  }
+  if (model.correlated) {
+    parts.push_back(
+        fmt::format("their correlation is {}", model.population.text(model.effects.size())));
+  }
+  for (const formula_model::DrawnEffect& each : model.drawn) {
+    parts.push_back(fmt::format(
+        "{} of each of {} {}s is {} about {}_middle with {} {}{}", each.name, each.seen, each.label,
+        each.lognormal ? "lognormal" : "normal", each.name, each.lognormal ? "log_sd" : "sd",
+        each.scatter, each.correlation ? ", correlation " + *each.correlation : ""));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::vector<std::string> meanings(const FormulaModel& model) {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const auto effect = std::find_if(model.effects.begin(), model.effects.end(),
+                                     [&](const Effect& each) { return each.parameter == i; });
+    all.push_back(
+        effect == model.effects.end()
+            ? meaning_not_stated
+            : fmt::format("{} {}'s", effect->lognormal ? "median" : "mean", *model.label));
+  }
+  for (const formula_model::DrawnEffect& each : model.drawn) {
+    if (all[each.middle] == meaning_not_stated) {
+      all[each.middle] = fmt::format("{} {}'s", each.lognormal ? "median" : "mean", each.label);
+    }
+    for (std::size_t i = 0; i <= each.seen; ++i) {
+      all[each.first + i] = fmt::format("{} of this {}, from the middle", each.name, each.label);
+    }
+  }
+  return all;
+}
+
+std::vector<std::string> notes(const FormulaModel& model) {
+  static constexpr const char* words[] = {"exact", "censored to the right", "censored to the left",
+                                          "known to an interval"};
+  std::vector<std::string> all;
+  for (const Measured& each : model.measured) {
+    long long counts[4] = {}, sum = 0, truncated = 0;
+    for (std::size_t i = 0; i < each.observed.responses.size(); ++i) {
+      const Response& y = each.observed.responses[i];
+      counts[static_cast<int>(y.seen)] += each.observed.counts[i];
+      sum += each.observed.counts[i];
+      truncated += y.entry > -infinity ? each.observed.counts[i] : 0;
+    }
+    std::vector<std::string> parts;
+    for (int i = 0; i < 4; ++i) {
+      if (counts[i] > 0) parts.push_back(fmt::format("{} {}", counts[i], words[i]));
+    }
+    std::string note =
+        fmt::format("{}: {} observation{}{}", each.column, sum, sum == 1 ? "" : "s",
+                    counts[0] == sum ? "" : fmt::format(": {}", fmt::join(parts, ", ")));
+    if (truncated > 0) note += fmt::format("; {} seen only from an entry on", truncated);
+    all.push_back(note);
+    if (!each.form->counted && each.observed.failures == 0) {
+      all.push_back(
+          fmt::format("no row of {} is a failure: how long a life may be is said by the "
+                      "priors alone",
+                      each.column));
+    }
+  }
+  if (model.has_random_effects())
+    all.push_back(fmt::format("{} {}s", model.units.size(), *model.label));
+  for (const formula_model::DrawnEffect& each : model.drawn) {
+    all.push_back(
+        fmt::format("{} of each of {} {}s is drawn, not integrated out: by NUTS, without "
+                    "quadrature beside it. The mode is then one of all that is drawn together: "
+                    "its scatters are no estimates",
+                    each.name, each.seen, each.label));
+  }
+  return all;
+}
+
+bool saw_no_wear(const Observed& observed) {
+  return std::all_of(observed.responses.begin(), observed.responses.end(), [](const Response& y) {
+    return y.seen == Censoring::left || (y.seen == Censoring::none && y.at <= 0);
+  });
+}
+
+// Of lives no failure, of wear along an axis no reading above zero.
+NothingSeen nothing_seen(const FormulaModel& model) {
+  const auto all = [&](auto property) {
+    return std::all_of(model.measured.begin(), model.measured.end(), property);
+  };
+  const auto counted = [](const Measured& each) { return each.form->counted; };
+  if (std::any_of(model.measured.begin(), model.measured.end(), counted)) return {};
+  const Measured& first = model.measured.front();
+  const int count = std::accumulate(first.observed.counts.begin(), first.observed.counts.end(), 0);
+  const std::string give_prior =
+      "State what is known of the parameters before the data; until something is observed, read "
+      "every upper end as a statement of the prior.";
+  if (!model.along && all([](const Measured& each) { return each.observed.failures == 0; })) {
+    return {"no-failures",
+            fmt::format("no failure was observed among {} observation{} of {}: the data only "
+                        "exclude short lives, and the upper end of every life rests on the prior",
+                        count, count == 1 ? "" : "s", first.column),
+            give_prior};
+  }
+  if (model.along && all([](const Measured& each) { return saw_no_wear(each.observed); })) {
+    return {"no-wear",
+            fmt::format("no wear was observed: none of {} reading{} of {} lies above zero, so the "
+                        "data only exclude fast wear, and the upper end of every life rests on "
+                        "the prior",
+                        count, count == 1 ? "" : "s", first.column),
+            give_prior};
+  }
+  return {};
+}
+
+// What the likelihood is a density of, and what it stands on.
+void tell_data(const FormulaModel& model, PosteriorStudy& study) {
+  std::vector<std::string> names;
+  for (const Measured& each : model.measured) {
+    names.push_back(each.column);
+    for (std::size_t i = 0; i < each.observed.responses.size(); ++i) {
+      const Response& y = each.observed.responses[i];
+      study.observed.push_back(y.at);
+      if (y.seen != Censoring::none || each.observed.counts[i] != 1 || y.entry > -infinity) {
+        study.observed.insert(study.observed.end(), {static_cast<double>(y.seen), y.until,
+                                                     static_cast<double>(each.observed.counts[i]),
+                                                     y.entry > -infinity ? y.entry : 0});
+      }
+    }
+  }
+  study.quantity = fmt::format("{}", fmt::join(names, ", "));
+  for (const formula_model::NumberColumn& column : model.data.numbers) {
+    const bool whole = std::all_of(column.values.begin(), column.values.end(),
+                                   [](double x) { return std::isfinite(x); });
+    const bool integers =
+        std::all_of(column.unit.powers.begin(), column.unit.powers.end(),
+                    [](const auto& power) { return power.second.denominator() == 1; });
+    if (!whole || !integers) continue;
+    // Of lengths a law does not say which are sizes and which are ways, that of a car's life, say. What is
+    // measured along something else is a size.
+    const bool size = model.along &&
+                      std::any_of(model.measured.begin(), model.measured.end(),
+                                  [&](const Measured& each) { return each.column == column.name; });
+    study.data_columns.push_back({.name = column.name,
+                                  .si = formula::si_text(column.unit.powers),
+                                  .unit = column.unit.unit,
+                                  .values = column.values,
+                                  .endless = !size});
+  }
+}
+
+// The first expression that is no number where the search starts, with its row: a clearer word than that
+// the posterior is not finite there.
+void require_numbers(const FormulaModel& model) {
+  if (model.has_random_effects()) return;
+  std::vector<double> x;
+  for (const std::size_t i : model.shared) x.push_back(model.parameters[i].start);
+  for (const formula_model::BoundColumn& bound :
+       formula_model::bind_columns(model, model.data.table.rows)) {
+    const auto fault =
+        bound.measured->program.first_fault(bound.data, 0, bound.data.rows(), {x, {}});
+    if (!fault) continue;
+    const std::size_t row = bound.measured->observed.rows[bound.term[fault->row]];
+    throw InputError(
+        fmt::format("{}{}: {} in '{}' ({}), at values of the parameters where the search starts",
+                    model.data.table.source, fault->uniform ? "" : fmt::format(", row {}", row + 1),
+                    fault->why, fault->expression, fault->where));
+  }
+}
+
+}  // namespace
+
+void read_formula_study(const TomlReader& root, const Source& source, PosteriorStudy& study) {
+  const std::shared_ptr<FormulaModel> model = formula_model::read_formula_model(root, source);
+  if (study.stages) {
+    root.required_table("update").fail(
+        "stages",
+        "is not for model \"formula\"; fit the first rows as a study of their own (data.sql "
+        "= \"select ... limit 6\")");
+  }
+  study.data_rows = model->data.table.rows;
+  study.data_layout = model->data.table.layout;
+  const auto rows = std::make_shared<const BearingRows>(model, study.data_rows, true);
+  const auto likelihood = formula_model::formula_likelihood(rows);
+  formula_model::find_starts(*likelihood, model->parameters);
+  std::vector<double> start;
+  for (const Parameter& each : model->parameters) start.push_back(each.start);
+  if (!(likelihood->value(start) > -infinity)) require_numbers(*model);
+
+  study.parameters = model->parameters;
+  study.equation = description(*model);
+  study.meanings = meanings(*model);
+  study.data_notes = notes(*model);
+  study.density = formula_model::density_unit(*model);
+  study.nothing_seen = nothing_seen(*model);
+  tell_data(*model, study);
+  if (model->has_random_effects()) {
+    study.observation = *model->label;
+  } else if (model->has_process()) {
+    study.observation =
+        model->symbols.labels.size() == 1 ? model->symbols.labels.front().name : "unit";
+  }
+  study.likelihood = [model, rows, likelihood](std::size_t count) {
+    if (count == model->data.table.rows) return likelihood;
+    return formula_model::formula_likelihood(
+        std::make_shared<const BearingRows>(model, count, true));
+  };
+  study.fit_data = formula_model::fit_data(rows);
+  study.checks = [rows](const Fit& fit) {
+    return std::vector<Check>{formula_model::identified(*rows, rows->model().parameters, fit)};
+  };
+  formula_model::tell_drawn_effects(model, study);
+  formula_model::read_own_predictions(root, model, rows, study);
+  formula_model::show_life_paper(root, model, study);
+}
+
+}  // namespace wearwell

@@ -1,0 +1,92 @@
+#include "wearwell/models/formula_model/formula_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "wearwell/base/error.h"
+#include "wearwell/models/formula_model/formula_drawn.h"
+#include "wearwell/models/formula_model/formula_reader.h"
+#include "wearwell/models/formula_model/tracked_unit.h"
+
+namespace wearwell::formula_model {
+
+class FormulaTracker final : public prognosis::Tracker {
+ public:
+  explicit FormulaTracker(std::shared_ptr<const Tracked> tracked)
+      : tracked_(std::move(tracked)), fresh_(tracked_, "", {}) {
+    const FormulaModel& model = *tracked_->model;
+    for (const prognosis::ReadingColumn& each : tracked_->reader.columns()) {
+      if (each.name == model.along) axis_ = &each;
+    }
+    if (model.units.size() > 1 || !model.units.front().empty()) seen_ = model.units;
+  }
+
+  std::span<const prognosis::ReadingColumn> columns() const override {
+    return tracked_->reader.columns();
+  }
+  std::span<const std::string> labels() const override { return tracked_->reader.labels(); }
+  const prognosis::ReadingColumn& axis() const override { return *axis_; }
+  const std::string& limited() const override { return tracked_->lives.name(); }
+  const Quantity& limit() const override { return tracked_->lives.limit(); }
+  bool rising() const override { return tracked_->lives.rising(); }
+  const std::string& noun() const override { return tracked_->lives.noun(); }
+  double probability_error() const override {
+    return tracked_->model->effects.size() > 1 ? 0.02 : 0.008;
+  }
+  std::vector<double> populations() const override {
+    std::vector<double> weight;
+    normalize(tracked_->population.few.log_weight, weight);
+    return weight;
+  }
+  std::span<const std::string> seen() const override { return seen_; }
+
+  std::unique_ptr<prognosis::TrackedUnit> begin(const std::string& unit) const override {
+    std::vector<UnitReading> rows = rows_of(unit);
+    if (!rows.empty()) return std::make_unique<TrackedUnit>(tracked_, unit, std::move(rows));
+    auto fresh = std::make_unique<TrackedUnit>(fresh_);
+    fresh->unit_ = unit;
+    return fresh;
+  }
+
+  std::unique_ptr<prognosis::TrackedUnit> restore(const std::string& bytes) const override {
+    return TrackedUnit::restore(tracked_, bytes,
+                                [this](const std::string& unit) { return rows_of(unit); });
+  }
+
+ private:
+  // What a unit showed in the study, along the axis.
+  std::vector<UnitReading> rows_of(const std::string& unit) const {
+    const auto at = std::find(seen_.begin(), seen_.end(), unit);
+    if (at == seen_.end()) return {};
+    std::vector<UnitReading> rows =
+        tracked_->reader.of_study(static_cast<std::size_t>(at - seen_.begin()));
+    sort_along(rows);
+    return rows;
+  }
+
+  std::shared_ptr<const Tracked> tracked_;
+  const TrackedUnit fresh_;
+  const prognosis::ReadingColumn* axis_ = nullptr;
+  std::vector<std::string> seen_;
+};
+
+std::unique_ptr<const prognosis::Tracker> track_units(const prognosis::CarriedState& state) {
+  const TomlReader root = TomlReader::parse(state.source.study);
+  const std::shared_ptr<const FormulaModel> model = read_formula_model(root, state.source);
+  refuse_drawn_effects(*model, "followed on line");
+  for (const Measured& each : model->measured) {
+    if (!each.process || each.process->process == Process::wiener || each.wanted.size() < 3)
+      continue;
+    throw InputError(
+        fmt::format("{}: a {} with noise is not followed on line; a wiener-process with noise is",
+                    each.column, each.form->name));
+  }
+  std::vector<std::string> names;
+  for (const Parameter& each : model->parameters) names.push_back(each.name);
+  prognosis::require_parameters(state, names);
+  return std::make_unique<const FormulaTracker>(std::make_shared<const Tracked>(
+      root, model, state.posterior, prognosis::population_fingerprint(state)));
+}
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "wearwell/bayes/weighted_draws.h"
+#include "wearwell/models/formula_model/formula_likelihood.h"
+
+namespace wearwell::formula_model {
+
+/// A posterior with the effects of a unit that was seen: points of the parameters, and after them the
+/// unit's effects on the nodes on which they were integrated out, over at most 500 points of the posterior.
+WeightedDraws with_unit(const BearingRows& rows, std::size_t unit, const WeightedDraws& draws);
+
+}  // namespace wearwell::formula_model

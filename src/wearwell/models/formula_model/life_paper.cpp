@@ -1,0 +1,292 @@
+#include "wearwell/models/formula_model/life_paper.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "wearwell/models/formula_model/life_groups.h"
+#include "wearwell/models/formula_model/life_stress.h"
+#include "wearwell/present/plot.h"
+#include "wearwell/prob/plotting_positions.h"
+#include "wearwell/prob/standard_distribution.h"
+#include "wearwell/study/plot_study.h"
+
+// Longer than others: paper, points, lines and bands share one scale.
+namespace wearwell::formula_model {
+namespace {
+
+using Numbers = std::vector<double>;
+
+// So many conditions share a plot, and so many are drawn at all.
+constexpr std::size_t most_together = 6, most_drawn = 24, most_conditions = 2000;
+constexpr std::size_t curve_points = 40;
+constexpr Eigen::Index few_draws = 1000;
+
+// The observations by condition with the law of each; of many conditions those with the most failures, in the
+// order of their numbers.
+std::vector<LifeGroup> drawn_groups(const TomlReader& root,
+                                    const std::shared_ptr<const FormulaModel>& model,
+                                    std::vector<LifeGroup> groups) {
+  if (groups.size() > most_drawn) {
+    std::stable_sort(groups.begin(), groups.end(), [](const LifeGroup& a, const LifeGroup& b) {
+      return a.failures() > b.failures();
+    });
+    groups.resize(most_drawn);
+  }
+  if (groups.size() > most_together) {
+    std::stable_sort(groups.begin(), groups.end(), [](const LifeGroup& a, const LifeGroup& b) {
+      return std::pair(a.conditions.labels, a.conditions.numbers) <
+             std::pair(b.conditions.labels, b.conditions.numbers);
+    });
+  }
+  for (LifeGroup& each : groups) each.life = life_distribution(root, model, each.conditions);
+  return groups;
+}
+
+const char* colour_of(std::size_t group) {
+  constexpr const char* colours[] = {plot::colour::chains[0], plot::colour::chains[1],
+                                     plot::colour::chains[2], plot::colour::chains[3],
+                                     plot::colour::limit,     plot::colour::prior};
+  return colours[group % most_together];
+}
+
+class Drawing {
+ public:
+  Drawing(const FormulaModel& model, const std::vector<LifeGroup>& groups, std::size_t left_out,
+          const Fit& fit)
+      : measured_(model.measured.front()),
+        varies_(model.has_random_effects()),
+        groups_(groups),
+        left_out_(left_out),
+        paper_(measured_.form->paper),
+        draws_(thinned(fit.exact ? fit.exact->nodes : fit.pooled, few_draws)) {
+    for (const LifeGroup& group : groups) {
+      for (const Response& each : group.responses) {
+        cover(each.at);
+        if (each.seen == Censoring::interval) cover(each.until);
+      }
+      positions_.push_back(plotting_positions(group.responses, group.counts));
+      for (const PlottingPosition& each : positions_.back()) {
+        least_ = std::min(least_, 0.5 * each.p);
+        most_ = std::max(most_, 1 - 0.5 * (1 - each.p));
+      }
+    }
+    if (!(low_ <= high_)) low_ = high_ = measured_.unit.scale;  // no finite observation
+    double room = positive() ? std::max(1.5, std::pow(high_ / low_, 0.15))
+                             : 0.1 * std::max(high_ - low_, 1e-9 * std::abs(high_));
+    if (room == 0) room = measured_.unit.scale;  // all readings are zero
+    low_ = positive() ? low_ / room : low_ - room;
+    high_ = positive() ? high_ * room : high_ + room;
+    for (std::size_t i = 0; i < curve_points; ++i) {
+      const double share = static_cast<double>(i) / (curve_points - 1);
+      at_.push_back(positive() ? low_ * std::pow(high_ / low_, share)
+                               : std::lerp(low_, high_, share));
+    }
+  }
+
+  // Plots of up to `most_together` conditions each, on common axes.
+  std::vector<html::Figure> papers() const {
+    std::vector<html::Figure> figures;
+    const std::size_t count = (groups_.size() + most_together - 1) / most_together;
+    const std::size_t each = (groups_.size() + count - 1) / count;
+    for (std::size_t first = 0; first < groups_.size(); first += each)
+      figures.push_back(paper(first, std::min(first + each, groups_.size())));
+    return figures;
+  }
+
+  // None where no curve is finite anywhere.
+  std::optional<html::Figure> hazard() const {
+    std::vector<plot::Json> marks;
+    const double per = measured_.unit.scale;
+    double least = INFINITY, most = 0;
+    const std::size_t step = (groups_.size() + most_together - 1) / most_together;
+    for (std::size_t g = 0; g < groups_.size(); g += step) {
+      const std::vector<Numbers> bands = over_places([&](double life) {
+        const QuantityDistribution known = groups_[g].life->hazard(draws_, life).distribution;
+        return Numbers{per * known.quantile(0.05), per * known.quantile(0.5),
+                       per * known.quantile(0.95)};
+      });
+      Numbers x, low, middle, high;
+      for (std::size_t i = 0; i < at_.size(); ++i) {
+        if (!std::isfinite(bands[i][0]) || !(bands[i][0] > 0) || !std::isfinite(bands[i][2]))
+          continue;
+        x.push_back(shown(at_[i]));
+        low.push_back(bands[i][0]);
+        middle.push_back(bands[i][1]);
+        high.push_back(bands[i][2]);
+        least = std::min(least, middle.back());
+        most = std::max(most, middle.back());
+      }
+      if (x.empty()) continue;
+      const char* colour = colour_of(g / step);
+      marks.push_back(plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour, "", 0.25}));
+      marks.push_back(
+          plot::line({{"x", x}, {"y", middle}, {"hazard", middle}}, {colour, label(g), 1, 2}));
+    }
+    if (marks.empty()) return {};
+    const std::string unit = measured_.unit.text == "1"
+                                 ? ""
+                                 : fmt::format(" [{}]", html::unit(per_unit(measured_.unit)));
+    return html::Figure{"hazard",
+                        "Hazard rate: failures per unit of life among those still running",
+                        "The line is the posterior median, the band holds 90 %.",
+                        plot::plot(fmt::format("Hazard against {}", measured_.column), axis(),
+                                   {"Hazard" + unit, true, least > 0 ? least / 5 : 1e-12, 5 * most},
+                                   marks, 280, true)};
+  }
+
+ private:
+  html::Figure paper(std::size_t first, std::size_t end) const {
+    std::vector<plot::Json> marks;
+    for (std::size_t g = first; g < end; ++g) add_law(g, g - first, marks);
+    for (std::size_t g = first; g < end; ++g) add_points(g, g - first, marks);
+    plot::Axis shares{"Share that has failed [%]", false, height(least_), height(most_)};
+    // As a paper has them.
+    for (const double percent : {0.01, 0.1, 1., 5., 10., 20., 50., 90., 99., 99.9}) {
+      const double p = percent / 100;
+      if (p >= least_ && p <= most_)
+        shares.ticks.emplace_back(height(p), fmt::format("{:g}", percent));
+    }
+    std::string id = "probability-paper",
+                title = fmt::format("Probability plot on {} paper", paper_.name);
+    if (first > 0) id += fmt::format("-{}", first);
+    if (end - first < groups_.size()) title += ": " + label(first) + " to " + label(end - 1);
+    return {id, title, first == 0 ? caption() : "",
+            plot::plot(fmt::format("Share that has failed against {}, on {} paper",
+                                   measured_.column, paper_.name),
+                       axis(), shares, marks, 340, true)};
+  }
+
+  double height(double p) const { return quantile(paper_.model, p); }
+  bool positive() const { return measured_.form->positive; }
+  void cover(double y) {
+    if (!std::isfinite(y) || (positive() && !(y > 0))) return;
+    low_ = std::min(low_, y);
+    high_ = std::max(high_, y);
+  }
+  double shown(double y) const { return from_si(measured_.unit, y); }
+  plot::Axis axis() const {
+    const std::string unit = html::unit(measured_.unit.text);
+    return {html::capital(measured_.column) + (unit.empty() ? "" : fmt::format(" [{}]", unit)),
+            positive(), shown(low_), shown(high_)};
+  }
+  std::string label(std::size_t g) const {
+    const std::string& words = groups_[g].conditions.words;
+    return words.empty() ? "fitted law" : words;
+  }
+
+  template <class F>
+  std::vector<Numbers> over_places(const F& f) const {
+    std::vector<Numbers> all(at_.size());
+    tbb::parallel_for(std::size_t{0}, at_.size(), [&](std::size_t i) { all[i] = f(at_[i]); });
+    return all;
+  }
+
+  void add_law(std::size_t g, std::size_t colour, std::vector<plot::Json>& marks) const {
+    const std::vector<Numbers> bands = over_places([&](double life) {
+      const QuantityDistribution left = groups_[g].life->survival(draws_, life).distribution;
+      const auto failed = [&](double q) {
+        return height(std::clamp(1 - left.quantile(q), 0.1 * least_, 1 - 0.1 * (1 - most_)));
+      };
+      return Numbers{failed(0.95), failed(0.5), failed(0.05)};
+    });
+    Numbers x, low, middle, high;
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+      if (std::isnan(bands[i][1])) continue;
+      x.push_back(shown(at_[i]));
+      low.push_back(bands[i][0]);
+      middle.push_back(bands[i][1]);
+      high.push_back(bands[i][2]);
+    }
+    if (x.empty()) return;
+    marks.push_back(
+        plot::area({{"x", x}, {"y", high}, {"y2", low}}, {colour_of(colour), "", 0.22}));
+    marks.push_back(plot::line({{"x", x}, {"y", middle}}, {colour_of(colour), label(g), 1, 2}));
+  }
+
+  void add_points(std::size_t g, std::size_t colour, std::vector<plot::Json>& marks) const {
+    Numbers x, y, percent;
+    for (const PlottingPosition& each : positions_[g]) {
+      x.push_back(shown(each.at));
+      y.push_back(height(each.p));
+      percent.push_back(100 * each.p);
+    }
+    if (x.empty()) return;
+    const bool alone = groups_.size() == 1;
+    marks.push_back(
+        plot::points({{"x", x}, {"y", y}, {measured_.column, x}, {"failed [%]", percent}},
+                     {alone ? plot::colour::measured : colour_of(colour), alone ? "observed" : "",
+                      1, 0, false, 60}));
+  }
+
+  std::string caption() const {
+    bool intervals = false, censored = false, none = false;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      for (const Response& each : groups_[g].responses) {
+        intervals |= each.seen == Censoring::left || each.seen == Censoring::interval;
+        censored |= each.seen == Censoring::right;
+      }
+      none |= positions_[g].empty();
+    }
+    std::string words = paper_.straight
+                            ? "A law of this family is a straight line here"
+                            : fmt::format("The {} law bends on this paper", measured_.form->name);
+    words +=
+        ". Lines are posterior medians of the share that has failed by then, bands hold 90 %. ";
+    words += intervals
+                 ? "Points are Turnbull's estimate, at the upper ends of the intervals where it "
+                   "has a step."
+             : censored ? "Points are Kaplan and Meier's estimate, each half way up its step; "
+                          "run-outs have no point, but count in the steps of others."
+                        : "Points stand at (i - 1/2)/n.";
+    if (none) words += " Where nothing failed, or entries come with intervals, there is no point.";
+    if (left_out_ > 0) {
+      words += fmt::format(" Of {} conditions, the {} with the most failures are drawn.",
+                           left_out_ + groups_.size(), groups_.size());
+    }
+    if (varies_) words += " Units differ, and the line is that of all units together.";
+    return words;
+  }
+
+  const Measured& measured_;
+  bool varies_;
+  const std::vector<LifeGroup>& groups_;
+  std::size_t left_out_;
+  Paper paper_;
+  WeightedDraws draws_;
+  std::vector<std::vector<PlottingPosition>> positions_;
+  double low_ = INFINITY, high_ = -INFINITY, least_ = 0.05, most_ = 0.95;
+  Numbers at_;
+};
+
+}  // namespace
+
+void show_life_paper(const TomlReader& root, std::shared_ptr<const FormulaModel> model,
+                     PosteriorStudy& study) {
+  const Measured& measured = model->measured.front();
+  if (model->along || model->measured.size() > 1 || measured.form->counted ||
+      measured.program.has_paths() || measured.observed.failures == 0) {
+    return;
+  }
+  std::vector<LifeGroup> all = life_groups(*model, most_conditions);
+  if (all.empty()) return;
+  const std::size_t conditions = all.size();
+  const auto stresses =
+      std::make_shared<const std::vector<LifeStress>>(life_stresses(root, model, all));
+  const auto groups =
+      std::make_shared<const std::vector<LifeGroup>>(drawn_groups(root, model, std::move(all)));
+  study.figures = [model, groups, conditions, stresses, before = study.figures](const Fit& fit) {
+    auto figures = before ? before(fit) : std::map<std::string, std::vector<html::Figure>>();
+    const Drawing drawing(*model, *groups, conditions - groups->size(), fit);
+    std::vector<html::Figure>& shown = figures["verdict"];
+    for (const LifeStress& each : *stresses) shown.push_back(life_stress_figure(*model, each, fit));
+    for (html::Figure& each : drawing.papers()) shown.push_back(std::move(each));
+    if (auto hazard = drawing.hazard()) figures["predictions"].push_back(std::move(*hazard));
+    return figures;
+  };
+}
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,253 @@
+#include "wearwell/models/formula_model/life_scaffold.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/input/prior.h"
+#include "wearwell/models/formula_model/scaffold_parts.h"
+#include "wearwell/study/column_values.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+using Found = ColumnRoles::Found;
+
+constexpr std::string_view stresses[] = {"force", "pressure", "voltage", "alternating_stress"};
+
+struct Lives {
+  bool open_ends = false;  ///< some are written ">5000"
+  std::string columns;     ///< lines of [data.columns]
+  std::string unit;        ///< of a life
+  double largest = 1;      ///< in it
+  double middle = 1;       ///< the median of what is written
+  bool stated = false;     ///< words or a status say that these are lives
+};
+
+bool is_interval(const ColumnRoles& roles) {
+  const auto lower = roles.find({"lower"}), upper = roles.find({"upper"});
+  if (!lower || !upper || lower->column == upper->column) return false;
+  const auto a = numbers_of(roles.table(), *lower->column);
+  const auto b = numbers_of(roles.table(), *upper->column);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (b[i] < a[i]) return false;
+  }
+  return true;
+}
+
+double largest_of(const Table& table, const Column& column) {
+  const auto values = values_of(table, column);
+  const auto found = std::max_element(values.begin(), values.end());
+  return found == values.end() || !(*found > 0) ? 1 : *found;
+}
+
+double middle_of(const Table& table, const Column& column) {
+  auto values = values_of(table, column);
+  if (values.empty()) return 1;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle > 0 ? *middle : 1;
+}
+
+// A path that is read again and again is no list of lives.
+bool is_path(const ColumnRoles& roles) {
+  return roles.has({"depth", "volume", "mass", "crack", "measured"}) ||
+         (has_units(roles) && !roles.has({"life"}));
+}
+
+std::optional<Lives> take_lives(ColumnRoles& roles) {
+  Lives lives;
+  if (is_interval(roles)) {
+    const Found lower = *roles.take("lower", {"lower"}), upper = *roles.take("upper", {"upper"});
+    Found a = lower, b = upper;
+    if (a.unit == "1") a.unit = b.unit;
+    if (b.unit == "1") b.unit = a.unit;
+    lives.columns = ColumnRoles::line("lower", a) + ColumnRoles::line("upper", b);
+    lives.unit = a.unit;
+    lives.largest = std::max(largest_of(roles.table(), *lower.column),
+                             largest_of(roles.table(), *upper.column));
+    lives.middle = middle_of(roles.table(), *lower.column);
+    lives.stated = true;
+    roles.guesses.push_back(
+        "an empty upper end is taken for a run-out, an empty lower one for failed before");
+    if (a.unit == "1")
+      roles.guesses.push_back(fmt::format(
+          "column '{}' has no unit: a life is a plain number, such as cycles", lower.column->name));
+  } else {
+    const bool named = roles.has({"life"});
+    if (!named && !has_axis(roles)) return {};
+    const auto life = named ? roles.take("life", {"life"}) : take_axis(roles, "life");
+    if (!life) return {};
+    lives.columns = column_line("life", *life);
+    lives.unit = counting_unit(*life);
+    lives.largest = largest_of(roles.table(), *life->column);
+    lives.middle = middle_of(roles.table(), *life->column);
+    lives.open_ends = has_open_ends(*life->column);
+    lives.stated = named || lives.open_ends;
+    if (lives.open_ends)
+      roles.taken.push_back(
+          fmt::format("status: '>' in column '{}' is a run-out", life->column->name));
+    if (lives.unit == "1")
+      roles.guesses.push_back(fmt::format(
+          "column '{}' has no unit: a life is a plain number, such as cycles", life->column->name));
+  }
+  if (const auto status = roles.take_status(true)) {
+    lives.columns += *status;
+    lives.stated = true;
+  } else if (!lives.open_ends && lives.columns.starts_with("life")) {
+    roles.guesses.emplace_back(
+        "no column says which parts were stopped unbroken: all count as failures");
+  }
+  if (const auto count = roles.take("count", {"count"}))
+    lives.columns += ColumnRoles::line("count", *count);
+  if (const auto entry = roles.take("entry", {"entry"})) {
+    Found since = *entry;
+    if (since.unit == "1") since.unit = lives.unit;
+    lives.columns += ColumnRoles::line("entry", since);
+  }
+  return lives;
+}
+
+std::string life_priors(const Lives& lives, const char* scale, double size) {
+  return fmt::format(
+      "# What was known before the data, as weak as it goes: PROPOSED from the size of the data. "
+      "What you know of such\n"
+      "# parts makes a better answer.\n"
+      "[prior]\n"
+      "{} = {{ distribution = \"lognormal\", median = {}, log_sd = 2 }}    # a factor of 27 to "
+      "either side\n"
+      "slope = {{ distribution = \"lognormal\", median = 1.5, log_sd = 0.7 }}    # below 1: early "
+      "failures, "
+      "1: accidents, "
+      "above: wear-out\n",
+      scale, toml_text(quantity_text(rounded_up(size), lives.unit)));
+}
+
+std::string head(const ColumnRoles& roles, const std::string& title) {
+  return fmt::format(
+      "title = {}\n"
+      "model = \"formula\"\n\n{}[data.columns]\n",
+      toml_text(title + ", from " + roles.file()), roles.data_section());
+}
+
+const char* const answers =
+    "b_lives        = [1, 10, 50]             # when 1, 10 and 50 % have failed\n"
+    "credible_level = 0.9                     # of their lower bounds\n";
+
+constexpr const char* family =
+    "[likelihood.life]\n"
+    "family = \"weibull\"                       # the usual first choice; or lognormal, "
+    "loglogistic, gamma "
+    "(docs/reference/formula-models.md)\n"
+    "scale  = \"characteristic\"                # 63.2 % have failed by then\n"
+    "shape  = \"slope\"\n";
+
+}  // namespace
+
+std::optional<Scaffold> first_life_study(ColumnRoles& roles) {
+  if (is_path(roles)) return {};
+  const std::size_t differing = roles.other_numbers().size();
+  const auto lives = take_lives(roles);
+  if (!lives) return {};
+  roles.pass_over("unit");
+  const std::size_t more = roles.other_numbers().size();
+  if (!lives->stated && (more > 0 || differing == 0)) return {};
+  std::vector<std::string> conditions;
+  for (const Column* each : roles.other_numbers()) conditions.push_back("'" + each->name + "'");
+  for (const Column* each : roles.other_labels()) conditions.push_back("'" + each->name + "'");
+  if (!conditions.empty())
+    roles.guesses.push_back(
+        fmt::format("all lives are taken to be of one population, whatever {} says",
+                    fmt::join(conditions, ", ")));
+  const std::string survival =
+      toml_text(quantity_text(rounded_up(lives->largest) / 10, lives->unit));
+  return roles.study(
+      "lives of parts: one Weibull distribution",
+      lives->stated ? ReadingFit::general : ReadingFit::possible,
+      head(roles, "Lives") + lives->columns + "\n" + family + "\n" +
+          life_priors(*lives, "characteristic", lives->largest) + "\n[predict]\n" + answers +
+          fmt::format("# survival_to = {}                  # which share outlasts that?\n",
+                      survival) +
+          (conditions.empty()
+               ? ""
+               : "\n# Lives that differ by group: characteristic = \"m[group]\" "
+                 "with the label `group` in "
+                 "[data.columns], or [random_effects.group]\n# (docs/reference/life.md).\n"));
+}
+
+std::optional<Scaffold> first_accelerated_study(ColumnRoles& roles) {
+  if (is_path(roles)) return {};
+  const bool counted = [&] {
+    const auto life = roles.find({"life", "cycles"});
+    return life && life->si == "cycle";
+  }();
+  const auto warm = roles.find({"temperature"});
+  const bool by_temperature = warm && differs(roles.table(), *warm->column);
+  std::vector<std::string_view> powers;
+  for (const std::string_view each : stresses) {
+    const auto found = roles.find({each});
+    if (found && found->si == "Pa" && each == "alternating_stress" && counted) return {};  // S-N
+    if (found && differs(roles.table(), *found->column)) powers.push_back(each);
+  }
+  if (!by_temperature && powers.empty()) return {};
+  std::string columns, constants, formula = "life_ref", given, priors;
+  std::vector<std::string> said;
+  if (by_temperature) {
+    const Found found = *roles.take("temperature", {"temperature"});
+    columns += ColumnRoles::line("temperature", found);
+    const auto values = values_of(roles.table(), *found.column);
+    const auto [mild, harsh] = std::minmax_element(values.begin(), values.end());
+    constants += fmt::format(
+        "boltzmann = \"8.617333262e-5 eV/K\"\nreference = {}    # where life_ref is the "
+        "characteristic life\n",
+        toml_text(quantity_text(*harsh, found.unit)));
+    formula += " * exp(energy/boltzmann * (1/temperature - 1/reference))";
+    given += fmt::format("temperature = {}", toml_text(quantity_text(*mild, found.unit)));
+    priors +=
+        "energy = { distribution = \"normal\", mean = \"0.7 eV\", sd = \"0.3 eV\" }    # of the "
+        "process "
+        "that ages them\n";
+    said.emplace_back("Arrhenius' law of temperature");
+  }
+  for (const std::string_view each : powers) {
+    const Found found = *roles.take(std::string(each), {each});
+    const std::string name(each == "alternating_stress" ? "stress" : each);
+    columns += ColumnRoles::line(name, found);
+    const auto values = values_of(roles.table(), *found.column);
+    const auto [mild, harsh] = std::minmax_element(values.begin(), values.end());
+    if (!(*mild > 0)) return {};
+    const std::string quantity = toml_text(quantity_text(*mild, found.unit));
+    constants += fmt::format("{}_ref = {}    # where life_ref is the characteristic life\n", name,
+                             toml_text(quantity_text(*harsh, found.unit)));
+    formula += fmt::format(" * ({0}/{0}_ref)^-{0}_power", name);
+    given += fmt::format("{}{} = {}", given.empty() ? "" : ", ", name, quantity);
+    priors += fmt::format(
+        "{}_power = {{ distribution = \"normal\", mean = 5, sd = 5 }}    # by which power more of "
+        "it "
+        "shortens a life\n",
+        name);
+    said.push_back("a power of " + name);
+  }
+  const auto lives = take_lives(roles);
+  if (!lives || !lives->stated) return {};
+  roles.pass_over("unit");
+  const std::string how = fmt::format("{}", fmt::join(said, " and "));
+  roles.guesses.push_back(
+      "answers are asked for at the mildest conditions tested; state those of use in [predict] "
+      "given");
+  return roles.study(
+      "lives under conditions that differ: " + how, ReadingFit::specific,
+      head(roles, "Lives under conditions") + lives->columns + columns + "\n[constants]\n" +
+          constants +
+          "\n[formula]                                    # the simplest law of such lives: " +
+          how + "\ncharacteristic = \"" + formula + "\"\n\n" + family + "\n" +
+          life_priors(*lives, "life_ref", lives->middle) + priors + "\n[predict]\n" +
+          fmt::format(
+              "given = {{ {} }}    # GUESS: the mildest conditions tested; state those of use\n",
+              given) +
+          answers);
+}
+
+}  // namespace wearwell::formula_model

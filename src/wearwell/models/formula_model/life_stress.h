@@ -1,0 +1,28 @@
+#pragma once
+
+#include "wearwell/infer/fit.h"
+#include "wearwell/models/formula_model/life_groups.h"
+#include "wearwell/present/html.h"
+
+namespace wearwell::formula_model {
+
+/// The law of a life along one numeric column, all else held.
+struct LifeStress {
+  std::string column;
+  Conditions held;         ///< words of what is held; may be empty
+  std::vector<double> at;  ///< SI
+  std::vector<std::shared_ptr<const LifeDistribution>> lives;  ///< at each of them
+  std::vector<LifeGroup> tested;                               ///< observations under what is held
+};
+
+/// One for each numeric column on which the life depends and that has more than one value among the
+/// observations; all else is held as most observations have it. Reaches to `given` conditions.
+std::vector<LifeStress> life_stresses(const TomlReader& root,
+                                      const std::shared_ptr<const FormulaModel>& model,
+                                      const std::vector<LifeGroup>& groups);
+
+/// Life against the column: the median with its band, B10, and the observations.
+html::Figure life_stress_figure(const FormulaModel& model, const LifeStress& stress,
+                                const Fit& fit);
+
+}  // namespace wearwell::formula_model

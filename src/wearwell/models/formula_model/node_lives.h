@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wearwell/input/toml_reader.h"
+#include "wearwell/models/formula_model/formula_asked.h"
+#include "wearwell/models/formula_model/formula_lives.h"
+#include "wearwell/models/formula_model/node_rows.h"
+
+namespace wearwell::formula_model {
+
+/// What a study limits, and under which conditions units go on: of predict.limit.
+class NodeLives {
+ public:
+  /// Throws InputError where the study asks for no limit along an axis.
+  NodeLives(const TomlReader& root, std::shared_ptr<const FormulaModel> model);
+
+  const std::string& name() const { return name_; }
+  const Quantity& limit() const { return limit_; }
+  bool rising() const { return path_.rising; }
+  const std::string& noun() const { return noun_; }
+  /// What is limited, as expressions; of a process its mean and its spread.
+  const std::vector<formula::Wanted>& wanted() const { return wanted_; }
+
+  const Conditions& given() const { return given_; }  ///< what is said of the conditions to come
+  double begin() const { return path_.begin; }        ///< of paths, along the axis, SI
+  double scale() const { return path_.scale; }        ///< of the axis, SI
+
+  /// Why there can be no reading at this place, if it lies before the beginning; `follows`: NodeRows. Where the axis of
+  /// the study begins below 0 its 0 means nothing, and a law whose rows stand alone is as good a little before.
+  std::string before_begin(double place, bool follows) const;
+
+  /// A unit without rows: where paths begin.
+  UnitReading before_rows() const;
+
+  /// Of nodes with weights that sum to 1, whose paths stand at `paths` (NodeRows) after their last row.
+  prognosis::Forecast forecast(const Nodes& nodes, const std::vector<double>& weight,
+                               const UnitReading& last, const std::vector<NodePath>& paths) const;
+  /// The same of each line by itself; `weight` sums to 1 over each line, or is 0 all along it. `log_likelihood` is not filled.
+  prognosis::InPopulations by_line(const Nodes& nodes, const std::vector<double>& weight,
+                                   const UnitReading& last,
+                                   const std::vector<NodePath>& paths) const;
+  /// Of the same nodes: what is limited at these places, ascending and none before the last row.
+  std::vector<prognosis::ForecastBand> ahead(const Nodes& nodes, const std::vector<double>& weight,
+                                             const UnitReading& last,
+                                             const std::vector<NodePath>& paths,
+                                             std::span<const double> places) const;
+
+ private:
+  struct Ahead;
+  NodeRow conditions(const NodeRow& last) const;
+  template <class Sums>
+  void look_ahead(const Nodes& nodes, const std::vector<double>& weight, const UnitReading& last,
+                  const std::vector<NodePath>& paths, std::size_t points, Sums& sums) const;
+  template <class Sums>
+  void pass(Ahead& ahead, std::span<const double> own, const double* start, const NodePath& path,
+            std::size_t points, Sums& sums) const;
+
+  std::shared_ptr<const FormulaModel> model_;
+  Conditions given_;
+  std::string name_, noun_;
+  Quantity limit_;
+  std::size_t column_ = 0;                // of FormulaModel::measured, of a process
+  const ProcessForm* process_ = nullptr;  // which is limited itself
+  std::vector<formula::Wanted> wanted_;
+  LimitedPath path_;  // limit, rising, begin, scale
+  std::unique_ptr<const NodeProgram> program_;
+  std::vector<std::size_t> steps_;  // RunningPath::steps
+  double row_length_ = 0;
+};
+
+}  // namespace wearwell::formula_model

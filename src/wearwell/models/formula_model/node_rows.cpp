@@ -1,0 +1,291 @@
+#include "wearwell/models/formula_model/node_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wearwell/math/constants.h"
+#include "wearwell/prob/response_block.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+// P(Y <= y) and P(Y >= y), given that it was seen at all; of what is known to lie somewhere, its probability.
+struct Place {
+  double below, above;
+};
+
+// Exact, seen whatever it was, and normal: most readings are.
+bool is_plain_normal(const Measured& measured, const Response& y) {
+  return !measured.process && measured.form->family == ResponseFamily::normal &&
+         y.seen == Censoring::none && !(y.entry > -infinity);
+}
+
+Place place_of(const ResponseForm& form, const Response& y, const double* slots) {
+  if (form.family == ResponseFamily::normal && y.seen == Censoring::none &&
+      !(y.entry > -infinity)) {
+    const double tail = 0.5 * std::erfc(std::abs(y.at - slots[0]) / slots[1] * std::sqrt(0.5));
+    return y.at < slots[0] ? Place{tail, 1 - tail} : Place{1 - tail, tail};
+  }
+  if (y.seen != Censoring::none) {
+    const double p = std::exp(log_response_value(form.family, y, slots));
+    return {0.5 * p, 0.5 * p};
+  }
+  double below = std::exp(log_cdf(form.family, y.at, slots, y.trials));
+  double above = std::exp(log_survival(form.family, y.at, slots, y.trials));
+  if (form.counted)
+    above = y.at > 0 ? std::exp(log_survival(form.family, y.at - 1, slots, y.trials)) : 1;
+  if (y.entry > -infinity) {
+    const double seen = std::exp(log_survival(form.family, y.entry, slots));
+    above = seen > 0 ? above / seen : 0;
+    below = 1 - above;
+  }
+  return {below, above};
+}
+
+}  // namespace
+
+double Predicted::p_value() const {
+  return std::min(1.0, 2 * std::min(below_, above_));
+}
+
+// The nodes of one pass with their slots.
+struct NodeRows::Block {
+  std::size_t begin, count;
+  ParameterValues slots[most_response_parameters];
+  bool noisy;
+};
+
+NodeRows::NodeRows(std::shared_ptr<const FormulaModel> model,
+                   const std::vector<formula::Wanted>& limited)
+    : model_(std::move(model)) {
+  for (const Measured& each : model_->measured) {
+    programs_.emplace_back(*model_, each.wanted);
+    follows_ |= each.process != nullptr;
+  }
+  programs_.emplace_back(*model_, limited);
+  for (const NodeProgram& each : programs_) follows_ |= each.running() > 0;
+}
+
+bool NodeRows::fit(const std::vector<NodePath>& paths, std::size_t nodes) const {
+  const auto all = [&](const std::vector<double>& values) { return values.size() == nodes; };
+  if (paths.size() != programs_.size()) return false;
+  for (std::size_t m = 0; m < paths.size(); ++m) {
+    const NodePath& path = paths[m];
+    const std::size_t running = path.begun ? programs_[m].running() : 0;
+    if (path.carried.size() != running || !std::isfinite(path.place)) return false;
+    if (!std::all_of(path.carried.begin(), path.carried.end(), all)) return false;
+    if (!std::isfinite(path.reading)) return false;
+    const Measured* measured = m < model_->measured.size() ? &model_->measured[m] : nullptr;
+    const bool process = measured && measured->process && path.measured;
+    const bool noisy = process && measured->wanted.size() > 2;
+    for (const auto* each : {&path.mean, &path.spread}) {
+      if (process ? !all(*each) : !each->empty() && !all(*each)) return false;
+    }
+    for (const auto* each : {&path.at, &path.variance}) {
+      if (noisy ? !all(*each) : !each->empty() && !all(*each)) return false;
+    }
+  }
+  return true;
+}
+
+void NodeRows::plain_block(const Block& block, const Measured& measured, const Response& y,
+                           int count, const ResponseColumn& column, double* to) const {
+  if (is_plain_normal(measured, y)) {
+    // Nodes of a line share what does not vary: what depends on that alone is computed once.
+    for (std::size_t begin = 0; begin < block.count;) {
+      const double sd = block.slots[1][begin];
+      std::size_t end = begin + 1;
+      while (end < block.count && block.slots[1][end] == sd) ++end;
+      const double by_sd = 1 / sd, log_sd = std::log(sd) + half_log_two_pi;
+      const bool possible = sd > 0 && std::isfinite(by_sd + log_sd);
+      for (std::size_t i = begin; i < end; ++i) {
+        const double z = (y.at - block.slots[0][i]) * by_sd;
+        const double value = count * (-0.5 * z * z - log_sd);
+        to[i] += possible && value > -infinity ? value : -infinity;
+      }
+      begin = end;
+    }
+    return;
+  }
+  double value[NodeProgram::most];
+  log_responses(measured.form->family, column, 0, block.slots, {value, block.count}, {});
+  for (std::size_t i = 0; i < block.count; ++i) {
+    to[i] += std::isnan(value[i]) ? -infinity : count * value[i];
+  }
+}
+
+// What a step of node i does, as process_terms has it for whole units.
+void NodeRows::process_block(const Block& block, const Measured& measured, double y,
+                             const NodePath& before, NodePath* after, double* to) const {
+  const ProcessForm& form = *measured.process;
+  for (std::size_t i = 0; i < block.count; ++i) {
+    const std::size_t node = block.begin + i;
+    const double mean = block.slots[0][i], spread = block.slots[1][i];
+    const double noise = block.noisy ? block.slots[2][i] : 0;
+    const double dm = mean - (before.measured ? before.mean[node] : 0);
+    double at = y, variance = 0, value = -infinity;
+    if (form.process == Process::wiener) {
+      const double earlier = before.measured ? before.spread[node] : 0;
+      const double step = form.by_sd ? spread * spread - earlier * earlier : spread * dm;
+      const double from = !before.measured ? 0 : block.noisy ? before.at[node] : before.reading;
+      const double predicted = step + (before.measured && block.noisy ? before.variance[node] : 0);
+      const double all = predicted + noise * noise, off = y - (from + dm);
+      if (step >= 0 && all > 0 && std::isfinite(off)) {
+        value = -half_log_two_pi - 0.5 * (std::log(all) + off * off / all);
+        at = from + dm + predicted / all * off;
+        variance = predicted * noise * noise / all;
+      }
+    } else {
+      const double dy = y - (before.measured ? before.reading : 0);
+      process_terms(form, {{&dy, 1}, {&dm, 1}, {&spread, 1}, {}}, {&value, 1}, {});
+    }
+    to[i] += std::isnan(value) ? -infinity : value;
+    if (!after) continue;
+    after->mean[node] = mean;
+    after->spread[node] = spread;
+    if (!block.noisy) continue;
+    after->at[node] = at;
+    after->variance[node] = variance;
+  }
+}
+
+namespace {
+
+// The same step as a place in what was expected.
+Place place_of_step(const ProcessForm& form, double y, double mean, double spread, double noise,
+                    const NodePath& before, std::size_t node) {
+  const double dm = mean - (before.measured ? before.mean[node] : 0);
+  const bool noisy = !before.at.empty() || noise > 0;
+  if (form.process == Process::wiener) {
+    const double earlier = before.measured ? before.spread[node] : 0;
+    const double step = form.by_sd ? spread * spread - earlier * earlier : spread * dm;
+    const double from = !before.measured ? 0 : noisy ? before.at[node] : before.reading;
+    const double all =
+        step + noise * noise + (before.measured && noisy ? before.variance[node] : 0);
+    const double z = (y - (from + dm)) / std::sqrt(all);
+    return std::isnan(z) ? Place{0, 0} : Place{normal_cdf(z), normal_cdf(-z)};
+  }
+  const double dy = y - (before.measured ? before.reading : 0);
+  if (!(dm > 0 && dy > 0)) return {dy > 0 ? 1.0 : 0.0, dy > 0 ? 0.0 : 1.0};
+  const bool gamma = form.process == Process::gamma;
+  const ResponseFamily family = gamma ? ResponseFamily::gamma : ResponseFamily::inverse_gaussian;
+  const double slots[most_response_parameters] = {gamma ? dm / spread : dm,
+                                                  gamma ? spread : dm * dm / spread};
+  return {std::exp(log_cdf(family, dy, slots)), std::exp(log_survival(family, dy, slots))};
+}
+
+// Makes room for where nodes will stand.
+void prepare(const NodeProgram& program, bool process, std::size_t count, bool noisy,
+             const NodePath& before, NodePath& after) {
+  after = before;
+  after.carried.resize(program.running(), std::vector<double>(count));
+  if (!process) return;
+  after.mean.resize(count);
+  after.spread.resize(count);
+  if (!noisy) return;
+  after.at.resize(count);
+  after.variance.resize(count);
+}
+
+void carry_on(const NodeProgram& program, const NodeProgram::Scratch& scratch, std::size_t begin,
+              std::size_t count, NodePath& after) {
+  static thread_local std::vector<double> carried;
+  carried.resize(program.running());
+  for (std::size_t i = 0; i < count; ++i) {
+    program.carry(scratch, i, carried);
+    for (std::size_t r = 0; r < carried.size(); ++r) after.carried[r][begin + i] = carried[r];
+  }
+}
+
+NodeProgram::GoesOn from(const NodePath& path) {
+  if (!path.begun) return {};
+  return {path.place, &path.carried, nullptr, 0};
+}
+
+// What is limited has no readings of its own.
+void walk(const NodeProgram& program, NodeProgram::Scratch& scratch, const Nodes& nodes,
+          const UnitReading& reading, const NodePath& before, NodePath& after) {
+  prepare(program, false, nodes.count(), false, before, after);
+  for (std::size_t begin = 0; begin < nodes.count(); begin += NodeProgram::most) {
+    const std::size_t count = std::min(NodeProgram::most, nodes.count() - begin);
+    program.evaluate(nodes, begin, count, reading.row, nullptr, from(before), scratch);
+    carry_on(program, scratch, begin, count, after);
+  }
+  after.begun = true;
+  after.place = reading.place;
+}
+
+}  // namespace
+
+void NodeRows::look(const Nodes& nodes, const UnitReading& reading,
+                    const std::vector<NodePath>& before, std::vector<NodePath>* after,
+                    std::span<double> log_likelihood, const Sample* sample, double* p_value) const {
+  std::unique_ptr<Scratch>& scratch = scratch_.local();
+  if (!scratch) {
+    scratch = std::make_unique<Scratch>();
+    for (const NodeProgram& each : programs_) scratch->programs.emplace_back(each);
+  }
+  static constexpr double zero = 0;
+  std::fill(log_likelihood.begin(), log_likelihood.end(), 0.0);
+  double least = 1, columns = 0;
+  for (std::size_t m = 0; m < programs_.size(); ++m) {
+    const NodeProgram& program = programs_[m];
+    const bool runs = program.running() > 0;
+    if (m == model_->measured.size()) {
+      if (runs && after)
+        walk(program, scratch->programs[m], nodes, reading, before[m], (*after)[m]);
+      break;
+    }
+    const Measured& measured = model_->measured[m];
+    const std::optional<Response>& y = reading.responses[m];
+    if (!y && !runs) continue;
+    const bool noisy = measured.process && measured.wanted.size() > 2;
+    NodePath* const moved = after && (runs || measured.process) ? &(*after)[m] : nullptr;
+    if (moved) prepare(program, measured.process, nodes.count(), noisy, before[m], *moved);
+    const ResponseColumn column(y && !measured.process && !is_plain_normal(measured, *y)
+                                    ? std::vector<Response>(NodeProgram::most, *y)
+                                    : std::vector<Response>());
+    const NodeProgram::GoesOn on = runs ? from(before[m]) : NodeProgram::GoesOn();
+    Predicted predicted;
+    std::size_t next = 0;  // of the sample
+    for (std::size_t begin = 0; begin < nodes.count(); begin += NodeProgram::most) {
+      Block block{begin, std::min(NodeProgram::most, nodes.count() - begin), {}, noisy};
+      program.evaluate(nodes, begin, block.count, reading.row, nullptr, on, scratch->programs[m]);
+      for (ParameterValues& each : block.slots) each = {&zero, true};
+      for (std::size_t o = 0; o < program.outputs().size(); ++o) {
+        block.slots[measured.slot[o]] = {program.values(o, scratch->programs[m]).data(),
+                                         program.outputs()[o].uniform};
+      }
+      if (moved && runs) carry_on(program, scratch->programs[m], begin, block.count, *moved);
+      if (!y) continue;
+      for (; sample && next < sample->node.size() && sample->node[next] < begin + block.count;
+           ++next) {
+        const std::size_t i = sample->node[next] - begin;
+        const double slots[] = {block.slots[0][i], block.slots[1][i], block.slots[2][i]};
+        const Place place = measured.process
+                                ? place_of_step(*measured.process, y->at, slots[0], slots[1],
+                                                slots[2], before[m], begin + i)
+                                : place_of(*measured.form, *y, slots);
+        if (!std::isnan(place.below + place.above))
+          predicted.add(sample->weight[next], place.below, place.above);
+      }
+      double* const to = &log_likelihood[begin];
+      measured.process ? process_block(block, measured, y->at, before[m], moved, to)
+                       : plain_block(block, measured, *y, reading.count, column, to);
+    }
+    if (moved) {
+      moved->begun = true;
+      moved->place = reading.place;
+      if (y) {
+        moved->measured = true;
+        moved->reading = y->at;
+      }
+    }
+    if (!y) continue;
+    least = std::min(least, predicted.p_value());
+    ++columns;
+  }
+  if (p_value) *p_value = std::min(1.0, least * std::max(columns, 1.0));
+}
+
+}  // namespace wearwell::formula_model

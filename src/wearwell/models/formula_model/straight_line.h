@@ -1,0 +1,18 @@
+#pragma once
+
+#include "wearwell/input/table.h"
+
+namespace wearwell::formula_model {
+
+/// What readings show of a straight path, by least squares over all rows: of the size of things, for a first study.
+struct StraightLine {
+  bool begins_at_zero = true;
+  bool falls = false;
+  double rate = 1;  ///< its size, in the units of the columns; above 0
+};
+
+/// `unit`: the label of the units whose paths these are; null for one.
+StraightLine straight_line(const Table& table, const Column& axis, const Column& measured,
+                           const Column* unit);
+
+}  // namespace wearwell::formula_model

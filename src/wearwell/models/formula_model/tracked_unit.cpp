@@ -1,0 +1,347 @@
+#include "wearwell/models/formula_model/tracked_unit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "wearwell/base/error.h"
+#include "wearwell/formula/kernels.h"
+#include "wearwell/math/constants.h"
+#include "wearwell/models/formula_model/lanes.h"
+#include "wearwell/models/formula_model/state_bytes.h"
+
+namespace wearwell::formula_model {
+namespace {
+
+constexpr double least_effective =
+    0.5;  // of the number when nodes were laid: then they are laid anew
+constexpr double hardly_possible = 1e-4;  // a surprise below contradicts
+constexpr std::size_t most_sampled = 128;
+constexpr double doubtful = 0.05;  // a surprise below is summed over all nodes
+
+bool has_noiseless_process(const FormulaModel& model) {
+  return std::any_of(model.measured.begin(), model.measured.end(),
+                     [](const Measured& m) { return m.process && m.wanted.size() < 3; });
+}
+
+constexpr std::size_t most_carried = 1000;  // far more than any law has
+
+bool all_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+bool are_log_weights(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return x < infinity; });
+}
+
+double one_number(StateReader& from) {
+  const std::vector<double> values = from.numbers();
+  from.demand(values.size() == 1 && std::isfinite(values[0]));
+  return values[0];
+}
+
+}  // namespace
+
+Tracked::Tracked(const TomlReader& root, std::shared_ptr<const FormulaModel> formula_model,
+                 const WeightedDraws& posterior, std::string print)
+    : model(std::move(formula_model)),
+      reader(model),
+      lives(root, model),
+      rows(model, lives.wanted()),
+      population(model, posterior),
+      fingerprint(std::move(print)) {}
+
+TrackedUnit::TrackedUnit(std::shared_ptr<const Tracked> tracked, std::string unit,
+                         std::vector<UnitReading> seen)
+    : tracked_(std::move(tracked)), unit_(std::move(unit)), seen_(std::move(seen)) {
+  lay({});
+}
+
+// All rows, those of the study first.
+void TrackedUnit::lay(std::vector<UnitReading> all) {
+  all.insert(all.begin(), seen_.begin(), seen_.end());
+  sort_along(all);
+  nodes_ = lay_nodes(tracked_->population, seen_, all, nodes_);
+  log_weight_ = std::move(nodes_.log_before);
+  paths_ = look_at_all(nodes_, all, log_weight_);
+  if (!all.empty()) {
+    last_ = all.back();
+    any_row_ = true;
+  }
+  ++laid_;
+  weigh();
+  laid_effective_ = effective_;
+}
+
+// Adds to weights what all rows, along the axis, say of nodes; where their paths stand then.
+std::vector<NodePath> TrackedUnit::look_at_all(const UnitNodes& nodes,
+                                               const std::vector<UnitReading>& all,
+                                               std::vector<double>& log_weight) const {
+  std::vector<NodePath> paths = tracked_->rows.paths(), after = paths;
+  std::vector<double> value(log_weight.size());
+  for (const UnitReading& each : all) {
+    tracked_->rows.look(nodes.nodes, each, paths, &after, value, nullptr, nullptr);
+    for (std::size_t i = 0; i < value.size(); ++i) log_weight[i] += value[i];
+    std::swap(paths, after);
+  }
+  return paths;
+}
+
+// Sums of the weights as they are now: how many nodes carry them, and which stand for all.
+void TrackedUnit::weigh() {
+  sample_.node.clear();
+  sample_.weight.clear();
+  effective_ = 0;
+  const double top = highest_of(log_weight_);
+  if (!(top > -infinity)) return;
+  static thread_local std::vector<double> weight, exponent;
+  weight.resize(log_weight_.size());
+  exponent.resize(log_weight_.size());
+  // To single precision, as states are saved: weights to a relative 1e-6.
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    exponent[i] = log_weight_[i] = static_cast<float>(log_weight_[i] - top);
+  }
+  static const formula::Kernels exponential = formula::kernels_of(formula::Op::exp, 0);
+  exponential.forward(exponent.data(), nullptr, nullptr, weight.data(), weight.size(), 0);
+  const auto [sum, square] = sums_of(weight);
+  effective_ = sum * sum / square;
+  const double share = sum / most_sampled;
+  double before = 0;
+  std::size_t drawn = 0;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    before += weight[i];
+    double own = 0;
+    for (; drawn < most_sampled && before > (static_cast<double>(drawn) + 0.5) * share; ++drawn) {
+      own += 1.0 / most_sampled;
+    }
+    if (!(own > 0)) continue;
+    sample_.node.push_back(i);
+    sample_.weight.push_back(own);
+  }
+}
+
+std::vector<UnitReading> TrackedUnit::all_of(const prognosis::History& history) const {
+  std::vector<UnitReading> all;
+  history([&](const prognosis::Reading& each) {
+    UnitReading reading;
+    if (tracked_->reader.read(each, reading).empty()) all.push_back(std::move(reading));
+  });
+  return all;
+}
+
+// Nodes laid for all readings and this one; false, and all as it was, where none goes through them.
+bool TrackedUnit::lay_with(const UnitReading& reading, const prognosis::History& history) {
+  TrackedUnit before = *this;
+  std::vector<UnitReading> all = all_of(history);
+  all.push_back(reading);
+  lay(std::move(all));
+  if (effective_ > 0) return true;
+  *this = std::move(before);
+  return false;
+}
+
+double TrackedUnit::p_value_at(const UnitReading& reading, std::span<double> value,
+                               std::vector<NodePath>* after) const {
+  double p_value = 1;
+  tracked_->rows.look(nodes_.nodes, reading, paths_, after, value, &sample_, &p_value);
+  if (p_value > doubtful) return p_value;
+  NodeRows::Sample all;
+  std::vector<double> weight;
+  normalize(log_weight_, weight);
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    if (!(weight[i] > 0)) continue;
+    all.node.push_back(i);
+    all.weight.push_back(weight[i]);
+  }
+  std::vector<double> again(value.size());
+  tracked_->rows.look(nodes_.nodes, reading, paths_, nullptr, again, &all, &p_value);
+  return p_value;
+}
+
+prognosis::UpdateResult TrackedUnit::take(const prognosis::Reading& reading,
+                                          const prognosis::History& history) {
+  static const std::string impossible =
+      "no unit that the population allows can show this after what it showed before";
+  prognosis::UpdateResult taken;
+  UnitReading y;
+  taken.problem = tracked_->reader.read(reading, y);
+  if (taken.problem.empty())
+    taken.problem = tracked_->lives.before_begin(y.place, tracked_->rows.follows());
+  if (!taken.problem.empty()) return taken;
+  const bool late = any_row_ && tracked_->rows.follows() && y.place <= last_.place;
+  taken.p_value = 1;
+  if (late) {
+    taken.problem = two_at_one_place(y, history);
+    if (!taken.problem.empty()) return taken;
+    if (!lay_with(y, history)) taken.problem = impossible;
+  } else {
+    static thread_local std::vector<double> value;
+    value.resize(log_weight_.size());
+    std::vector<NodePath> after = paths_;
+    taken.p_value = p_value_at(y, value, &after);
+    const bool any = std::any_of(value.begin(), value.end(), [&](const double& each) {
+      return each + log_weight_[static_cast<std::size_t>(&each - value.data())] > -infinity;
+    });
+    if (any) {
+      for (std::size_t i = 0; i < value.size(); ++i) log_weight_[i] += value[i];
+      paths_ = std::move(after);
+      weigh();
+      if (!any_row_ || y.place >= last_.place) last_ = y;
+      any_row_ = true;
+      if (effective_ < least_effective * laid_effective_) lay_with(y, history);
+    } else if (!lay_with(y, history)) {
+      taken.problem = impossible;
+    }
+  }
+  if (!taken.problem.empty()) return taken;
+  ++readings_;
+  taken.counted = true;
+  taken.contradicts = taken.p_value < hardly_possible;
+  return taken;
+}
+
+// A process without noise has one path.
+std::string TrackedUnit::two_at_one_place(const UnitReading& reading,
+                                          const prognosis::History& history) const {
+  if (!has_noiseless_process(*tracked_->model)) return {};
+  std::vector<UnitReading> all = all_of(history);
+  all.insert(all.end(), seen_.begin(), seen_.end());
+  const bool there = std::any_of(
+      all.begin(), all.end(), [&](const UnitReading& each) { return each.place == reading.place; });
+  return there ? fmt::format("there is another reading at the same {}, and paths have no error",
+                             *tracked_->model->along)
+               : "";
+}
+
+prognosis::Forecast TrackedUnit::forecast() const {
+  std::vector<double> weight;
+  normalize(log_weight_, weight);
+  return tracked_->lives.forecast(nodes_.nodes, weight,
+                                  any_row_ ? last_ : tracked_->lives.before_rows(), paths_);
+}
+
+std::vector<prognosis::ForecastBand> TrackedUnit::ahead(std::span<const double> places) const {
+  const UnitReading last = any_row_ ? last_ : tracked_->lives.before_rows();
+  if (std::any_of(places.begin(), places.end(), [&](double x) { return !(x >= last.place); })) {
+    throw std::invalid_argument("a place that is not ahead");
+  }
+  std::vector<double> weight;
+  normalize(log_weight_, weight);
+  return tracked_->lives.ahead(nodes_.nodes, weight, last, paths_, places);
+}
+
+std::string TrackedUnit::save() const {
+  StateWriter to;
+  to.text(tracked_->fingerprint);
+  to.text(unit_);
+  to.number(readings_);
+  to.number(laid_);
+  to.number(nodes_.own ? 1 : 0);
+  if (nodes_.own) {
+    to.number(static_cast<std::size_t>(nodes_.nodes.parameters->rows()));
+    to.numbers({nodes_.nodes.parameters->data(),
+                static_cast<std::size_t>(nodes_.nodes.parameters->size())});
+  }
+  to.short_numbers(nodes_.log_point);
+  if (!seen_.empty()) to.short_numbers(nodes_.log_seen);
+  to.short_numbers(nodes_.shape);
+  to.short_numbers(log_weight_);
+  to.numbers({&laid_effective_, 1});
+  for (const NodePath& each : paths_) {
+    to.number((each.begun ? 1 : 0) + (each.measured ? 2 : 0));
+    to.numbers(std::array{each.place, each.reading});
+    to.number(each.carried.size());
+    for (const auto& values : each.carried) to.numbers(values);
+    for (const auto* values : {&each.mean, &each.spread, &each.at, &each.variance}) {
+      to.numbers(*values);
+    }
+  }
+  to.number(any_row_ ? 1 : 0);
+  if (any_row_) {
+    to.numbers(last_.row.numbers);
+    to.numbers(std::array{last_.place});
+    for (const int each : last_.row.labels) to.number(static_cast<std::size_t>(each));
+  }
+  return to.done();
+}
+
+std::unique_ptr<TrackedUnit> TrackedUnit::restore(
+    std::shared_ptr<const Tracked> tracked, const std::string& bytes,
+    const std::function<std::vector<UnitReading>(const std::string& unit)>& seen) {
+  StateReader from(bytes);
+  if (from.text() != tracked->fingerprint) {
+    throw InputError(
+        "the state of a unit is of another population: the study was fitted anew since");
+  }
+  std::unique_ptr<TrackedUnit> unit(new TrackedUnit(tracked, Bare()));
+  unit->unit_ = from.text();
+  unit->seen_ = seen(unit->unit_);
+  unit->readings_ = from.number();
+  unit->laid_ = from.number();
+  UnitNodes& nodes = unit->nodes_;
+  nodes.own = from.number() == 1;
+  nodes.nodes.parameters = tracked->population.few.values;
+  if (nodes.own) {
+    const std::size_t rows = from.number();
+    const std::vector<double> values = from.numbers();
+    const auto columns = static_cast<Eigen::Index>(tracked->model->parameters.size());
+    from.demand(rows > 0 && values.size() / rows == static_cast<std::size_t>(columns) &&
+                values.size() % rows == 0 && all_finite(values));
+    nodes.nodes.parameters = std::make_shared<const Points>(
+        Eigen::Map<const Points>(values.data(), static_cast<Eigen::Index>(rows), columns));
+  }
+  const std::size_t effects = tracked->population.effects();
+  nodes.log_point = from.short_numbers();
+  nodes.log_seen =
+      unit->seen_.empty() ? std::vector<double>(nodes.nodes.lines()) : from.short_numbers();
+  nodes.shape = from.short_numbers();
+  from.demand(nodes.log_point.size() == nodes.nodes.lines() &&
+              nodes.log_seen.size() == nodes.nodes.lines() &&
+              nodes.shape.size() == nodes.nodes.lines() * UnitNodes::shape_size(effects));
+  from.demand(all_finite(nodes.shape) && are_log_weights(nodes.log_point) &&
+              are_log_weights(nodes.log_seen));
+  nodes.fill(*tracked->model);
+  nodes.log_before.clear();
+  nodes.log_before.shrink_to_fit();
+  unit->log_weight_ = from.short_numbers();
+  from.demand(unit->log_weight_.size() == nodes.nodes.count() &&
+              are_log_weights(unit->log_weight_));
+  unit->laid_effective_ = one_number(from);
+  unit->paths_ = tracked->rows.paths();
+  for (NodePath& each : unit->paths_) {
+    const std::size_t state = from.number();
+    each.begun = (state & 1) != 0;
+    each.measured = (state & 2) != 0;
+    const std::vector<double> place = from.numbers();
+    from.demand(place.size() == 2);
+    each.place = place[0];
+    each.reading = place[1];
+    const std::size_t carried = from.number();
+    from.demand(carried <= most_carried);
+    each.carried.resize(carried);
+    for (auto& values : each.carried) values = from.numbers();
+    for (auto* values : {&each.mean, &each.spread, &each.at, &each.variance}) {
+      *values = from.numbers();
+    }
+  }
+  from.demand(tracked->rows.fit(unit->paths_, nodes.nodes.count()));
+  unit->any_row_ = from.number() == 1;
+  if (unit->any_row_) {
+    unit->last_.row.numbers = from.numbers();
+    unit->last_.place = one_number(from);
+    from.demand(unit->last_.row.numbers.size() == tracked->model->row_symbols.columns.size());
+    for (const formula::LabelSymbol& label : tracked->model->row_symbols.labels) {
+      const std::size_t level = from.number();
+      from.demand(level < label.levels.size());
+      unit->last_.row.labels.push_back(static_cast<int>(level));
+    }
+  }
+  from.end();
+  unit->weigh();
+  from.demand(unit->effective_ > 0);
+  return unit;
+}
+
+}  // namespace wearwell::formula_model

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wearwell/models/formula_model/node_lives.h"
+#include "wearwell/models/formula_model/unit_nodes.h"
+#include "wearwell/prognosis/tracker.h"
+
+namespace wearwell::formula_model {
+
+/// What units of one population share: made once, never changed.
+struct Tracked {
+  std::shared_ptr<const FormulaModel> model;
+  ReadingReader reader;
+  NodeLives lives;
+  NodeRows rows;
+  NodePopulation population;
+  std::string fingerprint;  ///< of study and posterior: states of others are refused
+
+  Tracked(const TomlReader& root, std::shared_ptr<const FormulaModel> formula_model,
+          const WeightedDraws& posterior, std::string print);
+};
+
+/// A unit on line: nodes, and how much of the posterior each carries. `log_weight` is a sum over readings, so the
+/// order in which they came is forgotten but for what nodes were laid when.
+class TrackedUnit final : public prognosis::TrackedUnit {
+ public:
+  /// `seen`: the unit's rows in the study, along the axis; none of a new one.
+  TrackedUnit(std::shared_ptr<const Tracked> tracked, std::string unit,
+              std::vector<UnitReading> seen);
+  /// Throws InputError.
+  static std::unique_ptr<TrackedUnit> restore(
+      std::shared_ptr<const Tracked> tracked, const std::string& bytes,
+      const std::function<std::vector<UnitReading>(const std::string& unit)>& seen);
+
+  prognosis::UpdateResult take(const prognosis::Reading& reading,
+                               const prognosis::History& history) override;
+  prognosis::Forecast forecast() const override;
+  std::vector<prognosis::ForecastBand> ahead(std::span<const double> places) const override;
+  std::optional<prognosis::InPopulations> in_populations(
+      const prognosis::History& history) const override;
+  std::size_t readings() const override { return readings_; }
+  std::string save() const override;
+
+  double effective() const { return effective_; }
+  std::size_t laid() const { return laid_; }  ///< how often
+
+ private:
+  friend class FormulaTracker;
+  struct Bare {};
+  TrackedUnit(std::shared_ptr<const Tracked> tracked, Bare) : tracked_(std::move(tracked)) {}
+
+  void lay(std::vector<UnitReading> all);
+  std::vector<NodePath> look_at_all(const UnitNodes& nodes, const std::vector<UnitReading>& all,
+                                    std::vector<double>& log_weight) const;
+  bool lay_with(const UnitReading& reading, const prognosis::History& history);
+  void weigh();
+  double p_value_at(const UnitReading& reading, std::span<double> value,
+                    std::vector<NodePath>* after) const;
+  std::vector<UnitReading> all_of(const prognosis::History& history) const;
+  std::string two_at_one_place(const UnitReading& reading, const prognosis::History& history) const;
+
+  std::shared_ptr<const Tracked> tracked_;
+  std::string unit_;
+  std::vector<UnitReading> seen_;
+  UnitNodes nodes_;
+  std::vector<double> log_weight_;
+  std::vector<NodePath> paths_;
+  UnitReading last_;           // the row farthest along the axis
+  bool any_row_ = false;       // `last_` is one
+  NodeRows::Sample sample_;    // stands for all nodes where that will do
+  double effective_ = 0;       // nodes
+  double laid_effective_ = 0;  // when they were laid
+  std::size_t readings_ = 0, laid_ = 0;
+};
+
+}  // namespace wearwell::formula_model

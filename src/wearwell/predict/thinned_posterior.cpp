@@ -1,0 +1,203 @@
+#include "wearwell/predict/thinned_posterior.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "wearwell/predict/prediction.h"
+
+namespace wearwell {
+namespace {
+
+using Eigen::Index;
+
+// Points of a region of the posterior, round and of unit size as a whole.
+struct Cloud {
+  Points at;
+  std::vector<double> weight;
+};
+
+Cloud whitened(const WeightedDraws& draws, const DominantDraws& dominant) {
+  const auto n = static_cast<Index>(dominant.rows.size()), d = draws.values.cols();
+  Cloud cloud{Points(n, d), dominant.weights};
+  for (Index i = 0; i < n; ++i) {
+    cloud.at.row(i) = draws.values.row(dominant.rows[static_cast<std::size_t>(i)]);
+  }
+  const Eigen::Map<const Eigen::VectorXd> w(cloud.weight.data(), n);
+  const Eigen::RowVectorXd mean = w.transpose() * cloud.at;
+  cloud.at.rowwise() -= mean;
+  // By their own sizes first: parameters differ by orders of magnitude.
+  const Eigen::RowVectorXd size = (w.transpose() * cloud.at.cwiseAbs2()).cwiseSqrt();
+  for (Index j = 0; j < d; ++j) {
+    if (size[j] > 0) cloud.at.col(j) /= size[j];
+  }
+  const Eigen::MatrixXd covariance = cloud.at.transpose() * w.asDiagonal() * cloud.at;
+  const Eigen::LLT<Eigen::MatrixXd> llt(covariance);
+  if (llt.info() != Eigen::Success) return cloud;
+  cloud.at = llt.matrixL().solve(cloud.at.transpose()).transpose().eval();
+  return cloud;
+}
+
+// Keeps sums of 1, of each coordinate and of all their products, with no more points than there are of these: while
+// there are more, some combination of the points has no such sums at all, and of that as much may be taken away
+// until a weight is zero (Tchakaloff's theorem made with hands).
+class Region {
+ public:
+  Region(const Cloud& cloud, std::span<const std::size_t> points) : cloud_(cloud) {
+    const Index d = cloud.at.cols();
+    middle_ = Eigen::RowVectorXd::Zero(d);
+    double sum = 0;
+    for (const std::size_t i : points) {
+      middle_ += cloud.weight[i] * cloud.at.row(static_cast<Index>(i));
+      sum += cloud.weight[i];
+    }
+    middle_ /= sum;
+    Eigen::RowVectorXd square = Eigen::RowVectorXd::Zero(d);
+    for (const std::size_t i : points) {
+      square += cloud.weight[i] * (cloud.at.row(static_cast<Index>(i)) - middle_).cwiseAbs2();
+    }
+    size_ = (square / sum).cwiseSqrt();
+    for (double& each : size_) each = each > 0 ? each : 1;
+  }
+
+  static Index moments(Index d) { return 1 + d + d * (d + 1) / 2; }
+
+  // What is left of `points`, with weights that stand for all.
+  void reduce(std::span<const std::size_t> points, std::vector<std::size_t>& kept,
+              std::vector<double>& weights) const {
+    const auto most = static_cast<std::size_t>(moments(cloud_.at.cols()));
+    std::vector<std::size_t> some;
+    std::vector<double> weight;
+    for (std::size_t next = 0; next < points.size();) {
+      while (next < points.size() && some.size() < 2 * most) {
+        some.push_back(points[next]);
+        weight.push_back(cloud_.weight[points[next++]]);
+      }
+      if (some.size() > most) take_away(some, weight);
+    }
+    kept.insert(kept.end(), some.begin(), some.end());
+    weights.insert(weights.end(), weight.begin(), weight.end());
+  }
+
+ private:
+  Eigen::MatrixXd sums_of(const std::vector<std::size_t>& points) const {
+    const Index d = cloud_.at.cols(), n = static_cast<Index>(points.size());
+    Eigen::MatrixXd sums(n, moments(d));
+    for (Index i = 0; i < n; ++i) {
+      const auto row = static_cast<Index>(points[static_cast<std::size_t>(i)]);
+      const Eigen::RowVectorXd x = (cloud_.at.row(row) - middle_).cwiseQuotient(size_);
+      Index column = 0;
+      sums(i, column++) = 1;
+      for (Index a = 0; a < d; ++a) sums(i, column++) = x[a];
+      for (Index a = 0; a < d; ++a) {
+        for (Index b = a; b < d; ++b) sums(i, column++) = x[a] * x[b];
+      }
+    }
+    return sums;
+  }
+
+  void take_away(std::vector<std::size_t>& points, std::vector<double>& weight) const {
+    const Eigen::MatrixXd sums = sums_of(points);
+    const Index n = sums.rows(), free = n - sums.cols();
+    const Eigen::MatrixXd q = sums.householderQr().householderQ();
+    Eigen::MatrixXd none = q.rightCols(free);  // combinations without any sum
+    Eigen::Map<Eigen::VectorXd> w(weight.data(), n);
+    std::vector<bool> gone(static_cast<std::size_t>(n));
+    for (Index c = 0; c < free; ++c) {
+      Index first = -1;
+      double least = 0;
+      for (Index i = 0; i < n; ++i) {
+        if (gone[static_cast<std::size_t>(i)] || !(std::abs(none(i, c)) > 1e-12)) continue;
+        if (!(none(i, c) > 0)) continue;
+        const double share = w[i] / none(i, c);
+        if (first < 0 || share < least) least = share, first = i;
+      }
+      if (first < 0) continue;
+      w -= least * none.col(c);
+      for (Index other = c + 1; other < free; ++other) {
+        none.col(other) -= none(first, other) / none(first, c) * none.col(c);
+      }
+      w[first] = 0;
+      gone[static_cast<std::size_t>(first)] = true;
+    }
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (gone[i] || !(weight[i] > 0)) continue;
+      points[left] = points[i];
+      weight[left++] = weight[i];
+    }
+    points.resize(left);
+    weight.resize(left);
+  }
+
+  const Cloud& cloud_;
+  Eigen::RowVectorXd middle_, size_;
+};
+
+// Halves of equal weight across the axis along which they spread most, until there are so many regions.
+void halve(const Cloud& cloud, std::span<std::size_t> points, std::size_t regions,
+           std::vector<std::size_t>& kept, std::vector<double>& weights) {
+  const auto moments = static_cast<std::size_t>(Region::moments(cloud.at.cols()));
+  if (regions <= 1 || points.size() <= 2 * moments) {
+    return Region(cloud, points).reduce(points, kept, weights);
+  }
+  Eigen::RowVectorXd first = Eigen::RowVectorXd::Zero(cloud.at.cols()), second = first;
+  double sum = 0;
+  for (const std::size_t i : points) {
+    const auto x = cloud.at.row(static_cast<Index>(i));
+    first += cloud.weight[i] * x;
+    second += cloud.weight[i] * x.cwiseAbs2();
+    sum += cloud.weight[i];
+  }
+  Index axis = 0;
+  (second / sum - (first / sum).cwiseAbs2()).maxCoeff(&axis);
+  std::stable_sort(points.begin(), points.end(), [&](std::size_t a, std::size_t b) {
+    return cloud.at(static_cast<Index>(a), axis) < cloud.at(static_cast<Index>(b), axis);
+  });
+  const std::size_t left = regions / 2;
+  const double wanted = sum * static_cast<double>(left) / static_cast<double>(regions);
+  std::size_t cut = 0;
+  for (double below = 0; cut + 1 < points.size() && below < wanted; ++cut) {
+    below += cloud.weight[points[cut]];
+  }
+  halve(cloud, points.first(cut), left, kept, weights);
+  halve(cloud, points.subspan(cut), regions - left, kept, weights);
+}
+
+}  // namespace
+
+ThinnedPosterior::ThinnedPosterior(const WeightedDraws& draws, std::size_t most) {
+  const DominantDraws dominant(draws);
+  const std::size_t n = dominant.rows.size();
+  std::vector<std::size_t> chosen(n);
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  const auto moments = static_cast<std::size_t>(Region::moments(draws.values.cols()));
+  weights = dominant.weights;
+  if (n > most && 8 * moments <= most) {
+    std::vector<std::size_t> kept;
+    weights.clear();
+    halve(whitened(draws, dominant), chosen, most / moments, kept, weights);
+    chosen = std::move(kept);
+  } else if (n > most) {
+    // Of even weights along the order of the nodes, in which neighbours are alike.
+    std::sort(chosen.begin(), chosen.end(),
+              [&](std::size_t a, std::size_t b) { return dominant.rows[a] < dominant.rows[b]; });
+    std::vector<std::size_t> few;
+    double sum = 0;
+    const double share = 1 / static_cast<double>(most);
+    for (const std::size_t each : chosen) {
+      sum += dominant.weights[each];
+      while (few.size() < most && sum > (static_cast<double>(few.size()) + 0.5) * share) {
+        few.push_back(each);
+      }
+    }
+    chosen = few;
+    weights.assign(few.size(), 1 / static_cast<double>(few.size()));
+  }
+  values.resize(static_cast<Index>(chosen.size()), draws.values.cols());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    values.row(static_cast<Index>(i)) = draws.values.row(dominant.rows[chosen[i]]);
+  }
+}
+
+}  // namespace wearwell

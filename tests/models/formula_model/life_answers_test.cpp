@@ -1,0 +1,135 @@
+// Lives that a result is asked for (wearwell life), and one posterior written in two ways, against what follows from
+// the nodes of the quadrature by hand and against closed forms.
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+#include "support/posterior_study.h"
+#include "support/scratch.h"
+#include "wearwell/models/registry.h"
+#include "wearwell/prognosis/unit_life.h"
+#include "wearwell/study/inference_data.h"
+#include "wearwell/study/run_study.h"
+
+namespace wearwell {
+namespace {
+
+class LifeAnswers : public ScratchTest {
+ protected:
+  PosteriorSummary run(const std::string& text) const {
+    return run_study(wearwell::read_posterior_study(write("study.toml", text)),
+                     {Method::exact, 1, {}, 50, {}}, {}, false);
+  }
+  prognosis::UnitLife ask(const std::string& text, const PosteriorSummary& result,
+                          const prognosis::LifeQuestion& question) const {
+    return prognosis::unit_life(
+        source_of(write("study.toml", text)),
+        [](const Source& source) { return read_study(source, all_models()); },
+        result.fit->exact->nodes, question);
+  }
+};
+
+const char* const lives = R"toml(
+model = "formula"
+[data]
+file = "lives.csv"
+[data.columns]
+life = "life"
+status = "status"
+[likelihood.life]
+family = "weibull"
+scale = "eta"
+shape = "beta"
+[prior]
+eta = { distribution = "lognormal", median = "1000 h", log_sd = 1 }
+beta = { distribution = "lognormal", median = 2, log_sd = 0.5 }
+[predict]
+survival_to = ["300 h", "900 h"]
+)toml";
+
+// Sums over all nodes of the quadrature share nothing with the mixture that the program solves.
+TEST_F(LifeAnswers, SurvivalAndHorizonArePredictive) {
+  write("lives.csv",
+        "life [h],status\n310,failure\n540,failure\n700,failure\n820,failure\n900,runout\n"
+        "900,runout\n");
+  const PosteriorSummary result = run(lives);
+  ASSERT_TRUE(result.fit->exact);
+  const WeightedDraws& nodes = result.fit->exact->nodes;
+  const auto failed = [&](double hours) {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < nodes.values.rows(); ++i)
+      sum += nodes.weights[i] *
+             -std::expm1(-std::pow(hours * 3600 / nodes.values(i, 0), nodes.values(i, 1)));
+    return sum;
+  };
+  const auto life = ask(lives, result, {.survived = "300 h", .horizon = "100 h"});
+  ASSERT_TRUE(life.passed && life.reached);
+  EXPECT_NEAR(*life.passed, failed(300), 1e-4 * failed(300));
+  const double reached = (failed(400) - failed(300)) / (1 - failed(300));
+  EXPECT_NEAR(*life.reached, reached, 1e-4 * reached);
+  // Less than the smallest share of any table.
+  const auto early = ask(lives, result, {.horizon = "0.1 h"});
+  EXPECT_LT(failed(0.1), 5e-5);
+  EXPECT_NEAR(*early.reached, failed(0.1), 1e-3 * failed(0.1));
+  // The posterior's median of that share is another number.
+  for (const QuantitySummary& each : result.quantities) {
+    if (each.name != "survival to 300 h") continue;
+    EXPECT_GT(std::abs(100 - each.best().q50 - 100 * failed(300)), 0.5);
+    EXPECT_NEAR(100 - *each.best().predictive, 100 * failed(300), 1e-2 * failed(300));
+  }
+}
+
+// V = k w n with normal errors, k flat and sigma ~ 1/sigma: k is Student's t about least squares with n - 1 degrees
+// of freedom (Gelman et al., Bayesian Data Analysis, section 14.2), its life the limit over it.
+TEST_F(LifeAnswers, OnePosteriorHasOneLife) {
+  const double cycles[] = {100, 1000, 2500, 5000, 7500, 10000};
+  const double volumes[] = {2.5, 6.1, 13.9, 24.2, 37.4, 45.3};
+  std::string csv = "cycles,volume [mm^3]\n";
+  double xx = 0, xy = 0, yy = 0;
+  for (int i = 0; i < 6; ++i) {
+    csv += std::to_string(cycles[i]) + "," + std::to_string(volumes[i]) + "\n";
+    xx += cycles[i] * cycles[i];
+    xy += cycles[i] * volumes[i];
+    yy += volumes[i] * volumes[i];
+  }
+  write("wear.csv", csv);
+  const std::string prior =
+      "[prior]\nk = { distribution = \"flat\", lower = \"0 mm^3/(N m)\" }\nsigma = { distribution "
+      "= \"jeffreys\", "
+      "unit = "
+      "\"mm^3\" }\n";
+  const PosteriorSummary joint = run(
+      "model = \"archard-joint\"\n[data]\nfile = \"wear.csv\"\n[data.columns]\ncycles = "
+      "\"cycles\"\nvolume = \"volume\"\n[conditions]\nwork_per_cycle = \"6 N m\"\n[likelihood]\n"
+      "family = \"normal\"\n" +
+      prior + "[predict]\nlimit = \"100 mm^3\"\n");
+  const PosteriorSummary model =
+      run("model = \"formula\"\n[data]\nfile = \"wear.csv\"\n[data.columns]\nn = { column = "
+          "\"cycles\", unit = "
+          "\"cycles\" }\nV = \"volume\"\n[formula]\nworn = \"k * 6 [N m/cycle] * "
+          "n\"\n[likelihood.V]\nfamily = "
+          "\"normal\"\nmean = \"worn\"\nsd = \"sigma\"\n" +
+          prior + "[predict]\nalong = \"n\"\nlimit = { worn = \"100 mm^3\" }\n");
+  ASSERT_TRUE(joint.life && joint.life->exact && !model.quantities.empty() &&
+              model.quantities.front().exact);
+  const Life& of_joint = *joint.life->exact;
+  const QuantityQuantiles& of_law = *model.quantities.front().exact;
+  const double slope = xy / xx, error = std::sqrt((yy - xy * slope) / 5 / xx);
+  const boost::math::students_t t(5);
+  const auto expected = [&](double p) {
+    return 100 / (slope + error * boost::math::quantile(t, 1 - p));
+  };
+  for (const auto& [p, joints, models] : {std::tuple{0.05, of_joint.q05, of_law.q05},
+                                          {0.95, of_joint.q95, of_law.q95},
+                                          {0.5, of_joint.b50, of_law.b50},
+                                          {0.1, of_joint.b10, of_law.b10},
+                                          {0.01, of_joint.b1, of_law.b1}}) {
+    EXPECT_NEAR(models / joints, 1, 1e-6) << p;
+    EXPECT_NEAR(models / expected(p), 1, 1e-4) << p;
+  }
+  EXPECT_NEAR(joint.mode->log_likelihood, model.mode->log_likelihood, 1e-9);
+}
+
+}  // namespace
+}  // namespace wearwell
