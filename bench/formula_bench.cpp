@@ -1,5 +1,5 @@
 // Gradients per second of two log-likelihoods written in the language of laws, beside the same by hand in C++. The peer is
-// peers/law.R (rstan's grad_log_prob of the same models). The counter `gradients` is what is compared:
+// peers/formula.R (rstan's grad_log_prob of the same models). The counter `gradients` is what is compared:
 //   weibull: 1000 rows, t ~ Weibull(shape m, scale exp(b0 + b1 x1 + b2 x2)), four parameters
 //   hierarchy: 50 machines x 20 readings, y ~ normal(exp(mu + tau z[machine]) x, sigma), 53 parameters
 #include <benchmark/benchmark.h>

@@ -42,14 +42,14 @@ TEST(Continue, WhatRunsAlongAPathGoesOnFromWhereItStood) {
   Laboratory laboratory;
   laboratory.parameters[3] = 5e-12;
   // In closed form; of the data alone; linear in the state; by steps; from the first row on.
-  const std::vector<std::vector<Line>> lines = {
+  const std::vector<std::vector<Line>> kinds = {
       {{"d(depth)/d(distance)", "k * force / area"}},
       {{"d(depth)/d(distance)", "1e-7 * force / 1 [N]"}, {"depth(0)", "1 [um]"}},
       {{"d(depth)/d(distance)", "k * force/area * (1 - depth/h0)"}},
       {{"d(depth)/d(distance)", "k * force/area * (1 - (depth/h0)^2)"}, {"depth(0)", "a * 1 [um]"}},
       {{"d(depth)/d(distance)", "k * force/area * exp(-depth/h0)"}, {"depth(first)", "2 [um]"}},
       {{"d(depth)/d(distance)", "k * force/area * distance/1 [m]"}}};
-  for (const auto& lines : lines) {
+  for (const auto& lines : kinds) {
     laboratory.lines = lines;
     const Parts parts = last_row(laboratory, "depth + u * 0 [m]");
     EXPECT_EQ(parts.running.count, 1u);

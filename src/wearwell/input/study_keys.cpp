@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "wearwell/base/nearest.h"
@@ -32,6 +33,10 @@ bool is_below(std::string_view path, std::string_view ancestor) {
 std::string table_named(std::string_view path) {
   return path.empty() ? "at the top, before the first [table]" : fmt::format("in [{}]", path);
 }
+
+// Keys of earlier studies, and their names now.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> renamed_keys{
+    {{"law", "distribution"}, {"law", "formula"}, {"varies", "random_effects"}}};
 
 class Keys {
  public:
@@ -162,6 +167,12 @@ class Keys {
   std::string said_of(const std::string& path, Repair& repair) {
     const std::string parent(parent_of(path)), leaf(leaf_of(path));
     const std::vector<std::string> names = possible(parent);
+    for (const auto& [before, now] : renamed_keys) {
+      if (leaf != before || std::find(names.begin(), names.end(), now) == names.end()) continue;
+      meant_.insert(under(parent, now));
+      repair = {leaf, std::string(now), true};
+      return fmt::format("the name of this key is '{}' now", now);
+    }
     const std::vector<std::string> elsewhere = homes(leaf);
     if (!elsewhere.empty()) {
       moved_.insert(leaf);

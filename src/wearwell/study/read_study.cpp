@@ -17,6 +17,10 @@ const Model& model_of(const TomlReader& root, Models models) {
     if (std::find(names.begin(), names.end(), model.key) == names.end())
       names.emplace_back(model.key);
   }
+  for (const TomlReader::Present& each : root.present()) {
+    if (each.path == "model" && each.text == "law")
+      root.fail("model", "'law' is named 'formula' now", {"law", "formula", true});
+  }
   const auto name = root.choice("model", names);
   if (!name) {
     for (const std::string& key : root.keys()) {

@@ -88,7 +88,7 @@ void require_failures(const FormulaModel& model) {
           fmt::format("{}: no row of '{}' is a failure: then every parameter needs a proper "
                       "prior, and that of "
                       "{} is {}",
-                      model.data.table.source, each.column, parameter.name, parameter.model));
+                      model.data.table.source, each.column, parameter.name, parameter.distribution));
     }
   }
 }
