@@ -96,7 +96,7 @@ FormulaDesign design(const std::string& text, std::size_t n) {
 }
 
 FitOutcome judged(const FormulaDesign& own, const std::vector<Response>& responses, Rng& rng) {
-  const auto rows = std::make_shared<const BearingRows>(own.with(responses), responses.size());
+  const auto rows = std::make_shared<const FormulaRows>(own.with(responses), responses.size());
   const ExactPosterior exact = exact_posterior(rows, 3e-3);
   EXPECT_EQ(exact.failure, "");
   if (!exact.failure.empty()) return {};
@@ -135,7 +135,7 @@ struct Kind {
 
 std::vector<double> values(const Kind& kind, const FormulaDesign& own, Rng& rng) {
   std::vector<double> y;
-  const std::vector<double>& x = own.law->data.number("x")->values;
+  const std::vector<double>& x = own.model->data.number("x")->values;
   for (std::size_t i = 0; i < kind.rows; ++i) y.push_back(kind.draw(x[i], rng));
   return y;
 }

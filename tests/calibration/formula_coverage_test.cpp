@@ -37,7 +37,7 @@ struct Design {
     path.limit = limit;
     path.scale = 5 * h;
     LimitedPath::SeenUnit seen;
-    seen.ahead = make_path(own.law, own.root.required_table("predict").required_table("limit"),
+    seen.ahead = make_path(own.model, own.root.required_table("predict").required_table("limit"),
                            "wear", {{"limit", "wear"}}, true, {});
     seen.now = now;
     path.seen.push_back(seen);
@@ -136,7 +136,7 @@ Places replicate(const Design& design, std::size_t units, const std::vector<doub
     responses.push_back({.at = y.back()});
   }
   const auto rows =
-      std::make_shared<const BearingRows>(design.own.with(responses), design.time.size());
+      std::make_shared<const FormulaRows>(design.own.with(responses), design.time.size());
   const double truth = limit / rate[0] - now;
   const auto place = [&](const WeightedDraws& draws) {
     return limited_lives(*rows, design.path, draws).remaining.front().cdf(truth);

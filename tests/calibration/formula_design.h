@@ -39,16 +39,16 @@ limit = { wear = "12 um" }
 struct FormulaDesign {
   Source source;
   TomlReader root;
-  std::shared_ptr<const FormulaModel> law;
+  std::shared_ptr<const FormulaModel> model;
 
   FormulaDesign(const std::string& study, const std::vector<Column>& columns)
       : source(in_memory(study, columns)),
         root(TomlReader::parse(source.study)),
-        law(read_formula_model(root, source)) {}
+        model(read_formula_model(root, source)) {}
 
   /// The same with other observations of its only measured column, row by row.
   std::shared_ptr<const FormulaModel> with(const std::vector<Response>& responses) const {
-    auto changed = std::make_shared<FormulaModel>(*law);
+    auto changed = std::make_shared<FormulaModel>(*model);
     changed->measured.front().observed.responses = responses;
     return changed;
   }
@@ -56,7 +56,8 @@ struct FormulaDesign {
   /// One number a parameter, drawn from its prior.
   std::vector<double> from_priors(Rng& rng) const {
     std::vector<double> x;
-    for (const Parameter& each : law->parameters) x.push_back(quantile(each.prior, rng.uniform()));
+    for (const Parameter& each : model->parameters)
+      x.push_back(quantile(each.prior, rng.uniform()));
     return x;
   }
 
@@ -88,10 +89,10 @@ inline Column texts(const std::string& name, const std::vector<std::string>& val
 }
 
 /// The posterior by quadrature, as a study has it, but for the digits: its mass to this tolerance.
-inline ExactPosterior exact_posterior(const std::shared_ptr<const BearingRows>& rows,
+inline ExactPosterior exact_posterior(const std::shared_ptr<const FormulaRows>& rows,
                                       double tolerance) {
   const auto likelihood = formula_likelihood(rows);
-  const Posterior posterior(rows->law().parameters, likelihood);
+  const Posterior posterior(rows->model().parameters, likelihood);
   ExactSettings settings;
   settings.tolerance = tolerance;
   settings.second_moments = false;

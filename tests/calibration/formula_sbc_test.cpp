@@ -25,11 +25,11 @@ double weibull(double scale, double shape, Rng& rng) {
 }
 
 // Observations, row by row, of parameters in the order of the priors.
-using Simulate = std::vector<Response> (*)(const FormulaModel& law, const std::vector<double>& x,
+using Simulate = std::vector<Response> (*)(const FormulaModel& model, const std::vector<double>& x,
                                            Rng& rng);
 
-double number(const FormulaModel& law, const char* name, std::size_t row) {
-  return law.data.number(name)->values[row];
+double number(const FormulaModel& model, const char* name, std::size_t row) {
+  return model.data.number(name)->values[row];
 }
 
 // The places of the truth: by quadrature, then by NUTS.
@@ -37,9 +37,9 @@ std::vector<double> replicate(const FormulaDesign& design, Simulate simulate, bo
                               std::uint64_t stream) {
   Rng rng(20261122, 2 * stream);
   const std::vector<double> truth = design.from_priors(rng);
-  const auto rows = std::make_shared<const BearingRows>(
-      design.with(simulate(*design.law, truth, rng)), design.law->data.table.rows);
-  const Posterior posterior(design.law->parameters, formula_likelihood(rows));
+  const auto rows = std::make_shared<const FormulaRows>(
+      design.with(simulate(*design.model, truth, rng)), design.model->data.table.rows);
+  const Posterior posterior(design.model->parameters, formula_likelihood(rows));
   const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));
   ExactSettings settings;
   settings.tolerance = 1e-3;
@@ -77,7 +77,7 @@ void calibrate(const char* name, const FormulaDesign& design, Simulate simulate,
     all[static_cast<std::size_t>(i)] =
         replicate(design, simulate, sample, static_cast<std::uint64_t>(i));
   });
-  const std::size_t parameters = design.law->parameters.size();
+  const std::size_t parameters = design.model->parameters.size();
   for (std::size_t p = 0; p < all.front().size(); ++p) {
     double bin[bins] = {}, n = 0, chi_squared = 0;
     for (const auto& places : all) {
@@ -88,7 +88,7 @@ void calibrate(const char* name, const FormulaDesign& design, Simulate simulate,
     for (const double each : bin) chi_squared += std::pow(each - n / bins, 2) / (n / bins);
     const double p_value = cdf(complement(boost::math::chi_squared(bins - 1), chi_squared));
     std::printf("%s, %s by %s: %.0f of %d replications, chi-squared %.1f, p %.3f\n", name,
-                design.law->parameters[p % parameters].name.c_str(),
+                design.model->parameters[p % parameters].name.c_str(),
                 p < parameters ? "quadrature" : "NUTS", n, count, chi_squared, p_value);
     EXPECT_GT(p_value, 1e-3) << name << " " << p;
     EXPECT_EQ(n, count) << name;
@@ -122,12 +122,12 @@ beta = { distribution = "lognormal", median = 2, log_sd = 0.4 }
 )toml",
                              {numbers("life", std::vector<double>(15, 500)),
                               numbers("stress", stress), texts("status", status)});
-  const Simulate simulate = [](const FormulaModel& law, const std::vector<double>& x, Rng& rng) {
+  const Simulate simulate = [](const FormulaModel& model, const std::vector<double>& x, Rng& rng) {
     std::vector<Response> all;
     for (std::size_t i = 0; i < 15; ++i) {
       constexpr double longest = 1000 * 3600.;
       const double life =
-          weibull(x[0] * std::pow(number(law, "stress", i) / 140e6, -x[1]), x[2], rng);
+          weibull(x[0] * std::pow(number(model, "stress", i) / 140e6, -x[1]), x[2], rng);
       all.push_back({.seen = life > longest ? Censoring::right : Censoring::none,
                      .at = std::min(life, longest)});
     }
@@ -161,13 +161,13 @@ energy = { distribution = "normal", mean = "0.7 eV", sd = "0.2 eV" }
 s = { distribution = "half-normal", scale = 0.8 }
 )toml",
       {numbers("lower", lower), numbers("upper", upper), numbers("temperature", temperature)});
-  const Simulate simulate = [](const FormulaModel& law, const std::vector<double>& x, Rng& rng) {
+  const Simulate simulate = [](const FormulaModel& model, const std::vector<double>& x, Rng& rng) {
     std::vector<Response> all;
     for (std::size_t i = 0; i < 18; ++i) {
       constexpr double look = 200 * 3600.;  // every 200 h, up to 2000 h
       const double k = 1.380649e-23;
       const double median =
-          x[0] * std::exp(x[1] / k * (1 / number(law, "temperature", i) - 1 / 353.15));
+          x[0] * std::exp(x[1] / k * (1 / number(model, "temperature", i) - 1 / 353.15));
       const double life = median * std::exp(x[2] * rng.normal());
       const double before = look * std::floor(life / look);
       if (before >= 10 * look) {
@@ -201,10 +201,10 @@ width = { distribution = "lognormal", median = "1 kN", log_sd = 0.5 }
 )toml",
       {numbers("failed", {0, 1, 2, 3, 4}), numbers("trials", {6, 6, 6, 6, 6}),
        numbers("load", {7, 8.5, 10, 11.5, 13})});
-  const Simulate simulate = [](const FormulaModel& law, const std::vector<double>& x, Rng& rng) {
+  const Simulate simulate = [](const FormulaModel& model, const std::vector<double>& x, Rng& rng) {
     std::vector<Response> all;
     for (std::size_t i = 0; i < 5; ++i) {
-      const double p = 1 / (1 + std::exp((x[0] - number(law, "load", i)) / x[1]));
+      const double p = 1 / (1 + std::exp((x[0] - number(model, "load", i)) / x[1]));
       double failed = 0;
       for (int k = 0; k < 6; ++k) failed += rng.uniform() < p;
       all.push_back({.at = failed, .trials = 6});
@@ -241,12 +241,12 @@ scatter = { distribution = "half-normal", scale = 0.8 }
 rate = { distribution = "lognormal", log_sd = "scatter" }
 )toml",
       {numbers("failures", count), numbers("hours", hours), texts("machine", machine)});
-  const Simulate simulate = [](const FormulaModel& law, const std::vector<double>& x, Rng& rng) {
+  const Simulate simulate = [](const FormulaModel& model, const std::vector<double>& x, Rng& rng) {
     std::vector<Response> all;
     double rate = 0;
     for (std::size_t i = 0; i < 12; ++i) {
       if (i % 2 == 0) rate = x[0] * std::exp(x[1] * rng.normal());
-      const double mean = rate * number(law, "hours", i);
+      const double mean = rate * number(model, "hours", i);
       double arrived = 0;  // until the time is over
       for (double t = -std::log(rng.uniform()); t < mean; t -= std::log(rng.uniform())) ++arrived;
       all.push_back({.at = arrived});
@@ -285,12 +285,12 @@ sigma = { distribution = "half-normal", scale = "0.5 um" }
 b = { distribution = "lognormal", log_sd = "scatter" }
 )toml",
       {numbers("depth", depth), numbers("time", time), texts("machine", machine)});
-  const Simulate simulate = [](const FormulaModel& law, const std::vector<double>& x, Rng& rng) {
+  const Simulate simulate = [](const FormulaModel& model, const std::vector<double>& x, Rng& rng) {
     std::vector<Response> all;
     double rate = 0;
     for (std::size_t i = 0; i < 15; ++i) {
       if (i % 3 == 0) rate = x[0] * std::exp(x[1] * rng.normal());
-      all.push_back({.at = rate * number(law, "time", i) + x[2] * rng.normal()});
+      all.push_back({.at = rate * number(model, "time", i) + x[2] * rng.normal()});
     }
     return all;
   };

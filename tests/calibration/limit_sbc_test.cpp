@@ -82,7 +82,7 @@ TEST(LimitCalibration, Staircase) {
 
 // Three tests each at six levels about the limit, stopped after 1e7 cycles.
 Simulate tests_of(const SnLaw& law) {
-  return [formula](const std::vector<double>& truth, Rng& rng) {
+  return [law](const std::vector<double>& truth, Rng& rng) {
     LifeTests tests;
     for (const double mega : {500, 430, 370, 320, 280, 250}) {
       for (int repetition = 0; repetition < 3; ++repetition) {

@@ -15,7 +15,7 @@ namespace {
 using Distribution = Uncertain::Distribution;
 
 void expect(const Uncertain& q, Distribution law, double mean, double sd) {
-  EXPECT_EQ(q.law, law);
+  EXPECT_EQ(q.distribution, law);
   EXPECT_NEAR(q.mean, mean, 1e-15 * std::abs(mean));
   EXPECT_NEAR(q.sd, sd, 1e-14 * sd);
 }
@@ -43,7 +43,7 @@ TEST(Uncertain, ReadsEveryForm) {
 TEST(Uncertain, AFactorIsLognormalAboutItsMedian) {
   for (const char* text : {"0.1 mm x/ 2", "0.1 mm ×/ 2", "0.1 mm ×÷2", "100 um x/2"}) {
     const Uncertain q = read_uncertain(text, "m");
-    EXPECT_EQ(q.law, Distribution::lognormal) << text;
+    EXPECT_EQ(q.distribution, Distribution::lognormal) << text;
     EXPECT_NEAR(q.centre, 1e-4, 1e-18) << text;
     EXPECT_NEAR(q.mean / 1e-4, std::exp(0.5 * std::log(2) * std::log(2)), 1e-14);
     EXPECT_NEAR(equal_factor(q), 2, 1e-12);
