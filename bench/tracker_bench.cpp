@@ -20,7 +20,7 @@ prognosis::CarriedState state_of_example() {
   const auto model = read_formula_model(root, state.source);
   for (const Parameter& each : model->parameters) state.parameters.push_back(each.name);
   state.posterior =
-      exact_posterior(std::make_shared<const BearingRows>(model, model->data.table.rows), 1e-5)
+      exact_posterior(std::make_shared<const FormulaRows>(model, model->data.table.rows), 1e-5)
           .nodes;
   return state;
 }

@@ -96,7 +96,7 @@ FormulaDesign design(const std::string& text, std::size_t n) {
 }
 
 FitOutcome judged(const FormulaDesign& own, const std::vector<Response>& responses, Rng& rng) {
-  const auto rows = std::make_shared<const BearingRows>(own.with(responses), responses.size());
+  const auto rows = std::make_shared<const FormulaRows>(own.with(responses), responses.size());
   const ExactPosterior exact = exact_posterior(rows, 3e-3);
   EXPECT_EQ(exact.failure, "");
   if (!exact.failure.empty()) return {};

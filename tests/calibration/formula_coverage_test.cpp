@@ -136,7 +136,7 @@ Places replicate(const Design& design, std::size_t units, const std::vector<doub
     responses.push_back({.at = y.back()});
   }
   const auto rows =
-      std::make_shared<const BearingRows>(design.own.with(responses), design.time.size());
+      std::make_shared<const FormulaRows>(design.own.with(responses), design.time.size());
   const double truth = limit / rate[0] - now;
   const auto place = [&](const WeightedDraws& draws) {
     return limited_lives(*rows, design.path, draws).remaining.front().cdf(truth);

@@ -88,7 +88,7 @@ inline Column texts(const std::string& name, const std::vector<std::string>& val
 }
 
 /// The posterior by quadrature, as a study has it, but for the digits: its mass to this tolerance.
-inline ExactPosterior exact_posterior(const std::shared_ptr<const BearingRows>& rows,
+inline ExactPosterior exact_posterior(const std::shared_ptr<const FormulaRows>& rows,
                                       double tolerance) {
   const auto likelihood = formula_likelihood(rows);
   const Posterior posterior(rows->law().parameters, likelihood);

@@ -79,7 +79,7 @@ double judged(const FormulaDesign& own, Path kind, double bent, std::uint64_t st
       responses.push_back({.at = kind == Path::straight ? mean + x[1] * rng.normal() : path});
     }
   }
-  const auto rows = std::make_shared<const BearingRows>(own.with(responses), responses.size());
+  const auto rows = std::make_shared<const FormulaRows>(own.with(responses), responses.size());
   const ExactPosterior exact = exact_posterior(rows, 3e-3);
   if (!exact.failure.empty()) return NAN;
   const WeightedSampler sampler(exact.nodes);

@@ -37,7 +37,7 @@ std::vector<double> replicate(const FormulaDesign& design, Simulate simulate, bo
                               std::uint64_t stream) {
   Rng rng(20261122, 2 * stream);
   const std::vector<double> truth = design.from_priors(rng);
-  const auto rows = std::make_shared<const BearingRows>(
+  const auto rows = std::make_shared<const FormulaRows>(
       design.with(simulate(*design.law, truth, rng)), design.law->data.table.rows);
   const Posterior posterior(design.law->parameters, formula_likelihood(rows));
   const Whitening whitening = whitening_at(find_mode(posterior, posterior.start()));

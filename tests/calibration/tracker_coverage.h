@@ -34,7 +34,7 @@ using TrackedPlaces = std::array<double, 3>;
 inline std::unique_ptr<const prognosis::Tracker> tracker_of(const std::vector<Column>& columns) {
   const FormulaDesign design(straight, columns);
   const ExactPosterior exact = exact_posterior(
-      std::make_shared<const BearingRows>(design.law, design.law->data.table.rows), 3e-3);
+      std::make_shared<const FormulaRows>(design.law, design.law->data.table.rows), 3e-3);
   if (!exact.failure.empty()) return nullptr;
   prognosis::CarriedState state;
   state.source = design.source;

@@ -288,12 +288,12 @@ FitOutcome judge_fit(const FitData& data, const WeightedDraws& draws, const Loo&
         "and whether what was measured is wear at all.";
     outcome.tests.push_back(
         {"fall", fall_test(*data.rise),
-         fmt::format("by the law {}, in the data it falls", data.rise->distribution), impossible});
+         fmt::format("by the law {}, in the data it falls", data.rise->expected), impossible});
     if (data.rise->from_zero) {
-      outcome.tests.push_back({"sign", sign_test(*data.rise),
-                               fmt::format("by the law {} from zero, in the data it goes below",
-                                           data.rise->distribution),
-                               impossible});
+      outcome.tests.push_back(
+          {"sign", sign_test(*data.rise),
+           fmt::format("by the law {} from zero, in the data it goes below", data.rise->expected),
+           impossible});
     }
   }
   for (FitTest& test : outcome.tests) test.share = 1 / static_cast<double>(outcome.tests.size());

@@ -29,7 +29,7 @@ struct Driver {
 
 /// What a law can never do: let the observed fall while its driver grows.
 struct Rise {
-  std::string distribution;  ///< "worn volume grows with friction work"
+  std::string expected;  ///< "worn volume grows with friction work"
   std::vector<double> driver, value;
   std::vector<std::size_t> group;  ///< items whose own levels differ; empty for one
   bool from_zero = false;          ///< the law vanishes with its driver

@@ -98,7 +98,7 @@ mean = ")" + mean + R"("
     const auto columns = bind_columns(*model, model->data.table.rows);
     ASSERT_TRUE(is_linear(*model, columns));
     const auto quick =
-        formula_likelihood(std::make_shared<const BearingRows>(model, model->data.table.rows));
+        formula_likelihood(std::make_shared<const FormulaRows>(model, model->data.table.rows));
     UnitRows rows(*model, columns);
     rows.move_to(x.data());
     std::vector<double> gradient(x.size()), expected(x.size());
@@ -115,7 +115,7 @@ mean = ")" + mean + R"("
     // The nodes that lives are mixed over have the moments of the rows' own, whose rule is less close.
     latent::UnitIntegrals whole;
     latent::integrate(rows, whole);
-    const BearingRows own(model, model->data.table.rows);
+    const FormulaRows own(model, model->data.table.rows);
     const auto moment = [&](const latent::UnitIntegrals& of, std::size_t u, int power) {
       double total = 0;
       for (const latent::Sweep& sweep : of.sweeps) {

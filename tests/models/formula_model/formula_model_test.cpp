@@ -18,7 +18,7 @@ class FormulaLikelihoodTest : public ScratchTest {
     return formula_likelihood(rows(mean, random_effects));
   }
 
-  std::shared_ptr<const BearingRows> rows(const std::string& mean,
+  std::shared_ptr<const FormulaRows> rows(const std::string& mean,
                                           const std::string& random_effects) const {
     write(
         "d.csv",
@@ -46,7 +46,7 @@ rho = { distribution = "flat" }
 )" + random_effects);
     const Source source = source_of(file);
     const TomlReader root = TomlReader::parse(source.study);
-    return std::make_shared<const BearingRows>(read_formula_model(root, source), 9);
+    return std::make_shared<const FormulaRows>(read_formula_model(root, source), 9);
   }
 };
 
@@ -134,7 +134,7 @@ TEST_F(FormulaLikelihoodTest, AParabolaIsTheSameAsRowByRow) {
 }
 
 // The mean and the square of each unit's effect under its own posterior, by the nodes.
-std::vector<double> moments(const BearingRows& rows, const std::vector<double>& x) {
+std::vector<double> moments(const FormulaRows& rows, const std::vector<double>& x) {
   std::vector<double> result;
   const latent::UnitIntegrals& integrals = rows.integrate(x.data());
   for (std::size_t u = 0; u < 3; ++u) {

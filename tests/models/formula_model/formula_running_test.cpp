@@ -62,7 +62,7 @@ given = { )toml" + given + " }\n");
   const std::vector<double> x_ = {0.13 * um / km, 22 * um, 1 * um, 0.4};
   // The mean of the last row of unit 1 as the likelihood has it.
   double by_rows(const Study& study, double z) const {
-    const BearingRows rows(study.model, study.model->data.table.rows);
+    const FormulaRows rows(study.model, study.model->data.table.rows);
     UnitRows& units = rows.mine().rows;
     units.move_to(x_.data());
     const std::vector<double> effects = {-0.3, z};

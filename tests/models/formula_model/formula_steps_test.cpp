@@ -54,7 +54,7 @@ TEST_F(FormulaSteps, ExtremesAreFiniteOrNoDensity) {
     const auto model = read(family, "scale = \"u\"\n", "k*t^p", true);
     const auto columns = bind_columns(*model, model->data.table.rows);
     ASSERT_TRUE(is_proportional(*model, columns)) << family;
-    const auto likelihood = formula_likelihood(std::make_shared<const BearingRows>(model, 7));
+    const auto likelihood = formula_likelihood(std::make_shared<const FormulaRows>(model, 7));
     UnitRows rows(*model, columns);
     StepUnits steps(rows);
     for (const double k : {1e-300, 1e-150, 1e-8, 1.0, 1e8, 1e150, 1e300}) {
@@ -119,7 +119,7 @@ TEST_F(FormulaSteps, AreWhatTheRowsSay) {
               << family << slots << lognormal << z;
         }
       }
-      const auto likelihood = formula_likelihood(std::make_shared<const BearingRows>(model, 7));
+      const auto likelihood = formula_likelihood(std::make_shared<const FormulaRows>(model, 7));
       std::vector<double> gradient(x.size()), expected(x.size()), moved = x;
       const double sum = likelihood->value_and_gradient(x, gradient);
       // By the rows of every node.
@@ -130,7 +130,7 @@ TEST_F(FormulaSteps, AreWhatTheRowsSay) {
         rows.add_gradient(sweep.z, sweep.weight, expected);
       }
       EXPECT_NEAR(sum, whole.sum(), 1e-6) << family << slots << lognormal;
-      const BearingRows own(model, 7);
+      const FormulaRows own(model, 7);
       const latent::UnitIntegrals& nodes = own.integrate(x.data());
       EXPECT_NEAR(nodes.sum(), whole.sum(), 1e-6) << family << slots << lognormal;
       for (std::size_t i = 0; i < x.size(); ++i) {

@@ -64,8 +64,8 @@ class FormulaTabled : public ScratchTest {
   static void expect_alike(const std::shared_ptr<FormulaModel>& model,
                            const std::vector<double>& x) {
     const std::size_t all = model->data.table.rows;
-    const auto quick = formula_likelihood(std::make_shared<const BearingRows>(model, all, true)),
-               whole = formula_likelihood(std::make_shared<const BearingRows>(model, all));
+    const auto quick = formula_likelihood(std::make_shared<const FormulaRows>(model, all, true)),
+               whole = formula_likelihood(std::make_shared<const FormulaRows>(model, all));
     const double value = whole->value(x);
     ASSERT_TRUE(std::isfinite(value));
     EXPECT_NEAR(quick->value(x), value, 2e-7);

@@ -20,7 +20,7 @@ class PublishedLives : public ScratchTest {
         source_of(write("study.toml", "model = \"formula\"\n[data]\nfile = \"d.csv\"\n" + text));
     const TomlReader root = TomlReader::parse(source.study);
     const auto model = read_formula_model(root, source);
-    return formula_likelihood(std::make_shared<const BearingRows>(model, model->data.table.rows));
+    return formula_likelihood(std::make_shared<const FormulaRows>(model, model->data.table.rows));
   }
 };
 

@@ -48,8 +48,8 @@ struct Watched {
     tracker = track_units(state);
   }
 
-  std::shared_ptr<const BearingRows> rows() const {
-    return std::make_shared<const BearingRows>(design.model, design.model->data.table.rows);
+  std::shared_ptr<const FormulaRows> rows() const {
+    return std::make_shared<const FormulaRows>(design.model, design.model->data.table.rows);
   }
   WeightedDraws fitted() const { return exact_posterior(rows(), 1e-4).nodes; }
 };

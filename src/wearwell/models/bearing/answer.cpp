@@ -32,7 +32,7 @@ std::string use_a_lognormal(const UncertainBearing& uncertain) {
       1.0 / 3;  // of the mean: beyond, more than one in a thousand is negative
   std::string advice;
   for (const auto& [option, value] : uncertain.given) {
-    if (value.curve != Uncertain::Distribution::normal || !(value.sd > widest * value.mean))
+    if (value.distribution != Uncertain::Distribution::normal || !(value.sd > widest * value.mean))
       continue;
     const std::string amount = fmt::format("{:.6g}{}", from_si(value.unit, value.mean),
                                            value.unit.text == "1" ? "" : " " + value.unit.text);

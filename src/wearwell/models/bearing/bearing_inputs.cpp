@@ -46,7 +46,7 @@ Bearing UncertainBearing::mean() const {
 
 bool UncertainBearing::is_exact() const {
   return std::all_of(given.begin(), given.end(), [](const Given& g) {
-    return g.value.curve == Uncertain::Distribution::exact;
+    return g.value.distribution == Uncertain::Distribution::exact;
   });
 }
 

@@ -24,7 +24,7 @@ FitData sn_fit_data(const SnLaw& law, const SnData& data,
                  !law.integrated()};
   std::vector<double> mean;
   Rise& rise = *result.rise;
-  rise.law = "life grows as stress falls";
+  rise.expected = "life grows as stress falls";
   for (const LifeTest& test : data.tests) {
     const double stress = law.log10_reversed(start.data(), test.stress);
     result.counts.push_back(test.count);

@@ -8,7 +8,7 @@
 namespace wearwell::formula_model {
 
 Asked::Asked(const TomlReader& table, std::shared_ptr<const FormulaModel> formula_model,
-             std::shared_ptr<const BearingRows> own_rows)
+             std::shared_ptr<const FormulaRows> own_rows)
     : predict(table), model(std::move(formula_model)), rows(std::move(own_rows)) {
   if (const auto conditions = predict.table("given")) given = read_conditions(*conditions, *model);
   common = common_conditions(*model, given);

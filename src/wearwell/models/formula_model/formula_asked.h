@@ -10,13 +10,13 @@ namespace wearwell::formula_model {
 struct Asked {
   const TomlReader& predict;
   std::shared_ptr<const FormulaModel> model;
-  std::shared_ptr<const BearingRows> rows;
+  std::shared_ptr<const FormulaRows> rows;
   Conditions given, common;   ///< predict.given; with what is the same in all rows
   std::string noun;           ///< "machine"
   std::vector<double> start;  ///< parameters where searches start
 
   Asked(const TomlReader& table, std::shared_ptr<const FormulaModel> formula_model,
-        std::shared_ptr<const BearingRows> own_rows);
+        std::shared_ptr<const FormulaRows> own_rows);
 
   const NumberColumn& axis() const { return *model->data.number(*model->along); }
   /// "machine 5"; of a study without units the noun.

@@ -45,7 +45,7 @@ Parameter standard_normal(std::string name) {
   parameter.name = std::move(name);
   parameter.si = "1";
   parameter.unit = Unit{"1", 1, 0};
-  parameter.model = "standard normal";
+  parameter.distribution = "standard normal";
   parameter.prior = make_distribution(Normal{0, 1}, -INFINITY, INFINITY);
   parameter.start = 0;
   parameter.scale = 1;

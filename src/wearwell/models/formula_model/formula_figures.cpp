@@ -27,7 +27,7 @@ struct Readings {
 };
 
 struct Drawing {
-  std::shared_ptr<const BearingRows> rows;
+  std::shared_ptr<const FormulaRows> rows;
   std::string along, noun, quantity;
   Unit axis, unit;
   std::vector<SpreadPath> paths;  // the first that of a new unit

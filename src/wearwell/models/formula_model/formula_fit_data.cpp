@@ -67,7 +67,7 @@ Rng lots_at(const double* x, std::size_t count) {
 }
 
 // One of the nodes of each unit, by lot.
-std::vector<double> drawn_effects(const BearingRows& rows, const double* x) {
+std::vector<double> drawn_effects(const FormulaRows& rows, const double* x) {
   const std::size_t d = rows.model().effects.size(), units = rows.model().units.size();
   std::vector<double> z(units * d);
   if (d == 0) return z;
@@ -164,7 +164,7 @@ std::vector<double> joined(const std::vector<std::vector<double>>& columns) {
   return all;
 }
 
-std::vector<double> fitted_places(const BearingRows& rows, const double* x) {
+std::vector<double> fitted_places(const FormulaRows& rows, const double* x) {
   const std::vector<double> z = drawn_effects(rows, x);
   UnitRows& units = rows.mine().rows;
   units.move_to(x);
@@ -179,7 +179,7 @@ std::vector<double> fitted_places(const BearingRows& rows, const double* x) {
   return places;
 }
 
-std::vector<double> log_densities(const BearingRows& rows, const double* x) {
+std::vector<double> log_densities(const FormulaRows& rows, const double* x) {
   const std::vector<double> z = drawn_effects(rows, x);
   UnitRows& units = rows.mine().rows;
   units.move_to(x);
@@ -212,7 +212,7 @@ Remedies remedies_of(const FormulaModel& model) {
 
 }  // namespace
 
-std::optional<FitData> fit_data(std::shared_ptr<const BearingRows> rows) {
+std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows) {
   const FormulaModel& model = rows->model();
   FitData data;
   for (const Measured& measured : model.measured) {

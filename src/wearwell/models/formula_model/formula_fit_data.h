@@ -12,6 +12,6 @@ namespace wearwell::formula_model {
 /// process are truncated. Where units differ their effects are drawn from what x and their rows say of them: a draw of both
 /// together is one of the posterior, under which residuals and effects are standard normal. A reading of a
 /// process is scored in the light of those before it.
-std::optional<FitData> fit_data(std::shared_ptr<const BearingRows> rows);
+std::optional<FitData> fit_data(std::shared_ptr<const FormulaRows> rows);
 
 }  // namespace wearwell::formula_model

@@ -475,7 +475,7 @@ namespace {
 
 class FormulaLikelihood : public LogDensity {
  public:
-  explicit FormulaLikelihood(std::shared_ptr<const BearingRows> rows)
+  explicit FormulaLikelihood(std::shared_ptr<const FormulaRows> rows)
       : rows_(std::move(rows)),
         model_(&rows_->model()),
         all_(model_->units.size(), 1),
@@ -583,7 +583,7 @@ class FormulaLikelihood : public LogDensity {
   }
 
  protected:
-  using Scratch = BearingRows::Scratch;
+  using Scratch = FormulaRows::Scratch;
   Scratch& mine() const { return rows_->mine(); }
 
  private:
@@ -612,7 +612,7 @@ class FormulaLikelihood : public LogDensity {
     return scratch.steps->each(each);
   }
 
-  std::shared_ptr<const BearingRows> rows_;
+  std::shared_ptr<const FormulaRows> rows_;
   const FormulaModel* model_;
   std::vector<std::uint8_t> all_;
   std::vector<double> ones_;
@@ -634,7 +634,7 @@ class HiddenLikelihood final : public FormulaLikelihood {
 
 }  // namespace
 
-BearingRows::BearingRows(std::shared_ptr<const FormulaModel> model, std::size_t rows,
+FormulaRows::FormulaRows(std::shared_ptr<const FormulaModel> model, std::size_t rows,
                          bool again_and_again)
     : model_(std::move(model)), columns_(bind_columns(*model_, rows)) {
   linear_ = is_linear(*model_, columns_);
@@ -642,7 +642,7 @@ BearingRows::BearingRows(std::shared_ptr<const FormulaModel> model, std::size_t 
   if (again_and_again && !linear_) tabled_ = tabled_form(*model_, columns_);
 }
 
-const latent::UnitIntegrals& BearingRows::integrate(const double* x) const {
+const latent::UnitIntegrals& FormulaRows::integrate(const double* x) const {
   Scratch& scratch = mine();
   scratch.rows.move_to(x);
   if (scratch.linear) {
@@ -664,7 +664,7 @@ const latent::UnitIntegrals& BearingRows::integrate(const double* x) const {
   return scratch.integrals;
 }
 
-BearingRows::Scratch& BearingRows::mine() const {
+FormulaRows::Scratch& FormulaRows::mine() const {
   std::unique_ptr<Scratch>& scratch = scratch_.local();
   if (!scratch) {
     scratch.reset(new Scratch{UnitRows(*model_, columns_), {}, {}, {}, {}, {}});
@@ -678,7 +678,7 @@ BearingRows::Scratch& BearingRows::mine() const {
   return *scratch;
 }
 
-std::shared_ptr<const LogDensity> formula_likelihood(std::shared_ptr<const BearingRows> rows) {
+std::shared_ptr<const LogDensity> formula_likelihood(std::shared_ptr<const FormulaRows> rows) {
   if (rows->model().has_hidden_paths()) {
     return std::make_shared<HiddenLikelihood>(std::move(rows));
   }

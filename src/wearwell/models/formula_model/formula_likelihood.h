@@ -123,10 +123,10 @@ class UnitRows final : public latent::UnitTerms {
 };
 
 /// The rows of a law, for any thread.
-class BearingRows {
+class FormulaRows {
  public:
   /// `again_and_again`: at so many points that a table of the units (formula_tabled.h) is worth its making.
-  BearingRows(std::shared_ptr<const FormulaModel> model, std::size_t rows,
+  FormulaRows(std::shared_ptr<const FormulaModel> model, std::size_t rows,
               bool again_and_again = false);
 
   struct Scratch {
@@ -154,6 +154,6 @@ class BearingRows {
 };
 
 /// The likelihood of a study's law; effects of units are integrated out (latent/unit_integral.h).
-std::shared_ptr<const LogDensity> formula_likelihood(std::shared_ptr<const BearingRows> rows);
+std::shared_ptr<const LogDensity> formula_likelihood(std::shared_ptr<const FormulaRows> rows);
 
 }  // namespace wearwell::formula_model

@@ -24,7 +24,7 @@ struct Most {
 // One thread's part: some points of the posterior, one after the other.
 class Part {
  public:
-  Part(const BearingRows& rows, const LimitedPath& path)
+  Part(const FormulaRows& rows, const LimitedPath& path)
       : rows_(rows),
         path_(path),
         fresh_(rows.model().draws_units() ? lines_of_new_unit(effects(), 0.5, 5)
@@ -174,7 +174,7 @@ class Part {
     }
   }
 
-  const BearingRows& rows_;
+  const FormulaRows& rows_;
   const LimitedPath& path_;
   std::optional<Crossing> next_;
   std::vector<Crossing> ahead_;
@@ -189,7 +189,7 @@ class Part {
 template <class Value>
 WeightedDraws in_terms_of(const WeightedDraws& draws,
                           tbb::enumerable_thread_specific<std::unique_ptr<Part>>& parts,
-                          const BearingRows& rows, const LimitedPath& path, const Value& value) {
+                          const FormulaRows& rows, const LimitedPath& path, const Value& value) {
   const Eigen::Index n = draws.has_cells() ? draws.cells.mass.size() : draws.values.rows();
   const double least = QuantityDistribution::least_weight(draws);
   const auto of = [&](const Points& points) {
@@ -212,7 +212,7 @@ WeightedDraws in_terms_of(const WeightedDraws& draws,
 
 // Where nothing differs from unit to unit each point of the posterior has one life: all of them count, with the cells of
 // the quadrature, for points alone would leave a noise of one over the root of their number.
-LimitedLives lives_of_points(const BearingRows& rows, const LimitedPath& path,
+LimitedLives lives_of_points(const FormulaRows& rows, const LimitedPath& path,
                              const WeightedDraws& draws) {
   tbb::enumerable_thread_specific<std::unique_ptr<Part>> parts;
   const auto cells_of = [&](const auto& value) {
@@ -244,7 +244,7 @@ Most points_of(const Path& any) {
 
 }  // namespace
 
-LimitedLives limited_lives(const BearingRows& rows, const LimitedPath& path,
+LimitedLives limited_lives(const FormulaRows& rows, const LimitedPath& path,
                            const WeightedDraws& draws, double share_of_points) {
   if (rows.model().effects.empty() && !rows.model().draws_units())
     return lives_of_points(rows, path, draws);

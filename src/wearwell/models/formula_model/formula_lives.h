@@ -64,7 +64,7 @@ struct LimitedLives {
 };
 /// `share_of_points`: below 1 over so many of the points that lives are summed over, and without interpolation, to see how
 /// far they depend on these.
-LimitedLives limited_lives(const BearingRows& rows, const LimitedPath& path,
+LimitedLives limited_lives(const FormulaRows& rows, const LimitedPath& path,
                            const WeightedDraws& draws, double share_of_points = 1);
 
 }  // namespace wearwell::formula_model

@@ -84,11 +84,11 @@ void require_failures(const FormulaModel& model) {
     if (each.form->counted || each.observed.failures > 0) continue;
     for (const Parameter& parameter : model.parameters) {
       if (parameter.prior.proper) continue;
-      throw InputError(
-          fmt::format("{}: no row of '{}' is a failure: then every parameter needs a proper "
-                      "prior, and that of "
-                      "{} is {}",
-                      model.data.table.source, each.column, parameter.name, parameter.model));
+      throw InputError(fmt::format(
+          "{}: no row of '{}' is a failure: then every parameter needs a proper "
+          "prior, and that of "
+          "{} is {}",
+          model.data.table.source, each.column, parameter.name, parameter.distribution));
     }
   }
 }

@@ -127,7 +127,7 @@ struct AskedOfLife {
 class Predictions {
  public:
   Predictions(const TomlReader& predict, std::shared_ptr<const FormulaModel> model,
-              std::shared_ptr<const BearingRows> rows, PosteriorStudy& study)
+              std::shared_ptr<const FormulaRows> rows, PosteriorStudy& study)
       : predict_(predict),
         asked_(predict, model, std::move(rows)),
         model_(std::move(model)),
@@ -325,7 +325,7 @@ class Predictions {
 }  // namespace
 
 void read_own_predictions(const TomlReader& root, std::shared_ptr<const FormulaModel> model,
-                          std::shared_ptr<const BearingRows> rows, PosteriorStudy& study) {
+                          std::shared_ptr<const FormulaRows> rows, PosteriorStudy& study) {
   if (const auto predict = root.table("predict")) {
     Predictions(*predict, std::move(model), std::move(rows), study).read();
   }

@@ -68,7 +68,7 @@ struct Standings {
 // One thread's part: some points of the posterior, one after the other.
 class Part {
  public:
-  Part(const BearingRows& rows, const ProcessLimit& limit)
+  Part(const FormulaRows& rows, const ProcessLimit& limit)
       : rows_(rows),
         limit_(limit),
         form_(*rows.model().measured[limit.column].process),
@@ -202,7 +202,7 @@ class Part {
     }
   }
 
-  const BearingRows& rows_;
+  const FormulaRows& rows_;
   const ProcessLimit& limit_;
   const ProcessForm& form_;
   const ScoreTable& table_;
@@ -217,7 +217,7 @@ class Part {
 
 }  // namespace
 
-LimitedLives process_lives(const BearingRows& rows, const ProcessLimit& limit,
+LimitedLives process_lives(const FormulaRows& rows, const ProcessLimit& limit,
                            const WeightedDraws& draws, double share_of_points) {
   ProcessLimit seen = limit, next = limit;
   seen.path.next.reset();

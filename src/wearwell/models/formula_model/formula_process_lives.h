@@ -13,7 +13,7 @@ struct ProcessLimit {
 
 /// Lives over a posterior: first passages of paths that begin at 0, and of those seen, given where they stand
 /// after their last row (not beyond the limit). `share_of_points` as of limited_lives.
-LimitedLives process_lives(const BearingRows& rows, const ProcessLimit& limit,
+LimitedLives process_lives(const FormulaRows& rows, const ProcessLimit& limit,
                            const WeightedDraws& draws, double share_of_points = 1);
 
 }  // namespace wearwell::formula_model

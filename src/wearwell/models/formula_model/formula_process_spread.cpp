@@ -16,7 +16,7 @@ constexpr double least_share = 2e-3;  // of a unit's posterior: nodes with less 
 // One thread's part: some points of the posterior, one after the other.
 class Part {
  public:
-  Part(const BearingRows& rows, const ProcessLimit& mean, const std::vector<SpreadPath>& paths)
+  Part(const FormulaRows& rows, const ProcessLimit& mean, const std::vector<SpreadPath>& paths)
       : rows_(rows),
         column_(mean.column),
         form_(*rows.model().measured[mean.column].process),
@@ -106,7 +106,7 @@ class Part {
     }
   }
 
-  const BearingRows& rows_;
+  const FormulaRows& rows_;
   std::size_t column_;
   const ProcessForm& form_;
   std::size_t effects_;
@@ -117,7 +117,7 @@ class Part {
 
 }  // namespace
 
-std::vector<Spread> process_spreads(const BearingRows& rows, const ProcessLimit& mean,
+std::vector<Spread> process_spreads(const FormulaRows& rows, const ProcessLimit& mean,
                                     const std::vector<SpreadPath>& paths,
                                     const WeightedDraws& draws, std::size_t finer) {
   const std::size_t most = rows.model().has_random_effects() ? most_points_of_effects : most_points;

@@ -12,7 +12,7 @@ namespace {
 // One thread's part: some points of the posterior, one after the other.
 class Part {
  public:
-  Part(const BearingRows& rows, const std::vector<SpreadPath>& paths)
+  Part(const FormulaRows& rows, const std::vector<SpreadPath>& paths)
       : rows_(rows), effects_(rows.model().effects.size()), paths_(paths) {
     fresh_ = lines_of_new_unit(effects_);
     for (const SpreadPath& each : paths) {
@@ -123,7 +123,7 @@ class Part {
     }
   }
 
-  const BearingRows& rows_;
+  const FormulaRows& rows_;
   std::size_t effects_;
   const std::vector<SpreadPath>& paths_;
   bool any_seen_ = false;
@@ -145,7 +145,7 @@ void Spreads::add(const Spreads& other) {
   }
 }
 
-std::vector<Spread> spreads(const BearingRows& rows, const std::vector<SpreadPath>& paths,
+std::vector<Spread> spreads(const FormulaRows& rows, const std::vector<SpreadPath>& paths,
                             const WeightedDraws& draws, std::size_t most_points) {
   return sum_over(ThinnedPosterior(draws, most_points), [&] { return Part(rows, paths); }).paths;
 }

@@ -31,7 +31,7 @@ struct Spreads {
 };
 
 /// The spreads of all paths at once, over at most so many points of the posterior.
-std::vector<Spread> spreads(const BearingRows& rows, const std::vector<SpreadPath>& paths,
+std::vector<Spread> spreads(const FormulaRows& rows, const std::vector<SpreadPath>& paths,
                             const WeightedDraws& draws, std::size_t most_points);
 
 }  // namespace wearwell::formula_model

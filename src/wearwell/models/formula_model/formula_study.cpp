@@ -23,9 +23,9 @@
 namespace wearwell {
 namespace {
 
-using formula_model::BearingRows;
 using formula_model::Effect;
 using formula_model::FormulaModel;
+using formula_model::FormulaRows;
 using formula_model::Measured;
 using formula_model::Observed;
 
@@ -224,7 +224,7 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   }
   study.data_rows = model->data.table.rows;
   study.data_layout = model->data.table.layout;
-  const auto rows = std::make_shared<const BearingRows>(model, study.data_rows, true);
+  const auto rows = std::make_shared<const FormulaRows>(model, study.data_rows, true);
   const auto likelihood = formula_model::formula_likelihood(rows);
   formula_model::find_starts(*likelihood, model->parameters);
   std::vector<double> start;
@@ -247,7 +247,7 @@ void read_formula_study(const TomlReader& root, const Source& source, PosteriorS
   study.likelihood = [model, rows, likelihood](std::size_t count) {
     if (count == model->data.table.rows) return likelihood;
     return formula_model::formula_likelihood(
-        std::make_shared<const BearingRows>(model, count, true));
+        std::make_shared<const FormulaRows>(model, count, true));
   };
   study.fit_data = formula_model::fit_data(rows);
   study.checks = [rows](const Fit& fit) {

@@ -26,7 +26,7 @@ struct Nodes {
 };
 
 struct Part {
-  const BearingRows& rows;
+  const FormulaRows& rows;
   std::size_t unit;
   Nodes found = {};
 
@@ -67,7 +67,7 @@ struct Part {
 
 }  // namespace
 
-WeightedDraws with_unit(const BearingRows& rows, std::size_t unit, const WeightedDraws& draws) {
+WeightedDraws with_unit(const FormulaRows& rows, std::size_t unit, const WeightedDraws& draws) {
   const Nodes nodes = sum_over(ThinnedPosterior(draws, most_points), [&] {
     return Part{rows, unit};
   });

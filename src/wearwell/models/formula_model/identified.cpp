@@ -11,7 +11,7 @@ namespace wearwell::formula_model {
 namespace {
 
 // Every slot of every observation, with units at three places of their population.
-std::vector<double> all_slots(const BearingRows& rows, const std::vector<double>& x) {
+std::vector<double> all_slots(const FormulaRows& rows, const std::vector<double>& x) {
   UnitRows& units = rows.mine().rows;
   units.move_to(x.data());
   const std::size_t d = rows.model().effects.size();
@@ -32,7 +32,7 @@ double size_of(const Parameter& parameter, double x) {
 }
 
 // Derivatives of the slots, relative to their size, by relative changes of the parameters.
-Eigen::MatrixXd derivatives(const BearingRows& rows, const std::vector<Parameter>& parameters,
+Eigen::MatrixXd derivatives(const FormulaRows& rows, const std::vector<Parameter>& parameters,
                             std::vector<double> x) {
   constexpr double step = 1e-4;
   const std::vector<double> here = all_slots(rows, x);
@@ -98,7 +98,7 @@ std::string names(const std::vector<Parameter>& parameters, const Eigen::VectorX
 
 }  // namespace
 
-Check identified(const BearingRows& rows, const std::vector<Parameter>& parameters,
+Check identified(const FormulaRows& rows, const std::vector<Parameter>& parameters,
                  const Fit& fit) {
   constexpr Eigen::Index points = 4;
   Findings findings("identified");

@@ -160,7 +160,7 @@ class Drawing {
                        axis(), shares, marks, 340, true)};
   }
 
-  double height(double p) const { return quantile(paper_.model, p); }
+  double height(double p) const { return quantile(paper_.distribution, p); }
   bool positive() const { return measured_.form->positive; }
   void cover(double y) {
     if (!std::isfinite(y) || (positive() && !(y > 0))) return;

@@ -81,7 +81,7 @@ class UnitAt {
   UnitAt(const FormulaModel& model, const std::vector<UnitReading>& readings)
       : effects_(model.effects.size()) {
     if (!readings.empty()) {
-      rows_ = std::make_unique<BearingRows>(model_of_unit(model, readings), readings.size());
+      rows_ = std::make_unique<FormulaRows>(model_of_unit(model, readings), readings.size());
     }
   }
 
@@ -104,7 +104,7 @@ class UnitAt {
 
   // The same number alone, at less cost where it has a formula.
   double log_likelihood(const double* x) const {
-    BearingRows::Scratch* const mine = rows_ && effects_ > 0 ? &rows_->mine() : nullptr;
+    FormulaRows::Scratch* const mine = rows_ && effects_ > 0 ? &rows_->mine() : nullptr;
     if (!mine || !mine->linear) return (*this)(x).log_likelihood;
     mine->rows.move_to(x);
     mine->linear->move();
@@ -114,7 +114,7 @@ class UnitAt {
 
  private:
   std::size_t effects_;
-  std::unique_ptr<BearingRows> rows_;
+  std::unique_ptr<FormulaRows> rows_;
 };
 
 struct Looked {
